@@ -1,0 +1,60 @@
+// Bakes a height source into a chunk file: bottom-up, streamed in quadtree order, in bounded memory.
+//
+// delta_g of a chunk is the largest distance, in metres and in 3-D on the sphere, between a vertex that its
+// children have and it lacks, and the point of its own mesh that stands there: the middle of the edge or of
+// the diagonal that replaces the vertex. Distances at the same place bound every point of the finer surface,
+// because the finer triangles subdivide the coarser ones and the difference of two surfaces that are linear
+// on a triangle is largest at a corner. So delta_c = delta_g + max(delta_c of the four children) bounds the
+// whole pyramid (de Boer 2000 for delta_g; Ulrich 2002 for chunks).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "planet/height_codec.h"
+#include "planet/height_source.h"
+#include "planet/planet_shape.h"
+#include "planet/result.h"
+
+namespace planet {
+
+struct BakeSettings {
+    std::optional<int> faceSize;     // samples a side, 2^n + 1; the source's natural size where not given
+    int chunkSize = 33;              // vertices a side: 17, 33, 65 or 129
+    double radiusM = 6'371'000;      // (0, 1e9]
+    std::optional<double> quantumM;  // the source's own step, or for floats the finest that holds its range
+    int threads = 0;                 // 0: one a core
+    int compressionLevel = defaultCompressionLevel;
+    std::filesystem::path
+        debugLevelsFolder;  // writes each level of each face there as a 16-bit PNG; none if empty
+};
+
+struct BakeProgress {
+    std::uint64_t samplesDone = 0;
+    std::uint64_t samplesTotal = 0;  // finest-level samples
+    double elapsedS = 0;
+    double samplesPerS = 0;
+    double remainingS = 0;
+};
+// Called from one thread at a time, a few times a second; false cancels the bake.
+using BakeProgressCallback = std::function<bool(const BakeProgress&)>;
+
+struct BakeReport {
+    PlanetShape shape;
+    std::uint64_t samples = 0;  // distinct finest-level samples
+    std::uint64_t chunks = 0;
+    std::uint64_t fileBytes = 0;
+    std::uint64_t clampedSamples = 0;  // heights outside what 16 bits of the quantum hold
+    std::uint64_t missingSamples = 0;
+    double seconds = 0;
+};
+
+// Writes under a temporary name beside the output, syncs, and renames; on any Error, Cancelled included, an
+// existing output is untouched and nothing is left behind. The same source and settings give the same bytes
+// whatever the number of threads.
+Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
+                        const std::filesystem::path& output, const BakeProgressCallback& progress = {});
+
+}  // namespace planet

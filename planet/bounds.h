@@ -1,0 +1,46 @@
+// Volumes that hold everything a chunk and the chunks under it can draw: the vertices of its square of the
+// sphere between its lowest and highest finest height, and every triangle between those vertices.
+// Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+
+#include "planet/chunk_id.h"
+#include "planet/view.h"
+
+namespace planet {
+
+// A box along the local east/north/up-like frame of the chunk's middle. Convex and holding every vertex,
+// so it holds every triangle, chord sag included.
+struct OrientedBox {
+    glm::dvec3 centreM{0, 0, 0};
+    std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
+    glm::dvec3 halfSizeM{0, 0, 0};     // along each axis
+};
+
+// All directions within an angle of an axis.
+struct DirectionCone {
+    glm::dvec3 axis{0, 0, 1};  // unit
+    double halfAngleRad = 0;   // [0, pi]
+};
+
+struct ChunkBounds {
+    OrientedBox box;
+    DirectionCone cone;     // holds the direction of every vertex
+    double maxRadiusM = 0;  // no vertex lies farther from the planet's centre
+};
+
+ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM);
+
+// 0 inside the box.
+double distanceM(const OrientedBox& box, const glm::dvec3& pointM);
+
+enum class Containment { Outside, Crossing, Inside };
+Containment classify(const OrientedBox& box, const Plane& plane);
+
+// True only when the sphere of the occluder radius, about the planet's centre, hides every point within
+// the cone up to maxRadiusM from the eye. An eye inside the occluder sees everything.
+bool isBelowHorizon(const ChunkBounds& bounds, const glm::dvec3& eyeM, double occluderRadiusM);
+
+}  // namespace planet

@@ -1,0 +1,93 @@
+// The streamed chunk file: reading.
+//
+//   header     512 bytes: magic, version, shape, where the six root blocks are, checksum
+//   blocks     children's before their parents', root blocks last
+//
+// A sibling block holds the four children of one chunk as one refinement of that chunk's grid: of the
+// (2^(k+1) + 1)^2 samples that the four cover together, only those the parent does not have (see
+// height_codec.h). A root block holds a face's root chunk whole. Each block says, for its chunks, delta_c,
+// the lowest and highest finest height under them, and where their own children lie; so the index is paged
+// with the data. Everything is little-endian; each block ends in an XXH3 checksum seeded with the chunk's
+// key, so that a block read for the wrong chunk fails too. README.md has the layout byte by byte.
+//
+// The file is hostile until checked: every offset, size and count is checked before use, and a bad one is an
+// Error that names the file and the chunk.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planet/chunk_id.h"
+#include "planet/planet_shape.h"
+#include "planet/result.h"
+
+namespace planet {
+
+// Where a block lies in the file. Offset 0 is the header, so it means "none".
+struct BlockLocation {
+    std::uint64_t offset = 0;  // bytes from the file's start
+    std::uint32_t size = 0;    // bytes, checksum included
+
+    bool exists() const { return offset != 0; }
+    bool operator==(const BlockLocation&) const = default;
+};
+
+// One chunk as the file holds it.
+struct ChunkData {
+    ChunkId id;
+    float deltaCM = 0;         // metres, finite, >= 0; 0 at a leaf
+    std::int16_t minStep = 0;  // lowest and highest finest sample under this chunk
+    std::int16_t maxStep = 0;
+    BlockLocation children;             // none at a leaf
+    std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows along v upwards
+};
+
+struct ChunkFileInfo {
+    PlanetShape shape;
+    std::int16_t minStep = 0;  // over the whole planet
+    std::int16_t maxStep = 0;
+    std::uint64_t missingSamples = 0;  // source samples without data that were filled
+    std::array<BlockLocation, faceCount> roots;
+    std::string source;  // what was baked, for people; at most 200 bytes of UTF-8
+};
+
+inline constexpr std::size_t chunkFileHeaderBytes = 512;
+inline constexpr std::uint32_t chunkFileVersion = 1;
+
+// Reads exactly out.size() bytes at an offset; called from any thread, several at once.
+using ReadAt = std::function<Result<void>(std::uint64_t offset, std::span<std::byte> out)>;
+
+// An open file. Reading is const and may be done by several threads at once.
+class ChunkFile {
+public:
+    static Result<ChunkFile> open(const std::filesystem::path& path);
+    // The same over any bytes: tests and failing disks. The name is for messages.
+    static Result<ChunkFile> open(std::string name, std::uint64_t sizeBytes, ReadAt readAt);
+
+    const ChunkFileInfo& info() const { return info_; }
+    const std::string& name() const { return name_; }
+    std::uint64_t sizeBytes() const { return sizeBytes_; }
+
+    Result<ChunkData> readRoot(Face face) const;
+
+    // The four children of a chunk whose heights and children's place are known, in quadrant order.
+    Result<std::array<ChunkData, quadrantCount>> readChildren(
+        const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const;
+
+private:
+    ChunkFile() = default;
+    Result<std::vector<std::byte>> readBlock(const ChunkId& id, BlockLocation location) const;
+
+    ChunkFileInfo info_;
+    std::string name_;
+    std::uint64_t sizeBytes_ = 0;
+    ReadAt readAt_;
+};
+
+}  // namespace planet

@@ -1,0 +1,85 @@
+#include "planet/chunk_id.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+
+namespace planet {
+
+std::uint64_t keyOf(const ChunkId& id) {
+    return (static_cast<std::uint64_t>(id.face) << 61) | (static_cast<std::uint64_t>(id.level) << 56) |
+           (static_cast<std::uint64_t>(id.y) << 28) | id.x;
+}
+
+ChunkId childOf(const ChunkId& parent, int quadrant) {
+    assert(quadrant >= 0 && quadrant < quadrantCount && parent.level < maxLevel);
+    const auto q = static_cast<std::uint32_t>(quadrant);
+    return {parent.face, static_cast<std::uint8_t>(parent.level + 1), parent.x * 2 + (q & 1),
+            parent.y * 2 + (q >> 1)};
+}
+
+ChunkId parentOf(const ChunkId& child) {
+    assert(child.level > 0);
+    return {child.face, static_cast<std::uint8_t>(child.level - 1), child.x / 2, child.y / 2};
+}
+
+int quadrantOf(const ChunkId& child) {
+    return static_cast<int>((child.x & 1) + 2 * (child.y & 1));
+}
+
+ChunkId neighbourOf(const ChunkId& id, Edge edge) {
+    const FaceSquare square = faceSquareOf(id);
+    const double half = square.side / 2;
+    double u = square.u + half;
+    double v = square.v + half;
+    double& along = (edge == Edge::West || edge == Edge::East) ? u : v;
+    const double step = (edge == Edge::West || edge == Edge::South) ? -square.side : square.side;
+    along += step;
+    if (std::abs(along) < 1) return chunkAt({id.face, u, v}, id.level);
+    // Over the face's edge: fold the half step that sticks out down along this face's normal.
+    along = std::copysign(1.0, along);
+    const glm::dvec3 onEdge = cubePoint(id.face, u, v);
+    return chunkAt(facePointFromCube(onEdge - half * faceAxes(id.face).normal), id.level);
+}
+
+FaceSquare faceSquareOf(const ChunkId& id) {
+    const double side = std::ldexp(2.0, -id.level);
+    return {-1 + side * id.x, -1 + side * id.y, side};
+}
+
+ChunkId chunkAt(const FacePoint& point, int level) {
+    const double count = std::ldexp(1.0, level);
+    const auto cell = [&](double t) {
+        return static_cast<std::uint32_t>(std::clamp(std::floor((t + 1) / 2 * count), 0.0, count - 1));
+    };
+    return {point.face, static_cast<std::uint8_t>(level), cell(point.u), cell(point.v)};
+}
+
+std::string toString(const ChunkId& id) {
+    return fmt::format("{}/{}/{}/{}", faceName(id.face), id.level, id.x, id.y);
+}
+
+std::optional<ChunkId> chunkIdFromString(std::string_view text) {
+    const std::size_t slash = text.find('/');
+    if (slash == std::string_view::npos) return std::nullopt;
+    const std::optional<Face> face = faceFromName(text.substr(0, slash));
+    if (!face) return std::nullopt;
+    std::array<std::uint32_t, 3> numbers{};
+    const char* at = text.data() + slash;
+    const char* const end = text.data() + text.size();
+    for (std::uint32_t& number : numbers) {
+        if (at == end || *at != '/') return std::nullopt;
+        const auto [after, problem] = std::from_chars(at + 1, end, number);
+        if (problem != std::errc{}) return std::nullopt;
+        at = after;
+    }
+    const auto [level, x, y] = numbers;
+    if (at != end || level > maxLevel || (x >> level) != 0 || (y >> level) != 0) return std::nullopt;
+    return ChunkId{*face, static_cast<std::uint8_t>(level), x, y};
+}
+
+}  // namespace planet

@@ -1,0 +1,69 @@
+// The resident part of the six quadtrees: plain data that selection reads and paging grows and prunes.
+// One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "planet/bounds.h"
+#include "planet/chunk_file.h"
+
+namespace planet {
+
+using NodeIndex = std::uint32_t;
+inline constexpr NodeIndex noNode = ~NodeIndex{0};
+
+// Shared with loader threads, which refine a parent's heights while the tree may already have dropped it.
+using SharedHeights = std::shared_ptr<const std::vector<std::int16_t>>;
+
+enum class ChildrenState : std::uint8_t {
+    None,       // a leaf
+    Absent,     // in the file, not asked for
+    Requested,  // queued or being read
+    Resident,   // all four are nodes
+    Failed,     // could not be read; not asked for again until told to
+};
+
+// A chunk that is loaded and drawable.
+struct ChunkNode {
+    ChunkId id;
+    float deltaCM = 0;     // metres
+    float minHeightM = 0;  // over all finest samples below
+    float maxHeightM = 0;
+    ChunkBounds bounds;
+    NodeIndex parent = noNode;
+    NodeIndex firstChild = noNode;  // four in a row, in quadrant order
+    ChildrenState childrenState = ChildrenState::None;
+    BlockLocation children;           // in the file
+    std::uint32_t slot = 0;           // in the pool of heights
+    SharedHeights heights;            // never null
+    std::uint64_t lastUsedFrame = 0;  // last frame it was drawn or was an ancestor of what was drawn
+};
+
+struct ChunkTree {
+    PlanetShape shape;
+    std::int16_t minStep = 0;  // over the whole planet
+    std::int16_t maxStep = 0;
+    std::vector<ChunkNode> nodes;       // the first six are the roots, in face order; then free or in fours
+    std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
+    std::size_t residentChunks = 0;
+};
+
+// The tree with its six roots, which stay resident. They take slots 0 to 5.
+Result<ChunkTree> makeChunkTree(const ChunkFile& file);
+
+// Adds the four children of a node whose children are not resident, in the given slots; returns the first.
+NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
+                      const std::array<std::uint32_t, quadrantCount>& slots);
+
+// Removes a node's four resident children, none of which may have resident children of its own.
+void removeChildren(ChunkTree& tree, NodeIndex parent);
+
+// The node of an id, or noNode if it is not resident.
+NodeIndex findNode(const ChunkTree& tree, const ChunkId& id);
+
+// The height of the finest resident surface in a direction, metres above the planet's radius.
+double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction);
+
+}  // namespace planet

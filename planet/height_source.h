@@ -1,0 +1,61 @@
+// Where heights come from: an elevation image or six cube faces, behind one sampling function.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "planet/cube_sphere.h"
+#include "planet/result.h"
+
+namespace planet {
+
+// A rectangle of a face's finest grid of (faceCells + 1)^2 samples; column i lies at u = 2 i / faceCells - 1,
+// row j at v = 2 j / faceCells - 1.
+struct SampleTile {
+    Face face = Face::PosX;
+    int faceCells = 0;  // power of two
+    int firstColumn = 0;
+    int firstRow = 0;
+    int columns = 0;  // samples
+    int rows = 0;
+};
+
+// A value; copies share what is open. sample may be called by several threads at once.
+struct HeightSource {
+    std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
+    int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no source resolution
+    double stepM = 0;         // an integer source's own step in metres; 0 for a float source
+    double minM = 0;          // every sample's height lies in [minM, maxM]; an integer type's range where the
+    double maxM = 0;          //   values were not scanned
+    std::uint64_t sampleCount = 0;
+    std::uint64_t missingCount = 0;  // samples without data, filled
+
+    // Fills out, row-major, columns x rows heights in metres. A sample's value depends only on its point of
+    // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
+    // bit-identical. Filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
+    // one is interpolated smoothly. The Error names the file.
+    std::function<Result<void>(const SampleTile& tile, std::span<float> out)> sample;
+};
+
+struct HeightSourceSettings {
+    double metresPerUnit = 1;            // height = offsetM + metresPerUnit * value; not 0
+    double offsetM = 0;                  // metres
+    std::optional<double> noDataValue;   // a value that means "missing"; NaN always does
+    double fillM = 0;                    // height given to missing samples, metres
+    std::optional<int> rawSize;          // raw faces: samples a side, where the name does not say
+    std::optional<int> rawBits;          // raw faces: 8 or 16, where the file's length does not say
+    bool rawSigned = false;              // raw faces of 16 bits: signed steps
+    bool rawBigEndian = false;           // raw faces of 16 bits
+    std::size_t cacheBytes = 48u << 20;  // most memory spent on tiles of a source that is not held whole
+};
+
+// Opens an elevation image, or the six cube faces that the path names one of (earth4097_z_pos.raw) or the
+// common stem of (earth4097).
+Result<HeightSource> openHeightSource(const std::filesystem::path& path,
+                                      const HeightSourceSettings& settings);
+
+}  // namespace planet

@@ -1,0 +1,68 @@
+// Chooses what to draw: chunked LOD after Ulrich (SIGGRAPH 2002 course).
+//
+// A chunk whose error on screen eps = delta_c K' / D is over tau is replaced by its four children, once all
+// four are resident; until then it is drawn itself and its children are asked for. So what is drawn covers
+// the visible planet once: no hole, no overlap.
+//
+// A pure function of its arguments: no GL, no I/O, no clock; the same input gives the same answer. Any
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planet/chunk_tree.h"
+#include "planet/view.h"
+
+namespace planet {
+
+struct LodSettings {
+    double tauPx = 2;                 // tolerance, pixels, > 0; larger: fewer triangles, more visible error
+    int maxLevel = planet::maxLevel;  // chunks of this level are not split; [0, maxLevel]
+    bool frustumCulling = true;       // off: chunks beside and behind the view are drawn and loaded too
+    bool horizonCulling = true;       // off: chunks on the planet's far side are drawn and loaded too
+    double skirtFactor = 1;  // skirt depth / (delta_c of the chunk + the largest among its neighbours); >= 0
+};
+
+struct DrawItem {
+    NodeIndex node = noNode;
+    ChunkId id;
+    std::uint32_t slot = 0;  // in the pool of heights
+    float epsPx = 0;         // error on screen, pixels
+    float distanceM = 0;     // from the eye to the bounding volume
+    float deltaCM = 0;       // metres
+    float skirtDepthM = 0;   // metres, towards the planet's centre
+};
+
+// "Load the children of this node."
+struct ChildrenRequest {
+    NodeIndex parent = noNode;
+    ChunkId parentId;
+    float priority = 0;  // eps / tau of the parent: how far over the tolerance it is drawn; larger first
+};
+
+struct SelectionCounters {
+    std::uint32_t visited = 0;        // nodes looked at
+    std::uint32_t culledFrustum = 0;  // subtrees cut off by each test
+    std::uint32_t culledHorizon = 0;
+    std::uint32_t drawn = 0;         // chunks
+    std::uint32_t waiting = 0;       // drawn though eps > tau, for lack of children
+    std::uint32_t deepestLevel = 0;  // of what is drawn
+    float worstEpsPx = 0;            // of what is drawn
+};
+
+struct Selection {
+    std::vector<DrawItem> draw;             // near to far
+    std::vector<ChildrenRequest> requests;  // highest priority first
+    std::vector<NodeIndex> touched;         // all that is drawn, and the ancestors of it
+    SelectionCounters counters;
+};
+
+// Refills out, keeping its capacity.
+void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings, Selection& out);
+
+// The radius of a sphere about the planet's centre that lies inside every surface the tree can draw.
+double occluderRadiusM(const ChunkTree& tree);
+
+}  // namespace planet

@@ -1,0 +1,98 @@
+// The facade: an open chunk file, its resident tree and its loader threads, stepped once a frame.
+//
+//     auto planet = Planet::open("earth.chk", {}).value();
+//     for (;;) {
+//         planet->step(view, lodSettings, [&](std::uint32_t slot, auto heights) { renderer.upload(slot,
+//         heights); }); renderer.draw(view, planet->shape(), planet->selection().draw, renderSettings);
+//     }
+//
+// All calls from one thread; the loader threads are its own.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planet/chunk_file.h"
+#include "planet/chunk_tree.h"
+#include "planet/lod_select.h"
+#include "planet/paging_queue.h"
+#include "planet/result.h"
+
+namespace planet {
+
+struct PagingSettings {
+    std::size_t budgetBytes =
+        256u << 20;            // for resident chunks, CPU and GPU together; smaller: coarser when it is full
+    int loaderThreads = 1;     // [1, 64]
+    double uploadLimitMs = 4;  // time a frame spent on making loaded chunks drawable; at least one block is
+};
+
+// Totals since the file was opened, unless said otherwise.
+struct PagingCounters {
+    std::uint64_t requested = 0;       // page-ins put into the queue
+    std::uint64_t merged = 0;          // asked again while queued
+    std::uint64_t cancelled = 0;       // taken back by the opposite request, or no longer wanted
+    std::uint64_t loaded = 0;          // blocks read and made resident
+    std::uint64_t evicted = 0;         // blocks paged out
+    std::uint64_t failed = 0;          // blocks that could not be read
+    std::uint64_t bytesRead = 0;       // from the file
+    std::uint32_t queued = 0;          // now
+    std::uint32_t loading = 0;         // now being read, or read and waiting for their upload
+    std::uint32_t budgetWaits = 0;     // blocks wanted last step that the budget has no room for
+    std::size_t residentChunks = 0;    // now
+    std::size_t residentBytesCpu = 0;  // now
+    std::size_t residentBytesGpu = 0;  // now: heights in the pool that hold a resident chunk
+};
+
+// What each stage of the last step took, milliseconds.
+struct StageTimes {
+    double uploadMs = 0;
+    double selectMs = 0;
+    double pagingMs = 0;  // page-out and requests
+};
+
+// Makes one chunk's heights drawable: chunkVertexCount steps into a slot below slotCapacity().
+using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
+
+class Planet {
+public:
+    static Result<std::unique_ptr<Planet>> open(const std::filesystem::path& path,
+                                                const PagingSettings& settings);
+    static Result<std::unique_ptr<Planet>> open(ChunkFile file, const PagingSettings& settings);
+    ~Planet();  // joins the loader threads
+    Planet(const Planet&) = delete;
+    Planet& operator=(const Planet&) = delete;
+
+    // One frame: uploads what was loaded, selects, drops what the budget asks for, requests what is missing.
+    void step(const View& lodView, const LodSettings& settings, const UploadChunk& upload);
+
+    // Steps until nothing more is wanted or can be had. False if that takes longer than the given seconds.
+    bool settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload, double timeoutS);
+
+    // Uploads every resident chunk again: for a renderer that was made anew.
+    void uploadAll(const UploadChunk& upload) const;
+
+    const ChunkFile& file() const;
+    const PlanetShape& shape() const;
+    const ChunkTree& tree() const;
+    const Selection& selection() const;  // of the last step
+    const PagingCounters& paging() const;
+    const StageTimes& times() const;
+    std::uint32_t slotCapacity() const;  // slots of the pool of heights that the budget pays for
+    // True when the last selection waits for nothing that can still arrive.
+    bool settled() const;
+    // Messages of blocks that failed since the last call, for a log.
+    std::vector<std::string> takeProblems();
+
+private:
+    struct State;
+    explicit Planet(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace planet

@@ -1,0 +1,49 @@
+// A perspective view of the planet in double precision, and what selection needs to know of it.
+// Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace planet {
+
+// Where a camera is and looks, in the words people use.
+struct CameraPose {
+    double latitudeDeg = 20;   // [-90, 90]
+    double longitudeDeg = 10;  // any; east positive
+    double altitudeM = 2.0e7;  // above the planet's radius
+    double headingDeg = 0;     // 0 north, 90 east
+    double pitchDeg = -90;     // [-90, 90]; -90 straight down, 0 level
+};
+
+struct View {
+    glm::dvec3 eyeM{0, 0, 0};   // metres from the planet's centre
+    glm::dvec3 right{1, 0, 0};  // unit, orthogonal, right x up = back
+    glm::dvec3 up{0, 1, 0};
+    glm::dvec3 back{0, 0, 1};                      // the view looks along -back
+    double horizontalFovRad = 1.0471975511965976;  // (0, pi)
+    int widthPx = 1280;
+    int heightPx = 720;
+};
+
+View viewFromPose(const CameraPose& pose, double radiusM, double horizontalFovRad, int widthPx, int heightPx);
+CameraPose poseFromView(const View& view, double radiusM);
+
+// K' = W / (2 tan(Hfov / 2)): pixels a metre of error covers at a metre's distance.
+double screenScalePx(const View& view);
+
+// World to camera, without the translation: doubles on the CPU, camera-relative floats on the GPU.
+glm::dmat3 cameraFromWorldRotation(const View& view);
+
+// Points p with dot(normal, p) + offsetM >= 0 are inside.
+struct Plane {
+    glm::dvec3 normal{0, 0, 1};  // unit
+    double offsetM = 0;
+};
+// Left, right, bottom, top; all pass through the eye, so there is no near or far plane to tune.
+using Frustum = std::array<Plane, 4>;
+Frustum frustumOf(const View& view);
+
+}  // namespace planet
