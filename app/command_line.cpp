@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <string>
 
@@ -40,14 +41,27 @@ Enum enumerator(const std::array<std::string_view, count>& names, const std::str
     return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+// CLI11's own range lets "nan" through.
+CLI::Validator number(double min, double max, bool zeroToo = true) {
+    const std::string wanted = fmt::format("a number from {} to {}{}", min, max, zeroToo ? "" : " but 0");
+    const auto check = [=](const std::string& text) {
+        double value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good =
+            problem == std::errc{} && end == text.data() + text.size() && value >= min && value <= max;
+        return good && (zeroToo || value != 0) ? std::string() : fmt::format("{} is not {}", text, wanted);
+    };
+    return CLI::Validator(check, "");
+}
+
 void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
     command.add_option("--metres-per-unit", source.metresPerUnit, "Metres a unit of the source's values (1)")
-        ->check(CLI::Validator(
-            [](const std::string& text) { return std::stod(text) == 0 ? "0 would make a flat planet" : ""; },
-            "NOT 0"));
-    command.add_option("--offset", source.offsetM, "Metres added to every height (0)");
+        ->check(number(-1e9, 1e9, false));
+    command.add_option("--offset", source.offsetM, "Metres added to every height (0)")
+        ->check(number(-1e9, 1e9));
     command.add_option("--no-data", source.noDataValue, "Value that means \"no data\"; NaN always does");
-    command.add_option("--fill", source.fillM, "Height of samples without data, metres (0)");
+    command.add_option("--fill", source.fillM, "Height of samples without data, metres (0)")
+        ->check(number(-1e9, 1e9));
     command.add_option("--raw-size", source.rawSize, "Raw faces: samples a side")
         ->check(CLI::Range(2, (1 << 22) + 1));
     command.add_option("--raw-bits", source.rawBits, "Raw faces: 8 or 16")->check(CLI::IsMember({8, 16}));
@@ -68,9 +82,9 @@ void addBake(CLI::App& app, BakeOptions& options) {
     command.add_option("--chunk-size", settings.chunkSize, "Vertices a chunk's side: 17, 33, 65 or 129 (33)")
         ->check(CLI::IsMember({17, 33, 65, 129}));
     command.add_option("--radius", settings.radiusM, "The planet's radius, metres (6371000)")
-        ->check(CLI::Range(1e-3, 1e9));
+        ->check(number(1e-3, 1e9));
     command.add_option("--quantum", settings.quantumM, "Metres a stored step (the source's own)")
-        ->check(CLI::Range(1e-9, 1e6));
+        ->check(number(1e-9, 1e6));
     command.add_option("--threads", settings.threads, "Threads; 0: one a core (0)")
         ->check(CLI::Range(0, 1024));
     command
@@ -84,7 +98,7 @@ void addBake(CLI::App& app, BakeOptions& options) {
 
 void addViewOptions(CLI::App& command, ui::ViewSettings& view, std::string& size) {
     command.add_option("--size", size, "Picture size, WIDTHxHEIGHT (1280x720)");
-    command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(CLI::Range(0.1, 64.0));
+    command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(number(0.1, 64));
     command.add_option("--budget", view.budgetMB, "Memory for resident chunks, MiB (256)")
         ->check(CLI::Range(16, 65536));
 }
@@ -97,7 +111,7 @@ void addShot(CLI::App& app, ShotOptions& options, ShotTexts& texts) {
                        "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius (the whole planet)");
     addViewOptions(command, options.view, texts.size);
     command.add_option("--fov", options.view.fovDeg, "Horizontal field of view, degrees (60)")
-        ->check(CLI::Range(5.0, 150.0));
+        ->check(number(5, 150));
     command.add_option("--samples", options.samples, "Multisampling, samples a pixel (4)")
         ->check(CLI::Range(1, 16));
     command.add_flag("--wireframe", options.view.wireframe, "Draw the triangles' edges");
@@ -134,15 +148,13 @@ void addFileCommands(CLI::App& app, FileCommandOptions& options) {
         return command;
     };
     add("info", "Tell what a chunk file holds");
-    add("verify", "Read the whole of a chunk file and check it")
-        .add_option("--source", options.source, "Also compare it with the source that it was baked from");
+    CLI::App& verify = add("verify", "Read the whole of a chunk file and check it");
+    verify.add_option("--source", options.source,
+                      "Also compare it with the source that it was baked from, given with the same options");
+    addSourceOptions(verify, options.sourceSettings);
     CLI::App& probe = add("probe", "Tell the height at a place, and which chunks hold it");
-    probe.add_option("LATITUDE", options.latitudeDeg, "Degrees north")
-        ->required()
-        ->check(CLI::Range(-90.0, 90.0));
-    probe.add_option("LONGITUDE", options.longitudeDeg, "Degrees east")
-        ->required()
-        ->check(CLI::Range(-360.0, 360.0));
+    probe.add_option("LATITUDE", options.latitudeDeg, "Degrees north")->required()->check(number(-90, 90));
+    probe.add_option("LONGITUDE", options.longitudeDeg, "Degrees east")->required()->check(number(-360, 360));
 }
 
 Result<void> runShot(ShotOptions& options, const ShotTexts& texts) {

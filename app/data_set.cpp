@@ -26,7 +26,7 @@ std::uint64_t hashOf(const std::string& text) {
 std::string stemWithoutFace(const fs::path& path) {
     const std::string stem = path.stem().string();
     for (const planet::Face face : planet::allFaces) {
-        const std::string ending = "_" + std::string(planet::faceName(face));
+        const std::string ending = fmt::format("_{}", planet::faceName(face));
         if (stem.ends_with(ending)) return stem.substr(0, stem.size() - ending.size());
     }
     return stem;

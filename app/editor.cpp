@@ -125,6 +125,7 @@ void viewportWindow(const Session& session, const ui::Rect& rect, float pixelRat
 ui::LodPanelCommands lodWindow(const Session& session, const ui::Rect& rect, Editor& editor) {
     ui::beginFixedWindow("lod", rect);
     ui::LodPanelInput input{editor.stats};
+    input.open = session.scene.has_value();
     input.speedFactor = editor.speedFactor;
     if (session.scene && editor.camera) {
         const Ground ground = groundBelow(*session.scene, editor.camera->eyeM);
@@ -190,7 +191,7 @@ void runFrame(const Window& window, Session& session, Editor& editor, Log& log, 
     const ui::Layout layout =
         ui::layoutOf(window.width(), window.height(), editor.settings.panels, ui::unitPx());
     const PixelSize size = pixelSizeOf(layout.viewport, window.pixelRatio());
-    const KeyInput keys = readKeys();
+    const KeyInput keys = readKeys(window.pressedKeys());
     obeyKeys(keys, window, editor);
     advanceSession(session, editor.settings.view, log);
     reloadChangedShaders(session, log);

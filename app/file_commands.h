@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "planet/height_source.h"
 #include "planet/result.h"
 
 namespace worldy {
@@ -10,7 +11,8 @@ namespace worldy {
 struct FileCommandOptions {
     std::filesystem::path file;
     std::filesystem::path source;  // verify: compare with this too; empty: only the file itself
-    double latitudeDeg = 0;        // probe
+    planet::HeightSourceSettings sourceSettings;
+    double latitudeDeg = 0;  // probe
     double longitudeDeg = 0;
     bool json = false;
 };

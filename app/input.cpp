@@ -3,6 +3,8 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace worldy {
 
 namespace {
@@ -29,20 +31,23 @@ glm::dvec2 dragOf(ImGuiMouseButton button) {
 
 }  // namespace
 
-KeyInput readKeys() {
+KeyInput readKeys(const std::vector<int>& pressedKeys) {
     KeyInput keys;
     if (ImGui::GetIO().WantTextInput) return keys;
+    const auto pressed = [&](int key) {
+        return std::find(pressedKeys.begin(), pressedKeys.end(), key) != pressedKeys.end();
+    };
     keys.held = {.forward = axis(GLFW_KEY_W, GLFW_KEY_S),
                  .right = axis(GLFW_KEY_D, GLFW_KEY_A),
                  .up = axis(GLFW_KEY_E, GLFW_KEY_Q),
                  .lookRight = axis(GLFW_KEY_L, GLFW_KEY_J),
                  .lookUp = axis(GLFW_KEY_I, GLFW_KEY_K)};
     keys.speedSteps = speedSteps();
-    keys.toggleWireframe = ImGui::IsKeyPressed(GLFW_KEY_F1, false);
-    keys.toggleFreeze = ImGui::IsKeyPressed(GLFW_KEY_F2, false);
-    keys.resetCamera = ImGui::IsKeyPressed(GLFW_KEY_F3, false);
-    keys.toggleCube = ImGui::IsKeyPressed(GLFW_KEY_F4, false);
-    keys.quit = ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
+    keys.toggleWireframe = pressed(GLFW_KEY_F1);
+    keys.toggleFreeze = pressed(GLFW_KEY_F2);
+    keys.resetCamera = pressed(GLFW_KEY_F3);
+    keys.toggleCube = pressed(GLFW_KEY_F4);
+    keys.quit = pressed(GLFW_KEY_ESCAPE);
     return keys;
 }
 

@@ -3,6 +3,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <vector>
+
 #include "app/camera_control.h"
 
 namespace worldy {
@@ -26,7 +28,7 @@ struct KeyInput {
 };
 
 // After ImGui's frame has begun. No keys while a text field has them.
-KeyInput readKeys();
+KeyInput readKeys(const std::vector<int>& pressedKeys);
 
 // Call where the picture was just drawn as an ImGui item that takes both buttons.
 PointerInput readPointer(float pixelRatio);

@@ -37,7 +37,6 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
         scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
         scene.hasColourImage = true;
     }
-    scene.planet->uploadAll(uploadInto(scene.renderer));
     return scene;
 }
 

@@ -3,10 +3,10 @@
 #include <epoxy/gl.h>
 // After epoxy, which brings the GL declarations.
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
-#include <imgui.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -42,6 +42,7 @@ GLFWwindow* createWindow(const WindowConfig& config) {
 // GLFW itself and the one window, ended together and in order.
 struct Window::Glfw {
     GLFWwindow* window = nullptr;
+    std::vector<int> pressedKeys;
 
     ~Glfw() {
         if (window) glfwDestroyWindow(window);
@@ -61,6 +62,11 @@ tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
                 "this display has no OpenGL 3.3 core profile ({}); a newer graphics driver would be right",
                 glfwProblem())});
     }
+    glfwSetWindowUserPointer(window.glfw_->window, window.glfw_.get());
+    glfwSetKeyCallback(window.glfw_->window, [](GLFWwindow* handle, int key, int, int action, int) {
+        if (action == GLFW_PRESS)
+            static_cast<Glfw*>(glfwGetWindowUserPointer(handle))->pressedKeys.push_back(key);
+    });
     glfwSetWindowSizeLimits(window.glfw_->window, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window.glfw_->window);
     glfwSwapInterval(1);
@@ -108,6 +114,7 @@ void Window::close() const {
 }
 
 void Window::beginFrame(double waitS) const {
+    glfw_->pressedKeys.clear();
     if (waitS > 0)
         glfwWaitEventsTimeout(waitS);
     else
@@ -127,6 +134,10 @@ void Window::endFrame() const {
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     glfwSwapBuffers(glfw_->window);
+}
+
+const std::vector<int>& Window::pressedKeys() const {
+    return glfw_->pressedKeys;
 }
 
 float Window::width() const {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "planet/result.h"
 #include "ui/layout.h"
@@ -39,6 +40,10 @@ public:
     // Reads input, waiting for it for a while where there is no hurry, and starts ImGui's frame.
     void beginFrame(double waitS) const;
     void endFrame() const;  // draws ImGui's windows and shows the picture
+
+    // GLFW's codes of the keys that went down since the frame before, however short: between two slow frames
+    // a key may be up again.
+    const std::vector<int>& pressedKeys() const;
 
     // In ImGui's units; pixelRatio() framebuffer pixels each.
     float width() const;

@@ -35,6 +35,10 @@ BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within) {
     ImGui::SetNextWindowPos({within.x + within.width / 2, within.y + within.height / 2}, ImGuiCond_Always,
                             {0.5f, 0.5f});
     ImGui::SetNextWindowSize({width, 0});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ImGui::GetStyle().PopupRounding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize(), ImGui::GetFontSize()});
     ImGui::Begin("Bake", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
@@ -52,6 +56,8 @@ BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within) {
     }
     ImGui::PopTextWrapPos();
     ImGui::End();
+    ImGui::PopStyleVar(3);
+    ImGui::PopStyleColor();
     return commands;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <cmath>
 #include <string>
 
 #include "ui/text.h"
@@ -143,7 +144,8 @@ void cameraValues(const LodPanelInput& input, LodPanelCommands& commands) {
     valueRow("Altitude", distanceText(input.camera.altitudeM), "Above the planet's radius.");
     valueRow("Above ground", distanceText(input.heightAboveGroundM), "Above the surface that is loaded.");
     valueRow("Heading, pitch",
-             fmt::format("{:.0f}, {:.0f} deg", input.camera.headingDeg, input.camera.pitchDeg),
+             fmt::format("{:.0f}, {:.0f} deg", std::fmod(std::round(input.camera.headingDeg), 360.0),
+                         input.camera.pitchDeg),
              "0 is north, 90 east; -90 looks straight down.");
     valueRow("Speed", fmt::format("x {:.3g}", input.speedFactor), "Of the keys W A S D; + and - change it.");
     endValues();
@@ -159,6 +161,10 @@ void cameraValues(const LodPanelInput& input, LodPanelCommands& commands) {
 LodPanelCommands lodPanel(const LodPanelInput& input, bool lodFrozen, ViewSettings& settings) {
     LodPanelCommands commands;
     if (section("Level of detail")) detailControls(commands, lodFrozen, settings);
+    if (!input.open) {
+        if (section("View")) viewControls(input, settings);
+        return commands;
+    }
     if (section("Drawn")) drawnValues(input.stats, settings.tauPx);
     if (section("Memory")) memoryValues(input, commands, settings);
     if (section("Times")) timeValues(input.stats);

@@ -9,6 +9,7 @@ namespace ui {
 
 struct LodPanelInput {
     const FrameStats& stats;
+    bool open = false;  // a planet is there to be measured
     planet::CameraPose camera{};
     double heightAboveGroundM = 0;
     double speedFactor = 1;

@@ -42,8 +42,8 @@ void setColours(ImGuiStyle& style) {
     c[ImGuiCol_HeaderHovered] = grey(0.22f);
     c[ImGuiCol_HeaderActive] = grey(0.26f);
     c[ImGuiCol_CheckMark] = accent;
-    c[ImGuiCol_SliderGrab] = tinted(0.85f);
-    c[ImGuiCol_SliderGrabActive] = accent;
+    c[ImGuiCol_SliderGrab] = tinted(0.55f);
+    c[ImGuiCol_SliderGrabActive] = tinted(0.80f);
     c[ImGuiCol_PlotHistogram] = tinted(0.75f);
     c[ImGuiCol_ScrollbarBg] = grey(0, 0);
     c[ImGuiCol_ScrollbarGrab] = grey(0.26f);
@@ -62,6 +62,7 @@ void setSizes(ImGuiStyle& style, float scale) {
     style.PopupRounding = 4;
     style.ScrollbarRounding = 6;
     style.ScrollbarSize = 11;
+    style.GrabMinSize = 7;
     style.FramePadding = ImVec2(7, 3);
     style.ItemSpacing = ImVec2(8, 5);
     style.ItemInnerSpacing = ImVec2(6, 4);

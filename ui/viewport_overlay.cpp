@@ -10,7 +10,7 @@ namespace ui {
 namespace {
 
 constexpr const char* help =
-    "Drag: left moves, right looks.  Wheel: nearer.  W A S D E Q, I J K L, + -.  F1 to F4, Esc.";
+    "Left drag: move   Right drag: look   Wheel: nearer   W A S D E Q: fly   I J K L: turn   + -: speed   F3: reset";
 
 // As much of a text's end as fits, after an ellipsis.
 std::string endThatFits(const std::string& text, float widthPx) {
