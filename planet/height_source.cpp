@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "planet/height_source_kinds.h"
@@ -101,6 +102,11 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
         return tl::unexpected(std::move(check.error()));
     }
     if (const std::optional<FaceFiles> faces = findFaceFiles(path)) return openFaceSource(*faces, settings);
+    std::error_code problem;
+    if (!std::filesystem::exists(path, problem)) {
+        return ioError(fmt::format("{}: there is no such file, and no cube faces named {}_x_pos.raw or alike",
+                                   path.string(), path.string()));
+    }
     return openEquirectangularSource(path, settings);
 }
 

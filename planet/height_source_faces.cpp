@@ -2,8 +2,8 @@
 //
 // A sample on an edge or corner of the cube is taken from the first of its faces in enum order, whichever
 // face it is asked through, so faces that disagree there leave no crack. The kernel reaches over an edge
-// onto the next face. Near a corner, where three faces meet and no fourth is there, the rows beyond stand in
-// for it.
+// onto the next face. Beyond a corner, where three faces meet and no fourth is there, the next face's rows
+// are mirrored.
 
 #include <fmt/format.h>
 
@@ -95,40 +95,37 @@ Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rec
     return {};
 }
 
-// Reads a rectangle of a face that may reach over its edges: the face's own rows first, with what lies to
-// their left and right; then the rows above and below.
+// The row of a face that stands in beside a corner for one above its top or below its bottom.
+int mirroredRow(int row, int size) {
+    const int last = size - 1;
+    return std::clamp(row < 0 ? -row : 2 * last - row, 0, last);
+}
+
+// Reads a rectangle of a face that may reach over its edges.
 Result<void> readRegion(const FaceSet& set, Face face, const RasterRect& rect, std::vector<float>& out) {
     const auto stride = static_cast<std::size_t>(rect.width);
     out.resize(stride * static_cast<std::size_t>(rect.height));
-    const auto target = [&](int x, int y) {
-        return out.data() + static_cast<std::size_t>(y - rect.y) * stride +
-               static_cast<std::size_t>(x - rect.x);
-    };
-    const int left = std::clamp(0, rect.x, rect.x + rect.width);
-    const int right = std::clamp(set.size, rect.x, rect.x + rect.width);
-    for (int y = rect.y; y < rect.y + rect.height;) {
+    const int right = rect.x + rect.width;
+    const int bottom = rect.y + rect.height;
+    const int faceLeft = std::clamp(0, rect.x, right);
+    const int faceRight = std::clamp(set.size, rect.x, right);
+    // The face's own rows all at once, those beyond it one by one.
+    for (int y = rect.y; y < bottom;) {
         const bool inside = y >= 0 && y < set.size;
-        const int end =
-            std::min(rect.y + rect.height, inside ? set.size : (y < 0 ? 0 : rect.y + rect.height));
-        // Beside a corner: the face's own outermost row stands in, once for each row.
-        const int besideStep = inside ? end - y : 1;
-        Result<void> read;
-        const auto sides = [&](int row, int rows, int to) {
-            if (read)
-                read =
-                    readBeyondEdge(set, face, {rect.x, row, left - rect.x, rows}, target(rect.x, to), stride);
-            if (read)
-                read = readBeyondEdge(set, face, {right, row, rect.x + rect.width - right, rows},
-                                      target(right, to), stride);
-        };
-        for (int to = y; to < end; to += besideStep) sides(std::clamp(to, 0, set.size - 1), besideStep, to);
-        const RasterRect middle{left, y, right - left, end - y};
-        if (read) {
-            read = inside ? set[face].read(middle, target(left, y), stride)
-                          : readBeyondEdge(set, face, middle, target(left, y), stride);
-        }
+        const int rows = inside ? std::min(bottom, set.size) - y : 1;
+        const int besideY = inside ? y : mirroredRow(y, set.size);
+        float* const to = out.data() + static_cast<std::size_t>(y - rect.y) * stride;
+        float* const toFace = to + (faceLeft - rect.x);
+        float* const toRight = to + (faceRight - rect.x);
+        Result<void> read = readBeyondEdge(set, face, {rect.x, besideY, faceLeft - rect.x, rows}, to, stride);
+        if (read)
+            read = readBeyondEdge(set, face, {faceRight, besideY, right - faceRight, rows}, toRight, stride);
         if (!read) return read;
-        y = end;
+        const RasterRect middle{faceLeft, y, faceRight - faceLeft, rows};
+        read = inside ? set[face].read(middle, toFace, stride)
+                      : readBeyondEdge(set, face, middle, toFace, stride);
+        if (!read) return read;
+        y += rows;
     }
     return {};
 }
