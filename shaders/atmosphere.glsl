@@ -5,10 +5,12 @@
 // Lengths are in scale heights; the planet's radius is atmosphere.x of them. An air mass of 1 is what lies
 // straight up from height 0.
 
-const vec3 scattering = vec3(0.046, 0.108, 0.265);  // Rayleigh at 680, 550 and 440 nm, an air mass
-const float haze = 0.012;                           // grey and mostly forward
+// Rayleigh's at 680, 550 and 440 nm, an air mass; half of the Earth's, which would veil the ground.
+const vec3 scattering = vec3(0.023, 0.054, 0.132);
+const float haze = 0.007;  // grey and mostly forward
 const vec3 sunLight = vec3(3.4, 3.3, 3.15);
 const vec3 extinction = scattering + vec3(haze);
+const vec3 sunExtinction = 1.6 * scattering + vec3(haze);  // a redder evening than so thin an air would make
 
 // Air from a height outwards, along a ray that rises with this cosine to the zenith, 0 or more.
 float airAbove(float height, float rise) {
@@ -28,7 +30,15 @@ float airAlong(float height, float rise, float lowestRadius) {
 vec3 sunThrough(float height, float sunRise) {
     float lowest = (atmosphere.x + height) * sqrt(max(1.0 - sunRise * sunRise, 0.0));
     float air = airAlong(height, sunRise, max(lowest, atmosphere.x - 8.0));
-    return exp(-extinction * min(max(air, 0.0), 4000.0));
+    return exp(-sunExtinction * min(max(air, 0.0), 4000.0));
+}
+
+// The same where light is scattered, with the glow of the lit air around it.
+vec3 sunOnAir(vec3 place) {
+    float radius = length(place);
+    float sunRise = dot(place, sun.xyz) / radius;
+    float height = max(radius - atmosphere.x, 0.0) + 0.25;
+    return sunThrough(height, sunRise) + vec3(0.030, 0.040, 0.065) * smoothstep(-0.20, 0.06, sunRise);
 }
 
 // Light scattered towards the eye over so much air, the sun's light arriving there as given.
@@ -37,7 +47,7 @@ vec3 scattered(float air, vec3 sunHere, float sunAlongRay) {
     float k = 1.0 / (1.0 - 0.76 * sunAlongRay);  // Schlick's phase function
     float forward = 0.42 * k * k;
     vec3 share = (scattering * rayleigh + vec3(haze * forward)) / extinction;
-    return sunLight * 0.28 * sunHere * share * (1.0 - exp(-extinction * air));
+    return sunLight * 0.21 * sunHere * share * (1.0 - exp(-extinction * air));
 }
 
 // Linear light to what a screen shows: rolls off softly, then the sRGB curve.

@@ -21,14 +21,19 @@ vec3 imageColour(vec3 up) {
     vec2 place = vec2(atan(up.y, up.x) / (2.0 * pi) + 0.5, acos(clamp(up.z, -1.0, 1.0)) / pi);
     vec2 east = vec2(-up.y, up.x) / ring;
     vec2 scale = vec2(0.5, -1.0) / pi;
-    return textureGrad(colourImage, place, scale * vec2(dot(east, dx.xy), dx.z / ring),
-                       scale * vec2(dot(east, dy.xy), dy.z / ring)).rgb;
+    vec2 across = scale * vec2(dot(east, dx.xy), dx.z / ring);
+    vec2 along = scale * vec2(dot(east, dy.xy), dy.z / ring);
+    // Seen at a slant a pixel's footprint is long; what the sampler cannot follow is cut, not blurred.
+    float longest = heights.w * sqrt(min(dot(across, across), dot(along, along)));
+    across *= min(1.0, longest / max(length(across), 1e-12));
+    along *= min(1.0, longest / max(length(along), 1e-12));
+    return textureGrad(colourImage, place, across, along).rgb;
 }
 
 vec3 seaByDepth(float height) {
-    vec3 shelf = vec3(0.050, 0.165, 0.220);
-    vec3 open = vec3(0.013, 0.052, 0.120);
-    vec3 deep = vec3(0.004, 0.018, 0.060);
+    vec3 shelf = vec3(0.022, 0.095, 0.135);
+    vec3 open = vec3(0.008, 0.036, 0.085);
+    vec3 deep = vec3(0.003, 0.014, 0.046);
     float depth = max(-height, 0.0) * heights.y;
     return mix(mix(shelf, open, smoothstep(0.0, 0.22, depth)), deep, smoothstep(0.3, 1.0, depth));
 }
@@ -38,13 +43,13 @@ vec3 landByHeight(float height, float latitudeSine, float steepness) {
     float h = max(height, 0.0) * heights.y;
     float cold = latitudeSine * latitudeSine;
     float dry = 1.0 - smoothstep(0.10, 0.26, abs(abs(latitudeSine) - 0.40));
-    vec3 low = mix(vec3(0.070, 0.150, 0.040), vec3(0.310, 0.250, 0.120), 0.75 * dry);
-    vec3 hills = mix(vec3(0.160, 0.190, 0.070), vec3(0.330, 0.240, 0.130), dry);
+    vec3 low = mix(vec3(0.036, 0.092, 0.018), vec3(0.230, 0.165, 0.068), 0.7 * dry);
+    vec3 hills = mix(vec3(0.105, 0.120, 0.034), vec3(0.235, 0.150, 0.066), dry);
     vec3 colour = mix(low, hills, smoothstep(0.03, 0.16, h));
-    colour = mix(colour, vec3(0.230, 0.165, 0.105), smoothstep(0.16, 0.42, h));
-    colour = mix(colour, vec3(0.190, 0.180, 0.170), smoothstep(0.42, 0.62, h));
-    colour = mix(colour, vec3(0.170, 0.155, 0.140), 0.7 * steepness);
-    float snowLine = 0.85 - 0.95 * cold * cold;
+    colour = mix(colour, vec3(0.150, 0.092, 0.048), smoothstep(0.16, 0.42, h));
+    colour = mix(colour, vec3(0.120, 0.105, 0.092), smoothstep(0.42, 0.62, h));
+    colour = mix(colour, vec3(0.095, 0.080, 0.066), 0.7 * steepness);
+    float snowLine = 1.04 - 1.38 * cold * cold;
     float snow = smoothstep(snowLine - 0.10, snowLine + 0.12, h) * (1.0 - 0.8 * steepness);
     return mix(colour, vec3(0.82, 0.85, 0.88), snow);
 }
@@ -62,8 +67,8 @@ Material materialAt(vec3 up, float height, float steepness) {
         float blue = smoothstep(0.0, 0.008, image.b - 1.15 * image.r);
         float dark = 1.0 - smoothstep(0.10, 0.30, image.g);
         float water = below * blue * dark;
-        vec3 sea = mix(image, seaByDepth(height), 0.45);
-        return Material(mix(image, sea, water), water);
+        vec3 sea = mix(image, seaByDepth(height), 0.4);
+        return Material(mix(image * 1.2, sea, water), water);
     }
     vec3 land = landByHeight(height, up.z, steepness);
     float ice = below * smoothstep(0.955, 0.985, abs(up.z));
@@ -76,12 +81,12 @@ float meshLine() {
     vec3 at = vec3(gridCoordinate.xy, gridCoordinate.x - gridCoordinate.y);
     vec3 width = fwidth(at);
     vec3 away = abs(at - floor(at + 0.5));
-    vec3 cover = 1.0 - smoothstep(width * 0.6, width * 1.3, away);
+    vec3 cover = 1.0 - smoothstep(width * 0.3, width * 1.0, away);
     // Down a skirt a coordinate stands still: no line runs along it.
     cover *= step(vec3(1e-5), width);
-    float line = max(max(cover.x, cover.y), 0.75 * cover.z);
+    float line = max(0.85 * max(cover.x, cover.y), 0.5 * cover.z);
     float widest = max(width.x, width.y);
-    return mix(line, 0.45, smoothstep(0.25, 0.7, widest));
+    return mix(line, 0.35, smoothstep(0.2, 0.6, widest));
 }
 
 vec3 lit(Material material, vec3 up, vec3 normal, vec3 toEye) {
@@ -92,7 +97,7 @@ vec3 lit(Material material, vec3 up, vec3 normal, vec3 toEye) {
     float day = smoothstep(-0.06, 0.10, sunRise);
     vec3 sunHere = airOn > 0.0 ? sunThrough(0.1, sunRise) : vec3(1.0);
     float facing = max(dot(shading, sunDirection), 0.0) * day;
-    vec3 sky = mix(vec3(0.010), vec3(0.085, 0.115, 0.165) * smoothstep(-0.12, 0.35, sunRise), airOn) +
+    vec3 sky = mix(vec3(0.010), vec3(0.085, 0.115, 0.165) * smoothstep(-0.18, 0.30, sunRise), airOn) +
                vec3(0.0025, 0.003, 0.0045);
     vec3 light = material.albedo * (sunLight * sunHere * facing + sunLight * 0.55 * sky);
     if (material.water > 0.01) {
@@ -116,7 +121,10 @@ vec3 throughAir(vec3 light, vec3 position, vec3 up, float height) {
     float air = fall < 0.0 ? airAbove(here, max(-dot(up, ray), 0.0)) - airAbove(max(eyeHeight, 0.0), -fall)
                            : airAbove(max(eyeHeight, 0.0), fall) - airAbove(here, max(dot(up, ray), 0.0));
     air = max(air, 0.0);
-    vec3 sunHere = sunThrough(0.6, dot(up, sun.xyz));
+    // Along a slanting ray most light comes from nearer and higher than the surface itself.
+    float nearer = min(min(1.0 / (max(-dot(up, ray), 0.0) + 0.04), 25.0), 0.7 * length(position) * atmosphere.y);
+    vec3 sunHere = sunOnAir(up * (atmosphere.x + here) - ray * nearer);
+    air *= 1.0 - 0.75 * tint.a;  // a tint stays readable far away
     return light * exp(-extinction * air) + scattered(air, sunHere, dot(ray, sun.xyz));
 }
 
@@ -128,10 +136,11 @@ void main() {
     float steepness = isOn(switchLighting) ? smoothstep(0.08, 0.45, 1.0 - dot(normal, up)) : 0.0;
 
     Material material = materialAt(up, surface.w, steepness);
-    material.albedo = mix(material.albedo, decodeSrgb(tint.rgb), tint.a);
+    bool isLit = isOn(switchLighting);
+    // A tint is meant as seen, not as paint: darker in the sun, so that it does not bleach.
+    material.albedo = mix(material.albedo, decodeSrgb(tint.rgb) * (isLit ? 0.3 : 1.0), tint.a);
     material.water *= 1.0 - tint.a;
     vec3 colour = material.albedo;
-    bool isLit = isOn(switchLighting);
     if (isLit) colour = lit(material, up, normal, normalize(-position));
     if (isLit && atmosphere.z > 0.0) colour = throughAir(colour, position, up, surface.w);
     if (isLit) colour = exposed(colour);

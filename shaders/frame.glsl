@@ -21,7 +21,8 @@ layout(std140) uniform Frame {
     vec4 rayRight;
     vec4 rayUp;
     vec4 planet;      // radius; quantum; reference radius; half side of the cube
-    vec4 heights;     // height of step 0; highest land of the ramp; relief boost of the lighting; unused
+    vec4 heights;     // height of step 0; 1 / the top of the ramp; relief boost of the lighting; longest
+                         // footprint over shortest in the image
     vec4 atmosphere;  // radius / scale height; 1 / scale height; 1 where drawn; unused
     vec4 screen;      // angle of a pixel, radians; depth of the sky in clip space; unused
     ivec4 grid;       // reference step; log2 of cells a chunk side; unused

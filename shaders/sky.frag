@@ -40,12 +40,11 @@ void main() {
         float eyeHeight = max(eyeRadius - atmosphere.x, 0.0);
         float air = airAlong(eyeHeight, rise, max(lowest, atmosphere.x));
         air = clamp(air, 0.0, 200.0);
-        vec3 dense = eyeScaled + ray * max(-rise * eyeRadius, 0.0);
-        float denseRadius = max(length(dense), 1.0);
-        float denseHeight = max(denseRadius - atmosphere.x, 0.0) + (rise > 0.0 ? 1.5 : 0.3);
-        vec3 sunHere = sunThrough(denseHeight, dot(dense, sun.xyz) / denseRadius);
-        float along = dot(ray, sun.xyz);
-        light = scattered(air, sunHere, along);
+        // Where most of the light comes from: the ray's lowest point, or nearer where the air is thick.
+        float toLowest = max(-rise * eyeRadius, 0.0);
+        float nearer = min(20.0 * clamp(0.05 * air, 0.0, 1.0), toLowest);
+        vec3 dense = eyeScaled + ray * (rise > 0.0 ? 1.5 : toLowest - nearer);
+        light = scattered(air, sunOnAir(dense), dot(ray, sun.xyz));
         clear = exp(-0.6 * air) * (1.0 - min(dot(light, vec3(3.0)), 1.0));
     }
     // A planet that is not drawn there still hides the stars behind it.

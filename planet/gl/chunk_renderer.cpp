@@ -225,7 +225,7 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, const 
 }
 
 void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
-    const FrameUniforms uniforms = frameUniforms(config.shape, view, projection, settings, image.exists());
+    const FrameUniforms uniforms = frameUniforms(config.shape, view, projection, settings, image);
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
 }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string_view>
 #include <vector>
 
 namespace planet::gl {
 
 namespace {
 
-constexpr float wantedAnisotropy = 4;
+constexpr float wantedAnisotropy = 8;
 
 struct Pixels {
     std::vector<std::uint8_t> rgb;
@@ -53,15 +54,25 @@ std::size_t bytesWithMipmaps(int width, int height) {
     }
 }
 
-void setSampling() {
+// Mesa's software renderer has the extension, but some footprints make it sample at the wrong place.
+bool hasGoodAnisotropy() {
+    const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") &&
+           renderer.find("llvmpipe") == std::string_view::npos;
+}
+
+// Returns the anisotropy set.
+float setSampling() {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return;
+    if (!hasGoodAnisotropy()) return 1;
     GLfloat most = 1;
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, wantedAnisotropy));
+    const float anisotropy = std::min(most, wantedAnisotropy);
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
+    return anisotropy;
 }
 
 }  // namespace
@@ -83,7 +94,7 @@ ColourImage::ColourImage(std::span<const std::uint8_t> rgb, int width, int heigh
     glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glGenerateMipmap(GL_TEXTURE_2D);
-    setSampling();
+    anisotropy_ = setSampling();
     bytes_ = bytesWithMipmaps(width, height);
 }
 

@@ -18,10 +18,12 @@ public:
 
     bool exists() const { return texture_.name() != 0; }
     GLuint texture() const { return texture_.name(); }
-    std::size_t bytes() const { return bytes_; }  // mipmaps included
+    float anisotropy() const { return anisotropy_; }  // longest footprint over shortest that is sampled well
+    std::size_t bytes() const { return bytes_; }      // mipmaps included
 
 private:
     Texture texture_;
+    float anisotropy_ = 1;
     std::size_t bytes_ = 0;
 };
 

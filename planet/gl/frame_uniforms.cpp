@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "planet/gl/chunk_renderer.h"
+#include "planet/gl/colour_image.h"
 #include "planet/vertex_position.h"
 
 namespace planet::gl {
@@ -25,11 +26,12 @@ glm::vec4 padded(const glm::vec3& v) {
     return {v, 0};
 }
 
-// Relief is too flat to see from orbit: slopes are lit as if they were up to this much steeper.
+// Relief is too flat to see from high up: slopes are lit as they are near the ground, and up to four times as
+// steep from orbit.
 double reliefBoost(const PlanetShape& shape, const View& view) {
     const double altitude = (glm::length(view.eyeM) - shape.radiusM) / shape.radiusM;
-    const double t = std::clamp((std::log10(std::max(altitude, 1e-9)) + 2) / 1.5, 0.0, 1.0);
-    return 1 + 2.5 * t * t * (3 - 2 * t);
+    const double t = std::clamp((std::log10(std::max(altitude, 1e-9)) + 4) / 3, 0.0, 1.0);
+    return 1 + 3 * t * t * (3 - 2 * t);
 }
 
 std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const View& view,
@@ -62,7 +64,7 @@ int switchBits(const RenderSettings& settings, bool hasImage) {
 }  // namespace
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
-                            const RenderSettings& settings, bool hasImage) {
+                            const RenderSettings& settings, const ColourImage& image) {
     assert(glm::length(settings.sunDirection) > 0 && settings.rampTopM > 0);
     const VertexFrame frame = vertexFrame(shape, view.eyeM);
     const double cubeHalfM = shape.radiusM / std::sqrt(3.0);
@@ -79,12 +81,13 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.rayRight = padded(tanX * view.right);
     uniforms.rayUp = padded(tanY * view.up);
     uniforms.planet = glm::dvec4(shape.radiusM, shape.quantumM, frame.referenceRadiusM, cubeHalfM);
-    uniforms.heights = glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view), 0);
+    uniforms.heights = glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view),
+                                  2 * image.anisotropy());
     uniforms.atmosphere =
         glm::dvec4(radiusInScaleHeights, radiusInScaleHeights / shape.radiusM, atmosphere, 0);
     uniforms.screen = glm::dvec4(2 * tanX / view.widthPx, projection.reversedZ ? 0 : 1, 0, 0);
     uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
-    uniforms.switches = {switchBits(settings, hasImage), 0, 0, 0};
+    uniforms.switches = {switchBits(settings, image.exists()), 0, 0, 0};
     return uniforms;
 }
 

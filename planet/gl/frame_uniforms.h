@@ -13,6 +13,7 @@
 
 namespace planet::gl {
 
+class ColourImage;
 struct RenderSettings;
 
 // std140: only members of 16 bytes, so that C++ and GLSL agree without padding.
@@ -30,6 +31,6 @@ struct FrameUniforms {
 static_assert(sizeof(FaceUniforms) == 9 * 16 && sizeof(FrameUniforms) == (6 * 9 + 4 + 9 + 2) * 16);
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
-                            const RenderSettings& settings, bool hasImage);
+                            const RenderSettings& settings, const ColourImage& image);
 
 }  // namespace planet::gl

@@ -61,27 +61,43 @@ void writePicture(const std::string& name, const Picture& picture) {
     output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data());
 }
 
+constexpr int coarseLevel = 3;
+
 class EarthPicture : public GlTest {
 protected:
-    EarthPicture() : planet_({}, 6u << (2 * level())) {
-        Elevation elevation;
-        elevation.metres = readImage<std::int16_t>(dataFile("elevation.tif"), 1, OIIO::TypeDesc::INT16,
-                                                   elevation.width, elevation.height);
-        planet_.addLevel(level(), elevation, 20000);
+    EarthPicture() : planet_({}, 4096) {
+        elevation_.metres = readImage<std::int16_t>(dataFile("elevation.tif"), 1, OIIO::TypeDesc::INT16,
+                                                    elevation_.width, elevation_.height);
         int width = 0;
         int height = 0;
         const auto rgb =
             readImage<std::uint8_t>(dataFile("colour.jpg"), 3, OIIO::TypeDesc::UINT8, width, height);
         planet_.renderer().setColourImage(rgb, width, height);
     }
-    static int level() { return 3; }
+
+    // The whole planet, finer near the eye: what a selection would do, without its errors and bounds.
+    void refineAround(const View& view) {
+        planet_.items().clear();
+        for (const Face face : allFaces) refine({face, 0, 0, 0}, view.eyeM);
+    }
+    void refine(const ChunkId& id, const glm::dvec3& eyeM) {
+        const FaceSquare square = faceSquareOf(id);
+        const glm::dvec3 middle =
+            sphereFromCube(cubePoint(id.face, square.u + square.side / 2, square.v + square.side / 2));
+        const double away = glm::length(middle * planet_.shape().radiusM - eyeM) / planet_.shape().radiusM;
+        const bool split = id.level < 6 && (id.level < coarseLevel || away < 2.0 * square.side);
+        if (!split) return planet_.add(id, elevation_, static_cast<float>(20000 >> id.level));
+        for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) refine(childOf(id, quadrant), eyeM);
+    }
 
     Picture draw(const std::string& name, const View& view, const RenderSettings& settings) {
+        refineAround(view);
         Picture picture = drawPicture(planet_.renderer(), view, planet_.items(), settings, 4);
         writePicture(name, picture);
         return picture;
     }
 
+    Elevation elevation_;
     TestPlanet planet_;
 };
 
@@ -94,13 +110,16 @@ TEST_F(EarthPicture, LooksLikeEarth) {
     RenderSettings settings;
     draw("earth", wide(20, 10, 1.2e7), settings);
     settings.sunDirection = directionFromGeographic({0.2, 1.7});
-    draw("sunset_limb", wide(10, 5, 1.5e6, -28, 75), settings);
+    draw("sunset_limb", wide(10, -5, 6.0e5, -16, 75), settings);
+    draw("terminator", wide(15, 20, 1.6e7), settings);
+    draw("sunset_ground", wide(20, 10, 1.2e4, 2, 80), settings);
     settings.sunDirection = directionFromGeographic({0.2, 0.9});
-    draw("alps_50km", wide(43, 8, 5e4, -22, 10), settings);
-    draw("himalaya_50km", wide(26, 84, 6e4, -20, 15), settings);
+    draw("alps_50km", wide(44, 12, 5e4, -28, 310), settings);
+    settings.sunDirection = directionFromGeographic({0.3, 0.6});
+    draw("himalaya_50km", wide(27.5, 88, 5e4, -28, 300), settings);
     settings.surface = SurfaceColour::HeightRamp;
     draw("ramp", wide(25, 80, 1.0e7), settings);
-    draw("ramp_50km", wide(26, 84, 6e4, -20, 15), settings);
+    draw("ramp_50km", wide(27.5, 88, 5e4, -28, 300), settings);
 }
 
 TEST_F(EarthPicture, Instruments) {
@@ -109,7 +128,10 @@ TEST_F(EarthPicture, Instruments) {
     draw("wireframe", wide(40, 20, 4e6), settings);
     settings.colourBy = ColourBy::Level;
     settings.wireframe = false;
-    draw("levels", wide(20, 10, 1.2e7), settings);
+    draw("levels", wide(36, -2, 3e5, -30, 60), settings);
+    settings.wireframe = true;
+    draw("levels_wire", wide(36, -2, 3e5, -30, 60), settings);
+    settings.wireframe = false;
     settings.colourBy = ColourBy::None;
     settings.cube = true;
     draw("cube", wide(30, 40, 1.2e7), settings);
