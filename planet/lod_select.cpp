@@ -71,15 +71,16 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, Selection& out) 
     const bool mayBeSplit =
         node.childrenState != ChildrenState::None && node.id.level < frame.settings.maxLevel;
     if (goodEnough || !mayBeSplit) return draw(frame, index, nodeDistanceM, out);
+    const ChildrenRequest wanted{index, node.id,
+                                 static_cast<float>(node.deltaCM * frame.reach / nodeDistanceM)};
     if (node.childrenState == ChildrenState::Resident) {
+        out.splits.push_back(wanted);
         for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, out);
         return;
     }
     draw(frame, index, nodeDistanceM, out);
     ++out.counters.waiting;
-    if (node.childrenState == ChildrenState::Failed) return;
-    const auto priority = static_cast<float>(node.deltaCM * frame.reach / nodeDistanceM);
-    out.requests.push_back({index, node.id, priority});
+    if (node.childrenState != ChildrenState::Failed) out.requests.push_back(wanted);
 }
 
 // Finds a drawn chunk by its id: open addressing, at most half full. Never made of no chunks at all.
@@ -159,6 +160,7 @@ void setSkirtDepths(const PlanetShape& shape, double skirtFactor, std::vector<Dr
 void clear(Selection& out) {
     out.draw.clear();
     out.requests.clear();
+    out.splits.clear();
     out.touched.clear();
     out.counters = {};
 }

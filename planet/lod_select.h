@@ -40,11 +40,11 @@ struct DrawItem {
 // Distances stop here, so that the error on screen of a chunk that holds the eye stays a number.
 inline constexpr double nearestM = 1e-3;
 
-// "Load the children of this node."
+// "This node should be drawn as its children."
 struct ChildrenRequest {
     NodeIndex parent = noNode;
     ChunkId parentId;
-    float priority = 0;  // eps / tau of the parent: how far over the tolerance it is drawn; larger first
+    float priority = 0;  // eps / tau of the parent: how far over the tolerance it is by itself; larger first
 };
 
 struct SelectionCounters {
@@ -60,6 +60,7 @@ struct SelectionCounters {
 struct Selection {
     std::vector<DrawItem> draw;             // near to far
     std::vector<ChildrenRequest> requests;  // highest priority first; children absent or on their way
+    std::vector<ChildrenRequest> splits;    // those whose children are resident, parents first
     std::vector<NodeIndex> touched;  // all visited, parents first: what is drawn, what stands above it, and
                                      // the culled siblings of either. Needed to draw this view again
     SelectionCounters counters;

@@ -21,17 +21,24 @@ double msSince(Clock::time_point start) {
 // dropped in turns.
 constexpr std::uint64_t framesKept = 4;
 
+// Where all that is resident is in use, a block yields to one that is wanted this many times as much: so many
+// times that the two never take turns. A few a frame, since what yields is drawn coarser at once.
+constexpr float yieldFactor = 1.5f;
+constexpr std::size_t yieldsPerFrame = 8;
+
 constexpr int maxLoaderThreads = 64;
 
 std::uint64_t chunkCountOf(const PlanetShape& shape) {
     return faceCount * ((std::uint64_t{1} << (2 * (leafLevel(shape) + 1))) - 1) / 3;
 }
 
-// The slots that a budget pays for: the roots' six and then whole sibling blocks, at least enough of them to
-// reach the finest level in one place, and no more than the planet has chunks.
+// The slots that a budget pays for: the roots' six and then whole sibling blocks, and no more than the planet
+// has chunks. At least so many that the finest level can be reached in one place, even where four chunks
+// meet.
 Result<std::uint32_t> slotsFor(const PlanetShape& shape, std::size_t budgetBytes) {
     const std::size_t bytes = chunkBytesCpu(shape) + chunkBytesGpu(shape);
-    const std::size_t least = faceCount + quadrantCount * static_cast<std::size_t>(leafLevel(shape));
+    const std::size_t wanted = faceCount + 4 * quadrantCount * static_cast<std::size_t>(leafLevel(shape));
+    const std::size_t least = std::min<std::uint64_t>(wanted, chunkCountOf(shape));
     if (budgetBytes < least * bytes) {
         return badInput(fmt::format("a budget of {} bytes is too small for this planet: it needs at least {}",
                                     budgetBytes, least * bytes));
@@ -65,14 +72,17 @@ struct Planet::State {
     std::uint32_t slotCapacity = 0;
     std::vector<Slots> freeSlots;    // neither a resident block's nor promised to a page-in
     std::vector<NodeIndex> watched;  // first nodes of resident blocks that have no page-out pending
+    std::vector<ChunkId> yielding;   // parents of blocks that the next step drops before it selects
     std::uint64_t frame = 0;         // of the current step; the first is 1
     std::vector<std::string> problems;
     std::unique_ptr<Pager> pager;
 
     // The stages of a step.
+    void dropYielding();
     void uploadFinished(const UploadChunk& upload);
     void markUsed(PagingQueue& queue);
     void request(PagingQueue& queue);
+    void chooseYielding();
     void count();
 
     void finish(FinishedLoad&& load, const UploadChunk& upload);
@@ -80,7 +90,9 @@ struct Planet::State {
     void withdraw(const PagingRequest& request);
     bool takeSlots(PagingQueue& queue, double priority, Slots& slots);
     bool evictOne(PagingQueue& queue);
+    void evict(NodeIndex parent);
     bool mayBeEvicted(NodeIndex firstChild) const;
+    bool hasBlocksOutOfUse() const { return tree.residentChunks > selection.touched.size(); }
 };
 
 Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSettings& settings) {
@@ -111,6 +123,7 @@ void Planet::step(const View& lodView, const LodSettings& settings, const Upload
     ++state.frame;
 
     Clock::time_point start = Clock::now();
+    state.dropYielding();
     state.uploadFinished(upload);
     state.times.uploadMs = msSince(start);
 
@@ -123,6 +136,7 @@ void Planet::step(const View& lodView, const LodSettings& settings, const Upload
         state.markUsed(queue);
         state.request(queue);
     });
+    state.chooseYielding();
     state.count();
     state.times.pagingMs = msSince(start);
 }
@@ -242,14 +256,49 @@ bool Planet::State::evictOne(PagingQueue& queue) {
             watched.push_back(first);
             continue;
         }
-        Slots slots{};
-        for (NodeIndex q = 0; q < quadrantCount; ++q) slots[q] = tree.nodes[first + q].slot;
-        freeSlots.push_back(slots);
-        removeChildren(tree, parent);
-        ++paging.evicted;
+        evict(parent);
         return true;
     }
     return false;
+}
+
+void Planet::State::evict(NodeIndex parent) {
+    Slots slots{};
+    for (NodeIndex q = 0; q < quadrantCount; ++q)
+        slots[q] = tree.nodes[tree.nodes[parent].firstChild + q].slot;
+    freeSlots.push_back(slots);
+    removeChildren(tree, parent);
+    ++paging.evicted;
+}
+
+// Evens out the errors of a view that the budget cannot pay for: without this, what came first would stay
+// fine and what came closer since would stay coarse.
+void Planet::State::chooseYielding() {
+    if (paging.budgetWaits == 0 || hasBlocksOutOfUse()) return;
+    std::vector<ChildrenRequest> least;
+    for (const ChildrenRequest& split : selection.splits) {
+        if (mayBeEvicted(tree.nodes[split.parent].firstChild)) least.push_back(split);
+    }
+    std::sort(least.begin(), least.end(), [](const ChildrenRequest& a, const ChildrenRequest& b) {
+        return a.priority != b.priority ? a.priority < b.priority : a.parentId < b.parentId;
+    });
+    for (const ChildrenRequest& wanted : selection.requests) {
+        if (tree.nodes[wanted.parent].childrenState != ChildrenState::Absent) continue;
+        const std::size_t next = yielding.size();
+        if (next == std::min(least.size(), yieldsPerFrame)) return;
+        if (wanted.priority <= yieldFactor * least[next].priority) return;
+        yielding.push_back(least[next].parentId);
+    }
+}
+
+// Not in the step that chose them, whose draw list they are in.
+void Planet::State::dropYielding() {
+    for (const ChunkId& parentId : yielding) {
+        const NodeIndex parent = findNode(tree, parentId);
+        std::erase(watched, tree.nodes[parent].firstChild);
+        evict(parent);
+    }
+    yielding.clear();
 }
 
 // Not while anything below is resident or on its way.
@@ -286,11 +335,11 @@ bool Planet::settle(const View& lodView, const LodSettings& settings, const Uplo
     }
 }
 
-// What the budget has no room for can still come while a block is resident that this view does not use, for
-// that block will be dropped.
+// What the budget has no room for can still come while a block is resident that this view does not use, or
+// that yields to it, for that block will be dropped.
 bool Planet::settled() const {
     const State& state = *state_;
-    const bool roomToCome = state.tree.residentChunks > state.selection.touched.size();
+    const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
     return state.frame > 0 && state.pager->status().idle() && (state.paging.budgetWaits == 0 || !roomToCome);
 }
 

@@ -97,7 +97,7 @@ public:
     const ChunkFile& file() const;  // only of a planet that was opened from one
     const PlanetShape& shape() const;
     const ChunkTree& tree() const;
-    const Selection& selection() const;  // of the last step
+    const Selection& selection() const;  // of the last step; its nodes and slots hold until the next
     const PagingCounters& paging() const;
     const StageTimes& times() const;
     std::uint32_t slotCapacity() const;  // slots of the pool of heights that the budget pays for
