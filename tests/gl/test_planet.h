@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planet/gl/chunk_renderer.h"
+#include "planet/vertex_position.h"
 
 namespace planet::gl {
 
