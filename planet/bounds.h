@@ -31,6 +31,7 @@ struct ChunkBounds {
     double maxRadiusM = 0;  // no vertex lies farther from the planet's centre
 };
 
+// radiusM + minHeightM must be over 0, and minHeightM <= maxHeightM.
 ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM);
 
 // 0 inside the box.
@@ -39,8 +40,27 @@ double distanceM(const OrientedBox& box, const glm::dvec3& pointM);
 enum class Containment { Outside, Crossing, Inside };
 Containment classify(const OrientedBox& box, const Plane& plane);
 
+// How far round the planet an eye sees, worked out once a frame.
+struct Horizon {
+    glm::dvec3 eyeDirection{0, 0, 1};  // unit
+    double occluderRadiusM = 0;
+    double angleRad =
+        0;  // at the planet's centre, from the eye to where a line of sight touches the occluder
+    bool seesAll = true;  // the eye is inside the occluder
+};
+Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM);
+
+// Outside: the occluder hides every point within the cone up to maxRadiusM. Inside: no point of the cone that
+// is outside the occluder is hidden, so nothing under this chunk is either. Crossing: neither is certain.
+Containment classify(const ChunkBounds& bounds, const Horizon& horizon);
+
 // True only when the sphere of the occluder radius, about the planet's centre, hides every point within
 // the cone up to maxRadiusM from the eye. An eye inside the occluder sees everything.
 bool isBelowHorizon(const ChunkBounds& bounds, const glm::dvec3& eyeM, double occluderRadiusM);
+
+// The radius of a sphere about the planet's centre that lies inside every triangle between vertices of any
+// level, none of which lies nearer to the centre than lowestRadiusM. rootCells: cells along the side of a
+// face's root chunk, whose triangles sag most.
+double radiusInsideTriangles(double lowestRadiusM, int rootCells);
 
 }  // namespace planet

@@ -2,7 +2,9 @@
 // One thread at a time.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,6 +33,8 @@ struct ChunkNode {
     float deltaCM = 0;     // metres
     float minHeightM = 0;  // over all finest samples below
     float maxHeightM = 0;
+    std::int16_t minStep = 0;  // the same, as stored
+    std::int16_t maxStep = 0;
     ChunkBounds bounds;
     NodeIndex parent = noNode;
     NodeIndex firstChild = noNode;  // four in a row, in quadrant order
@@ -38,22 +42,34 @@ struct ChunkNode {
     BlockLocation children;           // in the file
     std::uint32_t slot = 0;           // in the pool of heights
     SharedHeights heights;            // never null
-    std::uint64_t lastUsedFrame = 0;  // last frame it was drawn or was an ancestor of what was drawn
+    std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
 };
 
 struct ChunkTree {
     PlanetShape shape;
     std::int16_t minStep = 0;  // over the whole planet
     std::int16_t maxStep = 0;
+    double occluderRadiusM = 0;         // of a sphere that lies inside every surface the tree can draw
     std::vector<ChunkNode> nodes;       // the first six are the roots, in face order; then free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
     std::size_t residentChunks = 0;
 };
 
-// The tree with its six roots, which stay resident. They take slots 0 to 5.
+// The tree with its six roots, given in face order; they stay resident and take slots 0 to 5. The Error names
+// a root that is not what checkChunk wants, or a planet whose lowest height lies below its centre.
+Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
+                                std::array<ChunkData, faceCount>&& roots);
+// The same, read from a file.
 Result<ChunkTree> makeChunkTree(const ChunkFile& file);
 
+// Whether four chunks may become the children of a node: the right ids and number of heights, heights within
+// the chunk's range and that within the parent's, delta_c no larger than the parent's. What bounds and
+// selection rely on.
+Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
+                           const std::array<ChunkData, quadrantCount>& children);
+
 // Adds the four children of a node whose children are not resident, in the given slots; returns the first.
+// They must pass checkChildren.
 NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
                       const std::array<std::uint32_t, quadrantCount>& slots);
 
@@ -63,7 +79,15 @@ void removeChildren(ChunkTree& tree, NodeIndex parent);
 // The node of an id, or noNode if it is not resident.
 NodeIndex findNode(const ChunkTree& tree, const ChunkId& id);
 
-// The height of the finest resident surface in a direction, metres above the planet's radius.
+// Calls visit for every resident node, parents before their children.
+void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, const ChunkNode&)>& visit);
+
+// The height of the finest resident surface in a direction of any length but 0, metres above the planet's
+// radius: where a ray from the planet's centre meets the very triangles that are drawn.
 double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction);
+
+// What one resident chunk costs: its node and heights in memory, and its heights in the pool on the GPU.
+std::size_t chunkBytesCpu(const PlanetShape& shape);
+std::size_t chunkBytesGpu(const PlanetShape& shape);
 
 }  // namespace planet

@@ -22,7 +22,9 @@ struct LodSettings {
     int maxLevel = planet::maxLevel;  // chunks of this level are not split; [0, maxLevel]
     bool frustumCulling = true;       // off: chunks beside and behind the view are drawn and loaded too
     bool horizonCulling = true;       // off: chunks on the planet's far side are drawn and loaded too
-    double skirtFactor = 1;  // skirt depth / (delta_c of the chunk + the largest among its neighbours); >= 0
+    // Skirt depth / (delta_c of a chunk + delta_c of the drawn neighbour that differs most from the truth).
+    // At 1 no crack shows, since neither surface is farther than its delta_c from the finest; 0: no skirts.
+    double skirtFactor = 1;
 };
 
 struct DrawItem {
@@ -30,16 +32,19 @@ struct DrawItem {
     ChunkId id;
     std::uint32_t slot = 0;  // in the pool of heights
     float epsPx = 0;         // error on screen, pixels
-    float distanceM = 0;     // from the eye to the bounding volume
+    float distanceM = 0;     // from the eye to the bounding volume; nearestM inside it
     float deltaCM = 0;       // metres
     float skirtDepthM = 0;   // metres, towards the planet's centre
 };
 
-// "Load the children of this node."
+// Distances stop here, so that the error on screen of a chunk that holds the eye stays a number.
+inline constexpr double nearestM = 1e-3;
+
+// "This node should be drawn as its children."
 struct ChildrenRequest {
     NodeIndex parent = noNode;
     ChunkId parentId;
-    float priority = 0;  // eps / tau of the parent: how far over the tolerance it is drawn; larger first
+    float priority = 0;  // eps / tau of the parent: how far over the tolerance it is by itself; larger first
 };
 
 struct SelectionCounters {
@@ -54,15 +59,14 @@ struct SelectionCounters {
 
 struct Selection {
     std::vector<DrawItem> draw;             // near to far
-    std::vector<ChildrenRequest> requests;  // highest priority first
-    std::vector<NodeIndex> touched;         // all that is drawn, and the ancestors of it
+    std::vector<ChildrenRequest> requests;  // highest priority first; children absent or on their way
+    std::vector<ChildrenRequest> splits;    // those whose children are resident, parents first
+    std::vector<NodeIndex> touched;  // all visited, parents first: what is drawn, what stands above it, and
+                                     // the culled siblings of either. Needed to draw this view again
     SelectionCounters counters;
 };
 
 // Refills out, keeping its capacity.
 void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings, Selection& out);
-
-// The radius of a sphere about the planet's centre that lies inside every surface the tree can draw.
-double occluderRadiusM(const ChunkTree& tree);
 
 }  // namespace planet

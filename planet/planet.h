@@ -9,6 +9,7 @@
 // All calls from one thread; the loader threads are its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -20,6 +21,7 @@
 #include "planet/chunk_file.h"
 #include "planet/chunk_tree.h"
 #include "planet/lod_select.h"
+#include "planet/pager.h"
 #include "planet/paging_queue.h"
 #include "planet/result.h"
 
@@ -38,6 +40,7 @@ struct PagingCounters {
     std::uint64_t merged = 0;          // asked again while queued
     std::uint64_t cancelled = 0;       // taken back by the opposite request, or no longer wanted
     std::uint64_t loaded = 0;          // blocks read and made resident
+    double loadSeconds = 0;            // spent on reading and decoding blocks, over all loader threads
     std::uint64_t evicted = 0;         // blocks paged out
     std::uint64_t failed = 0;          // blocks that could not be read
     std::uint64_t bytesRead = 0;       // from the file
@@ -59,16 +62,30 @@ struct StageTimes {
 // Makes one chunk's heights drawable: chunkVertexCount steps into a slot below slotCapacity().
 using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
 
+// What a planet is made of: a chunk file, or for tests and generated planets anything that acts like one.
+struct PlanetSource {
+    PlanetShape shape;
+    std::int16_t minStep = 0;  // over the whole planet
+    std::int16_t maxStep = 0;
+    std::array<ChunkData, faceCount> roots;  // in face order
+    LoadChildren loadChildren;
+    std::shared_ptr<const ChunkFile> file;  // what the above comes from; null where there is no file
+};
+
 class Planet {
 public:
+    // The Error names the file and what is wrong with it, or a setting and its range; for a budget that is
+    // too small it says the least that will do.
     static Result<std::unique_ptr<Planet>> open(const std::filesystem::path& path,
                                                 const PagingSettings& settings);
     static Result<std::unique_ptr<Planet>> open(ChunkFile file, const PagingSettings& settings);
+    static Result<std::unique_ptr<Planet>> open(PlanetSource source, const PagingSettings& settings);
     ~Planet();  // joins the loader threads
     Planet(const Planet&) = delete;
     Planet& operator=(const Planet&) = delete;
 
     // One frame: uploads what was loaded, selects, drops what the budget asks for, requests what is missing.
+    // The first step uploads the root chunks too.
     void step(const View& lodView, const LodSettings& settings, const UploadChunk& upload);
 
     // Steps until nothing more is wanted or can be had. False if that takes longer than the given seconds.
@@ -77,10 +94,10 @@ public:
     // Uploads every resident chunk again: for a renderer that was made anew.
     void uploadAll(const UploadChunk& upload) const;
 
-    const ChunkFile& file() const;
+    const ChunkFile& file() const;  // only of a planet that was opened from one
     const PlanetShape& shape() const;
     const ChunkTree& tree() const;
-    const Selection& selection() const;  // of the last step
+    const Selection& selection() const;  // of the last step; its nodes and slots hold until the next
     const PagingCounters& paging() const;
     const StageTimes& times() const;
     std::uint32_t slotCapacity() const;  // slots of the pool of heights that the budget pays for
@@ -88,6 +105,11 @@ public:
     bool settled() const;
     // Messages of blocks that failed since the last call, for a log.
     std::vector<std::string> takeProblems();
+    // Lets blocks that failed be asked for again.
+    void retryFailed();
+    // The pending requests of a type, most urgent first: a copy, for display. Page-outs are the blocks out of
+    // use, the longest unused first; they stay resident until their room is needed.
+    std::vector<PagingRequest> pendingRequests(PagingType type) const;
 
 private:
     struct State;

@@ -8,7 +8,9 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "planet/gl/projection.h"
 #include "planet/lod_select.h"
 #include "planet/planet_shape.h"
 #include "planet/result.h"
@@ -26,12 +28,13 @@ enum class SurfaceColour : std::uint8_t { Image, HeightRamp };
 struct RenderSettings {
     SurfaceColour surface = SurfaceColour::Image;  // Image falls back to HeightRamp where none is loaded
     ColourBy colourBy = ColourBy::None;
-    double tauPx = 2;  // scale of ColourBy::Error, pixels
-    bool wireframe = false;
+    double tauPx = 2;        // scale of ColourBy::Error, pixels, > 0
+    double rampTopM = 6000;  // the height ramp's highest band, > 0; the sea is darkest as far below 0
+    bool wireframe = false;  // the mesh's lines over a dimmed surface
     bool skirts = true;
-    bool cube = false;  // draws the cube before it is blown up to the sphere
+    bool cube = false;  // draws the cube before it is blown up to the sphere, without atmosphere
     bool atmosphere = true;
-    bool lighting = true;                       // off: flat colour
+    bool lighting = true;                       // off: flat colour, no air before it
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
 };
 
@@ -43,9 +46,15 @@ struct RenderCounters {
 
 // What the context offers, and what was chosen.
 struct RenderCapabilities {
-    bool reversedZ = false;  // GL_ARB_clip_control; without it the near plane follows the height above ground
-    int samples = 1;
+    // GL_ARB_clip_control. Without it, or with a depth buffer that is not float, the near plane follows the
+    // height above the highest ground drawn.
+    bool reversedZ = false;
+    int samples = 1;  // the most that a RenderTarget can have
 };
+
+// What ColourBy draws, sRGB in [0, 1]: for legends. Exactly this colour with lighting off.
+glm::vec3 levelColour(int level);
+glm::vec3 errorColour(double epsOverTau);
 
 struct RendererConfig {
     PlanetShape shape;
@@ -61,17 +70,28 @@ public:
     ChunkRenderer& operator=(ChunkRenderer&&) noexcept;
     ~ChunkRenderer();
 
+    // chunkVertexCount steps, row by row from the south, into a slot below slotCapacity.
     void upload(std::uint32_t slot, std::span<const std::int16_t> heights);
 
     // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180.
     void setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
-    // Compiles the shaders of the folder again; on an Error the last good ones go on.
+    // Compiles the shaders again, from the folder where one was given; on an Error the last good ones go on.
     Result<void> reloadShaders();
 
-    // Clears and fills the bound framebuffer's viewport of view.widthPx x view.heightPx. The framebuffer
-    // needs a depth buffer; with reversedZ a float one pays.
+    // Clears the bound framebuffer and fills its lower left view.widthPx x view.heightPx pixels, sky
+    // included. It needs a depth buffer; with reversedZ a float one pays. Leaves depth, culling and clip
+    // control as a new context has them.
     void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings);
+
+    // How the last draw's depths come to be, for turning them into metres.
+    const Projection& projection() const;
+
+    // The positions that the vertex shader makes of the items' grids, skirts left out, read back: metres from
+    // the eye in world axes, chunkVertexCount for each item. Waits for the GPU; for tests and measuring.
+    // Draws nothing, but OpenGL wants a complete framebuffer bound.
+    Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
+                                                       const RenderSettings& settings);
 
     const RenderCounters& counters() const;
     const RenderCapabilities& capabilities() const;

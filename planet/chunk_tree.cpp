@@ -1,0 +1,253 @@
+#include "planet/chunk_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace planet {
+
+namespace {
+
+struct Limits {
+    std::int16_t minStep;
+    std::int16_t maxStep;
+    float deltaCM;
+};
+
+Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const ChunkId& id,
+                        const Limits& limits) {
+    const std::string name = toString(id);
+    if (data.id != id) return badInput(fmt::format("chunk {}: got chunk {}", name, toString(data.id)));
+    if (data.heights.size() != static_cast<std::size_t>(chunkVertexCount(shape))) {
+        return badInput(
+            fmt::format("chunk {}: {} heights, not {}", name, data.heights.size(), chunkVertexCount(shape)));
+    }
+    if (!(data.deltaCM >= 0 && data.deltaCM <= limits.deltaCM)) {
+        return badInput(
+            fmt::format("chunk {}: delta_c {} m is not within [0, {}]", name, data.deltaCM, limits.deltaCM));
+    }
+    if (data.minStep > data.maxStep || data.minStep < limits.minStep || data.maxStep > limits.maxStep) {
+        return badInput(fmt::format("chunk {}: steps from {} to {} are not within [{}, {}]", name,
+                                    data.minStep, data.maxStep, limits.minStep, limits.maxStep));
+    }
+    const auto [lowest, highest] = std::minmax_element(data.heights.begin(), data.heights.end());
+    if (*lowest < data.minStep || *highest > data.maxStep) {
+        return badInput(fmt::format("chunk {}: heights from step {} to {} are not within its [{}, {}]", name,
+                                    *lowest, *highest, data.minStep, data.maxStep));
+    }
+    if (id.level >= leafLevel(shape) && data.children.exists()) {
+        return badInput(fmt::format("chunk {}: children below the finest level", name));
+    }
+    return {};
+}
+
+ChunkNode makeNode(const PlanetShape& shape, ChunkData&& data, NodeIndex parent, std::uint32_t slot) {
+    ChunkNode node;
+    node.id = data.id;
+    node.deltaCM = data.deltaCM;
+    const double lowM = heightM(shape, data.minStep);
+    const double highM = heightM(shape, data.maxStep);
+    node.minHeightM = static_cast<float>(lowM);
+    node.maxHeightM = static_cast<float>(highM);
+    node.minStep = data.minStep;
+    node.maxStep = data.maxStep;
+    node.bounds = chunkBounds(data.id, shape.radiusM, lowM, highM);
+    node.parent = parent;
+    node.childrenState = data.children.exists() ? ChildrenState::Absent : ChildrenState::None;
+    node.children = data.children;
+    node.slot = slot;
+    node.heights = std::make_shared<const std::vector<std::int16_t>>(std::move(data.heights));
+    return node;
+}
+
+NodeIndex takeGroup(ChunkTree& tree) {
+    if (!tree.freeGroups.empty()) {
+        const NodeIndex first = tree.freeGroups.back();
+        tree.freeGroups.pop_back();
+        return first;
+    }
+    const auto first = static_cast<NodeIndex>(tree.nodes.size());
+    tree.nodes.resize(tree.nodes.size() + quadrantCount);
+    return first;
+}
+
+// Where a ray from the planet's centre meets a triangle's plane, and how far inside the triangle: the least
+// of the three barycentric coordinates there, negative outside.
+struct TriangleHit {
+    double radiusM = 0;
+    double inside = -std::numeric_limits<double>::infinity();
+};
+
+TriangleHit hitTriangle(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
+                        const glm::dvec3& c) {
+    // Relative to one corner, since the edges are far shorter than the planet's radius.
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const glm::dvec3 normal = glm::cross(ab, ac);
+    const double radiusM = glm::dot(normal, a) / glm::dot(normal, direction);
+    const glm::dvec3 at = radiusM * direction - a;
+    const double squared = glm::dot(normal, normal);
+    const double alongAb = glm::dot(glm::cross(at, ac), normal) / squared;
+    const double alongAc = glm::dot(glm::cross(ab, at), normal) / squared;
+    return {radiusM, std::min({alongAb, alongAc, 1 - alongAb - alongAc})};
+}
+
+// The better of a cell's two triangles; the diagonal runs from (west, south) to (east, north).
+TriangleHit hitCell(const PlanetShape& shape, const ChunkNode& node, int column, int row,
+                    const glm::dvec3& direction) {
+    const FaceSquare square = faceSquareOf(node.id);
+    const int cells = chunkCells(shape);
+    const auto vertex = [&](int i, int j) {
+        const double u = square.u + square.side * i / cells;
+        const double v = square.v + square.side * j / cells;
+        const auto at = static_cast<std::size_t>(j * (cells + 1) + i);
+        return positionM(shape, sphereFromCube(cubePoint(node.id.face, u, v)),
+                         heightM(shape, (*node.heights)[at]));
+    };
+    const glm::dvec3 southWest = vertex(column, row);
+    const glm::dvec3 northEast = vertex(column + 1, row + 1);
+    const TriangleHit south = hitTriangle(direction, southWest, vertex(column + 1, row), northEast);
+    const TriangleHit north = hitTriangle(direction, southWest, northEast, vertex(column, row + 1));
+    return south.inside >= north.inside ? south : north;
+}
+
+NodeIndex finestNodeAt(const ChunkTree& tree, const FacePoint& point) {
+    auto index = static_cast<NodeIndex>(point.face);
+    while (tree.nodes[index].childrenState == ChildrenState::Resident) {
+        const ChunkId child = chunkAt(point, tree.nodes[index].id.level + 1);
+        index = tree.nodes[index].firstChild + static_cast<NodeIndex>(quadrantOf(child));
+    }
+    return index;
+}
+
+}  // namespace
+
+Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
+                                std::array<ChunkData, faceCount>&& roots) {
+    const double lowestM = shape.radiusM + heightM(shape, minStep);
+    if (!(lowestM > 0)) {
+        return badInput(
+            fmt::format("the lowest height, {} m, lies below the centre of a planet of radius {} m",
+                        heightM(shape, minStep), shape.radiusM));
+    }
+    ChunkTree tree;
+    tree.shape = shape;
+    tree.minStep = minStep;
+    tree.maxStep = maxStep;
+    tree.occluderRadiusM = radiusInsideTriangles(lowestM, chunkCells(shape));
+    for (const Face face : allFaces) {
+        const auto index = static_cast<std::uint32_t>(face);
+        const ChunkId id{face, 0, 0, 0};
+        const Limits limits{minStep, maxStep, std::numeric_limits<float>::max()};
+        if (auto checked = checkChunk(shape, roots[index], id, limits); !checked) {
+            return tl::unexpected(std::move(checked.error()));
+        }
+        tree.nodes.push_back(makeNode(shape, std::move(roots[index]), noNode, index));
+    }
+    tree.residentChunks = faceCount;
+    return tree;
+}
+
+Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
+                           const std::array<ChunkData, quadrantCount>& children) {
+    const ChunkNode& above = tree.nodes[parent];
+    const Limits limits{above.minStep, above.maxStep, above.deltaCM};
+    for (int q = 0; q < quadrantCount; ++q) {
+        const ChunkData& data = children[static_cast<std::size_t>(q)];
+        if (auto checked = checkChunk(tree.shape, data, childOf(above.id, q), limits); !checked)
+            return checked;
+    }
+    return {};
+}
+
+NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
+                      const std::array<std::uint32_t, quadrantCount>& slots) {
+    assert(tree.nodes[parent].childrenState != ChildrenState::Resident);
+    const NodeIndex first = takeGroup(tree);
+    for (std::uint32_t q = 0; q < quadrantCount; ++q) {
+        assert(children[q].id == childOf(tree.nodes[parent].id, static_cast<int>(q)));
+        tree.nodes[first + q] = makeNode(tree.shape, std::move(children[q]), parent, slots[q]);
+    }
+    tree.nodes[parent].firstChild = first;
+    tree.nodes[parent].childrenState = ChildrenState::Resident;
+    tree.residentChunks += quadrantCount;
+    return first;
+}
+
+void removeChildren(ChunkTree& tree, NodeIndex parent) {
+    ChunkNode& above = tree.nodes[parent];
+    assert(above.childrenState == ChildrenState::Resident);
+    const NodeIndex first = above.firstChild;
+    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
+        assert(tree.nodes[child].childrenState != ChildrenState::Resident);
+        tree.nodes[child] = ChunkNode{};
+    }
+    tree.freeGroups.push_back(first);
+    above.firstChild = noNode;
+    above.childrenState = ChildrenState::Absent;
+    tree.residentChunks -= quadrantCount;
+}
+
+NodeIndex findNode(const ChunkTree& tree, const ChunkId& id) {
+    auto index = static_cast<NodeIndex>(id.face);
+    for (int level = 1; level <= id.level; ++level) {
+        const ChunkNode& node = tree.nodes[index];
+        if (node.childrenState != ChildrenState::Resident) return noNode;
+        const int below = id.level - level;
+        index = node.firstChild + ((id.x >> below) & 1) + 2 * ((id.y >> below) & 1);
+    }
+    return index;
+}
+
+void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, const ChunkNode&)>& visit) {
+    std::vector<NodeIndex> open = {0, 1, 2, 3, 4, 5};
+    while (!open.empty()) {
+        const NodeIndex index = open.back();
+        open.pop_back();
+        const ChunkNode& node = tree.nodes[index];
+        visit(index, node);
+        if (node.childrenState != ChildrenState::Resident) continue;
+        for (NodeIndex q = 0; q < quadrantCount; ++q) open.push_back(node.firstChild + q);
+    }
+}
+
+double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
+    const glm::dvec3 unit = glm::normalize(direction);
+    const FacePoint point = facePointFromDirection(unit);
+    const ChunkNode& node = tree.nodes[finestNodeAt(tree, point)];
+    const FaceSquare square = faceSquareOf(node.id);
+    const int cells = chunkCells(tree.shape);
+    const auto cellOf = [&](double t, double from) {
+        return std::clamp(static_cast<int>(std::floor((t - from) / square.side * cells)), 0, cells - 1);
+    };
+    const int column = cellOf(point.u, square.u);
+    const int row = cellOf(point.v, square.v);
+    TriangleHit best = hitCell(tree.shape, node, column, row, unit);
+    if (best.inside >= 0) return best.radiusM - tree.shape.radiusM;
+    // The edges of triangles are straight in space but not in (u, v), so a ray close to a cell's edge may
+    // meet the cell beside it.
+    for (int j = std::max(0, row - 1); j <= std::min(cells - 1, row + 1); ++j) {
+        for (int i = std::max(0, column - 1); i <= std::min(cells - 1, column + 1); ++i) {
+            const TriangleHit hit = hitCell(tree.shape, node, i, j, unit);
+            if (hit.inside > best.inside) best = hit;
+        }
+    }
+    return best.radiusM - tree.shape.radiusM;
+}
+
+std::size_t chunkBytesCpu(const PlanetShape& shape) {
+    // The heights' vector and the counts of those who share it lie in one allocation beside them.
+    constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
+    return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
+           sharing;
+}
+
+std::size_t chunkBytesGpu(const PlanetShape& shape) {
+    return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t);
+}
+
+}  // namespace planet

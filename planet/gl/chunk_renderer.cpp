@@ -1,0 +1,386 @@
+#include "planet/gl/chunk_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "planet/gl/chunk_grid.h"
+#include "planet/gl/colour_image.h"
+#include "planet/gl/frame_uniforms.h"
+#include "planet/gl/gl_objects.h"
+#include "planet/gl/gpu_timer.h"
+#include "planet/gl/height_pool.h"
+#include "planet/gl/shader_source.h"
+
+namespace planet::gl {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> chunkVertexFiles = {"frame.glsl", "vertex_position.glsl",
+                                                              "chunk.vert"};
+constexpr std::array<std::string_view, 3> chunkFragmentFiles = {"frame.glsl", "atmosphere.glsl",
+                                                                "chunk.frag"};
+constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
+constexpr std::array<std::string_view, 3> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "sky.frag"};
+
+constexpr GLuint frameBinding = 0;
+constexpr GLint heightUnit = 0;
+constexpr GLint imageUnit = 1;
+constexpr std::uint8_t tintStrength = 200;  // of ColourBy over a lit surface, out of 255
+
+// One drawn chunk, as shaders/chunk.vert reads it.
+struct Instance {
+    std::uint32_t faceAndLevel = 0;  // face + 8 level
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t slotCorner = 0;  // x + 65536 y, texels in the page
+    std::uint32_t page = 0;
+    float skirtDepthM = 0;
+    std::array<std::uint8_t, 4> tint{};  // sRGB and strength
+};
+static_assert(sizeof(Instance) == 28);
+
+struct Programs {
+    Program chunk, sky;
+};
+
+void connect(const Program& program) {
+    const GLuint block = glGetUniformBlockIndex(program.name(), "Frame");
+    if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, frameBinding);
+    glUseProgram(program.name());
+    glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
+    glUseProgram(0);
+}
+
+Result<Programs> buildPrograms(const std::filesystem::path& folder) {
+    Result<Program> chunk = linkProgram(folder, chunkVertexFiles, chunkFragmentFiles);
+    if (!chunk) return tl::unexpected(chunk.error());
+    Result<Program> sky = linkProgram(folder, skyVertexFiles, skyFragmentFiles);
+    if (!sky) return tl::unexpected(sky.error());
+    connect(*chunk);
+    connect(*sky);
+    return Programs{std::move(*chunk), std::move(*sky)};
+}
+
+Result<void> checkContext() {
+    const int version = epoxy_gl_version();
+    if (version >= 33) return {};
+    return badInput(fmt::format("OpenGL 3.3 is needed; the context has {}.{}", version / 10, version % 10));
+}
+
+RenderCapabilities findCapabilities() {
+    RenderCapabilities capabilities;
+    capabilities.reversedZ = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
+    GLint samples = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &samples);
+    capabilities.samples = std::max(samples, 1);
+    return capabilities;
+}
+
+bool boundDepthIsFloat() {
+    GLint framebuffer = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    const GLenum attachment = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
+    GLint kind = GL_NONE;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                          GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+    if (kind == GL_NONE) return false;
+    GLint type = GL_NONE;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                          GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
+    return type == GL_FLOAT;
+}
+
+std::array<std::uint8_t, 4> tintOf(const DrawItem& item, const RenderSettings& settings) {
+    if (settings.colourBy == ColourBy::None) return {};
+    const glm::vec3 colour = settings.colourBy == ColourBy::Level
+                                 ? levelColour(item.id.level)
+                                 : errorColour(static_cast<double>(item.epsPx) / settings.tauPx);
+    const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(value * 255)); };
+    return {byte(colour.x), byte(colour.y), byte(colour.z),
+            settings.lighting ? tintStrength : std::uint8_t{255}};
+}
+
+const void* byteOffset(std::size_t offset) {
+    return reinterpret_cast<const void*>(offset);
+}
+
+}  // namespace
+
+struct ChunkRenderer::State {
+    RendererConfig config;
+    RenderCapabilities capabilities;
+    RenderCounters counters;
+    Projection projection;
+    HeightPool pool;
+    std::vector<std::int16_t> highestSteps;  // of each slot
+    Programs programs;
+    Program capture;  // made when first asked for
+    VertexArray chunkArray, skyArray;
+    Buffer gridVertices, gridIndices, instances, frame;
+    std::size_t gridBytes = 0;
+    std::size_t instanceBytes = 0;  // allocated
+    std::vector<Instance> instanceData;
+    GLsizei gridIndexCount = 0;
+    GLsizei allIndexCount = 0;
+    ColourImage image;
+    GpuTimer timer;
+
+    State(const RendererConfig& from, HeightPool heightPool, Programs built);
+    void makeGrid();
+    void describeVertices();
+    Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
+    void fillInstances(std::span<const DrawItem> items, const RenderSettings& settings);
+    void fillFrame(const View& view, const RenderSettings& settings);
+    void bindInputs() const;
+    void beginDepth() const;
+    void endDepth() const;
+    void drawChunks(const RenderSettings& settings);
+    void drawSky() const;
+};
+
+ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, Programs built)
+    : config(from),
+      capabilities(findCapabilities()),
+      pool(std::move(heightPool)),
+      highestSteps(from.slotCapacity, std::numeric_limits<std::int16_t>::min()),
+      programs(std::move(built)),
+      chunkArray(makeVertexArray()),
+      skyArray(makeVertexArray()),
+      gridVertices(makeBuffer()),
+      gridIndices(makeBuffer()),
+      instances(makeBuffer()),
+      frame(makeBuffer()) {
+    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
+    makeGrid();
+}
+
+void ChunkRenderer::State::makeGrid() {
+    const ChunkGrid grid = chunkGrid(chunkCells(config.shape));
+    gridIndexCount = static_cast<GLsizei>(grid.gridIndexCount);
+    allIndexCount = static_cast<GLsizei>(grid.indices.size());
+    const std::size_t vertexBytes = grid.vertices.size() * sizeof(GridVertex);
+    const std::size_t indexBytes = grid.indices.size() * sizeof(std::uint16_t);
+    gridBytes = vertexBytes + indexBytes;
+
+    glBindVertexArray(chunkArray.name());
+    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertexBytes), grid.vertices.data(), GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gridIndices.name());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indexBytes), grid.indices.data(),
+                 GL_STATIC_DRAW);
+    describeVertices();
+    glBindVertexArray(0);
+}
+
+void ChunkRenderer::State::describeVertices() {
+    constexpr GLsizei stride = sizeof(Instance);
+    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
+    glVertexAttribIPointer(0, 4, GL_UNSIGNED_BYTE, sizeof(GridVertex), nullptr);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
+    glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, faceAndLevel)));
+    glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, page)));
+    glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, skirtDepthM)));
+    glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(Instance, tint)));
+    for (GLuint attribute = 0; attribute <= 4; ++attribute) glEnableVertexAttribArray(attribute);
+    for (GLuint attribute = 1; attribute <= 4; ++attribute) glVertexAttribDivisor(attribute, 1);
+}
+
+Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<const DrawItem> items) const {
+    const double scale = std::min(config.shape.radiusM / 6.371e6, 1.0);
+    if (capabilities.reversedZ && boundDepthIsFloat()) return reversedProjection(view, 0.1 * scale);
+    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+    for (const DrawItem& item : items) highest = std::max(highest, highestSteps[item.slot]);
+    const double eyeRadiusM = glm::length(view.eyeM);
+    const double topM = config.shape.radiusM + heightM(config.shape, highest);
+    const double nearM = std::max(0.3 * (eyeRadiusM - topM), 2 * scale);
+    return classicProjection(view, nearM, std::max(eyeRadiusM + topM, 10 * nearM));
+}
+
+void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, const RenderSettings& settings) {
+    instanceData.clear();
+    for (const DrawItem& item : items) {
+        assert(item.slot < pool.slotCapacity());
+        const SlotPlace place = placeOf(pool.layout(), item.slot);
+        instanceData.push_back(
+            {static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level, item.id.x, item.id.y,
+             static_cast<std::uint32_t>(place.x) + 65536u * static_cast<std::uint32_t>(place.y),
+             static_cast<std::uint32_t>(place.page), item.skirtDepthM, tintOf(item, settings)});
+    }
+    // A new store each frame, so that the GPU may still read the last one's.
+    const std::size_t needed = instanceData.size() * sizeof(Instance);
+    while (instanceBytes < needed) instanceBytes = std::max<std::size_t>(2 * instanceBytes, 4096);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instanceBytes), nullptr, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(needed), instanceData.data());
+}
+
+void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
+    const FrameUniforms uniforms = frameUniforms(config.shape, view, projection, settings, image);
+    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
+}
+
+void ChunkRenderer::State::bindInputs() const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
+    glActiveTexture(GL_TEXTURE0 + imageUnit);
+    glBindTexture(GL_TEXTURE_2D, image.texture());
+    glActiveTexture(GL_TEXTURE0 + heightUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, pool.texture());
+}
+
+void ChunkRenderer::State::beginDepth() const {
+    if (projection.reversedZ) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(projection.reversedZ ? GL_GEQUAL : GL_LEQUAL);
+    glClearDepth(projection.reversedZ ? 0 : 1);
+}
+
+void ChunkRenderer::State::endDepth() const {
+    if (projection.reversedZ) glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glClearDepth(1);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void ChunkRenderer::State::drawChunks(const RenderSettings& settings) {
+    const GLsizei indexCount = settings.skirts ? allIndexCount : gridIndexCount;
+    const auto chunks = static_cast<GLsizei>(instanceData.size());
+    glEnable(GL_CULL_FACE);
+    glUseProgram(programs.chunk.name());
+    glBindVertexArray(chunkArray.name());
+    if (chunks > 0) glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT, nullptr, chunks);
+    glDisable(GL_CULL_FACE);
+    counters.chunks = static_cast<std::uint32_t>(chunks);
+    counters.triangles = static_cast<std::uint64_t>(indexCount / 3) * static_cast<std::uint64_t>(chunks);
+}
+
+// Behind everything, so that only pixels without a chunk are shaded.
+void ChunkRenderer::State::drawSky() const {
+    glDepthMask(GL_FALSE);
+    glUseProgram(programs.sky.name());
+    glBindVertexArray(skyArray.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+}
+
+Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
+    if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
+    Result<HeightPool> pool = HeightPool::create(config.slotCapacity, chunkSize(config.shape));
+    if (!pool) return tl::unexpected(pool.error());
+    Result<Programs> programs = buildPrograms(config.shaderFolder);
+    if (!programs) return tl::unexpected(programs.error());
+    return ChunkRenderer(std::make_unique<State>(config, std::move(*pool), std::move(*programs)));
+}
+
+ChunkRenderer::ChunkRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ChunkRenderer::ChunkRenderer(ChunkRenderer&&) noexcept = default;
+ChunkRenderer& ChunkRenderer::operator=(ChunkRenderer&&) noexcept = default;
+ChunkRenderer::~ChunkRenderer() = default;
+
+void ChunkRenderer::upload(std::uint32_t slot, std::span<const std::int16_t> heights) {
+    state_->pool.upload(slot, heights);
+    state_->highestSteps[slot] = *std::max_element(heights.begin(), heights.end());
+}
+
+void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
+    state_->image = ColourImage(rgb, width, height);
+}
+
+Result<void> ChunkRenderer::reloadShaders() {
+    Result<Programs> programs = buildPrograms(state_->config.shaderFolder);
+    if (!programs) return tl::unexpected(programs.error());
+    state_->programs = std::move(*programs);
+    state_->capture = Program();
+    return {};
+}
+
+void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings) {
+    State& state = *state_;
+    state.timer.begin();
+    state.projection = state.chooseProjection(view, items);
+    state.fillInstances(items, settings);
+    state.fillFrame(view, settings);
+    state.bindInputs();
+
+    glViewport(0, 0, view.widthPx, view.heightPx);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
+    glClearColor(0, 0, 0, 1);
+    state.beginDepth();
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    state.drawChunks(settings);
+    state.drawSky();
+    state.endDepth();
+    glBindVertexArray(0);
+    glUseProgram(0);
+
+    state.timer.end();
+    state.counters.drawMs = state.timer.lastMs();
+}
+
+Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& view,
+                                                                  std::span<const DrawItem> items,
+                                                                  const RenderSettings& settings) {
+    State& state = *state_;
+    if (state.capture.name() == 0) {
+        const std::array<const char*, 1> captured = {"surface"};
+        Result<Program> program =
+            linkProgram(state.config.shaderFolder, chunkVertexFiles, chunkFragmentFiles, captured);
+        if (!program) return tl::unexpected(program.error());
+        connect(*program);
+        state.capture = std::move(*program);
+    }
+    state.fillInstances(items, settings);
+    state.fillFrame(view, settings);
+    state.bindInputs();
+
+    const int perChunk = chunkVertexCount(state.config.shape);
+    std::vector<glm::vec4> surface(items.size() * static_cast<std::size_t>(perChunk));
+    const auto bytes = static_cast<GLsizeiptr>(surface.size() * sizeof(glm::vec4));
+    const Buffer out = makeBuffer();
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, out.name());
+    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ);
+    glUseProgram(state.capture.name());
+    glBindVertexArray(state.chunkArray.name());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArraysInstanced(GL_POINTS, 0, perChunk, static_cast<GLsizei>(items.size()));
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, surface.data());
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    return std::vector<glm::vec3>(surface.begin(), surface.end());
+}
+
+const Projection& ChunkRenderer::projection() const {
+    return state_->projection;
+}
+
+const RenderCounters& ChunkRenderer::counters() const {
+    return state_->counters;
+}
+
+const RenderCapabilities& ChunkRenderer::capabilities() const {
+    return state_->capabilities;
+}
+
+std::size_t ChunkRenderer::gpuBytes() const {
+    return state_->pool.layout().bytes() + state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) +
+           state_->image.bytes();
+}
+
+}  // namespace planet::gl

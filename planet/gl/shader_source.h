@@ -1,0 +1,26 @@
+// Where shaders come from, and how they become programs. Wants a current context; one thread.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "planet/gl/gl_objects.h"
+#include "planet/result.h"
+
+namespace planet::gl {
+
+// The text of a file of shaders/ as it was built in; empty where there is none of that name.
+std::string_view embeddedShader(std::string_view name);
+
+// A shader is put together from files in the order given; the version line is added in front.
+using ShaderFiles = std::span<const std::string_view>;
+
+// Links a program from the built-in files, or from those in the folder where one is named. Outputs named in
+// captured are recorded by transform feedback, interleaved. The Error names the files and has the
+// compiler's own words.
+Result<Program> linkProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
+                            ShaderFiles fragmentFiles, std::span<const char* const> captured = {});
+
+}  // namespace planet::gl

@@ -1,0 +1,205 @@
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cassert>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+#include "planet/height_raster.h"
+
+namespace planet {
+
+namespace {
+
+using ReaderPtr = std::unique_ptr<OIIO::ImageInput>;
+
+constexpr int maxSide = 1 << 22;                   // samples
+constexpr std::size_t maxTileSamples = 64u << 20;  // a larger tile could not be read in bounded memory
+
+OIIO::TypeDesc readAs(SampleType type) {
+    switch (type) {
+        case SampleType::Uint8:
+            return OIIO::TypeDesc::UINT8;
+        case SampleType::Int8:
+            return OIIO::TypeDesc::INT8;
+        case SampleType::Uint16:
+            return OIIO::TypeDesc::UINT16;
+        case SampleType::Int16:
+            return OIIO::TypeDesc::INT16;
+        case SampleType::Uint32:
+            return OIIO::TypeDesc::UINT32;
+        case SampleType::Int32:
+            return OIIO::TypeDesc::INT32;
+        case SampleType::Float:
+            return OIIO::TypeDesc::FLOAT;
+        case SampleType::Double:
+            return OIIO::TypeDesc::DOUBLE;
+    }
+    assert(false);
+    return OIIO::TypeDesc::UNKNOWN;
+}
+
+std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& format) {
+    switch (format.basetype) {
+        case OIIO::TypeDesc::UINT8:
+            return SampleType::Uint8;
+        case OIIO::TypeDesc::INT8:
+            return SampleType::Int8;
+        case OIIO::TypeDesc::UINT16:
+            return SampleType::Uint16;
+        case OIIO::TypeDesc::INT16:
+            return SampleType::Int16;
+        case OIIO::TypeDesc::UINT32:
+            return SampleType::Uint32;
+        case OIIO::TypeDesc::INT32:
+            return SampleType::Int32;
+        case OIIO::TypeDesc::HALF:  // exact as floats, and no integers, so not normalised
+        case OIIO::TypeDesc::FLOAT:
+            return SampleType::Float;
+        case OIIO::TypeDesc::DOUBLE:
+            return SampleType::Double;
+        default:
+            return std::nullopt;
+    }
+}
+
+// A reader decodes on the thread that asks: the bake has threads of its own.
+ReaderPtr openReader(const std::filesystem::path& path) {
+    ReaderPtr reader = OIIO::ImageInput::open(path.string());
+    if (reader) reader->threads(1);
+    return reader;
+}
+
+std::string channelNames(const OIIO::ImageSpec& spec) {
+    std::string names;
+    for (const std::string& name : spec.channelnames) {
+        if (!names.empty()) names += ", ";
+        names += name;
+    }
+    return names;
+}
+
+Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+    const std::string file = path.string();
+    if (spec.nchannels != 1) {
+        return badInput(fmt::format("{}: expected one grey channel, found {} ({})", file, spec.nchannels,
+                                    channelNames(spec)));
+    }
+    if (spec.deep || spec.depth > 1) {
+        return badInput(fmt::format("{}: expected a flat image, found a deep or volume image", file));
+    }
+    if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
+        return badInput(fmt::format("{}: is {} x {} samples; each side must be 1 to {}", file, spec.width,
+                                    spec.height, maxSide));
+    }
+    const std::optional<SampleType> type = sampleTypeOf(spec.format);
+    if (!type) {
+        return badInput(
+            fmt::format("{}: has samples of type {}; 8, 16 or 32 bit integers, half, float or "
+                        "double would be right",
+                        file, spec.format.c_str()));
+    }
+    const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", 0);
+    const int readBits = static_cast<int>(spec.format.size()) * 8;
+    if (storedBits != 0 && storedBits != readBits) {
+        // They come scaled to the next whole type, so the file's own values are lost.
+        return badInput(
+            fmt::format("{}: has {} bits a sample; 8, 16 or 32 would be right", file, storedBits));
+    }
+    if (spec.tile_width > 0 && spec.tile_pixels() > maxTileSamples) {
+        return badInput(fmt::format("{}: has tiles of {} x {} samples; {} samples a tile are the most", file,
+                                    spec.tile_width, spec.tile_height, maxTileSamples));
+    }
+    return ImageLayout{spec.width,      spec.height,      spec.x, spec.y,
+                       spec.tile_width, spec.tile_height, *type,  spec.format.c_str()};
+}
+
+Result<void> checkIsFile(const std::filesystem::path& path) {
+    std::error_code problem;
+    const std::filesystem::file_status status = std::filesystem::status(path, problem);
+    if (!std::filesystem::exists(status)) {
+        return ioError(fmt::format("{}: there is no such file", path.string()));
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        return badInput(fmt::format("{}: is not a file", path.string()));
+    }
+    const std::uintmax_t length = std::filesystem::file_size(path, problem);
+    if (problem) return ioError(fmt::format("{}: {}", path.string(), problem.message()));
+    if (length == 0) return badInput(fmt::format("{}: is empty (0 bytes)", path.string()));
+    return {};
+}
+
+}  // namespace
+
+// Readers that nobody uses just now; one more is opened where none is left.
+struct ImageFile::Readers {
+    std::mutex mutex;
+    std::vector<ReaderPtr> idle;
+
+    ReaderPtr borrow(const std::filesystem::path& path) {
+        {
+            const std::lock_guard lock(mutex);
+            if (!idle.empty()) {
+                ReaderPtr reader = std::move(idle.back());
+                idle.pop_back();
+                return reader;
+            }
+        }
+        return openReader(path);
+    }
+    void giveBack(ReaderPtr reader) {
+        const std::lock_guard lock(mutex);
+        idle.push_back(std::move(reader));
+    }
+};
+
+ImageFile::ImageFile(std::filesystem::path path, ImageLayout layout, std::unique_ptr<Readers> readers)
+    : path_(std::move(path)), layout_(std::move(layout)), readers_(std::move(readers)) {}
+
+ImageFile::~ImageFile() = default;
+
+Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& path) {
+    if (Result<void> check = checkIsFile(path); !check) return tl::unexpected(std::move(check.error()));
+    ReaderPtr reader = openReader(path);
+    if (!reader) {
+        return badInput(fmt::format("{}: cannot be read as an image: {}", path.string(), OIIO::geterror()));
+    }
+    Result<ImageLayout> layout = layoutOf(path, reader->spec());
+    if (!layout) return tl::unexpected(std::move(layout.error()));
+    auto readers = std::make_unique<Readers>();
+    readers->giveBack(std::move(reader));
+    return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(*layout), std::move(readers)));
+}
+
+Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
+    assert(native.size() == bytesOf(layout_.type) * static_cast<std::size_t>(layout_.tileWidth) *
+                                static_cast<std::size_t>(layout_.tileHeight));
+    ReaderPtr reader = readers_->borrow(path_);
+    if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
+    const int tileX = layout_.originX + x / layout_.tileWidth * layout_.tileWidth;
+    const int tileY = layout_.originY + y / layout_.tileHeight * layout_.tileHeight;
+    if (!reader->read_tile(tileX, tileY, 0, readAs(layout_.type), native.data())) {
+        return ioError(fmt::format("{}: the tile at ({}, {}) cannot be read: {}", path_.string(), tileX,
+                                   tileY, reader->geterror()));
+    }
+    readers_->giveBack(std::move(reader));
+    return {};
+}
+
+Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> native) {
+    assert(native.size() ==
+           bytesOf(layout_.type) * static_cast<std::size_t>(layout_.width) * static_cast<std::size_t>(count));
+    ReaderPtr reader = readers_->borrow(path_);
+    if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
+    const int begin = layout_.originY + firstRow;
+    if (!reader->read_scanlines(0, 0, begin, begin + count, 0, 0, 1, readAs(layout_.type), native.data())) {
+        return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,
+                                   firstRow + count - 1, reader->geterror()));
+    }
+    readers_->giveBack(std::move(reader));
+    return {};
+}
+
+}  // namespace planet

@@ -1,0 +1,113 @@
+#include "planet/height_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "planet/height_source_kinds.h"
+#include "planet/planet_shape.h"
+
+namespace planet {
+
+namespace {
+
+constexpr double mostM = 1e9;  // heights and steps beyond this make no planet
+
+Result<void> checkSettings(const HeightSourceSettings& settings) {
+    // Written so that NaN fails too.
+    if (!(std::abs(settings.metresPerUnit) > 0 && std::abs(settings.metresPerUnit) <= mostM)) {
+        return badInput(fmt::format("metresPerUnit is {}; it must not be 0, and be within +-{}",
+                                    settings.metresPerUnit, mostM));
+    }
+    if (!(std::abs(settings.offsetM) <= mostM)) {
+        return badInput(fmt::format("offsetM is {}; it must be within +-{}", settings.offsetM, mostM));
+    }
+    if (!(std::abs(settings.fillM) <= mostM)) {
+        return badInput(fmt::format("fillM is {}; it must be within +-{}", settings.fillM, mostM));
+    }
+    if (settings.rawBits && *settings.rawBits != 8 && *settings.rawBits != 16) {
+        return badInput(fmt::format("rawBits is {}; 8 or 16 would be right", *settings.rawBits));
+    }
+    if (settings.rawSize && *settings.rawSize < 2) {
+        return badInput(
+            fmt::format("rawSize is {}; a face has at least 2 samples a side", *settings.rawSize));
+    }
+    return {};
+}
+
+template <class T>
+HeightStatistics rangeOf(const HeightConversion& conversion) {
+    const auto heightOf = [&](T value) {
+        return static_cast<float>(conversion.offsetM + conversion.metresPerUnit * static_cast<double>(value));
+    };
+    const auto [low, high] =
+        std::minmax({heightOf(std::numeric_limits<T>::min()), heightOf(std::numeric_limits<T>::max())});
+    return {low, high, 0};
+}
+
+}  // namespace
+
+HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type) {
+    HeightConversion conversion;
+    conversion.type = type;
+    conversion.metresPerUnit = settings.metresPerUnit;
+    conversion.offsetM = settings.offsetM;
+    conversion.noDataValue = settings.noDataValue;
+    conversion.fillM = static_cast<float>(settings.fillM);
+    return conversion;
+}
+
+bool needsScan(const HeightConversion& conversion) {
+    return bytesOf(conversion.type) > 2 || conversion.noDataValue.has_value();
+}
+
+HeightStatistics typeRange(const HeightConversion& conversion) {
+    switch (conversion.type) {
+        case SampleType::Uint8:
+            return rangeOf<std::uint8_t>(conversion);
+        case SampleType::Int8:
+            return rangeOf<std::int8_t>(conversion);
+        case SampleType::Uint16:
+            return rangeOf<std::uint16_t>(conversion);
+        case SampleType::Int16:
+            return rangeOf<std::int16_t>(conversion);
+        default:
+            return {};
+    }
+}
+
+void describeHeights(HeightSource& source, const HeightConversion& conversion,
+                     const HeightStatistics& statistics) {
+    const bool isFloat = conversion.type == SampleType::Float || conversion.type == SampleType::Double;
+    source.stepM = isFloat ? 0 : std::abs(conversion.metresPerUnit);
+    source.minM = statistics.minM;
+    source.maxM = statistics.maxM;
+    source.missingCount = statistics.missingCount;
+}
+
+int powerOfTwoCells(double count) {
+    int log2 = 0;
+    while (log2 < maxFaceCellsLog2 && std::ldexp(1.0, log2) < count) ++log2;
+    return 1 << log2;
+}
+
+Result<HeightSource> openHeightSource(const std::filesystem::path& path,
+                                      const HeightSourceSettings& settings) {
+    if (Result<void> check = checkSettings(settings); !check) {
+        return tl::unexpected(std::move(check.error()));
+    }
+    if (const std::optional<FaceFiles> faces = findFaceFiles(path)) return openFaceSource(*faces, settings);
+    std::error_code problem;
+    if (!std::filesystem::exists(path, problem)) {
+        return ioError(fmt::format("{}: there is no such file, and no cube faces named {}_x_pos.raw or alike",
+                                   path.string(), path.string()));
+    }
+    return openEquirectangularSource(path, settings);
+}
+
+}  // namespace planet

@@ -1,0 +1,49 @@
+// The kinds of height source behind openHeightSource, and what they share. Internal to the library.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "planet/cube_sphere.h"
+#include "planet/height_raster.h"
+#include "planet/height_source.h"
+#include "planet/result.h"
+
+namespace planet {
+
+// The image must be about twice as wide as high.
+Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
+                                               const HeightSourceSettings& settings);
+
+// Six files named [name][size]_[face].[ext], in the order of allFaces; some may be missing.
+struct FaceFiles {
+    std::string stem;               // "earth4097"
+    std::string extension;          // ".raw"
+    std::optional<int> sizeInName;  // 4097: the digits that the stem ends in
+    std::array<std::filesystem::path, faceCount> paths;
+};
+
+// The six faces that a path names one of, or names the common stem of; none where it does neither.
+std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path);
+
+Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings);
+
+// What the kinds share.
+HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type);
+
+// True where minM, maxM and missingCount are only known after looking at every sample.
+bool needsScan(const HeightConversion& conversion);
+
+// The heights that an 8 or 16 bit type can give.
+HeightStatistics typeRange(const HeightConversion& conversion);
+
+// Sets stepM, minM, maxM and missingCount.
+void describeHeights(HeightSource& source, const HeightConversion& conversion,
+                     const HeightStatistics& statistics);
+
+// The smallest 2^n with 2^n >= count, up to 2^maxFaceCellsLog2.
+int powerOfTwoCells(double count);
+
+}  // namespace planet

@@ -1,0 +1,91 @@
+// What is to be loaded and dropped next, in order of urgency (paging queues after Zhu, MSV 2004).
+//
+// A request is about the sibling block under a chunk: page it in or page it out. At most one is pending for a
+// block. Asking for the same again only raises its priority; asking for the opposite cancels both, since the
+// block is then to stay as it is. Not safe for several threads at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+#include "planet/chunk_tree.h"
+
+namespace planet {
+
+enum class PagingType : std::uint8_t { PageIn, PageOut };
+inline constexpr int pagingTypeCount = 2;
+
+struct PagingRequest {
+    ChunkId parent;  // whose children are meant
+    PagingType type = PagingType::PageIn;
+    double priority = 0;             // larger first; ties in order of parent. Not NaN
+    std::uint64_t renewedFrame = 0;  // last frame it was asked for
+
+    // A page-in only: what a loader needs, and the slots the block will take.
+    BlockLocation location;
+    SharedHeights parentHeights;
+    std::array<std::uint32_t, quadrantCount> slots{};
+};
+
+// Totals, of both types together unless said otherwise.
+struct PagingQueueCounters {
+    std::array<std::uint64_t, pagingTypeCount> added{};   // by type
+    std::array<std::uint64_t, pagingTypeCount> popped{};  // by type
+    std::uint64_t merged = 0;                             // asked for again while pending
+    std::uint64_t opposed = 0;                            // cancelled by the opposite request
+    std::uint64_t withdrawn = 0;                          // cancelled by cancel() or for not being renewed
+};
+
+enum class SubmitOutcome {
+    Added,
+    Merged,   // was pending: renewed, and raised if the new priority is higher
+    Opposed,  // the opposite was pending: that is gone, and this was not added
+};
+
+class PagingQueue {
+public:
+    SubmitOutcome submit(PagingRequest request);
+
+    // The request with the highest or lowest priority of a type; null if there is none. Valid until the next
+    // change.
+    const PagingRequest* best(PagingType type) const;
+    const PagingRequest* worst(PagingType type) const;
+    // The pending request about a chunk's children, of whatever type.
+    const PagingRequest* find(const ChunkId& parent) const;
+
+    std::optional<PagingRequest> popBest(PagingType type);
+    // Takes a request out unserved.
+    std::optional<PagingRequest> cancel(ChunkId parent);
+    // Takes out all of a type that were last asked for before a frame.
+    std::vector<PagingRequest> cancelNotRenewed(PagingType type, std::uint64_t sinceFrame);
+
+    std::size_t count(PagingType type) const { return order(type).size(); }
+    // A copy for display, best first.
+    std::vector<PagingRequest> sorted(PagingType type) const;
+    const PagingQueueCounters& counters() const { return counters_; }
+
+private:
+    struct Place {
+        double priority;
+        ChunkId parent;
+        bool operator<(const Place& other) const {
+            return priority != other.priority ? priority > other.priority : parent < other.parent;
+        }
+    };
+    using Order = std::set<Place>;
+
+    const Order& order(PagingType type) const { return orders_[static_cast<std::size_t>(type)]; }
+    Order& order(PagingType type) { return orders_[static_cast<std::size_t>(type)]; }
+    PagingRequest take(ChunkId parent);
+
+    std::unordered_map<ChunkId, PagingRequest> pending_;
+    std::array<Order, pagingTypeCount> orders_;
+    PagingQueueCounters counters_;
+};
+
+}  // namespace planet

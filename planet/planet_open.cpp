@@ -1,0 +1,51 @@
+// Opening a planet from a chunk file: all that the run time needs of the file itself.
+#include "planet/planet.h"
+
+namespace planet {
+
+namespace {
+
+Result<std::array<ChunkData, faceCount>> readRoots(const ChunkFile& file) {
+    std::array<ChunkData, faceCount> roots;
+    for (const Face face : allFaces) {
+        Result<ChunkData> root = file.readRoot(face);
+        if (!root) return tl::unexpected(std::move(root.error()));
+        roots[static_cast<std::size_t>(face)] = std::move(*root);
+    }
+    return roots;
+}
+
+}  // namespace
+
+Result<ChunkTree> makeChunkTree(const ChunkFile& file) {
+    auto roots = readRoots(file);
+    if (!roots) return tl::unexpected(std::move(roots.error()));
+    const ChunkFileInfo& info = file.info();
+    return makeChunkTree(info.shape, info.minStep, info.maxStep, std::move(*roots));
+}
+
+Result<std::unique_ptr<Planet>> Planet::open(const std::filesystem::path& path,
+                                             const PagingSettings& settings) {
+    Result<ChunkFile> file = ChunkFile::open(path);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    return open(std::move(*file), settings);
+}
+
+Result<std::unique_ptr<Planet>> Planet::open(ChunkFile file, const PagingSettings& settings) {
+    const auto shared = std::make_shared<const ChunkFile>(std::move(file));
+    auto roots = readRoots(*shared);
+    if (!roots) return tl::unexpected(std::move(roots.error()));
+    PlanetSource source;
+    source.shape = shared->info().shape;
+    source.minStep = shared->info().minStep;
+    source.maxStep = shared->info().maxStep;
+    source.roots = std::move(*roots);
+    source.loadChildren = [shared](const ChunkId& parent, BlockLocation location,
+                                   std::span<const std::int16_t> parentHeights) {
+        return shared->readChildren(parent, location, parentHeights);
+    };
+    source.file = shared;
+    return open(std::move(source), settings);
+}
+
+}  // namespace planet

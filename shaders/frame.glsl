@@ -1,0 +1,39 @@
+// What every shader is told once a frame. Metres and world axes; positions are relative to the eye.
+
+struct FaceFrame {
+    ivec4 grid;        // xy: the reference point on the fine grid
+    vec4 coordinates;  // xy: the same as cube coordinates u0, v0
+    vec4 roots;        // xyz: square roots of Nowell's map there: along normal, u and v
+    vec4 direction;    // xyz: d0
+    vec4 origin;       // xyz: reference point - eye
+    vec4 cubeOrigin;   // xyz: the same on the cube that is not blown up
+    vec4 normal;       // the face's axes
+    vec4 u;
+    vec4 v;
+};
+
+layout(std140) uniform Frame {
+    FaceFrame faces[6];
+    mat4 clipFromWorld;  // without the translation
+    vec4 eye;            // xyz: from the planet's centre
+    vec4 sun;            // xyz: unit
+    vec4 rayForward;     // a pixel's ray: forward + x right + y up, with x and y in [-1, 1]
+    vec4 rayRight;
+    vec4 rayUp;
+    vec4 planet;      // radius; quantum; reference radius; half side of the cube
+    vec4 heights;     // height of step 0; 1 / the top of the ramp; relief boost of the lighting; longest
+                         // footprint over shortest in the image
+    vec4 atmosphere;  // radius / scale height; 1 / scale height; 1 where drawn; unused
+    vec4 screen;      // angle of a pixel, radians; depth of the sky in clip space; unused
+    ivec4 grid;       // reference step; log2 of cells a chunk side; unused
+    ivec4 switches;   // bits, see below; unused
+};
+
+const int switchLighting = 1;
+const int switchWireframe = 2;
+const int switchCube = 4;
+const int switchImage = 8;
+
+bool isOn(int bit) {
+    return (switches.x & bit) != 0;
+}

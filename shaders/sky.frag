@@ -1,0 +1,54 @@
+// What lies behind the planet: stars, and the air that rays cross beside it.
+
+in vec3 skyRay;
+
+out vec4 fragment;
+
+float hash(vec3 p) {
+    p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+    p += dot(p, p.yxz + 33.33);
+    return fract((p.x + p.y) * p.z);
+}
+
+// At most one star a cell of a grid on the faces of a cube; a star is about a pixel, so that it neither
+// flickers nor swells.
+float starLight(vec3 ray) {
+    vec3 size = abs(ray);
+    float most = max(size.x, max(size.y, size.z));
+    float face = most == size.x ? 1.0 + step(0.0, ray.x) : most == size.y ? 3.0 + step(0.0, ray.y)
+                                                                          : 5.0 + step(0.0, ray.z);
+    vec2 side = (most == size.x ? ray.yz : most == size.y ? ray.zx : ray.xy) / most;
+    const float cells = 90.0;
+    vec2 cell = floor(side * cells);
+    float pick = hash(vec3(cell, face * 17.0));
+    if (pick < 0.86) return 0.0;
+    vec2 star = vec2(hash(vec3(cell, face * 31.0)), hash(vec3(cell, face * 57.0))) * 0.7 + 0.15;
+    vec2 away = (side * cells - cell - star) / (cells * screen.x);  // pixels
+    float magnitude = (pick - 0.86) / 0.14;
+    return (0.02 + 0.55 * pow(magnitude, 9.0)) * exp(-dot(away, away) * 1.4);
+}
+
+void main() {
+    vec3 ray = normalize(skyRay);
+    vec3 light = vec3(0.0);
+    float clear = 1.0;
+    vec3 eyeScaled = eye.xyz * atmosphere.y;
+    float eyeRadius = length(eyeScaled);
+    float rise = dot(eyeScaled, ray) / eyeRadius;
+    float lowest = length(cross(eyeScaled, ray));
+    if (atmosphere.z > 0.0 && (rise > 0.0 || lowest > 0.985 * atmosphere.x)) {
+        float eyeHeight = max(eyeRadius - atmosphere.x, 0.0);
+        float air = airAlong(eyeHeight, rise, max(lowest, atmosphere.x));
+        air = clamp(air, 0.0, 200.0);
+        // Where most of the light comes from: the ray's lowest point, or nearer where the air is thick.
+        float toLowest = max(-rise * eyeRadius, 0.0);
+        float nearer = min(20.0 * clamp(0.05 * air, 0.0, 1.0), toLowest);
+        vec3 dense = eyeScaled + ray * (rise > 0.0 ? 1.5 : toLowest - nearer);
+        light = scattered(air, sunOnAir(dense), dot(ray, sun.xyz));
+        clear = exp(-0.6 * air) * (1.0 - min(dot(light, vec3(3.0)), 1.0));
+    }
+    // A planet that is not drawn there still hides the stars behind it.
+    if (rise < 0.0 && lowest < atmosphere.x) clear = 0.0;
+    if (clear > 0.01) light += vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
+    fragment = vec4(encodeSrgb(exposed(light)) + ditherStep() * step(0.002, light.b), 1.0);
+}

@@ -1,0 +1,43 @@
+// planet/vertex_position.cpp, line by line; that header says why.
+
+const int fineGridLog2 = 22;
+const float fineCell = 1.0 / 2097152.0;  // 2 / 2^22
+
+// A vertex's place on its face.
+struct GridPlace {
+    vec2 delta;        // u - u0, v - v0, exact
+    vec2 coordinates;  // u, v, exact
+    vec3 roots;        // of Nowell's map at (u, v)
+    vec3 turn;         // d - d0, world axes
+};
+
+GridPlace gridPlace(FaceFrame face, ivec2 grid) {
+    GridPlace place;
+    vec2 start = face.coordinates.xy;
+    place.delta = vec2(grid - face.grid.xy) * fineCell;
+    place.coordinates = start + place.delta;
+    vec2 squares = place.delta * (start + place.coordinates);  // u^2 - u0^2, v^2 - v0^2
+    vec2 c = place.coordinates;
+    float underRoot = squares.x * (c.y * c.y * (1.0 / 3.0) - 0.5) +
+                      squares.y * (start.x * start.x * (1.0 / 3.0) - 0.5);
+    vec3 roots0 = face.roots.xyz;
+    place.roots = sqrt(vec3(roots0.x * roots0.x + underRoot, 0.5 - c.y * c.y * (1.0 / 6.0),
+                            0.5 - c.x * c.x * (1.0 / 6.0)));
+    float alongNormal = underRoot / (place.roots.x + roots0.x);
+    vec2 along = place.delta * place.roots.yz -
+                 start * (squares.yx * (1.0 / 6.0)) / (place.roots.yz + roots0.yz);
+    place.turn = alongNormal * face.normal.xyz + along.x * face.u.xyz + along.y * face.v.xyz;
+    return place;
+}
+
+// Rise: height over the reference step, metres.
+vec3 positionOnSphere(FaceFrame face, GridPlace place, float rise) {
+    return face.origin.xyz + (planet.z + rise) * place.turn + rise * face.direction.xyz;
+}
+
+// The cube before it is blown up, of the size that fits into the sphere; heights point away from its middle.
+vec3 positionOnCube(FaceFrame face, GridPlace place, float height) {
+    vec3 cube = face.normal.xyz + place.coordinates.x * face.u.xyz + place.coordinates.y * face.v.xyz;
+    vec3 fromReference = planet.w * (place.delta.x * face.u.xyz + place.delta.y * face.v.xyz);
+    return face.cubeOrigin.xyz + fromReference + height * normalize(cube);
+}

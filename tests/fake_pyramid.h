@@ -1,0 +1,203 @@
+// A planet without a chunk file: every chunk of a small planet, made from a formula, with true errors and
+// height ranges.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "planet/planet.h"
+
+namespace planet {
+
+struct FakePyramid {
+    PlanetShape shape;
+    std::int16_t minStep = 0;
+    std::int16_t maxStep = 0;
+    std::unordered_map<ChunkId, ChunkData> chunks;
+
+    const ChunkData& at(const ChunkId& id) const { return chunks.at(id); }
+
+    std::array<ChunkData, faceCount> roots() const {
+        std::array<ChunkData, faceCount> all;
+        for (const Face face : allFaces) all[static_cast<std::size_t>(face)] = at({face, 0, 0, 0});
+        return all;
+    }
+
+    SiblingBlock childrenOf(const ChunkId& parent) const {
+        SiblingBlock block;
+        for (int q = 0; q < quadrantCount; ++q) block[static_cast<std::size_t>(q)] = at(childOf(parent, q));
+        return block;
+    }
+
+    // Fails, as a reader would, when it is given another chunk's place or heights.
+    Result<SiblingBlock> load(const ChunkId& parent, BlockLocation location,
+                              std::span<const std::int16_t> parentHeights) const {
+        const ChunkData& above = at(parent);
+        if (location != above.children) return badInput("wrong place for " + toString(parent));
+        if (!std::equal(parentHeights.begin(), parentHeights.end(), above.heights.begin(),
+                        above.heights.end())) {
+            return badInput("wrong heights for " + toString(parent));
+        }
+        return childrenOf(parent);
+    }
+
+    PlanetSource source() const {
+        PlanetSource made;
+        made.shape = shape;
+        made.minStep = minStep;
+        made.maxStep = maxStep;
+        made.roots = roots();
+        made.loadChildren = [this](const ChunkId& parent, BlockLocation location,
+                                   std::span<const std::int16_t> heights) {
+            return load(parent, location, heights);
+        };
+        return made;
+    }
+};
+
+// Plains and mountains: heights from about -2% to 4% of the radius.
+inline double fakeHeightM(const PlanetShape& shape, const glm::dvec3& d) {
+    const double wide = std::sin(3 * d.x + 1) * std::cos(4 * d.y - 2 * d.z);
+    const double rough = std::max(0.0, wide) * std::sin(37 * d.x + 11 * d.z) * std::sin(41 * d.y - 5 * d.x);
+    return shape.radiusM * (0.015 * wide + 0.025 * rough);
+}
+
+namespace fake {
+
+// The (faceCells + 1)^2 finest samples of a face, and chunks cut from it.
+struct FaceGrid {
+    Face face;
+    int cells;
+    std::vector<std::int16_t> steps;
+    std::vector<glm::dvec3> positionsM;
+
+    std::size_t at(int i, int j) const { return static_cast<std::size_t>(j * (cells + 1) + i); }
+};
+
+inline FaceGrid makeFaceGrid(const PlanetShape& shape, Face face) {
+    FaceGrid grid{face, faceCells(shape), {}, {}};
+    for (int j = 0; j <= grid.cells; ++j) {
+        for (int i = 0; i <= grid.cells; ++i) {
+            const glm::dvec3 direction =
+                sphereFromCube(cubePoint(face, 2.0 * i / grid.cells - 1, 2.0 * j / grid.cells - 1));
+            const double steps = (fakeHeightM(shape, direction) - shape.baseHeightM) / shape.quantumM;
+            grid.steps.push_back(static_cast<std::int16_t>(std::lround(steps)));
+            grid.positionsM.push_back(positionM(shape, direction, heightM(shape, grid.steps.back())));
+        }
+    }
+    return grid;
+}
+
+// The largest distance from a vertex of the children to the middle of the edge or diagonal it refines.
+inline double ownErrorM(const FaceGrid& grid, int firstColumn, int firstRow, int cells, int stride) {
+    const int half = stride / 2;
+    double most = 0;
+    for (int j = 0; j <= 2 * cells; ++j) {
+        for (int i = 0; i <= 2 * cells; ++i) {
+            const int di = i % 2 * half;
+            const int dj = j % 2 * half;
+            if (di == 0 && dj == 0) continue;
+            const int column = firstColumn + i * half;
+            const int row = firstRow + j * half;
+            const glm::dvec3 middle = (grid.positionsM[grid.at(column - di, row - dj)] +
+                                       grid.positionsM[grid.at(column + di, row + dj)]) /
+                                      2.0;
+            most = std::max(most, glm::length(middle - grid.positionsM[grid.at(column, row)]));
+        }
+    }
+    return most;
+}
+
+inline ChunkData cutChunk(const PlanetShape& shape, const FaceGrid& grid, const ChunkId& id) {
+    const int cells = chunkCells(shape);
+    const int stride = 1 << (leafLevel(shape) - id.level);
+    const int firstColumn = static_cast<int>(id.x) * cells * stride;
+    const int firstRow = static_cast<int>(id.y) * cells * stride;
+    ChunkData data;
+    data.id = id;
+    for (int j = 0; j <= cells; ++j) {
+        for (int i = 0; i <= cells; ++i) {
+            data.heights.push_back(grid.steps[grid.at(firstColumn + i * stride, firstRow + j * stride)]);
+        }
+    }
+    const auto [low, high] = std::minmax_element(data.heights.begin(), data.heights.end());
+    data.minStep = *low;
+    data.maxStep = *high;
+    if (stride > 1) {
+        data.deltaCM = static_cast<float>(ownErrorM(grid, firstColumn, firstRow, cells, stride));
+        data.children = {keyOf(id) + 1, 100};
+    }
+    return data;
+}
+
+inline void addChunk(FakePyramid& pyramid, const FaceGrid& grid, const ChunkId& id) {
+    ChunkData data = cutChunk(pyramid.shape, grid, id);
+    float below = 0;
+    for (int q = 0; q < quadrantCount && data.children.exists(); ++q) {
+        const ChunkId childId = childOf(id, q);
+        addChunk(pyramid, grid, childId);
+        const ChunkData& child = pyramid.at(childId);
+        data.minStep = std::min(data.minStep, child.minStep);
+        data.maxStep = std::max(data.maxStep, child.maxStep);
+        below = std::max(below, child.deltaCM);
+    }
+    data.deltaCM += below;
+    pyramid.minStep = std::min(pyramid.minStep, data.minStep);
+    pyramid.maxStep = std::max(pyramid.maxStep, data.maxStep);
+    pyramid.chunks.emplace(id, std::move(data));
+}
+
+}  // namespace fake
+
+// A planet of radius 100 km with 16 cells a chunk.
+inline FakePyramid makeFakePyramid(int leafLevelWanted) {
+    FakePyramid pyramid;
+    pyramid.shape.radiusM = 1e5;
+    pyramid.shape.quantumM = 0.25;
+    pyramid.shape.chunkCellsLog2 = 4;
+    pyramid.shape.faceCellsLog2 = 4 + leafLevelWanted;
+    for (const Face face : allFaces) {
+        fake::addChunk(pyramid, fake::makeFaceGrid(pyramid.shape, face), {face, 0, 0, 0});
+    }
+    return pyramid;
+}
+
+// One for all tests of a program; levels 0 to 4.
+inline const FakePyramid& fakePyramid() {
+    static const FakePyramid pyramid = makeFakePyramid(4);
+    return pyramid;
+}
+
+// The tree with everything resident down to a level, each node in the slot of its own index.
+inline ChunkTree residentTree(const FakePyramid& pyramid, int toLevel) {
+    ChunkTree tree = makeChunkTree(pyramid.shape, pyramid.minStep, pyramid.maxStep, pyramid.roots()).value();
+    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
+        const ChunkId id = tree.nodes[i].id;
+        if (id.level >= toLevel || tree.nodes[i].childrenState == ChildrenState::None) continue;
+        const auto next = static_cast<std::uint32_t>(tree.nodes.size());
+        addChildren(tree, i, pyramid.childrenOf(id), {next, next + 1, next + 2, next + 3});
+    }
+    return tree;
+}
+
+inline glm::dvec3 vertexM(const PlanetShape& shape, const ChunkId& id, int column, int row, double height) {
+    const FaceSquare square = faceSquareOf(id);
+    const int cells = chunkCells(shape);
+    return positionM(shape,
+                     sphereFromCube(cubePoint(id.face, square.u + square.side * column / cells,
+                                              square.v + square.side * row / cells)),
+                     height);
+}
+
+inline glm::dvec3 vertexM(const PlanetShape& shape, const ChunkData& chunk, int column, int row) {
+    const auto at = static_cast<std::size_t>(row * chunkSize(shape) + column);
+    return vertexM(shape, chunk.id, column, row, heightM(shape, chunk.heights[at]));
+}
+
+}  // namespace planet

@@ -1,0 +1,96 @@
+// What the GL tests share: a context without a window, which must end each test without a GL error.
+#pragma once
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planet/gl/chunk_renderer.h"
+#include "planet/gl/offscreen_context.h"
+#include "planet/gl/render_target.h"
+
+namespace planet::gl {
+
+class GlTest : public testing::Test {
+protected:
+    explicit GlTest(ContextVersion highest = {4, 6}) {
+        Result<OffscreenContext> context = OffscreenContext::create({highest, true});
+        if (!context) throw std::runtime_error(context.error().message);
+        context_ = std::make_unique<OffscreenContext>(std::move(*context));
+        if (!epoxy_has_gl_extension("GL_KHR_debug")) return;
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        glDebugMessageCallback(collectError, &reported_);
+    }
+
+    void TearDown() override {
+        EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+        EXPECT_TRUE(reported_.empty()) << reported_;
+    }
+
+    const OffscreenContext& context() const { return *context_; }
+
+private:
+    static void APIENTRY collectError(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+                                      const void* user) {
+        if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR)
+            *static_cast<std::string*>(const_cast<void*>(user)) += message;
+    }
+
+    std::unique_ptr<OffscreenContext> context_;
+    std::string reported_;
+};
+
+template <class T>
+T valueOf(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    return std::move(*result);
+}
+
+// A drawn picture, rows from the top.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+    std::vector<float> depth;  // empty with several samples
+
+    glm::ivec3 at(int x, int y) const {
+        const std::size_t first =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        return {rgb[first], rgb[first + 1], rgb[first + 2]};
+    }
+    int brightness(int x, int y) const {
+        const glm::ivec3 colour = at(x, y);
+        return colour.x + colour.y + colour.z;
+    }
+    float depthAt(int x, int y) const {
+        return depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x)];
+    }
+};
+
+inline Picture drawPicture(ChunkRenderer& renderer, const View& view, std::span<const DrawItem> items,
+                           const RenderSettings& settings, int samples = 1) {
+    const RenderTarget target = valueOf(RenderTarget::create(view.widthPx, view.heightPx, samples));
+    target.bind();
+    renderer.draw(view, items, settings);
+    target.resolve();
+    Picture picture{view.widthPx, view.heightPx, target.readRgb(), {}};
+    if (samples == 1) picture.depth = target.readDepth();
+    return picture;
+}
+
+// Flat colours, no air, no sun: for tests that ask where something is drawn.
+inline RenderSettings plainSettings() {
+    RenderSettings settings;
+    settings.lighting = false;
+    settings.atmosphere = false;
+    settings.colourBy = ColourBy::Level;
+    return settings;
+}
+
+}  // namespace planet::gl

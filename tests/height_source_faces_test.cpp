@@ -1,0 +1,329 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "height_source_fixture.h"
+
+namespace planet::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// The value of a face's sample, row 0 at the top.
+using FaceValue = std::function<double(Face face, int column, int row)>;
+
+std::string rawBytes(int size, int bits, bool bigEndian, Face face, const FaceValue& value) {
+    std::string bytes;
+    for (int row = 0; row < size; ++row) {
+        for (int column = 0; column < size; ++column) {
+            const auto step = static_cast<std::uint16_t>(static_cast<int>(value(face, column, row)));
+            const char low = static_cast<char>(step & 0xFF);
+            const char high = static_cast<char>(step >> 8);
+            if (bits == 16 && bigEndian) bytes += high;
+            bytes += low;
+            if (bits == 16 && !bigEndian) bytes += high;
+        }
+    }
+    return bytes;
+}
+
+std::string faceFile(const std::string& stem, Face face, const std::string& extension) {
+    return stem + "_" + std::string(faceName(face)) + extension;
+}
+
+struct RawFormat {
+    int bits = 16;
+    bool bigEndian = false;
+};
+
+void writeRawFaces(const TemporaryFolder& folder, const std::string& stem, int size, const FaceValue& value,
+                   const RawFormat& format = {}) {
+    for (const Face face : allFaces) {
+        writeBytes(folder / faceFile(stem, face, ".raw"),
+                   rawBytes(size, format.bits, format.bigEndian, face, value));
+    }
+}
+
+template <class T>
+void writeFaceImages(const TemporaryFolder& folder, const std::string& stem, const std::string& extension,
+                     int size, const FaceValue& value, const Layout& layout = {}) {
+    for (const Face face : allFaces) {
+        writeImage(folder / faceFile(stem, face, extension),
+                   Image<T>(size, size, [&](int column, int row) { return value(face, column, row); }),
+                   layout);
+    }
+}
+
+// Different on every face, so that no two agree along the edge they share.
+double disagreeing(Face face, int column, int row) {
+    return std::floor(noise(column + 1000 * static_cast<int>(face), row, 256));
+}
+
+FaceValue fieldOnFaces(int size) {
+    return [size](Face face, int column, int row) {
+        const double last = size - 1;
+        return smoothField(sphereFromCube(cubePoint(face, 2 * column / last - 1, 1 - 2 * row / last)));
+    };
+}
+
+// The face that an edge sample is taken from, and where on it.
+double canonical(Face face, int cells, int column, int row) {
+    const FacePoint point =
+        facePointFromCube(cubePoint(face, 2.0 * column / cells - 1, 2.0 * row / cells - 1));
+    return disagreeing(point.face, static_cast<int>(std::lround((point.u + 1) / 2 * cells)),
+                       static_cast<int>(std::lround((1 - point.v) / 2 * cells)));
+}
+
+void expectExactCopies(const HeightSource& source, int size, double offset = 0) {
+    for (const Face face : allFaces) {
+        const std::vector<float> heights = sampledFace(source, face, size - 1);
+        std::size_t at = 0;
+        for (int row = 0; row < size; ++row) {
+            for (int column = 0; column < size; ++column) {
+                ASSERT_EQ(heights[at++], canonical(face, size - 1, column, row) + offset)
+                    << faceName(face) << " column " << column << " row " << row;
+            }
+        }
+    }
+}
+
+TEST(HeightSourceFaces, GridOfTheSourcesOwnSizeIsAnExactCopy) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth65", 65, disagreeing);
+    const HeightSource source = mustOpen(folder / "earth65_z_pos.raw");
+    EXPECT_EQ(source.description, "earth65, six faces of 65 x 65 uint16");
+    EXPECT_EQ(source.naturalFaceSize, 65);
+    EXPECT_EQ(source.sampleCount, 6u * 65u * 65u);
+    EXPECT_EQ(source.stepM, 1);
+    EXPECT_EQ(source.minM, 0);
+    EXPECT_EQ(source.maxM, 65535);
+    expectExactCopies(source, 65);
+}
+
+TEST(HeightSourceFaces, EveryFormatGivesMetres) {
+    const TemporaryFolder folder;
+    HeightSourceSettings settings;
+    settings.offsetM = -100;
+    writeRawFaces(folder, "eight33", 33, disagreeing, {.bits = 8});
+    expectExactCopies(mustOpen(folder / "eight33", settings), 33, -100);
+    writeRawFaces(folder, "little33", 33, disagreeing);
+    expectExactCopies(mustOpen(folder / "little33", settings), 33, -100);
+    writeFaceImages<std::uint16_t>(folder, "png33", ".png", 33, disagreeing);
+    expectExactCopies(mustOpen(folder / "png33", settings), 33, -100);
+    writeFaceImages<float>(folder, "float33", ".tif", 33, disagreeing, {.tile = 16});
+    expectExactCopies(mustOpen(folder / "float33", settings), 33, -100);
+    writeFaceImages<std::int16_t>(folder, "noSizeInName", ".tif", 33, disagreeing);
+    expectExactCopies(mustOpen(folder / "noSizeInName", settings), 33, -100);
+    writeRawFaces(folder, "big33", 33, disagreeing, {.bigEndian = true});
+    settings.rawBigEndian = true;
+    expectExactCopies(mustOpen(folder / "big33", settings), 33, -100);
+}
+
+TEST(HeightSourceFaces, SignedRawStepsMayBeNegative) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "deep9", 9, [](Face, int column, int) { return -1000 * column; });
+    HeightSourceSettings settings;
+    settings.rawSigned = true;
+    const HeightSource source = mustOpen(folder / "deep9", settings);
+    EXPECT_EQ(source.minM, -32768);
+    EXPECT_EQ(sampledAt(source, Face::PosX, 8, 7, 4), -7000);
+}
+
+TEST(HeightSourceFaces, AnyFaceOrTheStemNamesThem) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth9", 9, disagreeing);
+    for (const Face face : allFaces)
+        expectExactCopies(mustOpen(folder / faceFile("earth9", face, ".raw")), 9);
+    expectExactCopies(mustOpen(folder / "earth9"), 9);
+    expectExactCopies(mustOpen(folder / "earth9_y_neg"), 9);
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    expectExactCopies(mustOpen("earth9"), 9);
+    expectExactCopies(mustOpen("earth9_x_pos.raw"), 9);
+    std::filesystem::current_path(before);
+}
+
+TEST(HeightSourceFaces, RawSizeComesFromTheLengthWhereTheNameHasNone) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "moon", 17, disagreeing);
+    writeRawFaces(folder, "ganymede", 17, disagreeing, {.bits = 8});
+    expectExactCopies(mustOpen(folder / "moon"), 17);
+    expectExactCopies(mustOpen(folder / "ganymede"), 17);
+}
+
+TEST(HeightSourceFaces, SettingsOverrideTheName) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "apollo11", 17, disagreeing);
+    EXPECT_THAT(errorOf(folder / "apollo11"), HasSubstr("is 578 bytes; 11 x 11 samples"));
+    HeightSourceSettings settings;
+    settings.rawSize = 17;
+    settings.rawBits = 16;
+    expectExactCopies(mustOpen(folder / "apollo11", settings), 17);
+}
+
+TEST(HeightSourceFaces, SharedEdgesAndCornersAreBitIdenticalThoughFacesDisagree) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "rough65", 65, disagreeing);
+    const HeightSource source = mustOpen(folder / "rough65");
+    for (const int cells : {1, 2, 16, 64, 128}) {
+        const SharedPoints points = sharedPoints(source, cells);
+        EXPECT_EQ(points.shared, pointsOnEdges(cells));
+        EXPECT_EQ(points.different, 0) << cells;
+    }
+}
+
+TEST(HeightSourceFaces, TilingDoesNotChangeABit) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "rough100", 100, disagreeing);
+    const HeightSource source = mustOpen(folder / "rough100");
+    expectTilesAgree(source, 16, 12);
+    expectTilesAgree(source, 128, 8);
+}
+
+TEST(HeightSourceFaces, SmoothFieldSurvivesFinerAndCoarserGridsEdgesIncluded) {
+    const TemporaryFolder folder;
+    writeFaceImages<float>(folder, "smooth", ".tif", 129, fieldOnFaces(129));
+    const HeightSource source = mustOpen(folder / "smooth");
+    EXPECT_EQ(source.stepM, 0);
+    // Nowell's map has a kink across the cube's edges, of some 1 / 129 of a face's own slope there.
+    EXPECT_LT(largestError(source, 512, smoothField), 2);
+    EXPECT_LT(largestError(source, 128, smoothField), 1e-3);
+    EXPECT_LT(largestError(source, 32, smoothField), 15);
+}
+
+TEST(HeightSourceFaces, SizesNeedNotBePowersOfTwo) {
+    const TemporaryFolder folder;
+    writeFaceImages<float>(folder, "smooth", ".tif", 100, fieldOnFaces(100));
+    const HeightSource source = mustOpen(folder / "smooth");
+    EXPECT_EQ(source.naturalFaceSize, 129);
+    EXPECT_LT(largestError(source, 128, smoothField), 3);
+}
+
+TEST(HeightSourceFaces, CheckerboardFinerThanTheGridAveragesToGrey) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "checks257", 257,
+                  [](Face, int column, int row) { return (column + row) % 2 * 200; }, {.bits = 8});
+    EXPECT_LT(largestError(mustOpen(folder / "checks257"), 64, [](const glm::dvec3&) { return 100; }), 1);
+}
+
+TEST(HeightSourceFaces, LinearRampHasNoStairSteps) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "ramp17", 17, [](Face, int column, int) { return 16 * column; }, {.bits = 8});
+    const std::vector<float> row = sampled(mustOpen(folder / "ramp17"), {Face::PosX, 1024, 128, 512, 769, 1});
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        ASSERT_NEAR(row[i], static_cast<double>(i + 128) / 4, 1e-3) << i;
+    }
+}
+
+TEST(HeightSourceFaces, FacesLargerThanTheCacheAreSampledRight) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "raw600", 600, disagreeing);
+    writeFaceImages<std::uint16_t>(folder, "png600", ".png", 600, disagreeing);
+    writeFaceImages<std::uint16_t>(folder, "tiled600", ".tif", 600, disagreeing, {.tile = 128});
+    const HeightSource whole = mustOpen(folder / "raw600");
+    HeightSourceSettings settings;
+    settings.cacheBytes = 600 << 10;  // of 8.6 MB
+    for (const char* const name : {"raw600", "png600", "tiled600"}) {
+        const HeightSource small = mustOpen(folder / name, settings);
+        for (const Face face : allFaces) {
+            const SampleTile tile{face, 512, 300, 400, 213, 113};
+            EXPECT_EQ(sampled(small, tile), sampled(whole, tile)) << name;
+        }
+    }
+}
+
+TEST(HeightSourceFaces, MissingSamplesAreCountedOverAllFacesAndFilled) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "holes17", 17, [](Face, int column, int row) { return column == row ? 7 : 50; });
+    HeightSourceSettings settings;
+    settings.noDataValue = 7;
+    settings.fillM = 20;
+    const HeightSource source = mustOpen(folder / "holes17", settings);
+    EXPECT_EQ(source.missingCount, 6u * 17u);
+    EXPECT_EQ(source.minM, 20);
+    EXPECT_EQ(source.maxM, 50);
+    EXPECT_EQ(sampledAt(source, Face::PosX, 16, 5, 11), 20);  // rows of the source fall
+    EXPECT_EQ(sampledAt(source, Face::PosX, 16, 5, 5), 50);
+}
+
+TEST(HeightSourceFaces, AllMissingFacesAreNamed) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth9", 9, disagreeing);
+    std::filesystem::remove(folder / "earth9_y_neg.raw");
+    std::filesystem::remove(folder / "earth9_z_pos.raw");
+    for (const char* const name : {"earth9", "earth9_x_pos.raw", "earth9_z_pos.raw"}) {
+        EXPECT_THAT(errorOf(folder / name),
+                    AllOf(HasSubstr("missing"), HasSubstr("earth9_y_neg.raw, earth9_z_pos.raw"),
+                          Not(HasSubstr("earth9_x_neg.raw"))));
+    }
+}
+
+TEST(HeightSourceFaces, RawLengthsThatFitNothingAreRefused) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth65", 65, disagreeing);
+    std::filesystem::resize_file(folder / "earth65_x_pos.raw", 8449);
+    EXPECT_EQ(errorOf(folder / "earth65_x_pos.raw"),
+              "earth65_x_pos.raw is 8449 bytes; 65 x 65 samples of 8 or 16 bits would be 4225 or 8450");
+    writeRawFaces(folder, "mars", 9, disagreeing);
+    std::filesystem::resize_file(folder / "mars_x_pos.raw", 163);
+    EXPECT_THAT(errorOf(folder / "mars"), HasSubstr("mars_x_pos.raw is 163 bytes, which no square"));
+    writeRawFaces(folder, "io9", 9, disagreeing);
+    HeightSourceSettings settings;
+    settings.rawBits = 8;
+    EXPECT_EQ(errorOf(folder / "io9", settings),
+              "io9_x_pos.raw is 162 bytes; 9 x 9 samples of 8 bits would be 81");
+}
+
+TEST(HeightSourceFaces, FacesOfDifferentSizesOrTypesAreRefused) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth9", 9, disagreeing);
+    std::filesystem::resize_file(folder / "earth9_y_pos.raw", 81);
+    EXPECT_THAT(errorOf(folder / "earth9"),
+                AllOf(HasSubstr("earth9_y_pos.raw is 81 bytes"), HasSubstr("earth9_x_pos.raw is 162")));
+    writeFaceImages<std::uint8_t>(folder, "size", ".png", 9, disagreeing);
+    writeImage(folder / "size_z_neg.png", Image<std::uint8_t>(17, 17, [](int, int) { return 0; }));
+    EXPECT_THAT(errorOf(folder / "size"),
+                HasSubstr("size_z_neg.png is 17 x 17 uint8 but size_x_pos.png is 9"));
+    writeFaceImages<std::uint8_t>(folder, "type", ".png", 9, disagreeing);
+    writeImage(folder / "type_z_neg.png", Image<std::uint16_t>(9, 9, [](int, int) { return 0; }));
+    EXPECT_THAT(errorOf(folder / "type"),
+                HasSubstr("type_z_neg.png is 9 x 9 uint16 but type_x_pos.png is 9 x 9 uint8"));
+}
+
+TEST(HeightSourceFaces, FacesOfTheWrongShapeAreRefused) {
+    const TemporaryFolder folder;
+    writeFaceImages<std::uint8_t>(folder, "flat", ".png", 9, disagreeing);
+    writeImage(folder / "flat_y_pos.png", Image<std::uint8_t>(18, 9, [](int, int) { return 0; }));
+    EXPECT_THAT(errorOf(folder / "flat"),
+                HasSubstr("flat_y_pos.png is 18 x 9 samples; a cube's face must be square"));
+    writeFaceImages<std::uint8_t>(folder, "named65", ".png", 9, disagreeing);
+    EXPECT_THAT(errorOf(folder / "named65"),
+                HasSubstr("named65_x_pos.png is 9 x 9 samples; its name says 65 x 65"));
+    writeRawFaces(folder, "dot1", 1, disagreeing);
+    EXPECT_THAT(errorOf(folder / "dot1"), HasSubstr("a face of 1 samples a side"));
+}
+
+TEST(HeightSourceFaces, ColourFacesAreRefused) {
+    const TemporaryFolder folder;
+    writeFaceImages<std::uint8_t>(folder, "colour", ".png", 9, disagreeing, {.channels = 3});
+    EXPECT_THAT(errorOf(folder / "colour"),
+                AllOf(HasSubstr("colour_x_pos.png"), HasSubstr("expected one grey channel, found 3")));
+}
+
+TEST(HeightSourceFaces, FileCutOffAfterOpeningIsAnError) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth65", 65, disagreeing);
+    const HeightSource source = mustOpen(folder / "earth65");
+    std::filesystem::resize_file(folder / "earth65_y_pos.raw", 100);
+    std::vector<float> out(65 * 65);
+    const Result<void> done = source.sample({Face::PosY, 64, 0, 0, 65, 65}, out);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("earth65_y_pos.raw: has become shorter"));
+}
+
+}  // namespace
+}  // namespace planet::testing
