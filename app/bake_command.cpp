@@ -31,7 +31,6 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"chunks", report.chunks},
                                          {"file_bytes", report.fileBytes},
                                          {"bits_per_sample", bitsPerSample(report)},
-                                         {"clamped_samples", report.clampedSamples},
                                          {"missing_samples", report.missingSamples},
                                          {"seconds", report.seconds}};
     fmt::print("{}\n", json.dump(2));
@@ -53,12 +52,6 @@ void printWarnings(const BakeOptions& options, const planet::BakeReport& report)
     if (report.missingSamples > 0) {
         fmt::print(stderr, "worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
                    report.missingSamples, options.sourceSettings.fillM);
-    }
-    if (report.clampedSamples > 0) {
-        fmt::print(stderr,
-                   "worldy: {}: {} heights do not fit 16 bits of {} m; clamped; a larger --quantum would "
-                   "hold them\n",
-                   options.source.string(), report.clampedSamples, report.shape.quantumM);
     }
 }
 

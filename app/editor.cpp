@@ -115,9 +115,10 @@ void viewportWindow(const Session& session, const ui::Rect& rect, float pixelRat
         const auto texture = static_cast<std::intptr_t>(editor.target->colourTexture());
         ui::viewportPicture(reinterpret_cast<ImTextureID>(texture), rect);
         editor.pointer = readPointer(pixelRatio);
-        ui::viewportOverlay({session.data.source.string(), editor.lodFrozen, session.scene->planet->settled(),
-                             editor.settings.view},
-                            rect);
+        ui::viewportOverlay(
+            {session.data.source.filename().string(), editor.lodFrozen, session.scene->planet->settled(),
+             editor.stats.selection.deepestLevel, editor.settings.view},
+            rect);
     }
     ImGui::End();
 }

@@ -1,5 +1,7 @@
 #include "app/scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
@@ -21,6 +23,21 @@ planet::UploadChunk uploadInto(planet::gl::ChunkRenderer& renderer) {
     return [&renderer](std::uint32_t slot, std::span<const std::int16_t> heights) {
         renderer.upload(slot, heights);
     };
+}
+
+// Low enough in the east for relief to show, high enough for most of what is in view to be lit.
+glm::dvec3 morningSun(const glm::dvec3& eyeM) {
+    const planet::Geographic place = planet::geographicFromDirection(eyeM);
+    const glm::dvec3 up = glm::normalize(eyeM);
+    const glm::dvec3 east(-std::sin(place.longitudeRad), std::cos(place.longitudeRad), 0);
+    return 0.65 * up + 0.65 * east + 0.4 * glm::cross(up, east);
+}
+
+// The ramp's colours spread over the planet's own heights, whatever they are.
+double rampTopM(const planet::ChunkTree& tree) {
+    const double highestM = planet::heightM(tree.shape, tree.maxStep);
+    const double lowestM = planet::heightM(tree.shape, tree.minStep);
+    return std::max({0.85 * highestM, 0.3 * (highestM - lowestM), 1.0});
 }
 
 }  // namespace
@@ -50,7 +67,8 @@ planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     return lod;
 }
 
-planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings) {
+planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
+                                            const planet::ChunkTree& tree) {
     planet::gl::RenderSettings render;
     render.surface = settings.surface;
     render.colourBy = settings.colourBy;
@@ -60,8 +78,11 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings) {
     render.cube = settings.cube;
     render.atmosphere = settings.atmosphere && !settings.cube;
     render.lighting = settings.lighting;
-    render.sunDirection = planet::directionFromGeographic(
-        {glm::radians(settings.sunLatitudeDeg), glm::radians(settings.sunLongitudeDeg)});
+    render.rampTopM = rampTopM(tree);
+    render.sunDirection = settings.sunFollows
+                              ? morningSun(view.eyeM)
+                              : planet::directionFromGeographic({glm::radians(settings.sunLatitudeDeg),
+                                                                 glm::radians(settings.sunLongitudeDeg)});
     return render;
 }
 
@@ -71,7 +92,8 @@ void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings
 
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings) {
     const Stopwatch watch;
-    scene.renderer.draw(renderView, scene.planet->selection().draw, renderSettingsOf(settings));
+    scene.renderer.draw(renderView, scene.planet->selection().draw,
+                        renderSettingsOf(settings, renderView, scene.planet->tree()));
     scene.drawCpuMs = watch.elapsedMs();
 }
 

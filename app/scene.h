@@ -32,7 +32,8 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
 
 // The user's units into the library's, here and nowhere else.
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings);
-planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings);
+planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
+                                            const planet::ChunkTree& tree);
 
 // One frame in two stages: choose and load by the lod view, then draw as the render view sees it.
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings);

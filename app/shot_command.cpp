@@ -32,14 +32,18 @@ Result<std::optional<Picture>> colourPicture(const ShotOptions& options) {
 
 void printReport(const Offscreen& offscreen, const SettledView& view, const ShotOptions& options) {
     const planet::Selection& selection = offscreen.scene.planet->selection();
-    ui::FrameStats stats = statsOf(offscreen.scene);
+    const ui::FrameStats stats = statsOf(offscreen.scene);
     if (options.json) {
         nlohmann::ordered_json report = {
             {"output", options.output.string()},  {"width_px", options.size.widthPx},
             {"height_px", options.size.heightPx}, {"tau_px", options.view.tauPx},
             {"fov_deg", options.view.fovDeg},     {"settled", view.settled},
             {"camera", jsonOf(view.pose)},        {"levels", levelHistogram(selection)}};
-        report.update(jsonOf(stats));
+        nlohmann::ordered_json drawn = jsonOf(stats);
+        // Of a run of frames, and there was one.
+        drawn.erase("frame_ms");
+        drawn.erase("draw_gpu_ms");
+        report.update(drawn);
         fmt::print("{}\n", report.dump(2));
         return;
     }

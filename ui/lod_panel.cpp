@@ -68,8 +68,10 @@ void viewControls(const LodPanelInput& input, ViewSettings& settings) {
            input.hasColourImage ? "The colour image, or a ramp of colours by height."
                                 : "No colour image is loaded, so the ramp is drawn for both.");
     slider("Field of view", settings.fovDeg, 5.0, 150.0, "%.0f deg", "Horizontal angle of view, degrees.");
+    ImGui::BeginDisabled(settings.sunFollows);
     slider("Sun, east", settings.sunLongitudeDeg, -180.0, 180.0, "%.0f deg",
            "Longitude where the sun stands in the zenith, degrees east.");
+    ImGui::EndDisabled();
     checkbox("Wireframe (F1)", settings.wireframe, "Draws the triangles' edges.");
     secondColumn();
     checkbox("Cube (F4)", settings.cube, "Draws the cube before it is blown up to the sphere.");
@@ -77,6 +79,8 @@ void viewControls(const LodPanelInput& input, ViewSettings& settings) {
     secondColumn();
     checkbox("Atmosphere", settings.atmosphere, "Haze and sky.");
     checkbox("Lighting", settings.lighting, "Off: flat colour, no sun.");
+    secondColumn();
+    checkbox("Sun follows", settings.sunFollows, "Keeps the sun to the camera's east: always day.");
 }
 
 void drawnValues(const FrameStats& stats, double tauPx) {

@@ -18,7 +18,8 @@ struct ViewSettings {
     planet::gl::ColourBy colourBy = planet::gl::ColourBy::None;
     planet::gl::SurfaceColour surface = planet::gl::SurfaceColour::Image;
     double fovDeg = 60;           // horizontal field of view, degrees, [5, 150]
-    double sunLatitudeDeg = 29;   // where the sun stands in the zenith, [-90, 90]
+    bool sunFollows = true;       // the sun keeps to the camera's east, so that it is always day there
+    double sunLatitudeDeg = 29;   // else: where the sun stands in the zenith, [-90, 90]
     double sunLongitudeDeg = 31;  // [-180, 180]
     int budgetMB = 256;           // memory for resident chunks, CPU and GPU together, MiB, [16, 65536]
     int loaderThreads = 1;        // threads that read chunks, [1, 64]

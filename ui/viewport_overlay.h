@@ -1,8 +1,10 @@
-// What is written over the planet: badges for states that change how the picture must be read, and the keys.
+// What is written over the planet: badges for states that change how the picture must be read, a legend for
+// its colours, and the keys.
 #pragma once
 
 #include <imgui.h>
 
+#include <cstdint>
 #include <string>
 
 #include "ui/layout.h"
@@ -13,7 +15,8 @@ namespace ui {
 struct ViewportOverlayInput {
     std::string title;  // the data set
     bool lodFrozen = false;
-    bool settled = true;  // nothing is waited for
+    bool settled = true;             // nothing is waited for
+    std::uint32_t deepestLevel = 0;  // of what is drawn
     const ViewSettings& settings;
 };
 

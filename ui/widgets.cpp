@@ -95,12 +95,15 @@ void usageBar(double share, const std::string& text) {
     if (share > 1) ImGui::PopStyleColor();
 }
 
+ImU32 boxColour() {
+    return ImGui::GetColorU32(ImVec4(0.07f, 0.08f, 0.10f, 0.78f));
+}
+
 void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4& colour) {
     const float pad = std::round(ImGui::GetFontSize() * 0.45f);
     const ImVec2 size = ImGui::CalcTextSize(text);
     const ImVec2 end(position.x + size.x + 2 * pad, position.y + size.y + pad);
-    drawList.AddRectFilled(position, end, ImGui::GetColorU32(ImVec4(0.07f, 0.08f, 0.10f, 0.82f)), pad * 0.6f);
-    drawList.AddRect(position, end, ImGui::GetColorU32(colour), pad * 0.6f, 0, 1);
+    drawList.AddRectFilled(position, end, boxColour(), pad * 0.6f);
     drawList.AddText({position.x + pad, position.y + pad / 2}, ImGui::GetColorU32(colour), text);
 }
 

@@ -34,6 +34,9 @@ bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx);
 // A share of a whole with a text in it: "120 of 256 MiB". Red when over.
 void usageBar(double share, const std::string& text);
 
+// The background of what is written over a picture.
+ImU32 boxColour();
+
 // Text in a rounded box over a picture; position is its top left.
 void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4& colour);
 
