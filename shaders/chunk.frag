@@ -104,7 +104,7 @@ vec3 lit(Material material, vec3 up, vec3 normal, vec3 toEye) {
         vec3 middle = normalize(toEye + sunDirection);
         float shine = max(dot(shading, middle), 0.0);
         float fresnel = 0.02 + 0.5 * pow(1.0 - max(dot(middle, toEye), 0.0), 5.0);
-        float glint = 5.0 * pow(shine, 220.0) + 0.9 * pow(shine, 40.0);
+        float glint = 7.0 * pow(shine, 260.0) + 0.7 * pow(shine, 60.0);
         light += sunLight * sunHere * (material.water * day * fresnel * glint);
     }
     return light;
