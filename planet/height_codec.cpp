@@ -134,7 +134,8 @@ CodedPass predictPass(RefinementPredictor& predictor, RefinementPass pass, int c
             samples[x] = in[2 * x];
             residuals[x] = static_cast<std::int16_t>(samples[x] - predicted[x]);
         }
-        predictor.setRow(row, samples, residuals);
+        predictor.setErrors(row, residuals);
+        predictor.setSamples(row, samples);
     }
     return coded;
 }
@@ -186,11 +187,9 @@ ChosenPass choosePass(RefinementPredictor& predictor, RefinementPass pass, std::
                       int coarseCells, Effort effort) {
     ChosenPass chosen;
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    int last = 0;
     int shift = 0;
     for (int candidate = 0; candidate < effort.predictors; ++candidate) {
         CodedPass coded = predictPass(predictor, pass, candidate, fine, coarseCells);
-        last = candidate;
         const std::int64_t cost = bestShift(coded, effort.step, shift);
         if (cost < least) {
             least = cost;
@@ -198,8 +197,11 @@ ChosenPass choosePass(RefinementPredictor& predictor, RefinementPass pass, std::
         }
     }
     // The next pass looks at this one's errors: they must be those of the choice.
-    if (last != chosen.choice.predictor)
-        predictPass(predictor, pass, chosen.choice.predictor, fine, coarseCells);
+    const auto columns = static_cast<std::size_t>(passColumns(pass, coarseCells));
+    for (int row = 0; row < passRows(pass, coarseCells); ++row) {
+        const std::size_t start = static_cast<std::size_t>(row) * columns;
+        predictor.setErrors(row, std::span(chosen.coded.residuals).subspan(start, columns));
+    }
     return chosen;
 }
 
@@ -292,7 +294,8 @@ bool decodePass(RefinementPredictor& predictor, RefinementPass pass, PassChoice 
             samples[x] = static_cast<std::int16_t>(predicted[x] + residuals[x]);
             out[2 * x] = samples[x];
         }
-        predictor.setRow(y, samples, residuals);
+        predictor.setErrors(y, residuals);
+        predictor.setSamples(y, samples);
     }
     return true;
 }

@@ -40,21 +40,21 @@ constexpr std::array<MiddleWeights, refinementPredictorCount> middlePredictors =
     {331, -39, 3, Beyond::Continue},
     {340, -48, 12, Beyond::Continue},
     {331, -39, 3, Beyond::Hold},
-    {296, -20, 0, Beyond::Continue},
+    {256, 0, 0, Beyond::Hold},
     {350, -62, 30, Beyond::Continue},
     {340, -48, 12, Beyond::Hold},
     {331, -39, 3, Beyond::Mirror},
-    {256, 0, 0, Beyond::Hold},
+    {296, -20, 0, Beyond::Continue},
 }};
 
 constexpr std::array<OddWeights, refinementPredictorCount> oddRowPredictors = {{
     {263, 415, 16, -51, -40, 0, Beyond::Hold},
     {346, 330, 20, -31, -61, 0, Beyond::Continue},
     {263, 415, 16, -51, -40, 0, Beyond::Continue},
-    {263, 415, 16, -51, -40, 0, Beyond::Mirror},
+    {256, 256, 0, 0, 0, 0, Beyond::Hold},
     {346, 330, 20, -31, -61, 0, Beyond::Hold},
     {314, 310, 16, -16, -48, 0, Beyond::Continue},
-    {256, 256, 0, 0, 0, 0, Beyond::Hold},
+    {263, 415, 16, -51, -40, 0, Beyond::Mirror},
     {346, 330, 20, -31, -61, 0, Beyond::Mirror},
 }};
 
@@ -62,11 +62,11 @@ constexpr std::array<OddWeights, refinementPredictorCount> oddColumnPredictors =
     {477, 381, 4, -7, -34, -134, Beyond::Hold},
     {363, 327, 12, -26, -50, -19, Beyond::Continue},
     {448, 420, 6, -14, -28, -139, Beyond::Hold},
-    {448, 420, 6, -14, -28, -139, Beyond::Continue},
+    {256, 256, 0, 0, 0, 0, Beyond::Hold},
     {477, 381, 4, -7, -34, -134, Beyond::Mirror},
     {477, 381, 4, -7, -34, -134, Beyond::Continue},
     {363, 327, 12, -26, -50, -19, Beyond::Hold},
-    {256, 256, 0, 0, 0, 0, Beyond::Hold},
+    {448, 420, 6, -14, -28, -139, Beyond::Continue},
 }};
 
 constexpr bool sumsToOne(const MiddleWeights& w) {
@@ -397,20 +397,23 @@ void RefinementPredictor::expectOddColumn(int row, std::span<float> expected256)
     }
 }
 
-void RefinementPredictor::setRow(int row, std::span<const std::int16_t> samples,
-                                 std::span<const std::int16_t> errors) {
+void RefinementPredictor::setErrors(int row, std::span<const std::int16_t> errors) {
     const int count = passColumns(pass_, cells_);
-    assert(samples.size() == static_cast<std::size_t>(count) && errors.size() == samples.size());
-    BorderedPlane& magnitudes = pass_ == RefinementPass::Middle   ? middleError_
-                                : pass_ == RefinementPass::OddRow ? oddRowError_
-                                                                  : oddColumnError_;
-    std::int32_t* const magnitude = magnitudes.row(row);
+    assert(errors.size() == static_cast<std::size_t>(count));
+    BorderedPlane& plane = pass_ == RefinementPass::Middle   ? middleError_
+                           : pass_ == RefinementPass::OddRow ? oddRowError_
+                                                             : oddColumnError_;
+    std::int32_t* const magnitude = plane.row(row);
     for (int x = 0; x < count; ++x) magnitude[x] = std::abs(int{errors[static_cast<std::size_t>(x)]});
     magnitude[-1] = magnitude[0];
     magnitude[count] = magnitude[count - 1];
-    if (pass_ == RefinementPass::OddColumn) return;
+}
+
+void RefinementPredictor::setSamples(int row, std::span<const std::int16_t> samples) {
+    assert(samples.size() == static_cast<std::size_t>(passColumns(pass_, cells_)));
+    if (pass_ == RefinementPass::OddColumn) return;  // nothing looks at the last pass's
     BorderedPlane& plane = pass_ == RefinementPass::Middle ? middle_ : oddRow_;
-    std::copy(samples.begin(), samples.end(), plane.row(row));
+    std::ranges::copy(samples, plane.row(row));
 }
 
 }  // namespace planet

@@ -56,11 +56,12 @@ public:
     // complete.
     void beginPass(RefinementPass pass, int predictor);
 
-    // What one row is expected to be and the |error| expected, in 1/256 steps, >= 0. Rows go in order: each
-    // must be told by setRow before the next is asked for.
+    // What one row is expected to be and the |error| expected, in 1/256 steps, >= 0. Rows go in order: a
+    // row's errors must be told before the next is asked for, its samples before the next pass begins.
     void predictRow(int row, std::span<std::int16_t> predicted) const;
     void expectErrors(int row, std::span<float> expected256) const;
-    void setRow(int row, std::span<const std::int16_t> samples, std::span<const std::int16_t> errors);
+    void setErrors(int row, std::span<const std::int16_t> errors);
+    void setSamples(int row, std::span<const std::int16_t> samples);
 
 private:
     void beginMiddle();

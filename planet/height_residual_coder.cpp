@@ -196,7 +196,7 @@ SymbolCode codeOf(int widthIndex, int residual) {
 
 // log2(value) in 1/256, rounded down, for value > 0: the fraction bit by bit, by squaring.
 int log2Times256(std::uint32_t value) {
-    const int whole = std::bit_width(value) - 1;
+    const int whole = static_cast<int>(std::bit_width(value)) - 1;
     std::uint64_t mantissa = (std::uint64_t{value} << 31) >> whole;  // in [2^31, 2^32)
     int fraction = 0;
     for (int bit = 0; bit < 8; ++bit) {

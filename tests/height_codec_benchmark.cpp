@@ -69,7 +69,7 @@ Coded code(const Square& square, int coarseCells, int level) {
 
 void report(benchmark::State& state, const Coded& coded) {
     const std::size_t fineSamples = coded.blocks.size() * coded.blocks.front().fine.samples.size();
-    state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * 2 * fineSamples));
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(2 * fineSamples));
     state.counters["bits_a_sample"] = coded.bitsPerSample;
 }
 
