@@ -1,6 +1,7 @@
 #include "planet/height_codec.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

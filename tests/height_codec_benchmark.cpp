@@ -23,8 +23,8 @@ const Square& hemisphere() {
     return window;
 }
 
-// The same ground four times as dense, as a bake finer than its source has it: a quarter of the quarter,
-// bilinear between samples that a bilinear blur has smoothed.
+// 515 x 515 of its samples made four times as dense, as a bake finer than its source has them: bilinear, the
+// mean of four places two dense samples off.
 const Square& oversampled() {
     static const Square dense = [] {
         const Square from = planet::test::earthWindow(3000, 500, 515);
