@@ -180,7 +180,8 @@ Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
     if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
     const int tileX = layout_.originX + x / layout_.tileWidth * layout_.tileWidth;
     const int tileY = layout_.originY + y / layout_.tileHeight * layout_.tileHeight;
-    if (!reader->read_tile(tileX, tileY, 0, readAs(layout_.type), native.data())) {
+    const bool read = reader->read_tile(tileX, tileY, 0, readAs(layout_.type), native.data());
+    if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: the tile at ({}, {}) cannot be read: {}", path_.string(), tileX,
                                    tileY, reader->geterror()));
     }
@@ -194,7 +195,10 @@ Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> n
     ReaderPtr reader = readers_->borrow(path_);
     if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
     const int begin = layout_.originY + firstRow;
-    if (!reader->read_scanlines(0, 0, begin, begin + count, 0, 0, 1, readAs(layout_.type), native.data())) {
+    const bool read =
+        reader->read_scanlines(0, 0, begin, begin + count, 0, 0, 1, readAs(layout_.type), native.data());
+    // A strip that is cut off leaves an error message behind a result of true.
+    if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,
                                    firstRow + count - 1, reader->geterror()));
     }
