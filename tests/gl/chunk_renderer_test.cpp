@@ -168,6 +168,31 @@ TEST_F(ChunkRendererTest, SlopesTowardsTheSunAreBrighter) {
     EXPECT_GT(at(-7.5), at(-2.5) + 10);
 }
 
+// The same samples cut into 64 chunks or into 16: light must not show where the cuts are.
+TEST_F(ChunkRendererTest, LightKnowsNoBordersBetweenChunksOfALevel) {
+    RenderSettings settings;
+    settings.atmosphere = false;
+    settings.sunDirection = {1, 1.5, 0.3};
+    const View view = viewFrom({}, 8, -6, 1e6, -90, 0, 300, 300);
+    const auto rough = [](const glm::dvec3& d) {
+        return 12000 + 2000 * std::sin(900 * d.y) * std::sin(1100 * d.z) +
+               900 * std::sin(3000 * d.y + 2000 * d.z);
+    };
+    const auto drawCut = [&](int level, int chunkCellsLog2) {
+        PlanetShape shape;
+        shape.chunkCellsLog2 = chunkCellsLog2;
+        TestPlanet planet(shape, 6u << (2 * level));
+        planet.addLevel(level, rough);
+        return drawPicture(planet.renderer(), view, planet.items(), settings);
+    };
+    const Picture small = drawCut(3, 4);
+    const Picture large = drawCut(2, 5);
+    EXPECT_EQ(small.depth, large.depth);
+    int different = 0;
+    for (std::size_t i = 0; i < small.rgb.size(); ++i) different += std::abs(small.rgb[i] - large.rgb[i]) > 1;
+    EXPECT_EQ(different, 0);
+}
+
 TEST_F(ChunkRendererTest, WhatIsNearerHidesWhatIsBehindInAnyOrder) {
     TestPlanet planet({}, 96);
     planet.addLevel(
