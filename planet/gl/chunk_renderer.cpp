@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 3> skyFragmentFiles = {"frame.glsl", "atm
 constexpr GLuint frameBinding = 0;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
-constexpr std::uint8_t tintStrength = 200;  // of ColourBy over a lit surface, out of 255
+constexpr std::uint8_t tintStrength = 225;  // of ColourBy over a lit surface, out of 255
 
 // One drawn chunk, as shaders/chunk.vert reads it.
 struct Instance {
