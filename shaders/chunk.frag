@@ -61,6 +61,7 @@ struct Material {
 
 Material materialAt(vec3 up, float height, float steepness) {
     float below = 1.0 - smoothstep(-30.0 * planet.x / 6.371e6, 0.0, height);
+    if (!isOn(switchSea)) below = 0.0;
     if (isOn(switchImage)) {
         vec3 image = imageColour(up);
         // The image knows sea ice, and coasts finer than the mesh; the mesh knows depth.

@@ -374,6 +374,21 @@ TEST_F(ChunkRendererTest, AirGlowsOutsideTheLimbByDayAndTheSkyIsBlueFromTheGroun
     EXPECT_LT(night.z, 25);
 }
 
+TEST_F(ChunkRendererTest, LowLandIsSeaOnlyWhereThereIsSea) {
+    TestPlanet planet({}, 24);
+    planet.addLevel(1, [](const glm::dvec3&) { return -3000.0; });
+    RenderSettings settings;
+    settings.surface = SurfaceColour::HeightRamp;
+    settings.atmosphere = false;
+    settings.lighting = false;
+    const View view = viewFrom({}, 0, 0, 1e6, -90, 0, 32, 32);
+    const glm::ivec3 sea = drawPicture(planet.renderer(), view, planet.items(), settings).at(10, 10);
+    EXPECT_GT(sea.z, 2 * sea.x);
+    settings.sea = false;
+    const glm::ivec3 land = drawPicture(planet.renderer(), view, planet.items(), settings).at(10, 10);
+    EXPECT_GT(land.y, land.z);
+}
+
 TEST_F(ChunkRendererTest, SeveralSamplesSmoothTheRim) {
     TestPlanet planet({}, 24);
     planet.addLevel(1, flat);
