@@ -21,14 +21,14 @@
 namespace planet {
 
 struct BakeSettings {
-    std::optional<int> faceSize;     // samples a side, 2^n + 1; the source's natural size where not given
-    int chunkSize = 33;              // vertices a side: 17, 33, 65 or 129
-    double radiusM = 6'371'000;      // (0, 1e9]
-    std::optional<double> quantumM;  // the source's own step, or for floats the finest that holds its range
-    int threads = 0;                 // 0: one a core
+    std::optional<int> faceSize{};     // samples a side, 2^n + 1; the source's natural size where not given
+    int chunkSize = 33;                // vertices a side: 17, 33, 65 or 129
+    double radiusM = 6'371'000;        // (0, 1e9]
+    std::optional<double> quantumM{};  // the source's own step, or for floats the finest that holds its range
+    int threads = 0;                   // 0: one a core
     int compressionLevel = defaultCompressionLevel;
-    std::filesystem::path
-        debugLevelsFolder;  // writes each level of each face there as a 16-bit PNG; none if empty
+    // Each level of each face is also written there, as a 16-bit PNG; nowhere if empty.
+    std::filesystem::path debugLevelsFolder{};
 };
 
 struct BakeProgress {
@@ -46,7 +46,6 @@ struct BakeReport {
     std::uint64_t samples = 0;  // distinct finest-level samples
     std::uint64_t chunks = 0;
     std::uint64_t fileBytes = 0;
-    std::uint64_t clampedSamples = 0;  // heights outside what 16 bits of the quantum hold
     std::uint64_t missingSamples = 0;
     double seconds = 0;
 };

@@ -21,6 +21,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planet/chunk_id.h"
@@ -46,6 +47,15 @@ struct ChunkData {
     std::int16_t maxStep = 0;
     BlockLocation children;             // none at a leaf
     std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows along v upwards
+};
+
+// What a block says of one of its chunks that has children. A leaf's entry is not stored: its delta_c is 0,
+// its extremes are those of its heights.
+struct ChunkEntry {
+    float deltaCM = 0;
+    std::int16_t minStep = 0;
+    std::int16_t maxStep = 0;
+    BlockLocation children;
 };
 
 struct ChunkFileInfo {
@@ -80,9 +90,18 @@ public:
     Result<std::array<ChunkData, quadrantCount>> readChildren(
         const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const;
 
+    // The index alone, not the heights and unchecked by the checksum: what the block of a chunk's children
+    // says of each. The children must not be leaves, which have no entries.
+    Result<std::array<ChunkEntry, quadrantCount>> readEntries(const ChunkId& parent,
+                                                              BlockLocation location) const;
+
 private:
     ChunkFile() = default;
-    Result<std::vector<std::byte>> readBlock(const ChunkId& id, BlockLocation location) const;
+    Result<std::vector<std::byte>> readBlock(const ChunkId& id, BlockLocation location,
+                                             std::size_t bytesNeeded) const;
+    Result<std::span<const std::byte>> checkedContent(const ChunkId& id, std::span<const std::byte> block,
+                                                      std::uint64_t expectedChecksum) const;
+    Error nonsense(const ChunkId& id, std::string_view what) const;
 
     ChunkFileInfo info_;
     std::string name_;

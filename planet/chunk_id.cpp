@@ -32,16 +32,18 @@ int quadrantOf(const ChunkId& child) {
 }
 
 ChunkId neighbourOf(const ChunkId& id, Edge edge) {
+    const std::uint32_t last = (1u << id.level) - 1;
+    if (edge == Edge::West && id.x > 0) return {id.face, id.level, id.x - 1, id.y};
+    if (edge == Edge::East && id.x < last) return {id.face, id.level, id.x + 1, id.y};
+    if (edge == Edge::South && id.y > 0) return {id.face, id.level, id.x, id.y - 1};
+    if (edge == Edge::North && id.y < last) return {id.face, id.level, id.x, id.y + 1};
+    // Over the face's edge: from the edge's middle, fold half a chunk's side down along this face's normal.
     const FaceSquare square = faceSquareOf(id);
     const double half = square.side / 2;
-    double u = square.u + half;
-    double v = square.v + half;
-    double& along = (edge == Edge::West || edge == Edge::East) ? u : v;
-    const double step = (edge == Edge::West || edge == Edge::South) ? -square.side : square.side;
-    along += step;
-    if (std::abs(along) < 1) return chunkAt({id.face, u, v}, id.level);
-    // Over the face's edge: fold the half step that sticks out down along this face's normal.
-    along = std::copysign(1.0, along);
+    const bool across = edge == Edge::West || edge == Edge::East;
+    const double end = edge == Edge::West || edge == Edge::South ? -1 : 1;
+    const double u = across ? end : square.u + half;
+    const double v = across ? square.v + half : end;
     const glm::dvec3 onEdge = cubePoint(id.face, u, v);
     return chunkAt(facePointFromCube(onEdge - half * faceAxes(id.face).normal), id.level);
 }

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cassert>
+#include <fstream>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -81,6 +83,16 @@ std::string channelNames(const OIIO::ImageSpec& spec) {
     return names;
 }
 
+// What a PNG's header says of its bits a sample, which OpenImageIO keeps to itself; 0 for other files.
+int pngBits(const std::filesystem::path& path) {
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+    constexpr std::size_t bitsAt = 24;
+    std::array<char, bitsAt + 1> header{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(header.data(), header.size());
+    return file && std::string_view(header.data(), signature.size()) == signature ? header[bitsAt] : 0;
+}
+
 Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
     const std::string file = path.string();
     if (spec.nchannels != 1) {
@@ -101,7 +113,7 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
                         "double would be right",
                         file, spec.format.c_str()));
     }
-    const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", 0);
+    const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", pngBits(path));
     const int readBits = static_cast<int>(spec.format.size()) * 8;
     if (storedBits != 0 && storedBits != readBits) {
         // They come scaled to the next whole type, so the file's own values are lost.
@@ -180,7 +192,8 @@ Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
     if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
     const int tileX = layout_.originX + x / layout_.tileWidth * layout_.tileWidth;
     const int tileY = layout_.originY + y / layout_.tileHeight * layout_.tileHeight;
-    if (!reader->read_tile(tileX, tileY, 0, readAs(layout_.type), native.data())) {
+    const bool read = reader->read_tile(tileX, tileY, 0, readAs(layout_.type), native.data());
+    if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: the tile at ({}, {}) cannot be read: {}", path_.string(), tileX,
                                    tileY, reader->geterror()));
     }
@@ -194,7 +207,10 @@ Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> n
     ReaderPtr reader = readers_->borrow(path_);
     if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
     const int begin = layout_.originY + firstRow;
-    if (!reader->read_scanlines(0, 0, begin, begin + count, 0, 0, 1, readAs(layout_.type), native.data())) {
+    const bool read =
+        reader->read_scanlines(0, 0, begin, begin + count, 0, 0, 1, readAs(layout_.type), native.data());
+    // A strip that is cut off leaves an error message behind a result of true.
+    if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,
                                    firstRow + count - 1, reader->geterror()));
     }

@@ -1,4 +1,8 @@
 // Where heights come from: an elevation image or six cube faces, behind one sampling function.
+//
+// An elevation image is equirectangular: north up, longitude -180 to 180 from left to right, samples at pixel
+// centres, one grey channel. Face images are seen as in cube_sphere.h: row 0 at v = +1, column 0 at u = -1,
+// outermost samples on the cube's edges. Raw faces are headerless, rows in the same order.
 #pragma once
 
 #include <cstdint>
@@ -29,32 +33,38 @@ struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
     int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no source resolution
     double stepM = 0;         // an integer source's own step in metres; 0 for a float source
-    double minM = 0;          // every sample's height lies in [minM, maxM]; an integer type's range where the
-    double maxM = 0;          //   values were not scanned
+    double minM = 0;          // every height that sample gives lies in [minM, maxM]: those of the file's
+    double maxM = 0;          //   samples, or for 8 and 16 bit integers without noDataValue the type's range
     std::uint64_t sampleCount = 0;
     std::uint64_t missingCount = 0;  // samples without data, filled
 
     // Fills out, row-major, columns x rows heights in metres. A sample's value depends only on its point of
     // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
     // bit-identical. Filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
-    // one is interpolated smoothly. The Error names the file.
+    // one is interpolated smoothly; faces on a grid of their own size are copied exactly. Where faces
+    // disagree along an edge of the cube, the first in enum order has its way. Takes some 16 MB a call beside
+    // the cache. The Error names the file.
     std::function<Result<void>(const SampleTile& tile, std::span<float> out)> sample;
 };
 
 struct HeightSourceSettings {
-    double metresPerUnit = 1;            // height = offsetM + metresPerUnit * value; not 0
-    double offsetM = 0;                  // metres
-    std::optional<double> noDataValue;   // a value that means "missing"; NaN always does
-    double fillM = 0;                    // height given to missing samples, metres
-    std::optional<int> rawSize;          // raw faces: samples a side, where the name does not say
-    std::optional<int> rawBits;          // raw faces: 8 or 16, where the file's length does not say
-    bool rawSigned = false;              // raw faces of 16 bits: signed steps
-    bool rawBigEndian = false;           // raw faces of 16 bits
-    std::size_t cacheBytes = 48u << 20;  // most memory spent on tiles of a source that is not held whole
+    double metresPerUnit = 1;           // height = offsetM + metresPerUnit * value; not 0
+    double offsetM = 0;                 // metres
+    std::optional<double> noDataValue;  // a value that means "missing"; NaN and infinities always do
+    double fillM = 0;                   // height given to missing samples, metres
+    std::optional<int> rawSize;         // raw faces: samples a side, where the name does not say
+    std::optional<int> rawBits;         // raw faces: 8 or 16, where the file's length does not say
+    bool rawSigned = false;             // raw faces of 16 bits: signed steps
+    bool rawBigEndian = false;          // raw faces of 16 bits
+    // Most memory spent on heights, 4 bytes each. A source that takes more is read in blocks; one whose file
+    // has none, a PNG say, is copied once to a temporary file.
+    std::size_t cacheBytes = 48u << 20;
 };
 
 // Opens an elevation image, or the six cube faces that the path names one of (earth4097_z_pos.raw) or the
-// common stem of (earth4097).
+// common stem of (earth4097: .raw, or an image's extension). A face's size is the number that the stem ends
+// in or, where it ends in none, what the file holds. Reads every sample once where NaN, noDataValue or the
+// range of a wide type must be looked for.
 Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings);
 

@@ -183,6 +183,8 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
     all.horizon = settings.horizonCulling;
     for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, out);
 
+    // Before sorting, while neighbours lie close together in memory.
+    setSkirtDepths(tree.shape, settings.skirtFactor, out.draw);
     std::sort(out.draw.begin(), out.draw.end(), [](const DrawItem& a, const DrawItem& b) {
         return a.distanceM != b.distanceM ? a.distanceM < b.distanceM : a.id < b.id;
     });
@@ -190,7 +192,6 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
               [](const ChildrenRequest& a, const ChildrenRequest& b) {
                   return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;
               });
-    setSkirtDepths(tree.shape, settings.skirtFactor, out.draw);
     out.counters.drawn = static_cast<std::uint32_t>(out.draw.size());
 }
 

@@ -61,7 +61,7 @@ vec3 decodeSrgb(vec3 colour) {
 }
 
 vec3 exposed(vec3 light) {
-    return light * (1.0 + light * 0.16) / (1.0 + light);
+    return light * (1.0 + light * 0.09) / (1.0 + light);
 }
 
 // Half a step of the 8 bits, in a pattern too fine to see, against bands in slow gradients.

@@ -61,6 +61,7 @@ struct Material {
 
 Material materialAt(vec3 up, float height, float steepness) {
     float below = 1.0 - smoothstep(-30.0 * planet.x / 6.371e6, 0.0, height);
+    if (!isOn(switchSea)) below = 0.0;
     if (isOn(switchImage)) {
         vec3 image = imageColour(up);
         // The image knows sea ice, and coasts finer than the mesh; the mesh knows depth.
@@ -102,9 +103,10 @@ vec3 lit(Material material, vec3 up, vec3 normal, vec3 toEye) {
     vec3 light = material.albedo * (sunLight * sunHere * facing + sunLight * 0.55 * sky);
     if (material.water > 0.01) {
         vec3 middle = normalize(toEye + sunDirection);
-        float shine = max(dot(shading, middle), 0.0);
-        float fresnel = 0.02 + 0.5 * pow(1.0 - max(dot(middle, toEye), 0.0), 5.0);
-        float glint = 5.0 * pow(shine, 220.0) + 0.9 * pow(shine, 40.0);
+        float away = 1.0 - dot(shading, middle);
+        float aside = 1.0 - max(dot(middle, toEye), 0.0);
+        float fresnel = 0.02 + 0.5 * aside * aside * aside * aside * aside;
+        float glint = 7.0 * exp(-260.0 * away) + 0.7 * exp(-60.0 * away);
         light += sunLight * sunHere * (material.water * day * fresnel * glint);
     }
     return light;

@@ -1,8 +1,8 @@
 // One vertex of the grid that all chunks share.
 
 layout(location = 0) in uvec4 gridVertex;  // column; row; 1 at the skirt's lower end; unused
-layout(location = 1) in uvec4 chunk;       // face + 8 level; x; y; corner of the slot in its page, x + 65536 y
-layout(location = 2) in uint page;
+layout(location = 1) in uvec4 chunk;       // face + 8 level; x; y; slot
+layout(location = 2) in uvec4 beside;      // slots of the chunks of the same level to the west, east, south, north
 layout(location = 3) in float skirtDepth;  // metres
 layout(location = 4) in vec4 chunkTint;    // colour, sRGB, and its strength
 
@@ -15,22 +15,45 @@ flat out vec4 tint;
 
 invariant gl_Position;
 
-ivec3 slotCorner() {
-    return ivec3(int(chunk.w & 0xFFFFu), int(chunk.w >> 16u), int(page));
+const uint noSlot = 0xFFFFFFFFu;  // not drawn, or on another face
+
+// Texel of a slot's first height: column and row in its page, and the page.
+ivec3 slotCorner(uint slot, int last) {
+    return ivec3(ivec2(int(slot & 0x3FFu), int((slot >> 10u) & 0x3FFu)) * (last + 1), int(slot >> 20u));
 }
 
 int stepAt(ivec3 corner, ivec2 vertex) {
     return texelFetch(heightPool, corner + ivec3(vertex, 0), 0).r;
 }
 
-// Steps a cell along one axis: central inside, second order and one-sided on the chunk's border, so that the
-// chunks on both sides of the border agree as far as their heights tell.
-float slope(ivec3 corner, ivec2 vertex, ivec2 axis, int at, int last, int here) {
-    int before = stepAt(corner, vertex + axis * (at == 0 ? 2 : -1));
-    int after = stepAt(corner, vertex + axis * (at == last ? -2 : 1));
-    int twice = at == 0      ? 4 * after - 3 * here - before
-                : at == last ? 3 * here - 4 * before + after
-                             : after - before;
+// Steps a cell along one axis: a central difference, across the chunk's border too where the chunk beside it is
+// drawn at the same level. Elsewhere on the border second order and one-sided, so that both sides agree as far
+// as their heights tell.
+float slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slotBefore, uint slotAfter) {
+    int at = vertex.x * axis.x + vertex.y * axis.y;
+    bool first = at == 0;
+    bool final = at == last;
+    uint slotBeside = first ? slotBefore : final ? slotAfter : noSlot;
+    bool oneSided = (first || final) && slotBeside == noSlot;
+    int stepBack = -1;
+    int stepOn = 1;
+    ivec3 cornerBack = corner;
+    ivec3 cornerOn = corner;
+    if (oneSided && first) stepBack = 2;
+    if (oneSided && final) stepOn = -2;
+    if (!oneSided && first) {
+        cornerBack = slotCorner(slotBeside, last);
+        stepBack = last - 1;
+    }
+    if (!oneSided && final) {
+        cornerOn = slotCorner(slotBeside, last);
+        stepOn = 1 - last;
+    }
+    int before = stepAt(cornerBack, vertex + axis * stepBack);
+    int after = stepAt(cornerOn, vertex + axis * stepOn);
+    int twice = !oneSided ? after - before
+                : first   ? 4 * after - 3 * here - before
+                          : 3 * here - 4 * before + after;
     return 0.5 * float(twice);
 }
 
@@ -58,18 +81,18 @@ void main() {
     int spacing = fineGridLog2 - cellsLog2 - level;
     GridPlace place = gridPlace(face, (ivec2(chunk.yz) * last + vertex) << spacing);
 
-    ivec3 corner = slotCorner();
-    int step = stepAt(corner, vertex);
+    ivec3 corner = slotCorner(chunk.w, last);
+    int heightStep = stepAt(corner, vertex);
     float drop = gridVertex.z == 0u ? 0.0 : skirtDepth;
-    float rise = float(step - grid.x) * planet.y - drop;
-    float height = heights.x + float(step) * planet.y;
+    float rise = float(heightStep - grid.x) * planet.y - drop;
+    float height = heights.x + float(heightStep) * planet.y;
 
     vec3 position = isOn(switchCube) ? positionOnCube(face, place, height - drop)
                                      : positionOnSphere(face, place, rise);
     vec3 normal = face.direction.xyz + place.turn;
     if (isOn(switchLighting)) {
-        vec2 steps = vec2(slope(corner, vertex, ivec2(1, 0), vertex.x, last, step),
-                          slope(corner, vertex, ivec2(0, 1), vertex.y, last, step));
+        vec2 steps = vec2(slope(corner, vertex, ivec2(1, 0), last, heightStep, beside.x, beside.y),
+                          slope(corner, vertex, ivec2(0, 1), last, heightStep, beside.z, beside.w));
         vec2 heightSlope = steps * (planet.y * heights.z) / (float(1 << spacing) * fineCell);
         normal = isOn(switchCube) ? face.normal.xyz * planet.w - heightSlope.x * face.u.xyz -
                                         heightSlope.y * face.v.xyz

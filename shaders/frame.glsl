@@ -33,6 +33,7 @@ const int switchLighting = 1;
 const int switchWireframe = 2;
 const int switchCube = 4;
 const int switchImage = 8;
+const int switchSea = 16;
 
 bool isOn(int bit) {
     return (switches.x & bit) != 0;

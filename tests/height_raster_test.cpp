@@ -34,7 +34,7 @@ TEST(HeightRaster, CacheKeepsWhatWasUsedLast) {
             return blockOf(0);
         });
     };
-    for (const std::uint64_t key : {1, 2, 3, 4}) EXPECT_TRUE(get(key));
+    for (const std::uint64_t key : {1u, 2u, 3u, 4u}) EXPECT_TRUE(get(key));
     EXPECT_TRUE(get(1));
     EXPECT_TRUE(get(5));  // drops 2
     EXPECT_EQ(loads, 5);

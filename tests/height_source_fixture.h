@@ -59,6 +59,9 @@ struct Layout {
     bool asHalf = false;    // floats stored as halves
 };
 
+// OpenImageIO is not built for ThreadSanitizer, which would report the queue of its thread pool.
+inline const bool imagesUseOneThread = OIIO::attribute("threads", 1);
+
 template <class T>
 constexpr OIIO::TypeDesc imageType() {
     if constexpr (std::is_same_v<T, std::int8_t>)

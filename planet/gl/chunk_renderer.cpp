@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <unordered_map>
 
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_image.h"
@@ -33,19 +34,20 @@ constexpr std::array<std::string_view, 3> skyFragmentFiles = {"frame.glsl", "atm
 constexpr GLuint frameBinding = 0;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
-constexpr std::uint8_t tintStrength = 200;  // of ColourBy over a lit surface, out of 255
+constexpr std::uint8_t tintStrength = 225;  // of ColourBy over a lit surface, out of 255
 
 // One drawn chunk, as shaders/chunk.vert reads it.
 struct Instance {
     std::uint32_t faceAndLevel = 0;  // face + 8 level
     std::uint32_t x = 0;
     std::uint32_t y = 0;
-    std::uint32_t slotCorner = 0;  // x + 65536 y, texels in the page
-    std::uint32_t page = 0;
+    std::uint32_t slot = 0;                         // packedPlace
+    std::array<std::uint32_t, edgeCount> beside{};  // packedPlace of the neighbours, west to north, or noSlot
     float skirtDepthM = 0;
     std::array<std::uint8_t, 4> tint{};  // sRGB and strength
 };
-static_assert(sizeof(Instance) == 28);
+static_assert(sizeof(Instance) == 40);
+constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 
 struct Programs {
     Program chunk, sky;
@@ -109,6 +111,21 @@ std::array<std::uint8_t, 4> tintOf(const DrawItem& item, const RenderSettings& s
             settings.lighting ? tintStrength : std::uint8_t{255}};
 }
 
+// Slots of drawn chunks, to find those beside a chunk.
+using DrawnSlots = std::unordered_map<std::uint64_t, std::uint32_t>;
+
+// The chunk's neighbours of its own level on its own face, as far as they are drawn.
+std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const ChunkId& id) {
+    const std::uint32_t last = (1u << id.level) - 1;
+    const auto slotAt = [&](bool onFace, std::uint32_t x, std::uint32_t y) {
+        if (!onFace) return noSlot;
+        const auto found = drawn.find(keyOf({id.face, id.level, x, y}));
+        return found == drawn.end() ? noSlot : found->second;
+    };
+    return {slotAt(id.x > 0, id.x - 1, id.y), slotAt(id.x < last, id.x + 1, id.y),
+            slotAt(id.y > 0, id.x, id.y - 1), slotAt(id.y < last, id.x, id.y + 1)};
+}
+
 const void* byteOffset(std::size_t offset) {
     return reinterpret_cast<const void*>(offset);
 }
@@ -129,6 +146,7 @@ struct ChunkRenderer::State {
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
     std::vector<Instance> instanceData;
+    DrawnSlots drawnSlots;
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
@@ -188,7 +206,7 @@ void ChunkRenderer::State::describeVertices() {
     glVertexAttribIPointer(0, 4, GL_UNSIGNED_BYTE, sizeof(GridVertex), nullptr);
     glBindBuffer(GL_ARRAY_BUFFER, instances.name());
     glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, faceAndLevel)));
-    glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, page)));
+    glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, beside)));
     glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, skirtDepthM)));
     glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(Instance, tint)));
     for (GLuint attribute = 0; attribute <= 4; ++attribute) glEnableVertexAttribArray(attribute);
@@ -207,14 +225,16 @@ Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<co
 }
 
 void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, const RenderSettings& settings) {
-    instanceData.clear();
+    drawnSlots.clear();
     for (const DrawItem& item : items) {
         assert(item.slot < pool.slotCapacity());
-        const SlotPlace place = placeOf(pool.layout(), item.slot);
-        instanceData.push_back(
-            {static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level, item.id.x, item.id.y,
-             static_cast<std::uint32_t>(place.x) + 65536u * static_cast<std::uint32_t>(place.y),
-             static_cast<std::uint32_t>(place.page), item.skirtDepthM, tintOf(item, settings)});
+        drawnSlots[keyOf(item.id)] = packedPlace(pool.layout(), item.slot);
+    }
+    instanceData.clear();
+    for (const DrawItem& item : items) {
+        instanceData.push_back({static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level, item.id.x,
+                                item.id.y, packedPlace(pool.layout(), item.slot),
+                                slotsBeside(drawnSlots, item.id), item.skirtDepthM, tintOf(item, settings)});
     }
     // A new store each frame, so that the GPU may still read the last one's.
     const std::size_t needed = instanceData.size() * sizeof(Instance);

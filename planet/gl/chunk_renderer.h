@@ -30,6 +30,7 @@ struct RenderSettings {
     ColourBy colourBy = ColourBy::None;
     double tauPx = 2;        // scale of ColourBy::Error, pixels, > 0
     double rampTopM = 6000;  // the height ramp's highest band, > 0; the sea is darkest as far below 0
+    bool sea = true;         // what lies below height 0 is sea; off: dry land, as on the Moon
     bool wireframe = false;  // the mesh's lines over a dimmed surface
     bool skirts = true;
     bool cube = false;  // draws the cube before it is blown up to the sphere, without atmosphere

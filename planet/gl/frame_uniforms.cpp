@@ -18,6 +18,7 @@ constexpr int switchLighting = 1;
 constexpr int switchWireframe = 2;
 constexpr int switchCube = 4;
 constexpr int switchImage = 8;
+constexpr int switchSea = 16;
 
 // Scale heights in the planet's radius: 10 km on Earth, a little over the real 8.4, so that the rim shows.
 constexpr double radiusInScaleHeights = 640;
@@ -58,7 +59,7 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
 int switchBits(const RenderSettings& settings, bool hasImage) {
     const bool image = hasImage && settings.surface == SurfaceColour::Image;
     return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
-           (settings.cube ? switchCube : 0) | (image ? switchImage : 0);
+           (settings.cube ? switchCube : 0) | (image ? switchImage : 0) | (settings.sea ? switchSea : 0);
 }
 
 }  // namespace

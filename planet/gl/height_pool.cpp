@@ -11,13 +11,15 @@ namespace planet::gl {
 namespace {
 
 constexpr int usualPageSize = 2048;
+constexpr int mostSlotsPerRow = 1 << 10;  // as packedPlace packs them
+constexpr int mostPages = 1 << 12;
 
 PoolLayout layoutWithPages(std::uint32_t slotCapacity, int chunkSize, int largestPage) {
     // No larger than what holds all slots in one page.
     const int wholeRow = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(slotCapacity))));
     PoolLayout layout;
     layout.chunkSize = chunkSize;
-    layout.slotsPerRow = std::min(largestPage / chunkSize, std::max(wholeRow, 1));
+    layout.slotsPerRow = std::min({largestPage / chunkSize, std::max(wholeRow, 1), mostSlotsPerRow});
     layout.pageSize = layout.slotsPerRow * chunkSize;
     const auto slotsPerPage =
         static_cast<std::uint64_t>(layout.slotsPerRow) * static_cast<std::uint64_t>(layout.slotsPerRow);
@@ -39,12 +41,18 @@ SlotPlace placeOf(const PoolLayout& layout, std::uint32_t slot) {
             static_cast<int>(inPage / row) * layout.chunkSize, static_cast<int>(slot / (row * row))};
 }
 
+std::uint32_t packedPlace(const PoolLayout& layout, std::uint32_t slot) {
+    const auto row = static_cast<std::uint32_t>(layout.slotsPerRow);
+    const std::uint32_t inPage = slot % (row * row);
+    return inPage % row + ((inPage / row) << 10) + ((slot / (row * row)) << 20);
+}
+
 Result<PoolLayout> poolLayout(std::uint32_t slotCapacity, int chunkSize, int maxTextureSize, int maxLayers) {
     if (slotCapacity == 0) return badInput("the pool of heights needs at least one slot");
     for (const int largestPage : {std::min(usualPageSize, maxTextureSize), maxTextureSize}) {
         if (largestPage < chunkSize) continue;
         const PoolLayout layout = layoutWithPages(slotCapacity, chunkSize, largestPage);
-        if (layout.pages <= maxLayers) return layout;
+        if (layout.pages <= std::min(maxLayers, mostPages)) return layout;
     }
     return badInput(fmt::format(
         "this OpenGL context cannot hold the heights of {} chunks of {} x {}: GL_MAX_TEXTURE_SIZE is {} and "

@@ -27,6 +27,9 @@ struct SlotPlace {
 };
 SlotPlace placeOf(const PoolLayout& layout, std::uint32_t slot);
 
+// The same as the vertex shader wants it: column + 2^10 row + 2^20 page, counted in slots.
+std::uint32_t packedPlace(const PoolLayout& layout, std::uint32_t slot);
+
 // Pages of up to 2048 texels a side, larger ones only where the context has too few layers. The Error names
 // the limits that are too small.
 Result<PoolLayout> poolLayout(std::uint32_t slotCapacity, int chunkSize, int maxTextureSize, int maxLayers);

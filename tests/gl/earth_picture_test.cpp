@@ -106,35 +106,92 @@ View wide(double latitudeDeg, double longitudeDeg, double altitudeM, double pitc
     return viewFrom({}, latitudeDeg, longitudeDeg, altitudeM, pitchDeg, headingDeg, 1280, 768);
 }
 
-TEST_F(EarthPicture, LooksLikeEarth) {
-    RenderSettings settings;
-    draw("earth", wide(20, 10, 1.2e7), settings);
-    settings.sunDirection = directionFromGeographic({0.2, 1.7});
-    draw("sunset_limb", wide(10, -5, 6.0e5, -16, 75), settings);
-    draw("terminator", wide(15, 20, 1.6e7), settings);
-    draw("sunset_ground", wide(20, 10, 1.2e4, 2, 80), settings);
-    settings.sunDirection = directionFromGeographic({0.2, 0.9});
-    draw("alps_50km", wide(44, 12, 5e4, -28, 310), settings);
-    settings.sunDirection = directionFromGeographic({0.3, 0.6});
-    draw("himalaya_50km", wide(27.5, 88, 5e4, -28, 300), settings);
-    settings.surface = SurfaceColour::HeightRamp;
-    draw("ramp", wide(25, 80, 1.0e7), settings);
-    draw("ramp_50km", wide(27.5, 88, 5e4, -28, 300), settings);
+// Where a place falls in a picture; the place must be in view.
+glm::ivec2 pixelOf(const View& view, double latitudeDeg, double longitudeDeg) {
+    const glm::dvec3 place =
+        6.371e6 * directionFromGeographic({glm::radians(latitudeDeg), glm::radians(longitudeDeg)});
+    const glm::dvec3 camera = cameraFromWorldRotation(view) * (place - view.eyeM);
+    const double scale = screenScalePx(view) / -camera.z;
+    return {view.widthPx / 2 + static_cast<int>(camera.x * scale),
+            view.heightPx / 2 - static_cast<int>(camera.y * scale)};
 }
 
-TEST_F(EarthPicture, Instruments) {
+struct Colours {
+    glm::ivec3 sahara, congo, atlantic;
+};
+
+Colours coloursOf(const Picture& picture, const View& view) {
+    const auto at = [&](double latitudeDeg, double longitudeDeg) {
+        const glm::ivec2 pixel = pixelOf(view, latitudeDeg, longitudeDeg);
+        return picture.at(pixel.x, pixel.y);
+    };
+    return {at(23, 12), at(1, 22), at(10, -30)};
+}
+
+void expectEarth(const Colours& colours) {
+    EXPECT_GT(colours.sahara.x, colours.sahara.z + 20) << "sand is yellow";
+    EXPECT_GT(colours.congo.y, colours.congo.x) << "forest is green";
+    EXPECT_GT(colours.atlantic.z, colours.atlantic.x + 40) << "the sea is blue";
+    EXPECT_GT(colours.sahara.x, colours.congo.x + 30) << "and sand is brighter";
+}
+
+TEST_F(EarthPicture, LandAndSeaHaveTheirColours) {
     RenderSettings settings;
-    settings.wireframe = true;
-    draw("wireframe", wide(40, 20, 4e6), settings);
-    settings.colourBy = ColourBy::Level;
-    settings.wireframe = false;
-    draw("levels", wide(36, -2, 3e5, -30, 60), settings);
-    settings.wireframe = true;
-    draw("levels_wire", wide(36, -2, 3e5, -30, 60), settings);
-    settings.wireframe = false;
-    settings.colourBy = ColourBy::None;
-    settings.cube = true;
-    draw("cube", wide(30, 40, 1.2e7), settings);
+    settings.sunDirection = directionFromGeographic({0.3, 0.1});
+    const View view = wide(15, 0, 1.2e7);
+    expectEarth(coloursOf(draw("earth_noon", view, settings), view));
+    settings.surface = SurfaceColour::HeightRamp;
+    expectEarth(coloursOf(draw("ramp_noon", view, settings), view));
+}
+
+// What people judge by eye; on request only, since it takes a while.
+TEST_F(EarthPicture, AreDrawnForPeopleToLookAt) {
+    if (std::getenv("WORLDY_PICTURES") == nullptr) GTEST_SKIP() << "WORLDY_PICTURES names no folder";
+    struct Shot {
+        const char* name;
+        View view;
+        glm::dvec3 sun;
+        RenderSettings settings;
+    };
+    RenderSettings image;
+    RenderSettings ramp;
+    ramp.surface = SurfaceColour::HeightRamp;
+    RenderSettings wire;
+    wire.wireframe = true;
+    RenderSettings levels;
+    levels.colourBy = ColourBy::Level;
+    RenderSettings levelsWire = levels;
+    levelsWire.wireframe = true;
+    RenderSettings cube;
+    cube.cube = true;
+    RenderSettings airless;
+    airless.atmosphere = false;
+    const glm::dvec3 morning = directionFromGeographic({0.2, 1.7});
+    const glm::dvec3 noon = directionFromGeographic({0.2, 0.9});
+    const glm::dvec3 afternoon = directionFromGeographic({0.3, 0.6});
+    const std::array<Shot, 15> shots = {{
+        {"earth", wide(20, 10, 1.2e7), image.sunDirection, image},
+        {"airless", wide(20, 10, 1.2e7), image.sunDirection, airless},
+        {"south", wide(-75, 10, 1.2e7), {0.5, 0.4, -0.6}, image},
+        {"north", wide(89, 10, 9e6), {0.5, 0.4, 0.6}, image},
+        {"terminator", wide(15, 20, 1.6e7), morning, image},
+        {"sunset_limb", wide(10, -5, 6e5, -16, 75), morning, image},
+        {"sunset_low", wide(20, 10, 1.2e4, 2, 80), morning, image},
+        {"alps_50km", wide(42, 12, 5e4, -25, 330), noon, image},
+        {"himalaya_50km", wide(26.5, 88.5, 5e4, -25, 320), afternoon, image},
+        {"ramp_50km", wide(26.5, 88.5, 5e4, -25, 320), afternoon, ramp},
+        {"ramp", wide(25, 80, 1e7), afternoon, ramp},
+        {"wireframe", wide(42, 12, 8e5, -50, 0), noon, wire},
+        {"levels", wide(36, -2, 3e5, -30, 60), noon, levels},
+        {"levels_wire", wide(36, -2, 3e5, -30, 60), noon, levelsWire},
+        {"cube", wide(30, 40, 1.2e7), image.sunDirection, cube},
+    }};
+    for (const Shot& shot : shots) {
+        RenderSettings settings = shot.settings;
+        settings.sunDirection = shot.sun;
+        const Picture picture = draw(shot.name, shot.view, settings);
+        EXPECT_GT(*std::max_element(picture.rgb.begin(), picture.rgb.end()), 100) << shot.name;
+    }
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ protected:
         EXPECT_TRUE(reported_.empty()) << reported_;
     }
 
+    void forgetReported() { reported_.clear(); }
     const OffscreenContext& context() const { return *context_; }
 
 private:

@@ -29,6 +29,10 @@ TEST(PoolLayout, SlotsDoNotOverlap) {
         EXPECT_LE(place.y + 129, layout->pageSize);
         EXPECT_LT(place.page, layout->pages);
         places.insert({place.x, place.y, place.page});
+        const std::uint32_t packed = packedPlace(*layout, slot);
+        EXPECT_EQ(static_cast<int>(packed & 1023) * 129, place.x);
+        EXPECT_EQ(static_cast<int>((packed >> 10) & 1023) * 129, place.y);
+        EXPECT_EQ(static_cast<int>(packed >> 20), place.page);
     }
     EXPECT_EQ(places.size(), 500u);
 }

@@ -1,0 +1,74 @@
+# The Debian packages that Worldy needs, each with what it is for, and how to install those that are missing.
+# Sourced by run.sh and test.sh.
+
+build_packages="\
+g++                     C++20 compiler
+cmake                   configures the build
+ninja-build             runs the build
+pkg-config              finds libraries without a CMake package
+libglfw3-dev            window and input
+libimgui-dev            panels
+libopenimageio-dev      reads and writes images
+libglm-dev              vectors and matrices
+libepoxy-dev            OpenGL and EGL entry points
+libegl-dev              pictures without a display
+libgl1-mesa-dri         OpenGL on machines without a graphics driver
+libegl-mesa0            the same, without a display
+libexpected-dev         errors as values
+libtbb-dev              the bake on all cores
+libfmt-dev              messages
+libxxhash-dev           checksums of the chunk file
+libcli11-dev            command line
+libtomlplusplus-dev     settings
+nlohmann-json3-dev      reports
+libspdlog-dev           log
+fonts-dejavu-core       a font with Greek letters"
+
+test_packages="\
+libgtest-dev            unit tests
+libgmock-dev            unit tests
+libbenchmark-dev        benchmarks
+xvfb                    a display for the window's tests
+xauth                   the same
+xdotool                 presses keys in the window's tests
+imagemagick             takes their screenshots
+libzstd-dev             what the height codec is compared with"
+
+# install_missing ASSUME_YES PACKAGES...: lines of "package   what for".
+install_missing() {
+    assume_yes=$1
+    shift
+    missing=""
+    while read -r package reason; do
+        if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "install ok installed"; then
+            missing="$missing $package"
+            printf '  %-22s %s\n' "$package" "$reason" >&2
+        fi
+    done <<EOF
+$(printf '%s\n' "$@")
+EOF
+    [ -n "$missing" ] || return 0
+    if ! command -v apt-get >/dev/null; then
+        echo "These packages are missing; this system has no apt-get, so install their equivalents by hand." >&2
+        return 1
+    fi
+    echo "The packages above are missing." >&2
+    as_root=""
+    if [ "$(id -u)" != 0 ]; then
+        as_root="sudo"
+        if [ "$assume_yes" != yes ]; then
+            printf 'Install them with sudo apt-get? [y/N] ' >&2
+            read -r answer || answer=n
+            case "$answer" in [yY]*) ;; *) echo "Nothing was installed." >&2; return 1 ;; esac
+        fi
+    fi
+    $as_root apt-get update -qq &&
+        $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >&2
+}
+
+# configure PRESET: once; a configured folder looks after itself.
+configure() {
+    folder=build
+    [ "$1" = release ] || folder="build-$1"
+    [ -f "$folder/build.ninja" ] || cmake --preset "$1"
+}

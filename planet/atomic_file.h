@@ -1,0 +1,40 @@
+// A file that appears whole or not at all: written under a temporary name beside its place, synced, renamed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "planet/result.h"
+
+namespace planet {
+
+// Owns the temporary file; unless committed, the destructor removes it and what was there before stays. Only
+// one writer a path at a time: a second one gets an Error. What a killed writer left behind is written over.
+// One thread.
+class AtomicFile {
+public:
+    static Result<AtomicFile> create(const std::filesystem::path& path);
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&&) = delete;
+    ~AtomicFile();
+
+    std::uint64_t size() const { return size_; }
+    Result<void> append(std::span<const std::byte> bytes);
+    // Replaces bytes that were appended before.
+    Result<void> overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
+    // Makes the file durable and gives it its name.
+    Result<void> commit();
+
+private:
+    AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
+    Result<void> write(std::uint64_t offset, std::span<const std::byte> bytes);
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+}  // namespace planet

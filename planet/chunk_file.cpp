@@ -1,0 +1,237 @@
+#include "planet/chunk_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "planet/chunk_file_format.h"
+#include "planet/height_codec.h"
+#include "planet/little_endian.h"
+
+namespace planet {
+
+namespace {
+
+struct Descriptor {
+    explicit Descriptor(int opened) : number(opened) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (number >= 0) close(number);
+    }
+    int number;
+};
+
+ReadAt readerOf(std::shared_ptr<const Descriptor> descriptor, std::string name) {
+    return [descriptor = std::move(descriptor), name = std::move(name)](
+               std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
+        while (!out.empty()) {
+            const ssize_t count =
+                pread(descriptor->number, out.data(), out.size(), static_cast<off_t>(offset));
+            if (count < 0 && errno == EINTR) continue;
+            if (count < 0) return ioError(fmt::format("{}: reading failed: {}", name, std::strerror(errno)));
+            if (count == 0)
+                return ioError(
+                    fmt::format("{}: ended at byte {} while open: it was truncated", name, offset));
+            out = out.subspan(static_cast<std::size_t>(count));
+            offset += static_cast<std::uint64_t>(count);
+        }
+        return {};
+    };
+}
+
+// No honest block is larger: the codec never needs 4 bytes a sample.
+std::uint64_t largestBlockBytes(const PlanetShape& shape) {
+    const auto side = static_cast<std::uint64_t>(2 * chunkCells(shape) + 1);
+    return side * side * 4 + 1024;
+}
+
+// One of the four quarters of a refined grid.
+std::vector<std::int16_t> cutQuarter(std::span<const std::int16_t> fine, int cells, int quadrant) {
+    const auto side = static_cast<std::size_t>(cells) + 1;
+    const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
+    const std::size_t column = (quadrant & 1) != 0 ? side - 1 : 0;
+    const std::size_t row = (quadrant & 2) != 0 ? side - 1 : 0;
+    std::vector<std::int16_t> quarter(side * side);
+    for (std::size_t j = 0; j < side; ++j) {
+        const auto from = fine.subspan((row + j) * fineSide + column, side);
+        std::copy(from.begin(), from.end(), quarter.begin() + static_cast<std::ptrdiff_t>(j * side));
+    }
+    return quarter;
+}
+
+bool isSane(const ChunkEntry& entry) {
+    return std::isfinite(entry.deltaCM) && entry.deltaCM >= 0 && entry.minStep <= entry.maxStep &&
+           entry.children.exists() && entry.children.size > 0;
+}
+
+void describeLeaf(ChunkData& chunk) {
+    const auto [lowest, highest] = std::minmax_element(chunk.heights.begin(), chunk.heights.end());
+    chunk.deltaCM = 0;
+    chunk.minStep = *lowest;
+    chunk.maxStep = *highest;
+    chunk.children = {};
+}
+
+void describe(ChunkData& chunk, const ChunkEntry& entry) {
+    chunk.deltaCM = entry.deltaCM;
+    chunk.minStep = entry.minStep;
+    chunk.maxStep = entry.maxStep;
+    chunk.children = entry.children;
+}
+
+}  // namespace
+
+Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    auto descriptor = std::make_shared<const Descriptor>(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (descriptor->number < 0)
+        return ioError(fmt::format("{}: cannot open it: {}", name, std::strerror(errno)));
+    struct stat status {};
+    if (fstat(descriptor->number, &status) != 0)
+        return ioError(fmt::format("{}: {}", name, std::strerror(errno)));
+    if (!S_ISREG(status.st_mode))
+        return badInput(fmt::format("{}: not a file; name a baked chunk file", name));
+    return open(name, static_cast<std::uint64_t>(status.st_size), readerOf(std::move(descriptor), name));
+}
+
+Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, ReadAt readAt) {
+    if (sizeBytes < chunkFileHeaderBytes) {
+        return badInput(
+            fmt::format("{}: {} bytes are too few for a chunk file, whose header alone is {}: it is {}", name,
+                        sizeBytes, chunkFileHeaderBytes, sizeBytes == 0 ? "empty" : "truncated"));
+    }
+    std::array<std::byte, chunkFileHeaderBytes> header{};
+    if (auto read = readAt(0, header); !read) return tl::unexpected(read.error());
+    auto info = infoFromHeader(header, name, sizeBytes);
+    if (!info) return tl::unexpected(info.error());
+    ChunkFile file;
+    file.info_ = *std::move(info);
+    file.name_ = std::move(name);
+    file.sizeBytes_ = sizeBytes;
+    file.readAt_ = std::move(readAt);
+    return file;
+}
+
+Result<std::vector<std::byte>> ChunkFile::readBlock(const ChunkId& id, BlockLocation location,
+                                                    std::size_t bytesNeeded) const {
+    if (location.offset < chunkFileHeaderBytes || location.size > largestBlockBytes(info_.shape) ||
+        location.offset > sizeBytes_ || location.size > sizeBytes_ - location.offset ||
+        location.size < bytesNeeded) {
+        return badInput(
+            fmt::format("{}: the block of chunk {} is said to be {} bytes at {}, which the file of {} bytes "
+                        "cannot hold; bake it again",
+                        name_, toString(id), location.size, location.offset, sizeBytes_));
+    }
+    std::vector<std::byte> bytes(location.size);
+    if (auto read = readAt_(location.offset, bytes); !read) return tl::unexpected(read.error());
+    return bytes;
+}
+
+Result<std::span<const std::byte>> ChunkFile::checkedContent(const ChunkId& id,
+                                                             std::span<const std::byte> block,
+                                                             std::uint64_t expectedChecksum) const {
+    if (ByteReader(block.last(checksumBytes)).get<std::uint64_t>() != expectedChecksum) {
+        return badInput(
+            fmt::format("{}: the block of chunk {} is damaged: its checksum does not match; bake it again",
+                        name_, toString(id)));
+    }
+    return block.first(block.size() - checksumBytes);
+}
+
+Error ChunkFile::nonsense(const ChunkId& id, std::string_view what) const {
+    return {ErrorKind::BadInput, fmt::format("{}: the block of chunk {} makes no sense: {}; bake it again",
+                                             name_, toString(id), what)};
+}
+
+Result<ChunkData> ChunkFile::readRoot(Face face) const {
+    const BlockLocation location = info_.roots[static_cast<std::size_t>(face)];
+    ChunkData root;
+    root.id = {face, 0, 0, 0};
+    const bool leaf = leafLevel(info_.shape) == 0;
+    const std::size_t entryBytes = leaf ? 0 : chunkEntryBytes;
+    const auto block = readBlock(root.id, location, entryBytes + checksumBytes);
+    if (!block) return tl::unexpected(block.error());
+    const auto sum = rootChecksum(std::span(*block).first(block->size() - checksumBytes), face);
+    auto content = checkedContent(root.id, *block, sum);
+    if (!content) return tl::unexpected(content.error());
+    root.heights.resize(static_cast<std::size_t>(chunkVertexCount(info_.shape)));
+    if (auto decoded = decodeGrid(content->subspan(entryBytes), chunkSize(info_.shape), root.heights);
+        !decoded) {
+        return tl::unexpected(nonsense(root.id, decoded.error().message));
+    }
+    if (leaf) {
+        describeLeaf(root);
+        return root;
+    }
+    const ChunkEntry entry = entryFrom(content->first<chunkEntryBytes>(), location.offset);
+    if (!isSane(entry))
+        return tl::unexpected(nonsense(root.id, "its error, extremes or children are out of range"));
+    describe(root, entry);
+    return root;
+}
+
+Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
+    const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const {
+    assert(parent.level < leafLevel(info_.shape));
+    const bool leaves = parent.level + 1 == leafLevel(info_.shape);
+    const std::size_t entriesBytes = leaves ? 0 : quadrantCount * chunkEntryBytes;
+    const auto block = readBlock(parent, location, entriesBytes + checksumBytes);
+    if (!block) return tl::unexpected(block.error());
+    const auto sum = siblingChecksum(std::span(*block).first(block->size() - checksumBytes), parent);
+    const auto content = checkedContent(parent, *block, sum);
+    if (!content) return tl::unexpected(content.error());
+
+    const int cells = chunkCells(info_.shape);
+    const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
+    std::vector<std::int16_t> fine(fineSide * fineSide);
+    if (auto decoded = decodeRefinement(content->subspan(entriesBytes), parentHeights, cells, fine);
+        !decoded) {
+        return tl::unexpected(nonsense(parent, decoded.error().message));
+    }
+    std::array<ChunkData, quadrantCount> children;
+    for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) {
+        const auto q = static_cast<std::size_t>(quadrant);
+        ChunkData& child = children[q];
+        child.id = childOf(parent, quadrant);
+        child.heights = cutQuarter(fine, cells, quadrant);
+        if (leaves) {
+            describeLeaf(child);
+            continue;
+        }
+        const ChunkEntry entry =
+            entryFrom(content->subspan(q * chunkEntryBytes).first<chunkEntryBytes>(), location.offset);
+        if (!isSane(entry))
+            return tl::unexpected(nonsense(child.id, "its error, extremes or children are out of range"));
+        describe(child, entry);
+    }
+    return children;
+}
+
+Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const ChunkId& parent,
+                                                                     BlockLocation location) const {
+    assert(parent.level + 1 < leafLevel(info_.shape));
+    constexpr std::size_t entriesBytes = quadrantCount * chunkEntryBytes;
+    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, entriesBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::array<ChunkEntry, quadrantCount> entries;
+    for (std::size_t q = 0; q < entries.size(); ++q) {
+        entries[q] = entryFrom(std::span(*bytes).subspan(q * chunkEntryBytes).first<chunkEntryBytes>(),
+                               location.offset);
+        if (!isSane(entries[q])) {
+            return tl::unexpected(
+                nonsense(childOf(parent, static_cast<int>(q)), "its index entry is out of range"));
+        }
+    }
+    return entries;
+}
+
+}  // namespace planet

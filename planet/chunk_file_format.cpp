@@ -1,0 +1,177 @@
+#include "planet/chunk_file_format.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "planet/little_endian.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::array<char, 8> magic = {'W', 'O', 'R', 'L', 'D', 'Y', 'C', 'H'};
+constexpr std::size_t maxSourceBytes = 200;
+constexpr std::uint64_t rootSeed = std::uint64_t{1} << 63;  // no face's key has this bit
+
+std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
+    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
+
+// Cuts at a character's start, so that what is left is UTF-8 if the whole was.
+std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
+    if (text.size() <= maxBytes) return text;
+    std::size_t end = maxBytes;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+    return text.substr(0, end);
+}
+
+// Empty where the shape is one that this program bakes.
+std::string shapeProblem(const PlanetShape& shape) {
+    if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("a radius of {} m", shape.radiusM);
+    if (!(shape.quantumM > 0 && shape.quantumM <= 1e6))
+        return fmt::format("a quantum of {} m", shape.quantumM);
+    if (!(std::abs(shape.baseHeightM) <= 1e9)) return fmt::format("a base height of {} m", shape.baseHeightM);
+    if (shape.chunkCellsLog2 < 4 || shape.chunkCellsLog2 > 7) {
+        return fmt::format("chunks of 2^{} cells a side (4 to 7 are possible)", shape.chunkCellsLog2);
+    }
+    if (shape.faceCellsLog2 < shape.chunkCellsLog2 || shape.faceCellsLog2 > maxFaceCellsLog2) {
+        return fmt::format("faces of 2^{} cells a side ({} to {} are possible)", shape.faceCellsLog2,
+                           shape.chunkCellsLog2, maxFaceCellsLog2);
+    }
+    return {};
+}
+
+}  // namespace
+
+void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset) {
+    ByteWriter out(block);
+    out.put(entry.deltaCM);
+    out.put(entry.minStep);
+    out.put(entry.maxStep);
+    out.put(entry.children.size);
+    out.put(entry.children.exists() ? blockOffset - entry.children.offset : std::uint64_t{0});
+}
+
+ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset) {
+    ByteReader in(bytes);
+    ChunkEntry entry;
+    entry.deltaCM = in.get<float>();
+    entry.minStep = in.get<std::int16_t>();
+    entry.maxStep = in.get<std::int16_t>();
+    entry.children.size = in.get<std::uint32_t>();
+    const auto distance = in.get<std::uint64_t>();
+    // A distance beyond the file's start wraps to an offset that no file has; the reader refuses it.
+    entry.children.offset = distance == 0 ? 0 : blockOffset - distance;
+    return entry;
+}
+
+std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face) {
+    return checksum(bytes, rootSeed | keyOf({face, 0, 0, 0}));
+}
+
+std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent) {
+    return checksum(bytes, keyOf(parent));
+}
+
+std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes) {
+    std::vector<std::byte> bytes;
+    ByteWriter out(bytes);
+    for (const char c : magic) out.put(c);
+    out.put(chunkFileVersion);
+    out.put(static_cast<std::uint32_t>(chunkFileHeaderBytes));
+    out.put(fileBytes);
+    out.put(info.shape.radiusM);
+    out.put(info.shape.quantumM);
+    out.put(info.shape.baseHeightM);
+    out.put(static_cast<std::uint8_t>(info.shape.faceCellsLog2));
+    out.put(static_cast<std::uint8_t>(info.shape.chunkCellsLog2));
+    out.put(info.minStep);
+    out.put(info.maxStep);
+    out.put(std::uint16_t{0});
+    out.put(info.missingSamples);
+    for (const BlockLocation& root : info.roots) {
+        out.put(root.offset);
+        out.put(root.size);
+    }
+    const std::string_view source = cutUtf8(info.source, maxSourceBytes);
+    out.put(static_cast<std::uint16_t>(source.size()));
+    for (const char c : source) out.put(c);
+
+    std::array<std::byte, chunkFileHeaderBytes> header{};
+    assert(bytes.size() <= header.size() - checksumBytes);
+    std::copy(bytes.begin(), bytes.end(), header.begin());
+    std::vector<std::byte> sum;
+    ByteWriter(sum).put(checksum(std::span(header).first<chunkFileHeaderBytes - checksumBytes>(), 0));
+    std::copy(sum.begin(), sum.end(), header.end() - checksumBytes);
+    return header;
+}
+
+Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderBytes> header,
+                                     const std::string& name, std::uint64_t fileBytes) {
+    ByteReader in(header);
+    if (std::memcmp(in.take(magic.size()).data(), magic.data(), magic.size()) != 0) {
+        return badInput(
+            fmt::format("{}: not a chunk file: it does not begin with \"WORLDYCH\"; bake one with "
+                        "`worldy bake SOURCE -o OUT.chk`",
+                        name));
+    }
+    const auto version = in.get<std::uint32_t>();
+    if (version > chunkFileVersion) {
+        return badInput(
+            fmt::format("{}: version {} of the chunk file; this program reads up to version {}: update it, "
+                        "or bake the source again",
+                        name, version, chunkFileVersion));
+    }
+    const std::uint64_t expected = checksum(header.first<chunkFileHeaderBytes - checksumBytes>(), 0);
+    if (ByteReader(header.last<checksumBytes>()).get<std::uint64_t>() != expected) {
+        return badInput(
+            fmt::format("{}: the header is damaged: its checksum does not match; bake it again", name));
+    }
+    const auto headerSize = in.get<std::uint32_t>();
+    const auto recordedBytes = in.get<std::uint64_t>();
+    if (version < 1 || headerSize != chunkFileHeaderBytes) {
+        return badInput(
+            fmt::format("{}: a header of version {} and {} bytes; version {} and {} bytes were expected",
+                        name, version, headerSize, chunkFileVersion, chunkFileHeaderBytes));
+    }
+    if (recordedBytes != fileBytes) {
+        return badInput(
+            fmt::format("{}: {} bytes long, but was baked with {}: it is {}; copy or bake it again", name,
+                        fileBytes, recordedBytes, fileBytes < recordedBytes ? "truncated" : "too long"));
+    }
+    ChunkFileInfo info;
+    info.shape.radiusM = in.get<double>();
+    info.shape.quantumM = in.get<double>();
+    info.shape.baseHeightM = in.get<double>();
+    info.shape.faceCellsLog2 = in.get<std::uint8_t>();
+    info.shape.chunkCellsLog2 = in.get<std::uint8_t>();
+    if (const std::string problem = shapeProblem(info.shape); !problem.empty()) {
+        return badInput(fmt::format("{}: the header asks for {}; bake it again", name, problem));
+    }
+    info.minStep = in.get<std::int16_t>();
+    info.maxStep = in.get<std::int16_t>();
+    in.take(2);
+    info.missingSamples = in.get<std::uint64_t>();
+    for (BlockLocation& root : info.roots) {
+        root.offset = in.get<std::uint64_t>();
+        root.size = in.get<std::uint32_t>();
+    }
+    const auto sourceBytes = in.get<std::uint16_t>();
+    if (info.shape.radiusM + heightM(info.shape, info.minStep) <= 0) {
+        return badInput(
+            fmt::format("{}: the header has heights below the planet's centre; bake it again", name));
+    }
+    if (sourceBytes > maxSourceBytes || info.minStep > info.maxStep) {
+        return badInput(fmt::format("{}: the header contradicts itself; bake it again", name));
+    }
+    const auto source = in.take(sourceBytes);
+    info.source.assign(reinterpret_cast<const char*>(source.data()), source.size());
+    return info;
+}
+
+}  // namespace planet

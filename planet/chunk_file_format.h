@@ -1,0 +1,34 @@
+// The bytes of the chunk file, shared by its reader and its writer. README.md has the same as a table.
+// Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planet/chunk_file.h"
+
+namespace planet {
+
+inline constexpr std::size_t chunkEntryBytes = 20;
+inline constexpr std::size_t checksumBytes = 8;
+
+// Blocks point back to earlier ones by distance, so that a run of blocks can be made before it is known where
+// in the file it will lie.
+void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset);
+ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset);
+
+// XXH3 of the bytes, seeded by whose block it is: a root block is its own chunk's, a sibling block its
+// parent's.
+std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face);
+std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
+
+std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes);
+
+// The Error names the file.
+Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderBytes> header,
+                                     const std::string& name, std::uint64_t fileBytes);
+
+}  // namespace planet

@@ -1,0 +1,90 @@
+// What the height codec expects of the samples that a refinement adds, from the samples known by then.
+//
+// The missing samples of a fine grid of (2c + 1)^2 come in three passes, each seeing all of the passes
+// before:
+//
+//   K s K s K     K  known, the coarse grid: (c + 1)^2
+//   r m r m r     m  Middle: odd row, odd column, c^2, from the coarse samples around
+//   K s K s K     r  OddRow: odd row, even column, c x (c + 1), from two coarse samples and two middles
+//   r m r m r     s  OddColumn: even row, odd column, (c + 1) x c, from those and four of OddRow
+//   K s K s K
+//
+// Within a pass nothing of the same row is looked at, so that a row is predicted in one go. The prediction is
+// a weighted sum; the expected size of its error is another, of the errors around and of how much the surface
+// bends. Integers only: bit-identical on every machine.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace planet {
+
+enum class RefinementPass : std::uint8_t { Middle, OddRow, OddColumn };
+inline constexpr std::array allRefinementPasses = {RefinementPass::Middle, RefinementPass::OddRow,
+                                                   RefinementPass::OddColumn};
+
+// How many samples a pass has, at a coarse grid of that many cells a side.
+int passRows(RefinementPass pass, int coarseCells);
+int passColumns(RefinementPass pass, int coarseCells);
+
+// A pass has this many predictors to choose from, in [0, refinementPredictorCount).
+inline constexpr int refinementPredictorCount = 8;
+
+// A plane of integers with a border of one cell on every side: rows and columns from -1.
+struct BorderedPlane {
+    int rows = 0;  // without the border
+    int columns = 0;
+    std::vector<std::int32_t> cells;
+
+    BorderedPlane(int rowCount, int columnCount);
+    std::int32_t* row(int y) { return cells.data() + (y + 1) * (columns + 2) + 1; }
+    const std::int32_t* row(int y) const { return cells.data() + (y + 1) * (columns + 2) + 1; }
+};
+
+// One block's samples and errors so far, for the encoder and the decoder alike.
+class RefinementPredictor {
+public:
+    explicit RefinementPredictor(int coarseCells);  // c in [1, 128]
+
+    // coarse: (c + 1)^2, row-major.
+    void setCoarse(std::span<const std::int16_t> coarse);
+
+    // Starts a pass anew, with a predictor in [0, refinementPredictorCount). The passes before must be
+    // complete.
+    void beginPass(RefinementPass pass, int predictor);
+
+    // What one row is expected to be and the |error| expected, in 1/256 steps, >= 0. Rows go in order: a
+    // row's errors must be told before the next is asked for, its samples before the next pass begins.
+    void predictRow(int row, std::span<std::int16_t> predicted) const;
+    void expectErrors(int row, std::span<float> expected256) const;
+    void setErrors(int row, std::span<const std::int16_t> errors);
+    void setSamples(int row, std::span<const std::int16_t> samples);
+
+private:
+    void beginMiddle();
+    void beginOddRow();
+    void beginOddColumn();
+    void predictMiddle(int row, std::span<std::int16_t> predicted) const;
+    void predictOddRow(int row, std::span<std::int16_t> predicted) const;
+    void predictOddColumn(int row, std::span<std::int16_t> predicted) const;
+    void expectMiddle(int row, std::span<float> expected256) const;
+    void expectOddRow(int row, std::span<float> expected256) const;
+    void expectOddColumn(int row, std::span<float> expected256) const;
+
+    int cells_;
+    RefinementPass pass_ = RefinementPass::Middle;
+    std::size_t predictor_ = 0;
+    BorderedPlane coarse_;
+    BorderedPlane bendX_;  // |second difference| of the coarse grid along a row
+    BorderedPlane bendY_;  // and along a column
+    BorderedPlane middle_;
+    BorderedPlane middleError_;  // |error|, as in the other passes
+    BorderedPlane oddRow_;
+    BorderedPlane oddRowError_;
+    BorderedPlane oddColumnError_;
+};
+
+}  // namespace planet

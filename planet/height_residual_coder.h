@@ -1,0 +1,79 @@
+// Entropy coding of the height codec's residuals: a range variant of asymmetric numeral systems (Duda,
+// "Asymmetric numeral systems", arXiv:1311.2540) over a fixed family of distributions, two states
+// interleaved.
+//
+// Nothing but the residuals is coded: which distribution codes one follows from a width that both sides work
+// out from what they know already. A width step is a quarter octave of the expected |residual|. The
+// distributions are Student's t, whose tails fit terrain, as integer frequencies made once with IEEE
+// additions, multiplications and divisions only, so that every machine makes the same ones.
+//
+// Residuals are taken modulo 2^16.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace planet {
+
+// A width index in [0, residualWidthCount): residualWidthOfOne expects |residual| near 1, each step a quarter
+// octave.
+inline constexpr int residualWidthCount = 84;
+inline constexpr int residualWidthOfOne = 24;
+
+// What a residual costs under a width, in 1/256 bit. For choosing between ways to code.
+int residualCost(int widthIndex, int residual);
+
+// Collects residuals in the order the decoder will ask for them.
+class ResidualEncoder {
+public:
+    explicit ResidualEncoder(std::size_t expectedResiduals) { tokens_.reserve(expectedResiduals); }
+
+    // One row: the decoder must ask for the same row. Widths in [0, residualWidthCount).
+    void addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths);
+    // Codes all that was added and appends it.
+    void finish(std::vector<std::byte>& out) const;
+
+private:
+    struct Token {
+        std::uint16_t start;      // of the symbol's interval, of 4096
+        std::uint16_t frequency;  // the interval's length, > 0
+        std::uint16_t rawBits;    // low bits that follow the symbol as they are
+        std::uint8_t rawBitCount;
+        std::uint8_t state;  // 0 or 1
+    };
+    std::vector<Token> tokens_;
+};
+
+struct ResidualDistribution;
+
+// Reads what ResidualEncoder wrote. Hostile bytes make it fail, or give other residuals; never a read
+// outside.
+class ResidualDecoder {
+public:
+    explicit ResidualDecoder(std::span<const std::byte> coded);
+
+    void readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals);
+
+    // The bytes ended before the residuals did, or can't be a start. What readRow gave is then meaningless.
+    bool failed() const { return failed_; }
+    // All bytes are used up and both states are back where the encoder's began.
+    bool ended() const;
+
+private:
+    template <bool MayEnd>
+    std::int16_t readOne(std::uint64_t& state, int widthIndex);
+    template <bool MayEnd>
+    void readRowAs(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals);
+
+    void refillNearEnd(std::uint64_t& state);
+
+    const ResidualDistribution* distributions_;
+    const std::byte* next_;
+    const std::byte* end_;
+    std::uint64_t states_[2];
+    bool failed_ = false;
+};
+
+}  // namespace planet

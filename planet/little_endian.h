@@ -1,0 +1,84 @@
+// Numbers to and from bytes, little-endian on every machine, no alignment asked for. Any thread.
+#pragma once
+
+#include <bit>
+#include <cassert>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace planet {
+
+namespace detail {
+template <std::size_t size>
+struct UnsignedOfSize;
+template <>
+struct UnsignedOfSize<1> {
+    using Type = std::uint8_t;
+};
+template <>
+struct UnsignedOfSize<2> {
+    using Type = std::uint16_t;
+};
+template <>
+struct UnsignedOfSize<4> {
+    using Type = std::uint32_t;
+};
+template <>
+struct UnsignedOfSize<8> {
+    using Type = std::uint64_t;
+};
+}  // namespace detail
+
+template <class T>
+concept Number = std::integral<T> || std::floating_point<T>;
+
+// Appends numbers to bytes.
+class ByteWriter {
+public:
+    explicit ByteWriter(std::vector<std::byte>& out) : out_(out) {}
+
+    template <Number T>
+    void put(T value) {
+        using Bits = typename detail::UnsignedOfSize<sizeof(T)>::Type;
+        const auto bits = std::bit_cast<Bits>(value);
+        for (std::size_t i = 0; i < sizeof(T); ++i) {
+            out_.push_back(static_cast<std::byte>(static_cast<std::uint64_t>(bits) >> (8 * i)));
+        }
+    }
+
+private:
+    std::vector<std::byte>& out_;
+};
+
+// Reads numbers one after the other. The caller has checked that there are enough bytes.
+class ByteReader {
+public:
+    explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    template <Number T>
+    T get() {
+        assert(bytes_.size() >= sizeof(T));
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < sizeof(T); ++i)
+            bits |= std::to_integer<std::uint64_t>(bytes_[i]) << (8 * i);
+        bytes_ = bytes_.subspan(sizeof(T));
+        return std::bit_cast<T>(static_cast<typename detail::UnsignedOfSize<sizeof(T)>::Type>(bits));
+    }
+
+    std::span<const std::byte> take(std::size_t count) {
+        const auto taken = bytes_.first(count);
+        bytes_ = bytes_.subspan(count);
+        return taken;
+    }
+
+    std::span<const std::byte> rest() const { return bytes_; }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
+}  // namespace planet

@@ -1,0 +1,12 @@
+# find_package(planet): targets planet::planet (no GL) and planet::planet_gl.
+include(CMakeFindDependencyMacro)
+find_dependency(PkgConfig)
+find_dependency(Threads)
+find_dependency(glm)
+find_dependency(tl-expected)
+find_dependency(TBB)
+find_dependency(fmt)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(OPENIMAGEIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+include(${CMAKE_CURRENT_LIST_DIR}/planetTargets.cmake)

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Installs what is missing, builds everything, and runs every test: ./test.sh [--yes] [ctest's arguments]
+# PRESET=asan, tsan or clang builds and tests that variant instead of the release.
+set -eu
+cd "$(dirname "$0")"
+assume_yes=no
+if [ "${1:-}" = --yes ]; then
+    assume_yes=yes
+    shift
+fi
+. .ci/packages.sh
+preset=${PRESET:-release}
+install_missing "$assume_yes" "$build_packages" "$test_packages"
+configure "$preset"
+cmake --build --preset "$preset"
+folder=build
+[ "$preset" = release ] || folder="build-$preset"
+display=""
+[ -n "${DISPLAY:-}" ] || display='xvfb-run -a -s "-screen 0 1600x1000x24"'
+eval "exec $display"' ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@"'

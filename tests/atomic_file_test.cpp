@@ -1,0 +1,106 @@
+#include "planet/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include "synthetic_source.h"
+
+namespace planet {
+namespace {
+
+std::span<const std::byte> bytesOf(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
+
+std::string contentOf(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::size_t filesIn(const std::filesystem::path& folder) {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(AtomicFile, appearsOnlyWhenCommitted) {
+    const test::TemporaryFolder folder;
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->append(bytesOf("hello world")));
+    ASSERT_TRUE(file->overwrite(6, bytesOf("there")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+    ASSERT_TRUE(file->commit());
+    EXPECT_EQ(contentOf(folder / "a"), "hello there");
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+TEST(AtomicFile, uncommittedLeavesTheOldFileAndNothingElse) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a") << "old";
+    {
+        auto file = AtomicFile::create(folder / "a");
+        ASSERT_TRUE(file);
+        ASSERT_TRUE(file->append(bytesOf("new")));
+    }
+    EXPECT_EQ(contentOf(folder / "a"), "old");
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+TEST(AtomicFile, secondWriterOfTheSamePathIsRefused) {
+    const test::TemporaryFolder folder;
+    auto first = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(first);
+    const auto second = AtomicFile::create(folder / "a");
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().message.find("another program is writing"), std::string::npos);
+    ASSERT_TRUE(first->commit());
+    EXPECT_TRUE(AtomicFile::create(folder / "a"));
+}
+
+TEST(AtomicFile, leftoverOfAKilledWriterIsWrittenOver) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / ".a.part") << "a long leftover of a writer that was killed";
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->append(bytesOf("short")));
+    ASSERT_TRUE(file->commit());
+    EXPECT_EQ(contentOf(folder / "a"), "short");
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+TEST(AtomicFile, missingFolderAndFolderAsFileAreErrorsThatNameThem) {
+    const test::TemporaryFolder folder;
+    const auto missing = AtomicFile::create(folder / "no/such/file");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().kind, ErrorKind::Io);
+    EXPECT_NE(missing.error().message.find("no/such/file"), std::string::npos);
+    EXPECT_FALSE(AtomicFile::create(folder.path()));
+}
+
+TEST(AtomicFile, fullDiskIsAnErrorAndKeepsTheOldFile) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a") << "old";
+    // A limit on a file's size fails the write as a full disk does, without needing one.
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{4096, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    {
+        auto file = AtomicFile::create(folder / "a");
+        ASSERT_TRUE(file);
+        const auto written = file->append(std::vector<std::byte>(10000));
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().kind, ErrorKind::Io);
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(contentOf(folder / "a"), "old");
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+}  // namespace
+}  // namespace planet

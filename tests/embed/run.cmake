@@ -1,0 +1,27 @@
+# Installs the package into an empty folder, builds the embedding program against it, and runs it on a small bake.
+# Given: BUILD_FOLDER, SOURCE_FOLDER (this one), WORLDY (the binary), SANITIZE, COMPILER, DATA (an elevation image).
+file(REMOVE_RECURSE ${BUILD_FOLDER}/embed)
+file(MAKE_DIRECTORY ${BUILD_FOLDER}/embed)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN} failed:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+set(flags "")
+if(SANITIZE)
+  set(flags "-fsanitize=${SANITIZE}")
+endif()
+run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --component planet --prefix ${BUILD_FOLDER}/embed/installed)
+run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${BUILD_FOLDER}/embed/build -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_PREFIX_PATH=${BUILD_FOLDER}/embed/installed -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags})
+run(${CMAKE_COMMAND} --build ${BUILD_FOLDER}/embed/build)
+run(${WORLDY} bake ${DATA} --face-size 257 -o ${BUILD_FOLDER}/embed/earth.chk)
+run(${BUILD_FOLDER}/embed/build/embed ${BUILD_FOLDER}/embed/earth.chk 30)
+message("${output}")
+if(NOT output MATCHES "([1-9][0-9]*) chunks, ([1-9][0-9]*) triangles")
+  message(FATAL_ERROR "the embedding program drew nothing")
+endif()
