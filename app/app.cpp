@@ -1,0 +1,141 @@
+#include "app/app.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "app/bake_progress.h"
+#include "app/editor.h"
+#include "app/exit_code.h"
+#include "app/places.h"
+#include "app/shot_command.h"
+#include "app/window.h"
+#include "planet/height_source.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+struct OpenSettings {
+    Settings settings;
+    fs::path file;
+    std::string textBefore;  // what the file would hold unchanged
+    bool mayBeSaved = true;  // not over a file that could not be read
+};
+
+// A file that the user names must be good; their own may be bad, which is told and gets over with defaults.
+Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
+    OpenSettings open;
+    const bool named = !options.settingsFile.empty();
+    open.file = named ? options.settingsFile : configFolder() / "settings.toml";
+    std::error_code status;
+    if (named || fs::exists(open.file, status)) {
+        Result<Settings> loaded = loadSettings(open.file);
+        if (!loaded && named) return tl::unexpected(loaded.error());
+        if (loaded)
+            open.settings = *loaded;
+        else
+            log->warn("{}; going on with the defaults, and the file stays as it is", loaded.error().message);
+        open.mayBeSaved = loaded.has_value();
+    }
+    open.textBefore = settingsText(open.settings);
+    return open;
+}
+
+void saveIfChanged(const OpenSettings& open, const Settings& now, const Log& log) {
+    if (!open.mayBeSaved || settingsText(now) == open.textBefore) return;
+    if (const Result<void> saved = saveSettings(now, open.file); !saved)
+        log->error("{}", saved.error().message);
+}
+
+Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& settings) {
+    const bool fromSettings = options.file.empty() && !settings.dataSet.empty();
+    const fs::path named = !options.file.empty() ? options.file
+                           : fromSettings        ? fs::path(settings.dataSet)
+                                                 : earthElevation();
+    Result<DataSet> set = findDataSet(named, {});
+    if (set && fromSettings && !settings.colourImage.empty()) set->colourImage = settings.colourImage;
+    return set;
+}
+
+// Bad data is told before a window opens for it.
+Result<void> checkDataSet(const DataSet& set) {
+    if (set.needsBake) return planet::openHeightSource(set.source, {}).map([](const auto&) {});
+    return planet::ChunkFile::open(set.chunkFile).map([](const auto&) {});
+}
+
+int runWindow(const Window& window, const AppOptions& options, DataSet data, const OpenSettings& open,
+              Log& log) {
+    window.setTitle(fmt::format("{} - Worldy", data.source.filename().string()));
+    log->info("{}", window.openGlText());
+    Session session = startSession(std::move(data), options.shaderFolder, log);
+    Editor editor;
+    editor.settings = open.settings;
+    auto last = std::chrono::steady_clock::now();
+    while (!window.closing()) {
+        const auto now = std::chrono::steady_clock::now();
+        runFrame(window, session, editor, log, std::chrono::duration<double>(now - last).count());
+        last = now;
+    }
+    editor.settings.windowWidthPx = static_cast<int>(window.width());
+    editor.settings.windowHeightPx = static_cast<int>(window.height());
+    saveIfChanged(open, editor.settings, log);
+    if (session.bake) return exitCancelled;
+    if (!session.problem) return exitOk;
+    return session.problem->kind == planet::ErrorKind::Cancelled ? exitCancelled : exitBadInput;
+}
+
+Result<void> bakeIfNeeded(const DataSet& data) {
+    if (!data.needsBake) return {};
+    std::error_code status;
+    fs::create_directories(data.chunkFile.parent_path(), status);
+    return planet::openHeightSource(data.source, {})
+        .and_then(
+            [&](const planet::HeightSource& source) { return bakeOnTerminal(source, {}, data.chunkFile); })
+        .map([](const auto&) {});
+}
+
+// The first view that the window would have shown.
+Result<void> writeFirstView(const AppOptions& options, const DataSet& data, const Settings& settings) {
+    if (Result<void> baked = bakeIfNeeded(data); !baked) return baked;
+    ShotOptions shot;
+    shot.file = data.chunkFile;
+    shot.output = fs::current_path() / "worldy-first-view.png";
+    shot.shaderFolder = options.shaderFolder;
+    shot.colourImage = data.colourImage;
+    shot.size = {settings.windowWidthPx, settings.windowHeightPx};
+    shot.view = settings.view;
+    if (settings.camera.altitudeM != 0) shot.camera = settings.camera;
+    return takeShot(shot);
+}
+
+}  // namespace
+
+int runApp(const AppOptions& options) {
+    Log log;
+    const Result<OpenSettings> open = openSettings(options, log);
+    if (!open) return reportError(open.error());
+    const Result<DataSet> data = chosenDataSet(options, open->settings);
+    if (!data) return reportError(data.error());
+    if (const Result<void> good = checkDataSet(*data); !good) return reportError(good.error());
+
+    std::error_code status;
+    fs::create_directories(configFolder(), status);
+    const auto window = Window::open(
+        {open->settings.windowWidthPx, open->settings.windowHeightPx, configFolder() / "imgui.ini"});
+    if (window) return runWindow(*window, options, *data, *open, log);
+    if (window.error().problem == WindowProblem::NoOpenGl) {
+        return reportError({planet::ErrorKind::BadInput, window.error().message});
+    }
+    fmt::print(stderr, "worldy: no display ({}); writing a picture of the first view instead\n",
+               window.error().message);
+    const Result<void> written = writeFirstView(options, *data, open->settings);
+    return written ? exitOk : reportError(written.error());
+}
+
+}  // namespace worldy

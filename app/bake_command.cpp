@@ -1,0 +1,72 @@
+#include "app/bake_command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/bake_progress.h"
+#include "ui/text.h"
+
+namespace worldy {
+
+namespace {
+
+double bitsPerSample(const planet::BakeReport& report) {
+    return report.samples == 0
+               ? 0
+               : 8.0 * static_cast<double>(report.fileBytes) / static_cast<double>(report.samples);
+}
+
+void printJson(const planet::HeightSource& source, const BakeOptions& options,
+               const planet::BakeReport& report) {
+    const nlohmann::ordered_json json = {{"source", source.description},
+                                         {"output", options.output.string()},
+                                         {"face_size", planet::faceCells(report.shape) + 1},
+                                         {"chunk_size", planet::chunkSize(report.shape)},
+                                         {"levels", planet::leafLevel(report.shape) + 1},
+                                         {"radius_m", report.shape.radiusM},
+                                         {"quantum_m", report.shape.quantumM},
+                                         {"samples", report.samples},
+                                         {"chunks", report.chunks},
+                                         {"file_bytes", report.fileBytes},
+                                         {"bits_per_sample", bitsPerSample(report)},
+                                         {"missing_samples", report.missingSamples},
+                                         {"seconds", report.seconds}};
+    fmt::print("{}\n", json.dump(2));
+}
+
+void printText(const planet::HeightSource& source, const BakeOptions& options,
+               const planet::BakeReport& report) {
+    fmt::print("{}\n", source.description);
+    fmt::print("{}: {} levels, {} chunks of {} x {}, faces of {} x {}\n", options.output.string(),
+               planet::leafLevel(report.shape) + 1, report.chunks, planet::chunkSize(report.shape),
+               planet::chunkSize(report.shape), planet::faceCells(report.shape) + 1,
+               planet::faceCells(report.shape) + 1);
+    fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
+               ui::bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
+               ui::durationText(report.seconds));
+}
+
+void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {
+    if (report.missingSamples > 0) {
+        fmt::print(stderr, "worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
+                   report.missingSamples, options.sourceSettings.fillM);
+    }
+}
+
+}  // namespace
+
+planet::Result<void> runBake(const BakeOptions& options) {
+    const planet::Result<planet::HeightSource> source =
+        planet::openHeightSource(options.source, options.sourceSettings);
+    if (!source) return tl::unexpected(source.error());
+    const planet::Result<planet::BakeReport> report =
+        bakeOnTerminal(*source, options.settings, options.output);
+    if (!report) return tl::unexpected(report.error());
+    printWarnings(options, *report);
+    (options.json ? printJson : printText)(*source, options, *report);
+    return {};
+}
+
+}  // namespace worldy

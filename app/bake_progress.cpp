@@ -1,0 +1,58 @@
+#include "app/bake_progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+#include "app/interrupt.h"
+#include "ui/text.h"
+
+namespace worldy {
+
+namespace {
+
+std::string progressText(const planet::BakeProgress& progress, double share) {
+    return fmt::format("{:3.0f} %  {} of {} samples  {} samples/s  {} left", 100 * share,
+                       ui::countText(static_cast<double>(progress.samplesDone)),
+                       ui::countText(static_cast<double>(progress.samplesTotal)),
+                       ui::countText(progress.samplesPerS), ui::durationText(progress.remainingS));
+}
+
+}  // namespace
+
+TerminalProgress::TerminalProgress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+TerminalProgress::~TerminalProgress() {
+    if (lineOpen_) fmt::print(stderr, "\n");
+}
+
+void TerminalProgress::show(const planet::BakeProgress& progress) {
+    if (progress.samplesTotal == 0) return;
+    const double share =
+        static_cast<double>(progress.samplesDone) / static_cast<double>(progress.samplesTotal);
+    if (terminal_) {
+        fmt::print(stderr, "\r\033[K{}", progressText(progress, share));
+        std::fflush(stderr);
+        lineOpen_ = true;
+        return;
+    }
+    const int tenths = static_cast<int>(10 * share);
+    if (tenths <= tenthsShown_) return;
+    fmt::print(stderr, "{}\n", progressText(progress, share));
+    tenthsShown_ = tenths;
+}
+
+planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
+                                                  const planet::BakeSettings& settings,
+                                                  const std::filesystem::path& output) {
+    const InterruptWatch watch;
+    TerminalProgress line;
+    return planet::bake(source, settings, output, [&](const planet::BakeProgress& progress) {
+        line.show(progress);
+        return !watch.interrupted();
+    });
+}
+
+}  // namespace worldy

@@ -1,0 +1,227 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <string>
+
+#include "app/app.h"
+#include "app/bake_command.h"
+#include "app/exit_code.h"
+#include "app/file_commands.h"
+#include "app/fly_command.h"
+#include "app/shot_command.h"
+#include "planet/chunk_file.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+// Options as text that only their own parser understands, beside those that CLI11 fills in.
+struct ShotTexts {
+    std::string camera;
+    std::string size = "1280x720";
+    std::string colourBy = "none";
+    std::string surface = "image";
+    bool noSkirts = false;
+};
+
+template <std::size_t count>
+CLI::IsMember oneOf(const std::array<std::string_view, count>& names) {
+    return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+template <class Enum, std::size_t count>
+Enum enumerator(const std::array<std::string_view, count>& names, const std::string& name) {
+    return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// CLI11's own range lets "nan" through.
+CLI::Validator number(double min, double max, bool zeroToo = true) {
+    const std::string wanted = fmt::format("a number from {} to {}{}", min, max, zeroToo ? "" : " but 0");
+    const auto check = [=](const std::string& text) {
+        double value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good =
+            problem == std::errc{} && end == text.data() + text.size() && value >= min && value <= max;
+        return good && (zeroToo || value != 0) ? std::string() : fmt::format("{} is not {}", text, wanted);
+    };
+    return CLI::Validator(check, "");
+}
+
+void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
+    command.add_option("--metres-per-unit", source.metresPerUnit, "Metres a unit of the source's values (1)")
+        ->check(number(-1e9, 1e9, false));
+    command.add_option("--offset", source.offsetM, "Metres added to every height (0)")
+        ->check(number(-1e9, 1e9));
+    command.add_option("--no-data", source.noDataValue, "Value that means \"no data\"; NaN always does");
+    command.add_option("--fill", source.fillM, "Height of samples without data, metres (0)")
+        ->check(number(-1e9, 1e9));
+    command.add_option("--raw-size", source.rawSize, "Raw faces: samples a side")
+        ->check(CLI::Range(2, (1 << 22) + 1));
+    command.add_option("--raw-bits", source.rawBits, "Raw faces: 8 or 16")->check(CLI::IsMember({8, 16}));
+    command.add_flag("--raw-signed", source.rawSigned, "Raw faces: 16-bit values are signed");
+    command.add_flag("--raw-big-endian", source.rawBigEndian, "Raw faces: the high byte comes first");
+}
+
+void addBake(CLI::App& app, BakeOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("bake", "Bake an elevation image or six cube faces into a chunk file");
+    planet::BakeSettings& settings = options.settings;
+    command
+        .add_option("SOURCE", options.source,
+                    "Elevation image, or one of six cube faces or their common stem")
+        ->required();
+    command.add_option("-o,--output", options.output, "Chunk file to write")->required();
+    command.add_option("--face-size", settings.faceSize, "Samples a face's side, 2^n + 1 (the source's own)");
+    command.add_option("--chunk-size", settings.chunkSize, "Vertices a chunk's side: 17, 33, 65 or 129 (33)")
+        ->check(CLI::IsMember({17, 33, 65, 129}));
+    command.add_option("--radius", settings.radiusM, "The planet's radius, metres (6371000)")
+        ->check(number(1e-3, 1e9));
+    command.add_option("--quantum", settings.quantumM, "Metres a stored step (the source's own)")
+        ->check(number(1e-9, 1e6));
+    command.add_option("--threads", settings.threads, "Threads; 0: one a core (0)")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--compression-level", settings.compressionLevel, "0 largest file, 9 slowest bake (3)")
+        ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
+    command.add_option("--debug-levels", settings.debugLevelsFolder,
+                       "Also write each level of each face there as PNG");
+    command.add_flag("--json", options.json, "Report as JSON");
+    addSourceOptions(command, options.sourceSettings);
+}
+
+void addViewOptions(CLI::App& command, ui::ViewSettings& view, std::string& size) {
+    command.add_option("--size", size, "Picture size, WIDTHxHEIGHT (1280x720)");
+    command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(number(0.1, 64));
+    command.add_option("--budget", view.budgetMB, "Memory for resident chunks, MiB (256)")
+        ->check(CLI::Range(16, 65536));
+}
+
+void addShot(CLI::App& app, ShotOptions& options, ShotTexts& texts) {
+    CLI::App& command = *app.add_subcommand("shot", "Draw one picture of a chunk file, without a display");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("-o,--output", options.output, "Picture to write, .png")->required();
+    command.add_option("--camera", texts.camera,
+                       "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius (the whole planet)");
+    addViewOptions(command, options.view, texts.size);
+    command.add_option("--fov", options.view.fovDeg, "Horizontal field of view, degrees (60)")
+        ->check(number(5, 150));
+    command.add_option("--samples", options.samples, "Multisampling, samples a pixel (4)")
+        ->check(CLI::Range(1, 16));
+    command.add_flag("--wireframe", options.view.wireframe, "Draw the triangles' edges");
+    command.add_flag("--no-skirts", texts.noSkirts, "Leave out the skirts that hide cracks");
+    command.add_flag("--cube", options.view.cube, "Draw the cube before it is blown up to the sphere");
+    command
+        .add_option("--colour-by", texts.colourBy, "What a chunk's colour shows: none, level or error (none)")
+        ->check(oneOf(colourByNames));
+    command.add_option("--surface", texts.surface, "Colour of the ground: image or ramp (image)")
+        ->check(oneOf(surfaceNames));
+    command.add_option("--colour-image", options.colourImage,
+                       "Picture laid over the planet (colour.jpg beside FILE)");
+    command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
+    command.add_flag("--json", options.json, "Print what was drawn as JSON");
+}
+
+void addFly(CLI::App& app, FlyOptions& options, std::string& size) {
+    CLI::App& command =
+        *app.add_subcommand("fly", "Fly a recorded path without a display, and measure each frame");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--path", options.path, "The flight's keys, .toml")->required();
+    command.add_option("--frames", options.frames, "Frames, evenly over the flight (300)")
+        ->check(CLI::Range(1, 1000000));
+    addViewOptions(command, options.view, size);
+    command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
+    command.add_option("--json", options.jsonOutput, "Write every frame's figures there");
+}
+
+void addFileCommands(CLI::App& app, FileCommandOptions& options) {
+    const auto add = [&](const char* name, const char* about) -> CLI::App& {
+        CLI::App& command = *app.add_subcommand(name, about);
+        command.add_option("FILE", options.file, "Chunk file")->required();
+        command.add_flag("--json", options.json, "Report as JSON");
+        return command;
+    };
+    add("info", "Tell what a chunk file holds");
+    CLI::App& verify = add("verify", "Read the whole of a chunk file and check it");
+    verify.add_option("--source", options.source,
+                      "Also compare it with the source that it was baked from, given with the same options");
+    addSourceOptions(verify, options.sourceSettings);
+    CLI::App& probe = add("probe", "Tell the height at a place, and which chunks hold it");
+    probe.add_option("LATITUDE", options.latitudeDeg, "Degrees north")->required()->check(number(-90, 90));
+    probe.add_option("LONGITUDE", options.longitudeDeg, "Degrees east")->required()->check(number(-360, 360));
+}
+
+Result<void> runShot(ShotOptions& options, const ShotTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts.size);
+    if (!size) return tl::unexpected(size.error());
+    options.size = *size;
+    if (!texts.camera.empty()) {
+        const Result<planet::CameraPose> pose = poseFromText(texts.camera);
+        if (!pose) return tl::unexpected(pose.error());
+        options.camera = *pose;
+    }
+    options.view.skirts = !texts.noSkirts;
+    options.view.colourBy = enumerator<planet::gl::ColourBy>(colourByNames, texts.colourBy);
+    options.view.surface = enumerator<planet::gl::SurfaceColour>(surfaceNames, texts.surface);
+    return takeShot(options);
+}
+
+Result<void> runFly(FlyOptions& options, const std::string& sizeText) {
+    const Result<PictureSize> size = pictureSizeFromText(sizeText);
+    if (!size) return tl::unexpected(size.error());
+    options.size = *size;
+    return flyPath(options);
+}
+
+int exitCodeOf(const Result<void>& result) {
+    return result ? exitOk : reportError(result.error());
+}
+
+}  // namespace
+
+int runCommandLine(int argumentCount, const char* const* arguments) {
+    CLI::App app(
+        "Worldy: shows, tunes and measures planets drawn by chunked level of detail.\n"
+        "Without a command it opens a window on FILE, or on the Earth.",
+        "worldy");
+    app.set_version_flag("--version", "worldy " WORLDY_VERSION);
+    AppOptions window;
+    app.add_option("FILE", window.file, "Chunk file (.chk), elevation image or cube faces to show");
+    app.add_option("--settings", window.settingsFile, "Settings to use instead of the user's own");
+    app.add_option("--shaders", window.shaderFolder,
+                   "Read the shaders from this folder, and again when they change");
+    BakeOptions bake;
+    ShotOptions shot;
+    ShotTexts shotTexts;
+    FlyOptions fly;
+    std::string flySize = "1280x720";
+    FileCommandOptions file;
+    addBake(app, bake);
+    addFileCommands(app, file);
+    addShot(app, shot, shotTexts);
+    addFly(app, fly, flySize);
+    app.require_subcommand(0, 1);
+
+    try {
+        app.parse(argumentCount, arguments);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return reportError({planet::ErrorKind::BadInput,
+                            fmt::format("{}; worldy --help tells what would be right", error.what())});
+    }
+    if (app.got_subcommand("bake")) return exitCodeOf(runBake(bake));
+    if (app.got_subcommand("info")) return exitCodeOf(runInfo(file));
+    if (app.got_subcommand("verify")) return exitCodeOf(runVerify(file));
+    if (app.got_subcommand("probe")) return exitCodeOf(runProbe(file));
+    if (app.got_subcommand("shot")) return exitCodeOf(runShot(shot, shotTexts));
+    if (app.got_subcommand("fly")) return exitCodeOf(runFly(fly, flySize));
+    return runApp(window);
+}
+
+}  // namespace worldy

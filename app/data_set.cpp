@@ -1,0 +1,96 @@
+#include "app/data_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "app/places.h"
+#include "planet/chunk_file.h"
+#include "planet/cube_sphere.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// FNV-1a. Names a file; nothing relies on it being hard to forge.
+std::uint64_t hashOf(const std::string& text) {
+    std::uint64_t hash = 0xCBF29CE484222325u;
+    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3u;
+    return hash;
+}
+
+// "earth4097" of "earth4097_z_pos.raw"; the whole stem where no face is named.
+std::string stemWithoutFace(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    for (const planet::Face face : planet::allFaces) {
+        const std::string ending = fmt::format("_{}", planet::faceName(face));
+        if (stem.ends_with(ending)) return stem.substr(0, stem.size() - ending.size());
+    }
+    return stem;
+}
+
+bool namesAFace(const fs::path& path) {
+    return stemWithoutFace(path) != path.stem().string();
+}
+
+// The source's files: one image, or the faces that share a stem.
+std::vector<fs::path> filesOf(const fs::path& source) {
+    std::error_code status;
+    if (fs::is_regular_file(source, status) && !namesAFace(source)) return {source};
+    const std::string stem = namesAFace(source) ? stemWithoutFace(source) : source.filename().string();
+    std::vector<fs::path> files;
+    const fs::path folder = source.has_parent_path() ? source.parent_path() : fs::path(".");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
+        const bool face = namesAFace(entry.path()) && stemWithoutFace(entry.path()) == stem;
+        if (face && entry.is_regular_file(status)) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+fs::path colourImageBeside(const fs::path& source) {
+    std::error_code status;
+    for (const char* name : {"colour.jpg", "colour.png"}) {
+        const fs::path image = source.parent_path() / name;
+        if (fs::is_regular_file(image, status)) return image;
+    }
+    return {};
+}
+
+}  // namespace
+
+fs::path earthElevation() {
+    return dataFolder() / "earth" / "elevation.tif";
+}
+
+fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settings) {
+    std::string identity =
+        fmt::format("{} {} {} {} {}", planet::chunkFileVersion, settings.faceSize.value_or(0),
+                    settings.chunkSize, settings.radiusM, settings.quantumM.value_or(0));
+    for (const fs::path& file : filesOf(source)) {
+        std::error_code status;
+        identity += fmt::format("|{}|{}|{}", fs::absolute(file, status).lexically_normal().string(),
+                                fs::file_size(file, status),
+                                fs::last_write_time(file, status).time_since_epoch().count());
+    }
+    return cacheFolder() / fmt::format("{}-{:016x}.chk", stemWithoutFace(source), hashOf(identity));
+}
+
+planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings) {
+    if (filesOf(named).empty()) {
+        return planet::badInput(
+            fmt::format("{}: no such file; a chunk file (.chk), an elevation image or one of six cube faces "
+                        "would be right",
+                        named.string()));
+    }
+    DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageBeside(named)};
+    if (named.extension() == ".chk") return set;
+    set.chunkFile = cachedBakeOf(named, settings);
+    set.needsBake = !planet::ChunkFile::open(set.chunkFile);
+    return set;
+}
+
+}  // namespace worldy

@@ -1,0 +1,29 @@
+// From what the user names to the chunk file that holds it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "planet/bake.h"
+#include "planet/result.h"
+
+namespace worldy {
+
+struct DataSet {
+    std::filesystem::path source;       // as named: a chunk file, an elevation image or cube faces
+    std::filesystem::path chunkFile;    // the source itself, or its bake in the cache folder
+    std::filesystem::path colourImage;  // colour.jpg or colour.png beside the source; empty if none
+    bool needsBake = false;
+};
+
+// The Earth that comes with Worldy.
+std::filesystem::path earthElevation();
+
+// The Error says that nothing is there. A bake in the cache that cannot be opened is baked again.
+planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const planet::BakeSettings& settings);
+
+// Where the bake of a source is kept. The name carries a hash of the source's path, size and time of change,
+// of all six faces where it has them, and of the settings, so that a changed source is baked anew.
+std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const planet::BakeSettings& settings);
+
+}  // namespace worldy

@@ -1,0 +1,15 @@
+// What the program ends with, and how it says why.
+#pragma once
+
+#include "planet/result.h"
+
+namespace worldy {
+
+inline constexpr int exitOk = 0;
+inline constexpr int exitBadInput = 2;  // bad input, or reading or writing failed
+inline constexpr int exitCancelled = 130;
+
+// Writes "worldy: message" to stderr; the code that the program must end with.
+int reportError(const planet::Error& error);
+
+}  // namespace worldy

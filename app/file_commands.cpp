@@ -1,0 +1,174 @@
+#include "app/file_commands.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/interrupt.h"
+#include "planet/chunk_file.h"
+#include "planet/file_report.h"
+#include "ui/text.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::ChunkFile;
+using planet::Result;
+
+Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
+    const planet::ChunkFileInfo& info = file.info();
+    Json json = {{"file", file.name()},
+                 {"source", info.source},
+                 {"face_size", planet::faceCells(info.shape) + 1},
+                 {"chunk_size", planet::chunkSize(info.shape)},
+                 {"radius_m", info.shape.radiusM},
+                 {"quantum_m", info.shape.quantumM},
+                 {"min_height_m", planet::heightM(info.shape, info.minStep)},
+                 {"max_height_m", planet::heightM(info.shape, info.maxStep)},
+                 {"missing_samples", info.missingSamples},
+                 {"file_bytes", report.fileBytes},
+                 {"finest_samples", report.finestSamples},
+                 {"bits_per_sample", report.bitsPerFinestSample},
+                 {"levels", Json::array()}};
+    for (const planet::LevelReport& level : report.levels) {
+        json["levels"].push_back({{"level", level.level},
+                                  {"chunks", level.chunks},
+                                  {"bytes", level.bytes},
+                                  {"min_delta_m", level.minDeltaM},
+                                  {"median_delta_m", level.medianDeltaM},
+                                  {"p99_delta_m", level.p99DeltaM},
+                                  {"max_delta_m", level.maxDeltaM}});
+    }
+    return json;
+}
+
+void printInfo(const ChunkFile& file, const planet::FileReport& report) {
+    const planet::ChunkFileInfo& info = file.info();
+    const planet::PlanetShape& shape = info.shape;
+    fmt::print("{}\n", file.name());
+    fmt::print("  source           {}\n", info.source);
+    fmt::print("  radius           {} m\n", shape.radiusM);
+    fmt::print("  heights          {} to {} m in steps of {} m\n", planet::heightM(shape, info.minStep),
+               planet::heightM(shape, info.maxStep), shape.quantumM);
+    fmt::print("  faces            {0} x {0} samples\n", planet::faceCells(shape) + 1);
+    fmt::print("  chunks           {0} x {0} vertices\n", planet::chunkSize(shape));
+    fmt::print("  finest samples   {}, {} of the source without data\n", report.finestSamples,
+               info.missingSamples);
+    fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
+               ui::bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
+    fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size", "smallest",
+               "median", "99th perc.", "largest delta_c, m");
+    for (const planet::LevelReport& level : report.levels) {
+        fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", level.level, level.chunks,
+                   ui::bytesText(static_cast<double>(level.bytes)), level.minDeltaM, level.medianDeltaM,
+                   level.p99DeltaM, level.maxDeltaM);
+    }
+}
+
+void printVerified(const FileCommandOptions& options, const planet::VerifyReport& report) {
+    if (options.json) {
+        const Json json = {{"file", options.file.string()},
+                           {"chunks", report.chunks},
+                           {"edges", report.edges},
+                           {"leaf_samples", report.leafSamples},
+                           {"problem_count", report.problemCount},
+                           {"problems", report.problems}};
+        fmt::print("{}\n", json.dump(2));
+        return;
+    }
+    for (const std::string& problem : report.problems) fmt::print("{}\n", problem);
+    fmt::print(
+        "{}: {} chunks and {} shared edges checked, {} samples compared with the source, {} problems\n",
+        options.file.string(), report.chunks, report.edges, report.leafSamples, report.problemCount);
+}
+
+Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& report) {
+    Json json = {{"file", options.file.string()},
+                 {"latitude_deg", options.latitudeDeg},
+                 {"longitude_deg", options.longitudeDeg},
+                 {"face", planet::faceName(report.place.face)},
+                 {"u", report.place.u},
+                 {"v", report.place.v},
+                 {"height_m", report.heightM},
+                 {"chunks", Json::array()}};
+    for (const planet::ProbeChunk& chunk : report.chain) {
+        const planet::OrientedBox& box = chunk.bounds.box;
+        json["chunks"].push_back({{"id", planet::toString(chunk.id)},
+                                  {"delta_c_m", chunk.deltaCM},
+                                  {"height_m", chunk.heightM},
+                                  {"min_height_m", chunk.minHeightM},
+                                  {"max_height_m", chunk.maxHeightM},
+                                  {"box_centre_m", {box.centreM.x, box.centreM.y, box.centreM.z}},
+                                  {"box_half_size_m", {box.halfSizeM.x, box.halfSizeM.y, box.halfSizeM.z}}});
+    }
+    return json;
+}
+
+void printProbe(const FileCommandOptions& options, const planet::ProbeReport& report) {
+    fmt::print("{}: {} lies at {:.3f} m, on {} at u {:.6f}, v {:.6f}\n\n", options.file.string(),
+               ui::placeText(options.latitudeDeg, options.longitudeDeg), report.heightM,
+               planet::faceName(report.place.face), report.place.u, report.place.v);
+    fmt::print("{:24}{:>14}{:>14}{:>14}{:>14}\n", "chunk", "delta_c, m", "height, m", "lowest, m",
+               "highest, m");
+    for (const planet::ProbeChunk& chunk : report.chain) {
+        fmt::print("{:24}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", planet::toString(chunk.id), chunk.deltaCM,
+                   chunk.heightM, chunk.minHeightM, chunk.maxHeightM);
+    }
+}
+
+}  // namespace
+
+Result<void> runInfo(const FileCommandOptions& options) {
+    const Result<ChunkFile> file = ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    const Result<planet::FileReport> report = planet::reportFile(*file);
+    if (!report) return tl::unexpected(report.error());
+    if (options.json)
+        fmt::print("{}\n", infoJson(*file, *report).dump(2));
+    else
+        printInfo(*file, *report);
+    return {};
+}
+
+Result<void> runVerify(const FileCommandOptions& options) {
+    const Result<ChunkFile> file = ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    std::optional<planet::HeightSource> source;
+    if (!options.source.empty()) {
+        Result<planet::HeightSource> opened =
+            planet::openHeightSource(options.source, options.sourceSettings);
+        if (!opened) return tl::unexpected(opened.error());
+        source = std::move(*opened);
+    }
+    const InterruptWatch watch;
+    const Result<planet::VerifyReport> report =
+        planet::verifyFile(*file, source ? &*source : nullptr,
+                           [&](std::uint64_t, std::uint64_t) { return !watch.interrupted(); });
+    if (!report) return tl::unexpected(report.error());
+    printVerified(options, *report);
+    if (report->problemCount == 0) return {};
+    return planet::badInput(fmt::format("{}: has {} problems; baking it again would be right",
+                                        options.file.string(), report->problemCount));
+}
+
+Result<void> runProbe(const FileCommandOptions& options) {
+    const Result<ChunkFile> file = ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    const Result<planet::ProbeReport> report = planet::probeFile(
+        *file,
+        {glm::radians(options.latitudeDeg), glm::radians(std::remainder(options.longitudeDeg, 360.0))});
+    if (!report) return tl::unexpected(report.error());
+    if (options.json)
+        fmt::print("{}\n", probeJson(options, *report).dump(2));
+    else
+        printProbe(options, *report);
+    return {};
+}
+
+}  // namespace worldy

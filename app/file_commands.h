@@ -1,0 +1,24 @@
+// worldy info, verify and probe: what a chunk file holds.
+#pragma once
+
+#include <filesystem>
+
+#include "planet/height_source.h"
+#include "planet/result.h"
+
+namespace worldy {
+
+struct FileCommandOptions {
+    std::filesystem::path file;
+    std::filesystem::path source;  // verify: compare with this too; empty: only the file itself
+    planet::HeightSourceSettings sourceSettings;
+    double latitudeDeg = 0;  // probe
+    double longitudeDeg = 0;
+    bool json = false;
+};
+
+planet::Result<void> runInfo(const FileCommandOptions& options);
+planet::Result<void> runVerify(const FileCommandOptions& options);
+planet::Result<void> runProbe(const FileCommandOptions& options);
+
+}  // namespace worldy

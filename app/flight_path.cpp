@@ -1,0 +1,231 @@
+#include "app/flight_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/toml_file.h"
+#include "planet/cube_sphere.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+struct KeyField {
+    std::string_view name;
+    double FlightKey::*time;
+    double planet::CameraPose::*pose;
+    NumberRange range;
+};
+
+using Pose = planet::CameraPose;
+constexpr std::array<KeyField, 6> keyFields = {{
+    {"time_s", &FlightKey::timeS, nullptr, {0, 1e6, "seconds"}},
+    {"latitude_deg", nullptr, &Pose::latitudeDeg, {-90, 90, "degrees"}},
+    {"longitude_deg", nullptr, &Pose::longitudeDeg, {-360, 360, "degrees"}},
+    {"altitude_m", nullptr, &Pose::altitudeM, {1, 2e10, "metres"}},
+    {"heading_deg", nullptr, &Pose::headingDeg, {-360, 360, "degrees"}},
+    {"pitch_deg", nullptr, &Pose::pitchDeg, {-90, 90, "degrees"}},
+}};
+
+Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::table& table) {
+    FlightKey key;
+    for (const KeyField& field : keyFields) {
+        const std::string name = fmt::format("key {}: {}", number, field.name);
+        const toml::node* node = table.get(field.name);
+        if (!node) {
+            return planet::badInput(fmt::format("{}: {} is missing; a number of {} would be right",
+                                                placeOf(file, table), name, field.range.unit));
+        }
+        const Result<double> value = readNumber(file, name, *node, field.range);
+        if (!value) return tl::unexpected(value.error());
+        (field.time ? key.*field.time : key.pose.*field.pose) = *value;
+    }
+    for (const auto& [name, node] : table) {
+        if (std::any_of(keyFields.begin(), keyFields.end(),
+                        [&](const KeyField& f) { return f.name == name.str(); })) {
+            continue;
+        }
+        return planet::badInput(fmt::format(
+            "{}: key {}: {} is not known; a key has time_s, latitude_deg, longitude_deg, altitude_m, "
+            "heading_deg and pitch_deg",
+            placeOf(file, node), number, name.str()));
+    }
+    return key;
+}
+
+glm::dvec3 directionOf(const FlightKey& key) {
+    return planet::directionFromGeographic(
+        {glm::radians(key.pose.latitudeDeg), glm::radians(key.pose.longitudeDeg)});
+}
+
+// The great circle between opposite places is not defined, and near that it swings about.
+constexpr double maxStepDeg = 170;
+
+Result<void> checkOrder(const fs::path& file, const toml::table& table, const FlightPath& path,
+                        const FlightKey& next) {
+    if (path.keys.empty()) return {};
+    const std::size_t number = path.keys.size() + 1;
+    const FlightKey& last = path.keys.back();
+    if (next.timeS <= last.timeS) {
+        return planet::badInput(
+            fmt::format("{}: key {}: time_s is {}; a time after key {}'s {} would be right",
+                        placeOf(file, table), number, next.timeS, number - 1, last.timeS));
+    }
+    const double cosine = glm::dot(directionOf(last), directionOf(next));
+    const double stepDeg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+    if (stepDeg > maxStepDeg) {
+        return planet::badInput(
+            fmt::format("{}: key {}: lies {:.0f} degrees from key {}; a key between them would "
+                        "be right, so that no step is over {}",
+                        placeOf(file, table), number, stepDeg, number - 1, maxStepDeg));
+    }
+    return {};
+}
+
+Result<void> readKeys(const fs::path& file, const toml::array& keys, FlightPath& path) {
+    for (const toml::node& node : keys) {
+        const std::size_t number = path.keys.size() + 1;
+        const toml::table* table = node.as_table();
+        if (!table) {
+            return planet::badInput(fmt::format("{}: key {} is not a table; [[key]] would be right",
+                                                placeOf(file, node), number));
+        }
+        const Result<FlightKey> key = readKey(file, number, *table);
+        if (!key) return tl::unexpected(key.error());
+        if (Result<void> order = checkOrder(file, *table, path, *key); !order) return order;
+        path.keys.push_back(*key);
+    }
+    return {};
+}
+
+double degreesBetween(double fromDeg, double toDeg) {
+    return std::remainder(toDeg - fromDeg, 360.0);
+}
+
+glm::dvec3 slerp(const glm::dvec3& from, const glm::dvec3& to, double t) {
+    const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+    if (angle < 1e-9) return glm::normalize(from + t * (to - from));
+    return glm::normalize((std::sin((1 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle));
+}
+
+// The tangent vector at a place whose great circle leads to another, as long as the arc.
+glm::dvec3 arcTowards(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 along = to - glm::dot(from, to) * from;
+    const double sine = glm::length(along);
+    if (sine < 1e-12) return {0, 0, 0};
+    return along / sine * std::atan2(sine, glm::dot(from, to));
+}
+
+glm::dvec3 along(const glm::dvec3& from, const glm::dvec3& arc) {
+    const double angle = glm::length(arc);
+    if (angle < 1e-12) return from;
+    return std::cos(angle) * from + std::sin(angle) * (arc / angle);
+}
+
+// The velocity over the ground at a key, radians a second; none at the ends.
+glm::dvec3 velocityAt(const std::vector<FlightKey>& keys, std::size_t i) {
+    if (i == 0 || i + 1 == keys.size()) return {0, 0, 0};
+    const glm::dvec3 here = directionOf(keys[i]);
+    const glm::dvec3 span =
+        arcTowards(here, directionOf(keys[i + 1])) - arcTowards(here, directionOf(keys[i - 1]));
+    return span / (keys[i + 1].timeS - keys[i - 1].timeS);
+}
+
+// A Catmull-Rom curve as cubic Bezier arcs on the sphere, built by de Casteljau's scheme from great-circle
+// steps (Shoemake, "Animating rotation with quaternion curves", 1985).
+glm::dvec3 directionAt(const std::vector<FlightKey>& keys, std::size_t i, double t) {
+    const double third = (keys[i + 1].timeS - keys[i].timeS) / 3;
+    const glm::dvec3 a = directionOf(keys[i]);
+    const glm::dvec3 d = directionOf(keys[i + 1]);
+    const glm::dvec3 b = along(a, third * velocityAt(keys, i));
+    const glm::dvec3 c = along(d, -third * velocityAt(keys, i + 1));
+    const glm::dvec3 ab = slerp(a, b, t), bc = slerp(b, c, t), cd = slerp(c, d, t);
+    return slerp(slerp(ab, bc, t), slerp(bc, cd, t), t);
+}
+
+using ValueOfKey = std::function<double(std::size_t)>;
+
+// Slope at a key that lets no cubic overshoot it (Fritsch and Butland, 1984).
+double slopeAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std::size_t i) {
+    if (i == 0 || i + 1 == keys.size()) return 0;
+    const double before = (value(i) - value(i - 1)) / (keys[i].timeS - keys[i - 1].timeS);
+    const double after = (value(i + 1) - value(i)) / (keys[i + 1].timeS - keys[i].timeS);
+    return before * after <= 0 ? 0 : 2 * before * after / (before + after);
+}
+
+double valueAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std::size_t i, double t) {
+    const double span = keys[i + 1].timeS - keys[i].timeS;
+    const double from = value(i), to = value(i + 1);
+    const double fromSlope = span * slopeAt(keys, value, i), toSlope = span * slopeAt(keys, value, i + 1);
+    const double t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * from + (t3 - 2 * t2 + t) * fromSlope + (3 * t2 - 2 * t3) * to +
+           (t3 - t2) * toSlope;
+}
+
+}  // namespace
+
+Result<FlightPath> loadFlightPath(const fs::path& file) {
+    const Result<toml::table> document = parseTomlFile(file);
+    if (!document) return tl::unexpected(document.error());
+    FlightPath path;
+    for (const auto& [key, node] : *document) {
+        if (key.str() == "name") {
+            const Result<std::string> name = readText(file, "name", node);
+            if (!name) return tl::unexpected(name.error());
+            path.name = *name;
+        } else if (key.str() == "key" && node.is_array()) {
+            if (Result<void> read = readKeys(file, *node.as_array(), path); !read)
+                return tl::unexpected(read.error());
+        } else {
+            return planet::badInput(fmt::format("{}: {} is not known; name and [[key]] tables would be right",
+                                                placeOf(file, node), key.str()));
+        }
+    }
+    if (path.keys.size() < 2) {
+        return planet::badInput(fmt::format("{}: has {} [[key]] tables; two or more would be right",
+                                            file.string(), path.keys.size()));
+    }
+    return path;
+}
+
+double durationS(const FlightPath& path) {
+    return path.keys.back().timeS - path.keys.front().timeS;
+}
+
+Pose poseAt(const FlightPath& path, double timeS) {
+    const std::vector<FlightKey>& keys = path.keys;
+    const double time = std::clamp(timeS, keys.front().timeS, keys.back().timeS);
+    const auto after = std::upper_bound(keys.begin() + 1, keys.end() - 1, time,
+                                        [](double value, const FlightKey& key) { return value < key.timeS; });
+    const std::size_t i = static_cast<std::size_t>(after - keys.begin()) - 1;
+    const double t = (time - keys[i].timeS) / (keys[i + 1].timeS - keys[i].timeS);
+
+    // Headings counted on from key to key, each the shorter way from the one before.
+    std::vector<double> headings = {keys.front().pose.headingDeg};
+    for (std::size_t k = 1; k < keys.size(); ++k) {
+        headings.push_back(headings.back() + degreesBetween(headings.back(), keys[k].pose.headingDeg));
+    }
+    const auto logAltitude = [&](std::size_t k) { return std::log(keys[k].pose.altitudeM); };
+    const auto heading = [&](std::size_t k) { return headings[k]; };
+    const auto pitch = [&](std::size_t k) { return keys[k].pose.pitchDeg; };
+
+    const planet::Geographic place = planet::geographicFromDirection(directionAt(keys, i, t));
+    Pose pose;
+    pose.latitudeDeg = glm::degrees(place.latitudeRad);
+    pose.longitudeDeg = glm::degrees(place.longitudeRad);
+    pose.altitudeM = std::exp(valueAt(keys, logAltitude, i, t));
+    pose.headingDeg = std::fmod(valueAt(keys, heading, i, t) + 720, 360.0);
+    pose.pitchDeg = valueAt(keys, pitch, i, t);
+    return pose;
+}
+
+}  // namespace worldy

@@ -1,0 +1,42 @@
+// A recorded flight: camera keys in a TOML file, and a smooth way through them. Pure but for the reading.
+//
+//     name = "Orbit to ground"
+//     [[key]]
+//     time_s = 0
+//     latitude_deg = 20
+//     longitude_deg = 60
+//     altitude_m = 1.2e7     # above the planet's radius
+//     heading_deg = 0
+//     pitch_deg = -90
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planet/result.h"
+#include "planet/view.h"
+
+namespace worldy {
+
+struct FlightKey {
+    double timeS = 0;  // strictly increasing from key to key
+    planet::CameraPose pose;
+};
+
+struct FlightPath {
+    std::string name;
+    std::vector<FlightKey> keys;  // at least two
+};
+
+// The Error names the file, the key's number from 1 and what would be right.
+planet::Result<FlightPath> loadFlightPath(const std::filesystem::path& file);
+
+double durationS(const FlightPath& path);
+
+// The pose at a time, held at the ends. Over the ground it follows great-circle arcs blended to a smooth
+// curve; altitude goes by its logarithm and, like heading and pitch, never overshoots a key; heading turns
+// the shorter way.
+planet::CameraPose poseAt(const FlightPath& path, double timeS);
+
+}  // namespace worldy

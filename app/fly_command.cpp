@@ -1,0 +1,151 @@
+#include "app/fly_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/flight_path.h"
+#include "app/interrupt.h"
+#include "app/offscreen.h"
+#include "app/output_file.h"
+#include "app/report.h"
+#include "app/stopwatch.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::Result;
+
+struct FlownFrame {
+    double timeS = 0;
+    planet::CameraPose pose;
+    bool lifted = false;
+    ui::FrameStats stats;
+};
+
+// What the summary tells of, by its name in the JSON.
+struct Quantity {
+    const char* name;
+    double (*of)(const ui::FrameStats&);
+};
+using Stats = ui::FrameStats;
+constexpr std::array<Quantity, 16> quantities = {{
+    {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
+    {"culled",
+     [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
+    {"drawn_chunks", [](const Stats& s) { return double{1} * s.render.chunks; }},
+    {"drawn_triangles", [](const Stats& s) { return static_cast<double>(s.render.triangles); }},
+    {"waiting", [](const Stats& s) { return double{1} * s.selection.waiting; }},
+    {"worst_eps_px", [](const Stats& s) { return static_cast<double>(s.selection.worstEpsPx); }},
+    {"queued", [](const Stats& s) { return double{1} * s.paging.queued; }},
+    {"resident_bytes_cpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesCpu); }},
+    {"resident_bytes_gpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesGpu); }},
+    {"bytes_read", [](const Stats& s) { return static_cast<double>(s.paging.bytesRead); }},
+    {"upload_ms", [](const Stats& s) { return s.stages.uploadMs; }},
+    {"select_ms", [](const Stats& s) { return s.stages.selectMs; }},
+    {"paging_ms", [](const Stats& s) { return s.stages.pagingMs; }},
+    {"draw_cpu_ms", [](const Stats& s) { return s.drawCpuMs; }},
+    {"draw_gpu_ms", [](const Stats& s) { return s.render.drawMs; }},
+    {"frame_ms", [](const Stats& s) { return s.frameMs; }},
+}};
+
+struct Spread {
+    double median = 0;
+    double percentile99 = 0;
+    double maximum = 0;
+};
+
+// The nearest-rank percentiles.
+Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity) {
+    std::vector<double> values;
+    for (const FlownFrame& frame : frames) values.push_back(quantity.of(frame.stats));
+    std::sort(values.begin(), values.end());
+    const auto rank = [&](std::size_t percent) { return values[(values.size() * percent + 99) / 100 - 1]; };
+    return {rank(50), rank(99), values.back()};
+}
+
+FlownFrame flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS,
+                    const ui::ViewSettings& settings) {
+    Scene& scene = offscreen.scene;
+    const double radiusM = scene.planet->shape().radiusM;
+    const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
+    const Camera camera = keepInRange(wanted, groundBelow(scene, wanted.eyeM));
+    const planet::View view = viewOf(camera, glm::radians(settings.fovDeg), offscreen.target.widthPx(),
+                                     offscreen.target.heightPx());
+    const Stopwatch watch;
+    stepScene(scene, view, settings);
+    drawAndFinish(offscreen, view, settings);
+    FlownFrame frame{timeS, planet::poseFromView(view, radiusM), camera.eyeM != wanted.eyeM, statsOf(scene)};
+    frame.stats.frameMs = watch.elapsedMs();
+    return frame;
+}
+
+Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector<FlownFrame>& frames) {
+    Json report = {{"flight", path.name},
+                   {"file", options.file.string()},
+                   {"frames", frames.size()},
+                   {"width_px", options.size.widthPx},
+                   {"height_px", options.size.heightPx},
+                   {"tau_px", options.view.tauPx},
+                   {"budget_mb", options.view.budgetMB}};
+    for (const Quantity& quantity : quantities) {
+        const Spread spread = spreadOf(frames, quantity);
+        report["summary"][quantity.name] = {
+            {"median", spread.median}, {"p99", spread.percentile99}, {"maximum", spread.maximum}};
+    }
+    report["frame"] = Json::array();
+    for (const FlownFrame& frame : frames) {
+        Json entry = {
+            {"time_s", frame.timeS}, {"camera", worldy::jsonOf(frame.pose)}, {"lifted", frame.lifted}};
+        entry.update(worldy::jsonOf(frame.stats));
+        report["frame"].push_back(std::move(entry));
+    }
+    return report;
+}
+
+void printSummary(const FlightPath& path, const std::vector<FlownFrame>& frames) {
+    fmt::print("{}: {} frames over {:.0f} s\n\n{:20}{:>16}{:>16}{:>16}\n", path.name, frames.size(),
+               durationS(path), "", "median", "99th percentile", "maximum");
+    for (const Quantity& quantity : quantities) {
+        const Spread s = spreadOf(frames, quantity);
+        const std::string_view name = quantity.name;
+        const int digits = name.ends_with("_ms") || name.ends_with("_px") ? 3 : 0;
+        fmt::print("{:20}{:16.{}f}{:16.{}f}{:16.{}f}\n", name, s.median, digits, s.percentile99, digits,
+                   s.maximum, digits);
+    }
+}
+
+}  // namespace
+
+Result<void> flyPath(const FlyOptions& options) {
+    const Result<FlightPath> path = loadFlightPath(options.path);
+    if (!path) return tl::unexpected(path.error());
+    const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};
+    Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
+    if (!offscreen) return tl::unexpected(offscreen.error());
+
+    const InterruptWatch watch;
+    std::vector<FlownFrame> frames;
+    for (int i = 0; i < options.frames; ++i) {
+        if (watch.interrupted()) return planet::cancelled();
+        const double share = options.frames > 1 ? static_cast<double>(i) / (options.frames - 1) : 0;
+        const double timeS = path->keys.front().timeS + share * durationS(*path);
+        frames.push_back(flyFrame(*offscreen, *path, timeS, options.view));
+    }
+    for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
+        fmt::print(stderr, "worldy: {}\n", problem);
+    }
+    printSummary(*path, frames);
+    if (options.jsonOutput.empty()) return {};
+    return writeTextFile(options.jsonOutput, jsonOf(options, *path, frames).dump(1) + "\n");
+}
+
+}  // namespace worldy

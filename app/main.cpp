@@ -1,0 +1,5 @@
+#include "app/command_line.h"
+
+int main(int argumentCount, char** arguments) {
+    return worldy::runCommandLine(argumentCount, arguments);
+}

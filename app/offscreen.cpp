@@ -1,0 +1,62 @@
+#include "app/offscreen.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+namespace worldy {
+
+namespace {
+
+constexpr double settleTimeoutS = 120;
+
+}  // namespace
+
+planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
+                                        const PictureSize& size, int samples) {
+    auto context = planet::gl::OffscreenContext::create();
+    if (!context) return tl::unexpected(context.error());
+    auto scene = openScene(config, settings);
+    if (!scene) return tl::unexpected(scene.error());
+    const int most = std::max(scene->renderer.capabilities().samples, 1);
+    auto target = planet::gl::RenderTarget::create(size.widthPx, size.heightPx, std::min(samples, most));
+    if (!target) return tl::unexpected(target.error());
+    return Offscreen{std::move(*context), std::move(*target), std::move(*scene)};
+}
+
+void drawAndFinish(Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings) {
+    offscreen.target.bind();
+    drawScene(offscreen.scene, view, settings);
+    offscreen.target.resolve();
+    glFinish();
+}
+
+Picture readPicture(const Offscreen& offscreen) {
+    return {offscreen.target.widthPx(), offscreen.target.heightPx(), offscreen.target.readRgb()};
+}
+
+SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings) {
+    Scene& scene = offscreen.scene;
+    const double radiusM = scene.planet->shape().radiusM;
+    Camera camera = cameraFromPose(pose, radiusM);
+    SettledView result;
+    const auto settle = [&] {
+        result.view = viewOf(camera, glm::radians(settings.fovDeg), offscreen.target.widthPx(),
+                             offscreen.target.heightPx());
+        result.pose = planet::poseFromView(result.view, radiusM);
+        result.settled = settleScene(scene, result.view, settings, settleTimeoutS);
+    };
+    settle();
+    // The ground below is known as finely as the view needs only now; lifted, it may become finer still.
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        const Ground ground = groundBelow(scene, camera.eyeM);
+        if (altitudeM(camera, ground) >= ground.heightM + minGroundClearanceM - 1e-3) break;
+        camera = keepInRange(camera, ground);
+        result.lifted = true;
+        settle();
+    }
+    return result;
+}
+
+}  // namespace worldy

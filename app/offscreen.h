@@ -1,0 +1,35 @@
+// Drawing a planet without a window: what shot, fly and a machine without a display share.
+#pragma once
+
+#include "app/scene.h"
+#include "app/view_options.h"
+#include "planet/gl/offscreen_context.h"
+#include "planet/gl/render_target.h"
+
+namespace worldy {
+
+// Declared in the order in which they need each other.
+struct Offscreen {
+    planet::gl::OffscreenContext context;
+    planet::gl::RenderTarget target;
+    Scene scene;
+};
+
+planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
+                                        const PictureSize& size, int samples);
+
+// Draws the last selection and waits until the GPU has done it.
+void drawAndFinish(Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings);
+
+Picture readPicture(const Offscreen& offscreen);
+
+// The view from a pose, once everything for it is loaded. A camera below the ground is lifted above it.
+struct SettledView {
+    planet::View view;
+    planet::CameraPose pose;
+    bool lifted = false;
+    bool settled = false;  // false: the time ran out
+};
+SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings);
+
+}  // namespace worldy

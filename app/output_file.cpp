@@ -1,0 +1,42 @@
+#include "app/output_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace worldy {
+
+namespace fs = std::filesystem;
+
+planet::Result<void> writeAtomically(const fs::path& target,
+                                     const std::function<planet::Result<void>(const fs::path&)>& write) {
+    std::error_code status;
+    if (fs::is_directory(target, status)) {
+        return planet::ioError(fmt::format("{}: is a folder; give the path of a file", target.string()));
+    }
+    const fs::path temporary = target.parent_path() / fmt::format(".{}.{}{}", target.stem().string(),
+                                                                  ::getpid(), target.extension().string());
+    planet::Result<void> written = write(temporary);
+    if (written) {
+        fs::rename(temporary, target, status);
+        if (!status) return {};
+        written =
+            planet::ioError(fmt::format("{}: cannot be written: {}", target.string(), status.message()));
+    }
+    fs::remove(temporary, status);
+    return written;
+}
+
+planet::Result<void> writeTextFile(const fs::path& target, std::string_view text) {
+    return writeAtomically(target, [&](const fs::path& temporary) -> planet::Result<void> {
+        std::ofstream stream(temporary, std::ios::binary);
+        stream << text;
+        stream.close();
+        if (stream) return {};
+        return planet::ioError(fmt::format(
+            "{}: cannot be written; the folder must exist, be writable and have room", target.string()));
+    });
+}
+
+}  // namespace worldy

@@ -1,0 +1,60 @@
+#include "app/picture.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "app/output_file.h"
+
+namespace worldy {
+
+namespace {
+
+constexpr int maxSidePx = 32768;
+
+}  // namespace
+
+planet::Result<Picture> readPicture(const std::filesystem::path& file) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
+    if (!input) {
+        OIIO::geterror();
+        return planet::badInput(fmt::format(
+            "{}: cannot be read as an image; a JPEG, PNG or TIFF picture would be right", file.string()));
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > maxSidePx || spec.height > maxSidePx) {
+        return planet::badInput(fmt::format("{}: is {} x {} pixels; 1 to {} a side would be right",
+                                            file.string(), spec.width, spec.height, maxSidePx));
+    }
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+    std::vector<std::uint8_t> all(pixels * channels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, all.data())) {
+        return planet::badInput(fmt::format("{}: is damaged: {}", file.string(), input->geterror()));
+    }
+    Picture picture{spec.width, spec.height, {}};
+    picture.rgb.resize(pixels * 3);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        for (std::size_t c = 0; c < 3; ++c)
+            picture.rgb[3 * i + c] = all[i * channels + (channels >= 3 ? c : 0)];
+    }
+    return picture;
+}
+
+planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file) {
+    return writeAtomically(file, [&](const std::filesystem::path& temporary) -> planet::Result<void> {
+        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
+        const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+        if (!output || !output->open(temporary.string(), spec) ||
+            !output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !output->close()) {
+            const std::string why = output ? output->geterror() : OIIO::geterror();
+            return planet::ioError(
+                fmt::format("{}: cannot be written; a writable folder that exists and a name ending in .png "
+                            "would be right ({})",
+                            file.string(), why));
+        }
+        return {};
+    });
+}
+
+}  // namespace worldy

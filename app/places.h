@@ -1,0 +1,18 @@
+// Where Worldy keeps its things.
+#pragma once
+
+#include <filesystem>
+
+namespace worldy {
+
+// $XDG_CONFIG_HOME/worldy or ~/.config/worldy: settings.toml and imgui.ini.
+std::filesystem::path configFolder();
+
+// $XDG_CACHE_HOME/worldy or ~/.cache/worldy: chunk files of sources that were opened.
+std::filesystem::path cacheFolder();
+
+// The data that Worldy starts with: of the source tree it was built from, or else of the place where it is
+// installed, ../share/worldy from the binary.
+std::filesystem::path dataFolder();
+
+}  // namespace worldy

@@ -1,0 +1,50 @@
+#include "app/report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace worldy {
+
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const planet::CameraPose& pose) {
+    return {{"latitude_deg", pose.latitudeDeg},
+            {"longitude_deg", pose.longitudeDeg},
+            {"altitude_m", pose.altitudeM},
+            {"heading_deg", pose.headingDeg},
+            {"pitch_deg", pose.pitchDeg}};
+}
+
+Json jsonOf(const ui::FrameStats& stats) {
+    return {{"visited", stats.selection.visited},
+            {"culled_frustum", stats.selection.culledFrustum},
+            {"culled_horizon", stats.selection.culledHorizon},
+            {"drawn_chunks", stats.render.chunks},
+            {"drawn_triangles", stats.render.triangles},
+            {"waiting", stats.selection.waiting},
+            {"deepest_level", stats.selection.deepestLevel},
+            {"worst_eps_px", stats.selection.worstEpsPx},
+            {"requests", stats.paging.requested},
+            {"queued", stats.paging.queued},
+            {"loading", stats.paging.loading},
+            {"loaded_blocks", stats.paging.loaded},
+            {"evicted_blocks", stats.paging.evicted},
+            {"failed_blocks", stats.paging.failed},
+            {"resident_chunks", stats.paging.residentChunks},
+            {"resident_bytes_cpu", stats.paging.residentBytesCpu},
+            {"resident_bytes_gpu", stats.paging.residentBytesGpu},
+            {"bytes_read", stats.paging.bytesRead},
+            {"upload_ms", stats.stages.uploadMs},
+            {"select_ms", stats.stages.selectMs},
+            {"paging_ms", stats.stages.pagingMs},
+            {"draw_cpu_ms", stats.drawCpuMs},
+            {"draw_gpu_ms", stats.render.drawMs},
+            {"frame_ms", stats.frameMs}};
+}
+
+std::vector<std::uint32_t> levelHistogram(const planet::Selection& selection) {
+    std::vector<std::uint32_t> levels(selection.counters.deepestLevel + std::size_t{1});
+    for (const planet::DrawItem& item : selection.draw) ++levels[item.id.level];
+    return levels;
+}
+
+}  // namespace worldy

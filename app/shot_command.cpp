@@ -1,0 +1,83 @@
+#include "app/shot_command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/data_set.h"
+#include "app/offscreen.h"
+#include "app/picture.h"
+#include "app/report.h"
+#include "ui/text.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+// The picture to lay over the planet; none where there is none.
+Result<std::optional<Picture>> colourPicture(const ShotOptions& options) {
+    std::filesystem::path file = options.colourImage;
+    if (file.empty()) {
+        const Result<DataSet> set = findDataSet(options.file, {});
+        if (!set) return tl::unexpected(set.error());
+        file = set->colourImage;
+    }
+    if (file.empty()) return std::optional<Picture>();
+    return readPicture(file).map(
+        [](Picture&& picture) { return std::optional<Picture>(std::move(picture)); });
+}
+
+void printReport(const Offscreen& offscreen, const SettledView& view, const ShotOptions& options) {
+    const planet::Selection& selection = offscreen.scene.planet->selection();
+    const ui::FrameStats stats = statsOf(offscreen.scene);
+    if (options.json) {
+        nlohmann::ordered_json report = {
+            {"output", options.output.string()},  {"width_px", options.size.widthPx},
+            {"height_px", options.size.heightPx}, {"tau_px", options.view.tauPx},
+            {"fov_deg", options.view.fovDeg},     {"settled", view.settled},
+            {"camera", jsonOf(view.pose)},        {"levels", levelHistogram(selection)}};
+        nlohmann::ordered_json drawn = jsonOf(stats);
+        // Of a run of frames, and there was one.
+        drawn.erase("frame_ms");
+        drawn.erase("draw_gpu_ms");
+        report.update(drawn);
+        fmt::print("{}\n", report.dump(2));
+        return;
+    }
+    fmt::print("{}: {} chunks, {} triangles, worst error {:.2f} px, {} read\n", options.output.string(),
+               stats.render.chunks, ui::countText(static_cast<double>(stats.render.triangles)),
+               stats.selection.worstEpsPx, ui::bytesText(static_cast<double>(stats.paging.bytesRead)));
+}
+
+}  // namespace
+
+Result<void> takeShot(const ShotOptions& options) {
+    const Result<std::optional<Picture>> colour = colourPicture(options);
+    if (!colour) return tl::unexpected(colour.error());
+    const SceneConfig config{options.file, options.shaderFolder, *colour ? &**colour : nullptr};
+    Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, options.samples);
+    if (!offscreen) return tl::unexpected(offscreen.error());
+
+    const double radiusM = offscreen->scene.planet->shape().radiusM;
+    const SettledView view =
+        settleAt(*offscreen, options.camera.value_or(wholePlanetPose(radiusM)), options.view);
+    if (view.lifted) {
+        fmt::print(stderr, "worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
+                   view.pose.altitudeM, minGroundClearanceM);
+    }
+    if (!view.settled)
+        fmt::print(stderr, "worldy: not everything was loaded in time; the picture may be coarse\n");
+    for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
+        fmt::print(stderr, "worldy: {}\n", problem);
+    }
+    drawAndFinish(*offscreen, view.view, options.view);
+    if (Result<void> written = writePicture(readPicture(*offscreen), options.output); !written)
+        return written;
+    printReport(*offscreen, view, options);
+    return {};
+}
+
+}  // namespace worldy

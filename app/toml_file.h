@@ -1,0 +1,35 @@
+// Reading TOML with errors that name the file, the line, the key and what would be right.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "planet/result.h"
+
+namespace worldy {
+
+struct NumberRange {
+    double min = 0;
+    double max = 0;
+    std::string_view unit;  // "pixels"; may be empty
+};
+
+planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path);
+
+// "settings.toml: line 3"
+std::string placeOf(const std::filesystem::path& file, const toml::node& node);
+
+// A finite number of the range, integers included.
+planet::Result<double> readNumber(const std::filesystem::path& file, std::string_view name,
+                                  const toml::node& node, const NumberRange& range);
+planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std::string_view name,
+                                         const toml::node& node, const NumberRange& range);
+planet::Result<bool> readBool(const std::filesystem::path& file, std::string_view name,
+                              const toml::node& node);
+planet::Result<std::string> readText(const std::filesystem::path& file, std::string_view name,
+                                     const toml::node& node);
+
+}  // namespace worldy

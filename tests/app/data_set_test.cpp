@@ -1,0 +1,81 @@
+#include "app/data_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "tests/app/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const char* text) {
+    std::ofstream(file) << text;
+}
+
+TEST(DataSet, WhatIsNotThereIsAnError) {
+    const planet::Result<DataSet> set = findDataSet("/nonexistent/earth.tif", {});
+    ASSERT_FALSE(set);
+    EXPECT_THAT(set.error().message,
+                testing::HasSubstr("/nonexistent/earth.tif: no such file; a chunk file"));
+}
+
+TEST(DataSet, AChunkFileIsOpenedWhereItLies) {
+    const TemporaryFolder folder;
+    write(folder.path() / "moon.chk", "x");
+    const planet::Result<DataSet> set = findDataSet(folder.path() / "moon.chk", {});
+    ASSERT_TRUE(set);
+    EXPECT_EQ(set->chunkFile, folder.path() / "moon.chk");
+    EXPECT_FALSE(set->needsBake);
+    EXPECT_TRUE(set->colourImage.empty());
+}
+
+TEST(DataSet, AnImageIsBakedIntoTheCache) {
+    const TemporaryFolder folder;
+    write(folder.path() / "moon.tif", "x");
+    write(folder.path() / "colour.png", "x");
+    const planet::Result<DataSet> set = findDataSet(folder.path() / "moon.tif", {});
+    ASSERT_TRUE(set);
+    EXPECT_TRUE(set->needsBake);
+    EXPECT_EQ(set->chunkFile.extension(), ".chk");
+    EXPECT_TRUE(set->chunkFile.filename().string().starts_with("moon-"));
+    EXPECT_EQ(set->colourImage, folder.path() / "colour.png");
+}
+
+TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
+    const TemporaryFolder folder;
+    const fs::path image = folder.path() / "moon.tif";
+    write(image, "x");
+    const fs::path first = cachedBakeOf(image, {});
+    EXPECT_EQ(cachedBakeOf(image, {}), first);
+    EXPECT_NE(cachedBakeOf(image, {.chunkSize = 65}), first);
+    EXPECT_NE(cachedBakeOf(image, {.radiusM = 1'737'400}), first);
+    fs::last_write_time(image, fs::last_write_time(image) + std::chrono::seconds(2));
+    const fs::path touched = cachedBakeOf(image, {});
+    EXPECT_NE(touched, first);
+    const auto time = fs::last_write_time(image);
+    write(image, "xy");
+    fs::last_write_time(image, time);
+    EXPECT_NE(cachedBakeOf(image, {}), touched);
+}
+
+TEST(DataSet, AllSixFacesCountForAStemAndForOneOfThem) {
+    const TemporaryFolder folder;
+    for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
+        write(folder.path() / (std::string("moon_") + face + ".png"), "x");
+    }
+    const fs::path face = folder.path() / "moon_x_pos.png";
+    const fs::path stem = folder.path() / "moon";
+    EXPECT_TRUE(findDataSet(stem, {}));
+    EXPECT_EQ(cachedBakeOf(face, {}), cachedBakeOf(stem, {}));
+    const fs::path before = cachedBakeOf(face, {});
+    write(folder.path() / "moon_z_neg.png", "longer");
+    EXPECT_NE(cachedBakeOf(face, {}), before);
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,143 @@
+#include "app/flight_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "planet/cube_sphere.h"
+#include "tests/app/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+glm::dvec3 directionOf(const planet::CameraPose& pose) {
+    return planet::directionFromGeographic({glm::radians(pose.latitudeDeg), glm::radians(pose.longitudeDeg)});
+}
+
+FlightPath acrossThePole() {
+    return {"across",
+            {{0, {60, 0, 1e6, 350, -90}},
+             {10, {80, 0, 1e4, 10, -20}},
+             {15, {80, 180, 2e4, 20, -20}},
+             {30, {40, 180, 500, 30, 0}}}};
+}
+
+std::string keyText(double time, double latitude, double longitude, double altitude = 1000) {
+    return "[[key]]\ntime_s = " + std::to_string(time) + "\nlatitude_deg = " + std::to_string(latitude) +
+           "\nlongitude_deg = " + std::to_string(longitude) + "\naltitude_m = " + std::to_string(altitude) +
+           "\nheading_deg = 0\npitch_deg = -10\n";
+}
+
+planet::Result<FlightPath> loadText(const std::string& text) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "path.toml") << text;
+    return loadFlightPath(folder.path() / "path.toml");
+}
+
+std::string errorOf(const std::string& text) {
+    const planet::Result<FlightPath> loaded = loadText(text);
+    return loaded ? "no error" : loaded.error().message;
+}
+
+TEST(FlightPath, PassesThroughEveryKey) {
+    const FlightPath path = acrossThePole();
+    for (const FlightKey& key : path.keys) {
+        const planet::CameraPose pose = poseAt(path, key.timeS);
+        EXPECT_LT(glm::length(directionOf(pose) - directionOf(key.pose)), 1e-9);
+        EXPECT_NEAR(pose.altitudeM / key.pose.altitudeM, 1, 1e-9);
+        EXPECT_NEAR(pose.headingDeg, key.pose.headingDeg, 1e-9);
+        EXPECT_NEAR(pose.pitchDeg, key.pose.pitchDeg, 1e-9);
+    }
+}
+
+TEST(FlightPath, HasNoJumpsAndNoKinks) {
+    const FlightPath path = acrossThePole();
+    const double h = 1e-3;
+    for (double t = 2 * h; t < 30 - 2 * h; t += 0.01) {
+        const glm::dvec3 before = (directionOf(poseAt(path, t)) - directionOf(poseAt(path, t - h))) / h;
+        const glm::dvec3 after = (directionOf(poseAt(path, t + h)) - directionOf(poseAt(path, t))) / h;
+        EXPECT_LT(glm::length(after - before), 1e-3) << t;
+    }
+}
+
+TEST(FlightPath, HoldsTheEnds) {
+    const FlightPath path = acrossThePole();
+    EXPECT_NEAR(poseAt(path, -5).latitudeDeg, 60, 1e-9);
+    EXPECT_NEAR(poseAt(path, 99).latitudeDeg, 40, 1e-9);
+    EXPECT_EQ(durationS(path), 30);
+}
+
+TEST(FlightPath, AltitudeNeverLeavesTheRangeOfItsTwoKeys) {
+    const FlightPath path = acrossThePole();
+    for (std::size_t i = 0; i + 1 < path.keys.size(); ++i) {
+        const auto [low, high] = std::minmax(path.keys[i].pose.altitudeM, path.keys[i + 1].pose.altitudeM);
+        for (double t = path.keys[i].timeS; t <= path.keys[i + 1].timeS; t += 0.05) {
+            const double altitude = poseAt(path, t).altitudeM;
+            EXPECT_GE(altitude, low * (1 - 1e-12));
+            EXPECT_LE(altitude, high * (1 + 1e-12));
+        }
+    }
+}
+
+TEST(FlightPath, AltitudeGoesByItsLogarithm) {
+    const FlightPath path{"down", {{0, {0, 0, 1e6, 0, 0}}, {10, {0, 0, 1e2, 0, 0}}}};
+    EXPECT_NEAR(poseAt(path, 5).altitudeM, 1e4, 1e-6);
+}
+
+TEST(FlightPath, HeadingTurnsTheShorterWay) {
+    const FlightPath path{"turn", {{0, {0, 0, 100, 350, 0}}, {10, {0, 0, 100, 10, 0}}}};
+    EXPECT_NEAR(std::remainder(poseAt(path, 5).headingDeg, 360), 0, 1e-9);
+    EXPECT_NEAR(poseAt(path, 2).headingDeg, 350 + 20 * 0.104, 1e-6);
+}
+
+TEST(FlightPath, LongStepsFollowTheGreatCircle) {
+    const FlightPath path{"far", {{0, {0, 0, 100, 0, 0}}, {10, {0, 160, 100, 0, 0}}}};
+    const planet::CameraPose pose = poseAt(path, 5);
+    EXPECT_NEAR(pose.latitudeDeg, 0, 1e-9);
+    EXPECT_NEAR(pose.longitudeDeg, 80, 1e-9);
+}
+
+TEST(FlightPath, AGoodFileIsRead) {
+    const planet::Result<FlightPath> path =
+        loadText("name = \"Two\"\n" + keyText(0, 1, 2) + keyText(5, 3, 4));
+    ASSERT_TRUE(path) << path.error().message;
+    EXPECT_EQ(path->name, "Two");
+    ASSERT_EQ(path->keys.size(), 2u);
+    EXPECT_EQ(path->keys[1].pose.longitudeDeg, 4);
+}
+
+TEST(FlightPath, ErrorsNameFileKeyAndWhatWouldBeRight) {
+    const std::string good = keyText(0, 1, 2);
+    EXPECT_THAT(errorOf(good + keyText(5, 91, 0)),
+                HasSubstr("path.toml: line 10: key 2: latitude_deg is 91"));
+    EXPECT_THAT(errorOf(good + keyText(5, 91, 0)), HasSubstr("from -90 to 90 would be right"));
+    EXPECT_THAT(errorOf(good + keyText(0, 0, 0)), HasSubstr("key 2: time_s is 0; a time after key 1's 0"));
+    EXPECT_THAT(errorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));
+    EXPECT_THAT(errorOf(good + "[[key]]\ntime_s = 5\n"), HasSubstr("key 2: latitude_deg is missing"));
+    EXPECT_THAT(errorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: lies"));
+    EXPECT_THAT(errorOf(good + keyText(5, 0, 0) + "roll_deg = 3\n"),
+                HasSubstr("key 2: roll_deg is not known"));
+    EXPECT_THAT(errorOf(good), HasSubstr("has 1 [[key]] tables; two or more would be right"));
+    EXPECT_THAT(errorOf(""), HasSubstr("has 0 [[key]] tables"));
+    EXPECT_THAT(errorOf("key = 3\n"), HasSubstr("key is not known"));
+    EXPECT_THAT(errorOf("speed = 3\n"), HasSubstr("speed is not known"));
+    EXPECT_THAT(errorOf("key = [3]\n"), HasSubstr("key 1 is not a table"));
+    EXPECT_THAT(errorOf("[[key]\n"), HasSubstr("path.toml: line 1: not TOML"));
+}
+
+TEST(FlightPath, TheFlightsThatComeWithWorldyAreGood) {
+    const std::filesystem::path folder = std::filesystem::path(WORLDY_SOURCE_DIR) / "data" / "flights";
+    for (const char* name : {"orbit_to_ground.toml", "andes_low_fast.toml"}) {
+        const planet::Result<FlightPath> path = loadFlightPath(folder / name);
+        EXPECT_TRUE(path) << path.error().message;
+    }
+}
+
+}  // namespace
+}  // namespace worldy

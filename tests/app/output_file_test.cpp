@@ -1,0 +1,73 @@
+#include "app/output_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/app/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+std::size_t fileCount(const fs::path& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
+}
+
+TEST(OutputFile, ReplacesTheOldFile) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a.txt";
+    ASSERT_TRUE(writeTextFile(file, "old"));
+    ASSERT_TRUE(writeTextFile(file, "new"));
+    EXPECT_EQ(contentOf(file), "new");
+    EXPECT_EQ(fileCount(folder.path()), 1u);
+}
+
+TEST(OutputFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a.txt";
+    ASSERT_TRUE(writeTextFile(file, "old"));
+    const planet::Result<void> written = writeAtomically(file, [](const fs::path& temporary) {
+        std::ofstream(temporary) << "half";
+        return planet::Result<void>(planet::ioError("disk full"));
+    });
+    EXPECT_FALSE(written);
+    EXPECT_EQ(contentOf(file), "old");
+    EXPECT_EQ(fileCount(folder.path()), 1u);
+}
+
+TEST(OutputFile, TheTemporaryNameKeepsTheExtension) {
+    const TemporaryFolder folder;
+    fs::path seen;
+    ASSERT_TRUE(writeAtomically(folder.path() / "a.png", [&](const fs::path& temporary) {
+        seen = temporary;
+        std::ofstream(temporary) << "x";
+        return planet::Result<void>();
+    }));
+    EXPECT_EQ(seen.extension(), ".png");
+    EXPECT_EQ(seen.parent_path(), folder.path());
+}
+
+TEST(OutputFile, AFolderThatIsNotThereIsAnErrorThatNamesTheFile) {
+    const planet::Result<void> written = writeTextFile("/nonexistent/folder/a.txt", "x");
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().kind, planet::ErrorKind::Io);
+    EXPECT_THAT(written.error().message, testing::HasSubstr("/nonexistent/folder/a.txt: cannot be written"));
+}
+
+TEST(OutputFile, AFolderIsNoTarget) {
+    const TemporaryFolder folder;
+    EXPECT_FALSE(writeTextFile(folder.path(), "x"));
+}
+
+}  // namespace
+}  // namespace worldy

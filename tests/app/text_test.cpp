@@ -1,0 +1,46 @@
+#include "ui/text.h"
+
+#include <gtest/gtest.h>
+
+namespace ui {
+namespace {
+
+TEST(Text, BytesKeepThreeDigits) {
+    EXPECT_EQ(bytesText(0), "0 B");
+    EXPECT_EQ(bytesText(999), "999 B");
+    EXPECT_EQ(bytesText(1536), "1.50 KiB");
+    EXPECT_EQ(bytesText(12.34 * 1024 * 1024), "12.3 MiB");
+    EXPECT_EQ(bytesText(256.0 * 1024 * 1024), "256 MiB");
+    EXPECT_EQ(bytesText(3e12), "2.73 TiB");
+}
+
+TEST(Text, CountsAreWholeUntilTheyAreLong) {
+    EXPECT_EQ(countText(0), "0");
+    EXPECT_EQ(countText(9999), "9999");
+    EXPECT_EQ(countText(12'345), "12.3 k");
+    EXPECT_EQ(countText(4'560'000), "4.56 M");
+}
+
+TEST(Text, DurationsReadAsPeopleSayThem) {
+    EXPECT_EQ(durationText(0.42), "0.4 s");
+    EXPECT_EQ(durationText(12.3), "12 s");
+    EXPECT_EQ(durationText(200), "3 min 20 s");
+    EXPECT_EQ(durationText(7500), "2 h 5 min");
+}
+
+TEST(Text, DistancesChangeUnitWithSize) {
+    EXPECT_EQ(distanceText(4.21), "4.2 m");
+    EXPECT_EQ(distanceText(950), "950 m");
+    EXPECT_EQ(distanceText(12'345), "12.3 km");
+    EXPECT_EQ(distanceText(14'016'200), "14016 km");
+    EXPECT_EQ(distanceText(-20), "-20 m");
+}
+
+TEST(Text, PlacesSayTheirHemisphere) {
+    EXPECT_EQ(placeText(27.988, 86.925), "27.9880 N  86.9250 E");
+    EXPECT_EQ(placeText(-33.5, -70.25), "33.5000 S  70.2500 W");
+    EXPECT_EQ(placeText(0, 190), "0.0000 N  170.0000 W");
+}
+
+}  // namespace
+}  // namespace ui

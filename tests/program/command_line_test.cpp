@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/program/run_program.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(CommandLine, HelpAndVersionEndWell) {
+    const TemporaryFolder folder;
+    const Ran help = runWorldy(folder, "--help");
+    EXPECT_EQ(help.exitCode, 0);
+    for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly"}) {
+        EXPECT_THAT(help.output, HasSubstr(command));
+        const Ran own = runWorldy(folder, std::string(command) + " --help");
+        EXPECT_EQ(own.exitCode, 0) << command;
+        EXPECT_THAT(own.output, HasSubstr(command));
+    }
+    const Ran version = runWorldy(folder, "--version");
+    EXPECT_EQ(version.exitCode, 0);
+    EXPECT_THAT(version.output, StartsWith("worldy "));
+}
+
+// Each must end with 2, one line on stderr that starts so, and nothing on stdout.
+struct BadCommand {
+    const char* arguments;
+    const char* message;
+};
+
+class BadCommands : public testing::TestWithParam<BadCommand> {};
+
+TEST_P(BadCommands, EndWithTwoAndOneLineThatSaysWhy) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "junk.chk") << "this is no chunk file";
+    std::ofstream(folder.path() / "bad.toml") << "[lod]\ntau_px = 0\n";
+    const Ran ran = runWorldy(folder, GetParam().arguments);
+    EXPECT_EQ(ran.exitCode, 2) << ran.errors;
+    EXPECT_THAT(ran.errors, StartsWith("worldy: "));
+    EXPECT_THAT(ran.errors, HasSubstr(GetParam().message));
+    EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+    EXPECT_EQ(ran.output, "");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.chk"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CommandLine, BadCommands,
+    testing::Values(
+        BadCommand{"nonsense", "nonsense: no such file"}, BadCommand{"--nonsense", "--nonsense"},
+        BadCommand{"bake", "SOURCE is required"}, BadCommand{"bake a.tif", "--output is required"},
+        BadCommand{"bake a.tif -o o.chk", "a.tif"}, BadCommand{"bake junk.chk -o o.chk", "junk.chk"},
+        BadCommand{"bake a.tif -o o.chk --chunk-size 34", "--chunk-size"},
+        BadCommand{"bake a.tif -o o.chk --radius 0", "--radius"},
+        BadCommand{"bake a.tif -o o.chk --radius nan", "--radius"},
+        BadCommand{"bake a.tif -o o.chk --metres-per-unit 0", "--metres-per-unit"},
+        BadCommand{"bake a.tif -o o.chk --metres-per-unit x", "--metres-per-unit"},
+        BadCommand{"bake a.tif -o o.chk --compression-level 10", "--compression-level"},
+        BadCommand{"bake a.tif -o o.chk --raw-bits 12", "--raw-bits"}, BadCommand{"info", "FILE is required"},
+        BadCommand{"info none.chk", "none.chk"}, BadCommand{"info junk.chk", "junk.chk"},
+        BadCommand{"verify junk.chk", "junk.chk"}, BadCommand{"probe junk.chk 1 2", "junk.chk"},
+        BadCommand{"probe junk.chk 91 0", "LATITUDE"}, BadCommand{"shot none.chk -o o.png", "none.chk"},
+        BadCommand{"shot junk.chk -o o.png", "junk.chk"},
+        BadCommand{"shot junk.chk -o o.png --camera 1,2", "--camera"},
+        BadCommand{"shot junk.chk -o o.png --size 5x5", "--size"},
+        BadCommand{"shot junk.chk -o o.png --tau 0", "--tau"},
+        BadCommand{"shot junk.chk -o o.png --colour-by mood", "--colour-by"},
+        BadCommand{"fly junk.chk --path none.toml", "none.toml"},
+        BadCommand{"fly junk.chk --path bad.toml", "bad.toml: line 1: lod is not known"},
+        BadCommand{"junk.chk", "junk.chk"}, BadCommand{"--settings none.toml", "none.toml: no such file"},
+        BadCommand{"--settings bad.toml", "bad.toml: line 2: lod.tau_px is 0; a number of pixels"},
+        BadCommand{"info junk.chk extra", "extra"}));
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,225 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+
+#include "app/picture.h"
+#include "planet/gl/offscreen_context.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::set<std::string> filesIn(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name != ".stdout" && name != ".stderr") names.insert(name);
+    }
+    return names;
+}
+
+double meanOf(const Picture& picture) {
+    return std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) /
+           static_cast<double>(picture.rgb.size());
+}
+
+// Drawing needs EGL; a machine without it can still run the rest.
+bool canDraw() {
+    return planet::gl::OffscreenContext::create().has_value();
+}
+
+TEST(Program, InfoTellsWhatWasBaked) {
+    const TemporaryFolder folder;
+    writeHills(folder);
+    const Ran baked = runWorldy(
+        folder, "bake hills.pgm -o planet.chk --chunk-size 17 --face-size 129 --radius 100000 --json");
+    ASSERT_EQ(baked.exitCode, 0) << baked.errors;
+    const json bake = json::parse(baked.output);
+    EXPECT_EQ(bake["face_size"], 129);
+    EXPECT_EQ(bake["chunks"], 6 * (1 + 4 + 16 + 64));
+    EXPECT_EQ(bake["file_bytes"], std::filesystem::file_size(folder.path() / "planet.chk"));
+
+    const Ran told = runWorldy(folder, "info planet.chk --json");
+    ASSERT_EQ(told.exitCode, 0) << told.errors;
+    const json info = json::parse(told.output);
+    EXPECT_EQ(info["radius_m"], 100000);
+    EXPECT_EQ(info["chunk_size"], 17);
+    EXPECT_EQ(info["levels"].size(), 4u);
+    EXPECT_EQ(info["levels"][3]["chunks"], 6 * 64);
+    EXPECT_EQ(info["levels"][3]["max_delta_m"], 0);
+    EXPECT_THAT(info["source"].get<std::string>(), HasSubstr("hills.pgm"));
+    EXPECT_THAT(runWorldy(folder, "info planet.chk").output, HasSubstr("hills.pgm"));
+}
+
+TEST(Program, VerifyPassesAGoodFileAndFindsDamage) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran good = runWorldy(folder, "verify planet.chk --source hills.pgm --metres-per-unit 20 --json");
+    EXPECT_EQ(good.exitCode, 0) << good.output << good.errors;
+    EXPECT_EQ(json::parse(good.output)["problem_count"], 0);
+    EXPECT_GT(json::parse(good.output)["leaf_samples"], 0);
+
+    std::fstream file(folder.path() / "planet.chk", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(700);
+    file.put('\x5A').put('\x5A').put('\x5A').put('\x5A');
+    file.close();
+    const Ran bad = runWorldy(folder, "verify planet.chk");
+    EXPECT_EQ(bad.exitCode, 2);
+    EXPECT_THAT(bad.errors, HasSubstr("worldy: planet.chk: has"));
+}
+
+TEST(Program, ProbeTellsTheHeightOfTheImage) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    // The middle of a pixel, on a slope; the baked surface is smooth and in steps of the image's.
+    const int column = 40, row = 70;
+    const double latitude = 90 - 180.0 * (row + 0.5) / hillsHeight;
+    const double longitude = -180 + 360.0 * (column + 0.5) / hillsWidth;
+    const Ran ran = runWorldy(
+        folder, "probe planet.chk " + std::to_string(latitude) + " " + std::to_string(longitude) + " --json");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    const json probe = json::parse(ran.output);
+    EXPECT_NEAR(probe["height_m"].get<double>(), 20 * hillAt(column, row), 60);
+    EXPECT_EQ(probe["chunks"][0]["id"].get<std::string>().find("/0/0/0"), 5u);
+}
+
+TEST(Program, AnInterruptedBakeEndsWith130AndLeavesNothing) {
+    const TemporaryFolder folder;
+    writeHills(folder);
+    const Ran ran = runShell(folder, "timeout --preserve-status -s INT 1 '" WORLDY_BINARY
+                                     "' bake hills.pgm -o big.chk --face-size 16385");
+    EXPECT_EQ(ran.exitCode, 130) << ran.errors;
+    EXPECT_EQ(filesIn(folder.path()), (std::set<std::string>{"hills.pgm"}));
+}
+
+TEST(Program, AFailedBakeLeavesTheOldFile) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const std::string before = contentOf(folder.path() / "planet.chk");
+    EXPECT_EQ(runWorldy(folder, "bake hills.pgm -o planet.chk --face-size 100").exitCode, 2);
+    EXPECT_EQ(contentOf(folder.path() / "planet.chk"), before);
+    EXPECT_EQ(filesIn(folder.path()), (std::set<std::string>{"hills.pgm", "planet.chk"}));
+}
+
+TEST(Program, AShotIsAPictureOfThePlanet) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran ran = runWorldy(folder, "shot planet.chk -o shot.png --size 200x120 --tau 1 --json");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    const planet::Result<Picture> picture = readPicture(folder.path() / "shot.png");
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->width, 200);
+    EXPECT_EQ(picture->height, 120);
+    EXPECT_GT(meanOf(*picture), 5);
+    const std::size_t middle = 3 * (60 * 200 + 100);
+    EXPECT_GT(picture->rgb[middle] + picture->rgb[middle + 1] + picture->rgb[middle + 2], 60);
+
+    const json report = json::parse(ran.output);
+    EXPECT_TRUE(report["settled"]);
+    EXPECT_LE(report["worst_eps_px"], 1.0);
+    const std::vector<int> levels = report["levels"];
+    EXPECT_EQ(std::accumulate(levels.begin(), levels.end(), 0), report["drawn_chunks"]);
+    EXPECT_GT(report["drawn_triangles"], 0);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "config"));
+}
+
+TEST(Program, ShotsOfTheSameViewAreTheSameAndOptionsChangeThem) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const auto shot = [&](const std::string& options) {
+        const Ran ran = runWorldy(
+            folder, "shot planet.chk -o s.png --size 160x100 --camera 10,20,30000,0,-60 " + options);
+        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+        return readPicture(folder.path() / "s.png").value_or(Picture{}).rgb;
+    };
+    const std::vector<std::uint8_t> plain = shot("");
+    EXPECT_EQ(shot(""), plain);
+    for (const char* option :
+         {"--wireframe", "--colour-by level", "--colour-by error", "--cube", "--fov 30"}) {
+        EXPECT_NE(shot(option), plain) << option;
+    }
+}
+
+TEST(Program, ACameraBelowGroundIsLifted) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran ran = runWorldy(folder, "shot planet.chk -o s.png --size 64x64 --camera 10,20,-500,0,0 --json");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_THAT(ran.errors, HasSubstr("the camera was below the ground; lifted"));
+    const Ran probe = runWorldy(folder, "probe planet.chk 10 20 --json");
+    const double groundM = json::parse(probe.output)["height_m"];
+    EXPECT_NEAR(json::parse(ran.output)["camera"]["altitude_m"].get<double>(), groundM + 2, 5);
+}
+
+TEST(Program, AFlightReportsEveryFrame) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::ofstream(folder.path() / "path.toml")
+        << "name = \"Down\"\n[[key]]\ntime_s = 0\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = 2e5\n"
+           "heading_deg = 0\npitch_deg = -90\n[[key]]\ntime_s = 5\nlatitude_deg = 10\nlongitude_deg = 5\n"
+           "altitude_m = 8000\nheading_deg = 30\npitch_deg = -20\n";
+    const Ran ran =
+        runWorldy(folder, "fly planet.chk --path path.toml --frames 12 --size 160x100 --json out.json");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_THAT(ran.output, HasSubstr("Down: 12 frames over 5 s"));
+    EXPECT_THAT(ran.output, HasSubstr("99th percentile"));
+    const json report = json::parse(contentOf(folder.path() / "out.json"));
+    ASSERT_EQ(report["frame"].size(), 12u);
+    double most = 0;
+    for (const json& frame : report["frame"]) {
+        EXPECT_GT(frame["drawn_chunks"], 0);
+        EXPECT_GT(frame["frame_ms"], 0);
+        most = std::max(most, frame["drawn_chunks"].get<double>());
+    }
+    EXPECT_EQ(report["summary"]["drawn_chunks"]["maximum"], most);
+    EXPECT_NEAR(report["frame"][11]["camera"]["altitude_m"].get<double>(), 8000, 1e-3);
+}
+
+TEST(Program, WithoutADisplayItWritesAPictureOfTheFirstView) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    writeHills(folder);
+    std::ofstream(folder.path() / "small.toml") << "[window]\nwidth_px = 640\nheight_px = 400\n";
+    const Ran ran = runWorldy(folder, "hills.pgm --settings small.toml");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_THAT(ran.errors, HasSubstr("no display"));
+    EXPECT_THAT(ran.output, HasSubstr("worldy-first-view.png"));
+    const planet::Result<Picture> picture = readPicture(folder.path() / "worldy-first-view.png");
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->width, 640);
+    EXPECT_GT(meanOf(*picture), 5);
+
+    // The second time the bake is found in the cache.
+    const std::set<std::string> cached = filesIn(folder.path() / "cache" / "worldy");
+    EXPECT_EQ(cached.size(), 1u);
+    const Ran again = runWorldy(folder, "hills.pgm --settings small.toml");
+    EXPECT_EQ(again.exitCode, 0);
+    EXPECT_THAT(again.errors, testing::Not(HasSubstr("samples")));
+    EXPECT_EQ(filesIn(folder.path() / "cache" / "worldy"), cached);
+}
+
+TEST(Program, BadSettingsOfTheUserAreToldAndLeftAlone) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const std::filesystem::path file = folder.path() / "config" / "worldy" / "settings.toml";
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << "[lod]\ntau_px = 1000\n";
+    const Ran ran = runWorldy(folder, "planet.chk");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_THAT(ran.errors, HasSubstr("settings.toml: line 2: lod.tau_px is 1000"));
+    EXPECT_EQ(contentOf(file), "[lod]\ntau_px = 1000\n");
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,41 @@
+// Runs the worldy binary in a folder of its own, and keeps what it said.
+#pragma once
+
+#include <sys/wait.h>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tests/app/temporary_folder.h"
+
+namespace worldy {
+
+struct Ran {
+    int exitCode = -1;  // 128 + the signal where one ended it
+    std::string output;
+    std::string errors;
+};
+
+inline std::string contentOf(const std::filesystem::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+// Settings, cache and pictures land in the folder; there is no display but where the arguments set one.
+inline Ran runShell(const TemporaryFolder& folder, const std::string& command) {
+    const std::string home = folder.path().string();
+    const std::string line = "cd '" + home + "' && unset DISPLAY WAYLAND_DISPLAY && export HOME='" + home +
+                             "' XDG_CONFIG_HOME='" + home + "/config' XDG_CACHE_HOME='" + home +
+                             "/cache' && { " + command + "\n} >.stdout 2>.stderr";
+    const int status = std::system(line.c_str());
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return {code, contentOf(folder.path() / ".stdout"), contentOf(folder.path() / ".stderr")};
+}
+
+inline Ran runWorldy(const TemporaryFolder& folder, const std::string& arguments) {
+    return runShell(folder, "'" WORLDY_BINARY "' " + arguments);
+}
+
+}  // namespace worldy

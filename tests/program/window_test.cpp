@@ -1,0 +1,112 @@
+// The window under a virtual display, driven like a user would.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/picture.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+bool canOpenWindows() {
+    return std::system("command -v xvfb-run xdotool import convert >/dev/null 2>&1") == 0;
+}
+
+// Starts the window, waits until the middle of the viewport shows something, runs the steps, and quits by
+// Esc. The picture the shell function "shot NAME" takes lands in the folder.
+Ran runInWindow(const TemporaryFolder& folder, const std::string& arguments, const std::string& steps) {
+    std::ofstream(folder.path() / "steps.sh")
+        << "'" WORLDY_BINARY "' " << arguments << " &\nworldy=$!\n"
+        << "shot() { import -window root \"$1\"; }\n"
+           "brightness() { import -window root -crop 160x120+180+140 png:- | convert png:- -format "
+           "'%[fx:mean>0.06]' info:; }\n"
+           "for i in $(seq 200); do [ \"$(brightness)\" = 1 ] && break; sleep 0.1; done\n"
+           "xdotool mousemove 200 200\n"
+        << steps << "\nxdotool key Escape\nwait $worldy\n";
+    return runShell(folder, "xvfb-run -a -s '-screen 0 800x600x24' bash steps.sh");
+}
+
+void writeSmallWindow(const TemporaryFolder& folder) {
+    const std::filesystem::path file = folder.path() / "config" / "worldy" / "settings.toml";
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << "[window]\nwidth_px = 800\nheight_px = 600\n";
+}
+
+std::string settingsOf(const TemporaryFolder& folder) {
+    return contentOf(folder.path() / "config" / "worldy" / "settings.toml");
+}
+
+TEST(Window, ShowsThePlanetAndQuitsOnEscape) {
+    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writeSmallWindow(folder);
+    const Ran ran = runInWindow(folder, "planet.chk", "shot window.png");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    const planet::Result<Picture> picture = readPicture(folder.path() / "window.png");
+    ASSERT_TRUE(picture) << picture.error().message;
+    const std::size_t middle = 3 * (200 * 800 + 250);
+    EXPECT_GT(picture->rgb[middle] + picture->rgb[middle + 1] + picture->rgb[middle + 2], 60);
+    EXPECT_THAT(ran.errors, HasSubstr("Open: planet.chk"));
+    // Nothing was changed, so nothing was written.
+    EXPECT_EQ(settingsOf(folder), "[window]\nwidth_px = 800\nheight_px = 600\n");
+}
+
+TEST(Window, BakesASourceOnceAndShowsIt) {
+    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
+    const TemporaryFolder folder;
+    writeHills(folder);
+    writeSmallWindow(folder);
+    const Ran first = runInWindow(folder, "hills.pgm", "");
+    EXPECT_EQ(first.exitCode, 0) << first.errors;
+    EXPECT_THAT(first.errors, HasSubstr("Baked:"));
+    const Ran second = runInWindow(folder, "hills.pgm", "");
+    EXPECT_EQ(second.exitCode, 0) << second.errors;
+    EXPECT_THAT(second.errors, Not(HasSubstr("Baking")));
+    EXPECT_THAT(second.errors, HasSubstr("Open:"));
+}
+
+TEST(Window, RemembersADraggedSplitter) {
+    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writeSmallWindow(folder);
+    // The LOD panel is 310 units of 15/13 pixels wide; the splitter lies on its left.
+    const Ran ran = runInWindow(folder, "planet.chk",
+                                "xdotool mousemove 439 300; sleep 1; xdotool mousedown 1; sleep 1;"
+                                "xdotool mousemove 500 300; sleep 1; xdotool mouseup 1; sleep 1");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    const std::string settings = settingsOf(folder);
+    EXPECT_THAT(settings, HasSubstr("lod_panel_width = 2")) << settings;
+}
+
+TEST(Window, KeysChangeWhatIsDrawn) {
+    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writeSmallWindow(folder);
+    const Ran ran =
+        runInWindow(folder, "planet.chk",
+                    "shot plain.png; xdotool key F1; sleep 1; shot wire.png; xdotool key F1 F2; sleep 1;"
+                    "shot frozen.png; xdotool key F2; sleep 1; shot back.png");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    const auto viewport = [&](const char* name) {
+        const Picture picture = readPicture(folder.path() / name)
+                                    .value_or(Picture{800, 600, std::vector<std::uint8_t>(3 * 800 * 600)});
+        std::vector<std::uint8_t> pixels;
+        for (std::size_t row = 0; row < 400; ++row) {
+            const auto start = picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * 800 * row);
+            pixels.insert(pixels.end(), start, start + 3 * 420);
+        }
+        return pixels;
+    };
+    EXPECT_NE(viewport("wire.png"), viewport("plain.png"));
+    EXPECT_NE(viewport("frozen.png"), viewport("plain.png"));  // the badge
+    EXPECT_EQ(viewport("back.png"), viewport("plain.png"));
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,27 @@
+// What the viewport shows while there is no planet to show: a bake on its way, or why it ended.
+#pragma once
+
+#include <string>
+
+#include "planet/bake.h"
+#include "ui/layout.h"
+
+namespace ui {
+
+struct BakePanelInput {
+    std::string source;  // "elevation.tif"
+    planet::BakeProgress progress;
+    bool running = false;
+    bool stopping = false;  // cancelled, but not yet at its end
+    std::string problem;    // why it ended without a planet; empty while it runs
+};
+
+struct BakePanelCommands {
+    bool cancel = false;
+    bool bakeAgain = false;
+};
+
+// A window of its own in the middle of a rectangle.
+BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within);
+
+}  // namespace ui

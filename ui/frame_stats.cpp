@@ -1,0 +1,19 @@
+#include "ui/frame_stats.h"
+
+namespace ui {
+
+FrameStats smoothed(const FrameStats& before, const FrameStats& now) {
+    constexpr double newest = 0.08;  // share of the newest frame: settles within half a second
+    const auto mix = [](double old, double value) { return old + newest * (value - old); };
+    FrameStats stats = now;
+    stats.stages.uploadMs = mix(before.stages.uploadMs, now.stages.uploadMs);
+    stats.stages.selectMs = mix(before.stages.selectMs, now.stages.selectMs);
+    stats.stages.pagingMs = mix(before.stages.pagingMs, now.stages.pagingMs);
+    stats.render.drawMs = mix(before.render.drawMs, now.render.drawMs);
+    stats.drawCpuMs = mix(before.drawCpuMs, now.drawCpuMs);
+    stats.panelsMs = mix(before.panelsMs, now.panelsMs);
+    stats.frameMs = mix(before.frameMs, now.frameMs);
+    return stats;
+}
+
+}  // namespace ui

@@ -1,0 +1,68 @@
+#include "ui/text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace ui {
+
+namespace {
+
+// Three significant digits, without a fraction from 100 on.
+std::string threeDigits(double value) {
+    const double size = std::abs(value);
+    return fmt::format("{:.{}f}", value, size >= 99.95 ? 0 : size >= 9.995 ? 1 : 2);
+}
+
+}  // namespace
+
+std::string bytesText(double bytes) {
+    constexpr std::array units = {"B", "KiB", "MiB", "GiB", "TiB"};
+    std::size_t unit = 0;
+    while (bytes >= 1000 && unit + 1 < units.size()) {
+        bytes /= 1024;
+        ++unit;
+    }
+    return unit == 0 ? fmt::format("{:.0f} B", bytes) : fmt::format("{} {}", threeDigits(bytes), units[unit]);
+}
+
+std::string countText(double count) {
+    if (count < 10'000) return fmt::format("{:.0f}", count);
+    constexpr std::array units = {"k", "M", "G", "T"};
+    std::size_t unit = 0;
+    count /= 1000;
+    while (count >= 1000 && unit + 1 < units.size()) {
+        count /= 1000;
+        ++unit;
+    }
+    return fmt::format("{} {}", threeDigits(count), units[unit]);
+}
+
+std::string durationText(double seconds) {
+    if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string distanceText(double metres) {
+    const double size = std::abs(metres);
+    if (size < 10) return fmt::format("{:.1f} m", metres);
+    if (size < 10'000) return fmt::format("{:.0f} m", metres);
+    if (size < 10'000'000) return fmt::format("{:.1f} km", metres / 1000);
+    return fmt::format("{:.0f} km", metres / 1000);
+}
+
+std::string placeText(double latitudeDeg, double longitudeDeg) {
+    const double longitude = std::remainder(longitudeDeg, 360.0);
+    return fmt::format("{:.4f} {}  {:.4f} {}", std::abs(latitudeDeg), latitudeDeg < 0 ? "S" : "N",
+                       std::abs(longitude), longitude < 0 ? "W" : "E");
+}
+
+std::string millisecondsText(double milliseconds) {
+    return fmt::format("{:.2f} ms", milliseconds);
+}
+
+}  // namespace ui

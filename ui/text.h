@@ -1,0 +1,16 @@
+// Numbers as people read them, with their units. Pure functions, any thread.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace ui {
+
+std::string bytesText(double bytes);                             // "12.3 MiB"
+std::string countText(double count);                             // "950", "12.3 k", "4.56 M"
+std::string durationText(double seconds);                        // "0.4 s", "12 s", "3 min 20 s", "2 h 5 min"
+std::string distanceText(double metres);                         // "4.2 m", "950 m", "12.3 km", "14000 km"
+std::string placeText(double latitudeDeg, double longitudeDeg);  // "27.988 N  86.925 E"
+std::string millisecondsText(double milliseconds);               // "0.42 ms"
+
+}  // namespace ui

@@ -1,0 +1,106 @@
+#include "ui/theme.h"
+
+#include <array>
+#include <cmath>
+
+namespace ui {
+
+namespace {
+
+const ImFont* greekFont = nullptr;  // owned by ImGui's atlas
+
+ImFont* loadFont(float sizePx) {
+    constexpr const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    std::error_code status;
+    if (!std::filesystem::exists(file, status)) return nullptr;
+    // Latin, Greek, punctuation with dashes and arrows.
+    static constexpr std::array<ImWchar, 9> ranges = {0x20,   0x17F,  0x370,  0x3FF, 0x2010,
+                                                      0x2027, 0x2190, 0x21FF, 0};
+    return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, sizePx, nullptr, ranges.data());
+}
+
+void setColours(ImGuiStyle& style) {
+    const auto grey = [](float level, float alpha = 1) {
+        return ImVec4(level, level * 1.04f, level * 1.10f, alpha);
+    };
+    const ImVec4 accent = palette().accent;
+    const auto tinted = [&](float alpha) { return ImVec4(accent.x, accent.y, accent.z, alpha); };
+    ImVec4* c = style.Colors;
+    c[ImGuiCol_Text] = palette().text;
+    c[ImGuiCol_TextDisabled] = palette().dim;
+    c[ImGuiCol_WindowBg] = grey(0.105f);
+    c[ImGuiCol_ChildBg] = grey(0, 0);
+    c[ImGuiCol_PopupBg] = grey(0.14f, 0.98f);
+    c[ImGuiCol_Border] = grey(0.24f);
+    c[ImGuiCol_FrameBg] = grey(0.17f);
+    c[ImGuiCol_FrameBgHovered] = grey(0.22f);
+    c[ImGuiCol_FrameBgActive] = grey(0.26f);
+    c[ImGuiCol_Button] = grey(0.21f);
+    c[ImGuiCol_ButtonHovered] = grey(0.28f);
+    c[ImGuiCol_ButtonActive] = tinted(0.65f);
+    c[ImGuiCol_Header] = grey(0.17f);
+    c[ImGuiCol_HeaderHovered] = grey(0.22f);
+    c[ImGuiCol_HeaderActive] = grey(0.26f);
+    c[ImGuiCol_CheckMark] = accent;
+    c[ImGuiCol_SliderGrab] = tinted(0.55f);
+    c[ImGuiCol_SliderGrabActive] = tinted(0.80f);
+    c[ImGuiCol_PlotHistogram] = tinted(0.75f);
+    c[ImGuiCol_ScrollbarBg] = grey(0, 0);
+    c[ImGuiCol_ScrollbarGrab] = grey(0.26f);
+    c[ImGuiCol_ScrollbarGrabHovered] = grey(0.32f);
+    c[ImGuiCol_ScrollbarGrabActive] = grey(0.38f);
+    c[ImGuiCol_Separator] = grey(0.20f);
+    c[ImGuiCol_TextSelectedBg] = tinted(0.35f);
+}
+
+void setSizes(ImGuiStyle& style, float scale) {
+    style.WindowRounding = 0;
+    style.WindowBorderSize = 0;
+    style.WindowPadding = ImVec2(10, 8);
+    style.FrameRounding = 3;
+    style.GrabRounding = 3;
+    style.PopupRounding = 4;
+    style.ScrollbarRounding = 6;
+    style.ScrollbarSize = 11;
+    style.GrabMinSize = 7;
+    style.FramePadding = ImVec2(7, 3);
+    style.ItemSpacing = ImVec2(8, 5);
+    style.ItemInnerSpacing = ImVec2(6, 4);
+    style.CellPadding = ImVec2(4, 1);
+    style.ScaleAllSizes(scale);
+}
+
+}  // namespace
+
+const Palette& palette() {
+    static const Palette colours;
+    return colours;
+}
+
+void applyTheme(float contentScale) {
+    const float sizePx = std::round(baseFontPx * contentScale);
+    greekFont = loadFont(sizePx);
+    if (!greekFont) {
+        ImFontConfig config;
+        config.SizePixels = std::round(13 * contentScale);
+        ImGui::GetIO().Fonts->AddFontDefault(&config);
+    }
+    ImGuiStyle& style = ImGui::GetStyle();
+    ImGui::StyleColorsDark(&style);
+    setColours(style);
+    setSizes(style, contentScale);
+}
+
+const char* tauSymbol() {
+    return greekFont ? "\u03c4" : "tau";
+}
+
+const char* epsSymbol() {
+    return greekFont ? "\u03b5" : "eps";
+}
+
+float unitPx() {
+    return ImGui::GetFontSize() / 13;
+}
+
+}  // namespace ui
