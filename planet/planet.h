@@ -3,7 +3,7 @@
 //     auto planet = Planet::open("earth.chk", {}).value();
 //     for (;;) {
 //         planet->step(view, lodSettings, [&](std::uint32_t slot, auto heights) { renderer.upload(slot,
-//         heights); }); renderer.draw(view, planet->shape(), planet->selection().draw, renderSettings);
+//         heights); }); renderer.draw(view, planet->selection().draw, renderSettings);
 //     }
 //
 // All calls from one thread; the loader threads are its own.
