@@ -97,7 +97,8 @@ void viewportOverlay(const ViewportOverlayInput& input, const Rect& viewport) {
         badge(drawList, {viewport.x + margin, y}, text, colour);
         y += line;
     };
-    add(endThatFits(input.title, widthPx).c_str(), palette().text);
+    // The legend stands on the right.
+    add(endThatFits(input.title, 0.7f * widthPx).c_str(), palette().text);
     if (input.lodFrozen) add("LOD frozen (F2)", palette().warning);
     if (input.settings.wireframe) add("Wireframe (F1)", palette().accent);
     if (input.settings.cube) add("Cube (F4)", palette().accent);
