@@ -50,8 +50,9 @@ Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::
         (field.time ? key.*field.time : key.pose.*field.pose) = *value;
     }
     for (const auto& [name, node] : table) {
+        const std::string_view unknown = name.str();
         if (std::any_of(keyFields.begin(), keyFields.end(),
-                        [&](const KeyField& f) { return f.name == name.str(); })) {
+                        [&](const KeyField& field) { return field.name == unknown; })) {
             continue;
         }
         return planet::badInput(fmt::format(

@@ -167,11 +167,12 @@ tl::unexpected<planet::Error> unknownKey(const std::string& place, const std::st
 Result<void> readTable(const fs::path& file, std::string_view tableName, const toml::table& table,
                        const std::vector<Field>& fields) {
     for (const auto& [key, node] : table) {
+        const std::string_view name = key.str();
         const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) {
-            return f.table == tableName && f.key == key.str();
+            return f.table == tableName && f.key == name;
         });
         if (field == fields.end()) {
-            return unknownKey(placeOf(file, node), fmt::format("{}.{}", tableName, key.str()), fields);
+            return unknownKey(placeOf(file, node), fmt::format("{}.{}", tableName, name), fields);
         }
         if (Result<void> read = std::visit(ReadField{file, *field, node}, field->value); !read) return read;
     }
@@ -179,19 +180,17 @@ Result<void> readTable(const fs::path& file, std::string_view tableName, const t
 }
 
 struct FieldText {
-    std::string operator()(const Number& number) const { return tomlText(*number.value); }
+    // The shortest digits that read back as the same number.
+    std::string operator()(const Number& number) const { return fmt::format("{}", *number.value); }
     std::string operator()(const Integer& integer) const { return fmt::format("{}", *integer.value); }
     std::string operator()(const bool* flag) const { return *flag ? "true" : "false"; }
-    std::string operator()(const std::string* text) const { return tomlText(*text); }
+    std::string operator()(const std::string* text) const {
+        std::ostringstream stream;
+        stream << toml::value<std::string>(*text);
+        return stream.str();
+    }
     std::string operator()(const Choice& choice) const {
         return fmt::format("\"{}\"", choice.names[*choice.value]);
-    }
-
-    template <class T>
-    static std::string tomlText(const T& value) {
-        std::ostringstream text;
-        text << toml::value<T>(value);
-        return text.str();
     }
 };
 
@@ -203,11 +202,12 @@ Result<Settings> loadSettings(const fs::path& file) {
     Settings settings;
     const std::vector<Field> fields = fieldsOf(settings);
     for (const auto& [key, node] : *document) {
+        const std::string_view name = key.str();
         const bool known =
-            std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.table == key.str(); });
+            std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.table == name; });
         const toml::table* table = node.as_table();
-        if (!known || !table) return unknownKey(placeOf(file, node), std::string(key.str()), fields);
-        if (Result<void> read = readTable(file, key.str(), *table, fields); !read) {
+        if (!known || !table) return unknownKey(placeOf(file, node), std::string(name), fields);
+        if (Result<void> read = readTable(file, name, *table, fields); !read) {
             return tl::unexpected(read.error());
         }
     }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "ui/text.h"
 #include "ui/theme.h"
@@ -16,13 +17,14 @@ namespace {
 
 template <class T>
 ImGuiDataType dataType() {
-    return sizeof(T) == sizeof(double) ? ImGuiDataType_Double : ImGuiDataType_S32;
+    static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>);
+    return std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32;
 }
 
 template <class T>
 bool slider(const char* label, T& value, T min, T max, const char* format, const char* explanation,
             ImGuiSliderFlags flags = 0) {
-    labelledControl(label);
+    labelledControl(label, explanation);
     const bool changed = ImGui::SliderScalar(("##" + std::string(label)).c_str(), dataType<T>(), &value, &min,
                                              &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
     tooltip(explanation);
@@ -41,7 +43,7 @@ void secondColumn() {
 
 template <class Enum>
 void choice(const char* label, Enum& value, const char* items, const char* explanation) {
-    labelledControl(label);
+    labelledControl(label, explanation);
     int index = static_cast<int>(value);
     if (ImGui::Combo(("##" + std::string(label)).c_str(), &index, items)) value = static_cast<Enum>(index);
     tooltip(explanation);

@@ -30,7 +30,7 @@ void setColours(ImGuiStyle& style) {
     c[ImGuiCol_TextDisabled] = palette().dim;
     c[ImGuiCol_WindowBg] = grey(0.105f);
     c[ImGuiCol_ChildBg] = grey(0, 0);
-    c[ImGuiCol_PopupBg] = grey(0.14f, 0.98f);
+    c[ImGuiCol_PopupBg] = grey(0.14f);
     c[ImGuiCol_Border] = grey(0.24f);
     c[ImGuiCol_FrameBg] = grey(0.17f);
     c[ImGuiCol_FrameBgHovered] = grey(0.22f);
@@ -39,8 +39,8 @@ void setColours(ImGuiStyle& style) {
     c[ImGuiCol_ButtonHovered] = grey(0.28f);
     c[ImGuiCol_ButtonActive] = tinted(0.65f);
     c[ImGuiCol_Header] = grey(0.17f);
-    c[ImGuiCol_HeaderHovered] = grey(0.22f);
-    c[ImGuiCol_HeaderActive] = grey(0.26f);
+    c[ImGuiCol_HeaderHovered] = tinted(0.30f);
+    c[ImGuiCol_HeaderActive] = tinted(0.45f);
     c[ImGuiCol_CheckMark] = accent;
     c[ImGuiCol_SliderGrab] = tinted(0.55f);
     c[ImGuiCol_SliderGrabActive] = tinted(0.80f);

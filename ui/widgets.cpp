@@ -61,11 +61,12 @@ void endValues() {
     ImGui::EndTable();
 }
 
-void labelledControl(const char* label) {
+void labelledControl(const char* label, const char* explanation) {
     const float start = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
+    tooltip(explanation);
     ImGui::SameLine(start + std::round(width * labelShare));
     ImGui::SetNextItemWidth(-1);
 }

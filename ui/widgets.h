@@ -24,8 +24,8 @@ void valueRow(const char* name, const std::string& value, const char* explanatio
               const ImVec4* colour = nullptr);
 void endValues();
 
-// A label in the left column and a control that fills the right one; call the control right after.
-void labelledControl(const char* label);
+// A label in the left column and room for a control in the right one; call the control right after.
+void labelledControl(const char* label, const char* explanation);
 
 // A bar that a mouse drags to change a panel's size. Adds the move, in pixels, to where it is dragged.
 // True while it moves.
