@@ -60,6 +60,13 @@ fs::path colourImageBeside(const fs::path& source) {
     return {};
 }
 
+// Whether a file and its root chunks can be read: what a planet needs to open.
+bool opensWhole(const fs::path& chunkFile) {
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    return file && std::all_of(planet::allFaces.begin(), planet::allFaces.end(),
+                               [&](planet::Face face) { return file->readRoot(face).has_value(); });
+}
+
 }  // namespace
 
 fs::path earthElevation() {
@@ -89,7 +96,7 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
     DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageBeside(named)};
     if (named.extension() == ".chk") return set;
     set.chunkFile = cachedBakeOf(named, settings);
-    set.needsBake = !planet::ChunkFile::open(set.chunkFile);
+    set.needsBake = !opensWhole(set.chunkFile);
     return set;
 }
 

@@ -103,6 +103,7 @@ ui::BakePanelCommands bakeWindow(const Session& session, const ui::Rect& viewpor
         input.stopping = session.bake->cancelling();
     }
     if (session.problem) input.problem = session.problem->message;
+    input.canBake = session.data.chunkFile != session.data.source;
     return ui::bakePanel(input, viewport);
 }
 

@@ -44,7 +44,7 @@ BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(input.problem.empty() ? fmt::format("Baking {}", input.source).c_str()
-                                                 : fmt::format("{} is not baked", input.source).c_str());
+                                                 : fmt::format("{} cannot be shown", input.source).c_str());
     if (input.problem.empty()) {
         ImGui::TextDisabled("Needed once; the result is kept for the next time.");
         progressLines(input.progress);
@@ -52,7 +52,7 @@ BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within) {
             commands.cancel = true;
     } else {
         ImGui::TextColored(palette().warning, "%s", input.problem.c_str());
-        if (ImGui::Button("Bake again")) commands.bakeAgain = true;
+        if (input.canBake && ImGui::Button("Bake again")) commands.bakeAgain = true;
     }
     ImGui::PopTextWrapPos();
     ImGui::End();

@@ -11,9 +11,9 @@ namespace ui {
 struct BakePanelInput {
     std::string source;  // "elevation.tif"
     planet::BakeProgress progress;
-    bool running = false;
     bool stopping = false;  // cancelled, but not yet at its end
-    std::string problem;    // why it ended without a planet; empty while it runs
+    std::string problem;    // why there is no planet; empty while it bakes
+    bool canBake = false;   // baking again may help
 };
 
 struct BakePanelCommands {

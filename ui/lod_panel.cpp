@@ -165,14 +165,11 @@ void cameraValues(const LodPanelInput& input, LodPanelCommands& commands) {
 LodPanelCommands lodPanel(const LodPanelInput& input, bool lodFrozen, ViewSettings& settings) {
     LodPanelCommands commands;
     if (section("Level of detail")) detailControls(commands, lodFrozen, settings);
-    if (!input.open) {
-        if (section("View")) viewControls(input, settings);
-        return commands;
-    }
+    if (section("View")) viewControls(input, settings);
+    if (!input.open) return commands;
     if (section("Drawn")) drawnValues(input.stats, settings.tauPx);
     if (section("Memory")) memoryValues(input, commands, settings);
     if (section("Times")) timeValues(input.stats);
-    if (section("View")) viewControls(input, settings);
     if (section("Camera")) cameraValues(input, commands);
     return commands;
 }

@@ -76,12 +76,13 @@ bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
     beginFixedWindow(id, rect, ImGuiWindowFlags_NoScrollbar);
     ImGui::InvisibleButton("bar", {rect.width, rect.height});
     const bool active = ImGui::IsItemActive();
-    if (active || ImGui::IsItemHovered()) {
-        ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-        ImGui::GetWindowDrawList()->AddRectFilled(
-            {rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
-            ImGui::GetColorU32(active ? ImGuiCol_SliderGrabActive : ImGuiCol_ScrollbarGrabHovered));
-    }
+    const bool lit = active || ImGui::IsItemHovered();
+    if (lit) ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    const ImGuiCol colour = active ? ImGuiCol_SliderGrabActive
+                            : lit  ? ImGuiCol_ScrollbarGrabHovered
+                                   : ImGuiCol_Separator;
+    ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
+                                              ImGui::GetColorU32(colour));
     if (active)
         movedPx += static_cast<double>(upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y);
     ImGui::End();
