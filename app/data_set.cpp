@@ -33,6 +33,14 @@ std::string stemWithoutFace(const fs::path& path) {
     return stem;
 }
 
+// A file's name holds 255 bytes, and the source's own may fill them. Cuts no UTF-8 letter in two.
+std::string shortened(const std::string& name) {
+    std::size_t length = std::min<std::size_t>(name.size(), 80);
+    while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0u) == 0x80u)
+        --length;
+    return name.substr(0, length);
+}
+
 bool namesAFace(const fs::path& path) {
     return stemWithoutFace(path) != path.stem().string();
 }
@@ -95,7 +103,8 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
                                 fs::file_size(file, status),
                                 fs::last_write_time(file, status).time_since_epoch().count());
     }
-    return cacheFolder() / fmt::format("{}-{:016x}.chk", stemWithoutFace(source), hashOf(identity));
+    return cacheFolder() /
+           fmt::format("{}-{:016x}.chk", shortened(stemWithoutFace(source)), hashOf(identity));
 }
 
 planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings) {

@@ -102,7 +102,10 @@ ui::BakePanelCommands bakeWindow(const Session& session, const ui::Rect& viewpor
         input.progress = session.bake->progress();
         input.stopping = session.bake->cancelling();
     }
-    if (session.problem) input.problem = session.problem->message;
+    if (session.problem) {
+        const bool cancelled = session.problem->kind == planet::ErrorKind::Cancelled;
+        input.problem = cancelled ? "The bake was cancelled." : session.problem->message;
+    }
     input.canBake = session.data.chunkFile != session.data.source;
     return ui::bakePanel(input, viewport);
 }

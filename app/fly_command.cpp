@@ -132,6 +132,8 @@ Result<void> flyPath(const FlyOptions& options) {
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
 
+    // As in a window where one looks at the first view before one flies off: not with the root chunks alone.
+    settleAt(*offscreen, path->keys.front().pose, options.view);
     const InterruptWatch watch;
     std::vector<FlownFrame> frames;
     for (int i = 0; i < options.frames; ++i) {

@@ -1,4 +1,4 @@
-// worldy fly: flies a recorded path without a display, and reports what each frame did.
+// worldy fly: flies a recorded path without a display, as fast as the frames come, and reports what each did.
 #pragma once
 
 #include <filesystem>

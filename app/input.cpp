@@ -47,7 +47,9 @@ KeyInput readKeys(const std::vector<int>& pressedKeys) {
     keys.toggleFreeze = pressed(GLFW_KEY_F2);
     keys.resetCamera = pressed(GLFW_KEY_F3);
     keys.toggleCube = pressed(GLFW_KEY_F4);
-    keys.quit = pressed(GLFW_KEY_ESCAPE);
+    // Escape leaves an open list before it leaves the program.
+    keys.quit = pressed(GLFW_KEY_ESCAPE) &&
+                !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     return keys;
 }
 

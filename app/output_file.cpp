@@ -15,8 +15,8 @@ planet::Result<void> writeAtomically(const fs::path& target,
     if (fs::is_directory(target, status)) {
         return planet::ioError(fmt::format("{}: is a folder; give the path of a file", target.string()));
     }
-    const fs::path temporary = target.parent_path() / fmt::format(".{}.{}{}", target.stem().string(),
-                                                                  ::getpid(), target.extension().string());
+    const fs::path temporary =
+        target.parent_path() / fmt::format(".worldy-{}{}", ::getpid(), target.extension().string());
     planet::Result<void> written = write(temporary);
     if (written) {
         fs::rename(temporary, target, status);

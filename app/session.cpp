@@ -24,6 +24,9 @@ void openBaked(Session& session, const ui::ViewSettings& settings, const Log& lo
     log->info("Open: {}, {} on disk, {} levels", session.data.chunkFile.string(),
               ui::bytesText(static_cast<double>(session.scene->planet->file().sizeBytes())),
               planet::leafLevel(session.scene->planet->shape()) + 1);
+    log->debug("Depth buffer: {}", session.scene->renderer.capabilities().reversedZ
+                                       ? "float, reversed"
+                                       : "the near plane follows the ground");
 }
 
 void finishBake(Session& session, const ui::ViewSettings& settings, const Log& log) {
@@ -31,7 +34,9 @@ void finishBake(Session& session, const ui::ViewSettings& settings, const Log& l
     if (!result) return;
     session.bake.reset();
     if (!*result) {
-        log->error("{}", result->error().message);
+        const bool cancelled = result->error().kind == planet::ErrorKind::Cancelled;
+        log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}",
+                 cancelled ? "The bake was cancelled" : result->error().message);
         session.problem = result->error();
         return;
     }

@@ -6,6 +6,8 @@
 namespace ui {
 
 Layout layoutOf(float windowWidth, float windowHeight, const PanelSizes& sizes, float unitPx) {
+    windowWidth = std::max(windowWidth, 16.0f);  // a minimised window has no size at all
+    windowHeight = std::max(windowHeight, 16.0f);
     const float splitter = std::max(std::round(5 * unitPx), 3.0f);
     const float lodWidth =
         std::round(std::min(static_cast<float>(sizes.lodWidth) * unitPx, windowWidth * 0.6f - splitter));

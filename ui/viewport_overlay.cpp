@@ -14,9 +14,8 @@ namespace ui {
 
 namespace {
 
-constexpr const char* help =
-    "Left drag: move   Right drag: look   Wheel: nearer   W A S D E Q: fly   I J K L: turn   + -: speed   "
-    "F3: reset";
+constexpr const char* mouseHelp = "Left drag: move   Right drag: look   Wheel: nearer";
+constexpr const char* keyHelp = "W A S D E Q: fly   I J K L: turn   + -: speed   F3: reset";
 
 // As much of a text's end as fits, after an ellipsis.
 std::string endThatFits(const std::string& text, float widthPx) {
@@ -98,17 +97,17 @@ void viewportOverlay(const ViewportOverlayInput& input, const Rect& viewport) {
         badge(drawList, {viewport.x + margin, y}, text, colour);
         y += line;
     };
-    add(endThatFits(input.title, widthPx).c_str(), palette().text);
+    // The legend stands on the right.
+    add(endThatFits(input.title, 0.7f * widthPx).c_str(), palette().text);
     if (input.lodFrozen) add("LOD frozen (F2)", palette().warning);
     if (input.settings.wireframe) add("Wireframe (F1)", palette().accent);
     if (input.settings.cube) add("Cube (F4)", palette().accent);
     if (!input.settled) add("Loading", palette().good);
     const bool byLevel = input.settings.colourBy == planet::gl::ColourBy::Level;
     drawLegend(drawList, legendOf(input), byLevel ? "Level" : "Error", viewport, margin);
-    if (ImGui::CalcTextSize(help).x < widthPx) {
-        y = viewport.y + viewport.height - margin - std::round(ImGui::GetFontSize() * 1.45f);
-        add(help, palette().dim);
-    }
+    y = viewport.y + viewport.height - margin - 2 * line;
+    add(mouseHelp, palette().dim);
+    add(keyHelp, palette().dim);
 }
 
 }  // namespace ui

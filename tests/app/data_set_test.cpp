@@ -74,6 +74,16 @@ TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
     EXPECT_NE(cachedBakeOf(image, {}), touched);
 }
 
+TEST(DataSet, ALongNameStillHasACache) {
+    const TemporaryFolder folder;
+    std::string name = "a";
+    for (int i = 0; i < 100; ++i) name += "\u00e4";
+    write(folder.path() / (name + ".tif"), "x");
+    const std::string cached = cachedBakeOf(folder.path() / (name + ".tif"), {}).filename().string();
+    EXPECT_LT(cached.size(), 110u);
+    EXPECT_TRUE(cached.starts_with(name.substr(0, 79) + "-")) << cached;
+}
+
 TEST(DataSet, AllSixFacesCountForAStemAndForOneOfThem) {
     const TemporaryFolder folder;
     for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
