@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "app/places.h"
@@ -68,6 +69,17 @@ fs::path colourImageBeside(const fs::path& source) {
     return {};
 }
 
+// What a bake of the Earth that comes with Worldy says of its source.
+constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
+
+// A bake of our own Earth keeps its colours wherever it was written to.
+fs::path colourImageOf(const fs::path& chunkFile) {
+    const fs::path beside = colourImageBeside(chunkFile);
+    if (!beside.empty()) return beside;
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    return file && file->info().source == ourEarth ? colourImageBeside(earthElevation()) : fs::path();
+}
+
 // Whether a file and its root chunks can be read: what a planet needs to open.
 bool opensWhole(const fs::path& chunkFile) {
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
@@ -102,8 +114,8 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
                         "would be right",
                         named.string()));
     }
-    DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageBeside(named)};
-    if (named.extension() == ".chk") return set;
+    if (named.extension() == ".chk") return DataSet{named, named, colourImageOf(named), false};
+    DataSet set{.source = named, .chunkFile = {}, .colourImage = colourImageBeside(named)};
     set.chunkFile = cachedBakeOf(named, settings);
     set.needsBake = !opensWhole(set.chunkFile);
     return set;

@@ -12,7 +12,8 @@ namespace worldy {
 struct DataSet {
     std::filesystem::path source;       // as named: a chunk file, an elevation image or cube faces
     std::filesystem::path chunkFile;    // the source itself, or its bake in the cache folder
-    std::filesystem::path colourImage;  // colour.jpg or colour.png beside the source; empty if none
+    std::filesystem::path colourImage;  // colour.jpg or colour.png beside the source, or our Earth's for its
+                                        // bakes; empty if none
     bool needsBake = false;
 };
 

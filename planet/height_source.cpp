@@ -40,16 +40,6 @@ Result<void> checkSettings(const HeightSourceSettings& settings) {
     return {};
 }
 
-template <class T>
-HeightStatistics rangeOf(const HeightConversion& conversion) {
-    const auto heightOf = [&](T value) {
-        return static_cast<float>(conversion.offsetM + conversion.metresPerUnit * static_cast<double>(value));
-    };
-    const auto [low, high] =
-        std::minmax({heightOf(std::numeric_limits<T>::min()), heightOf(std::numeric_limits<T>::max())});
-    return {low, high, 0};
-}
-
 }  // namespace
 
 HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type) {
@@ -60,25 +50,6 @@ HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType 
     conversion.noDataValue = settings.noDataValue;
     conversion.fillM = static_cast<float>(settings.fillM);
     return conversion;
-}
-
-bool needsScan(const HeightConversion& conversion) {
-    return bytesOf(conversion.type) > 2 || conversion.noDataValue.has_value();
-}
-
-HeightStatistics typeRange(const HeightConversion& conversion) {
-    switch (conversion.type) {
-        case SampleType::Uint8:
-            return rangeOf<std::uint8_t>(conversion);
-        case SampleType::Int8:
-            return rangeOf<std::int8_t>(conversion);
-        case SampleType::Uint16:
-            return rangeOf<std::uint16_t>(conversion);
-        case SampleType::Int16:
-            return rangeOf<std::int16_t>(conversion);
-        default:
-            return {};
-    }
 }
 
 void describeHeights(HeightSource& source, const HeightConversion& conversion,

@@ -33,8 +33,8 @@ struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
     int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no source resolution
     double stepM = 0;         // an integer source's own step in metres; 0 for a float source
-    double minM = 0;          // every height that sample gives lies in [minM, maxM]: those of the file's
-    double maxM = 0;          //   samples, or for 8 and 16 bit integers without noDataValue the type's range
+    double minM = 0;          // the lowest and highest of the file's samples, fillM where it was used; every
+    double maxM = 0;          //   height that sample gives lies between them
     std::uint64_t sampleCount = 0;
     std::uint64_t missingCount = 0;  // samples without data, filled
 

@@ -324,8 +324,7 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
                               settings.cacheBytes};
     const Result<HeightRaster> image = openImageRaster(*file, conversion, memory);
     if (!image) return tl::unexpected(image.error());
-    Result<HeightStatistics> statistics = typeRange(conversion);
-    if (needsScan(conversion)) statistics = image->statistics();
+    const Result<HeightStatistics> statistics = image->statistics();
     if (!statistics) return tl::unexpected(statistics.error());
 
     HeightSource source;

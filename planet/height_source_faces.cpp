@@ -440,14 +440,10 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
 Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& format,
                                    const HeightConversion& conversion, FaceSet set) {
     HeightStatistics statistics;
-    if (needsScan(conversion)) {
-        for (const HeightRaster& face : set.faces) {
-            const Result<HeightStatistics> part = face.statistics();
-            if (!part) return tl::unexpected(part.error());
-            addTo(statistics, *part);
-        }
-    } else {
-        statistics = typeRange(conversion);
+    for (const HeightRaster& face : set.faces) {
+        const Result<HeightStatistics> part = face.statistics();
+        if (!part) return tl::unexpected(part.error());
+        addTo(statistics, *part);
     }
     set.size = format.size;
     set.minM = statistics.minM;

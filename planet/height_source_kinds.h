@@ -33,12 +33,6 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
 // What the kinds share.
 HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type);
 
-// True where minM, maxM and missingCount are only known after looking at every sample.
-bool needsScan(const HeightConversion& conversion);
-
-// The heights that an 8 or 16 bit type can give.
-HeightStatistics typeRange(const HeightConversion& conversion);
-
 // Sets stepM, minM, maxM and missingCount.
 void describeHeights(HeightSource& source, const HeightConversion& conversion,
                      const HeightStatistics& statistics);

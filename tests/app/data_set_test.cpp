@@ -34,6 +34,17 @@ TEST(DataSet, AChunkFileIsOpenedWhereItLies) {
     EXPECT_TRUE(set->colourImage.empty());
 }
 
+TEST(DataSet, ABakeOfOurOwnEarthKeepsItsColoursWhereverItLies) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "anywhere.chk";
+    const auto source = planet::openHeightSource(earthElevation(), {});
+    ASSERT_TRUE(source) << source.error().message;
+    ASSERT_TRUE(planet::bake(*source, planet::BakeSettings{.faceSize = 65}, file));
+    const planet::Result<DataSet> set = findDataSet(file, {});
+    ASSERT_TRUE(set);
+    EXPECT_EQ(set->colourImage, earthElevation().parent_path() / "colour.jpg");
+}
+
 TEST(DataSet, AnImageIsBakedIntoTheCache) {
     const TemporaryFolder folder;
     write(folder.path() / "moon.tif", "x");
