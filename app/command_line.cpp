@@ -100,9 +100,12 @@ void addBake(CLI::App& app, BakeOptions& options) {
 
 void addViewOptions(CLI::App& command, ui::ViewSettings& view, std::string& size) {
     command.add_option("--size", size, "Picture size, WIDTHxHEIGHT (1280x720)");
-    command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(number(0.1, 64));
+    command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(number(1e-6, 1000));
     command.add_option("--budget", view.budgetMB, "Memory for resident chunks, MiB (256)")
         ->check(CLI::Range(16, 65536));
+    command.add_flag_callback(
+        "--no-culling", [&view] { view.frustumCulling = view.horizonCulling = false; },
+        "Also draw and load what is out of sight");
 }
 
 void addShot(CLI::App& app, ShotOptions& options, ShotTexts& texts) {
