@@ -88,7 +88,9 @@ void addBake(CLI::App& app, BakeOptions& options) {
     command.add_option("--threads", settings.threads, "Threads; 0: one a core (0)")
         ->check(CLI::Range(0, 1024));
     command
-        .add_option("--compression-level", settings.compressionLevel, "0 largest file, 9 slowest bake (3)")
+        .add_option("--compression-level", settings.compressionLevel,
+                    fmt::format("{} largest file, {} slowest bake ({})", planet::minCompressionLevel,
+                                planet::maxCompressionLevel, planet::defaultCompressionLevel))
         ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
     command.add_option("--debug-levels", settings.debugLevelsFolder,
                        "Also write each level of each face there as PNG");

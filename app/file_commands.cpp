@@ -62,8 +62,9 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
                info.missingSamples);
     fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
                ui::bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
+    fmt::print("{:>29}{:>14}\n", "", "delta_c, m:");
     fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size", "smallest",
-               "median", "99th perc.", "largest delta_c, m");
+               "median", "99th perc.", "largest");
     for (const planet::LevelReport& level : report.levels) {
         fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", level.level, level.chunks,
                    ui::bytesText(static_cast<double>(level.bytes)), level.minDeltaM, level.medianDeltaM,

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <span>
+
+#include "planet/atomic_file.h"
 
 namespace worldy {
 
@@ -29,14 +31,10 @@ planet::Result<void> writeAtomically(const fs::path& target,
 }
 
 planet::Result<void> writeTextFile(const fs::path& target, std::string_view text) {
-    return writeAtomically(target, [&](const fs::path& temporary) -> planet::Result<void> {
-        std::ofstream stream(temporary, std::ios::binary);
-        stream << text;
-        stream.close();
-        if (stream) return {};
-        return planet::ioError(fmt::format(
-            "{}: cannot be written; the folder must exist, be writable and have room", target.string()));
-    });
+    planet::Result<planet::AtomicFile> file = planet::AtomicFile::create(target);
+    if (!file) return tl::unexpected(file.error());
+    if (planet::Result<void> written = file->append(std::as_bytes(std::span(text))); !written) return written;
+    return file->commit();
 }
 
 }  // namespace worldy

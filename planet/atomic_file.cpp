@@ -44,7 +44,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
     temporary.replace_filename("." + path.filename().string() + ".part");
     for (;;) {
         const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (descriptor < 0) return ioError(describe(path, "cannot write here"));
+        if (descriptor < 0) return ioError(describe(path, "cannot be written"));
         if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
             close(descriptor);
             return ioError(path.string() +
@@ -55,7 +55,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
             continue;
         }
         AtomicFile file(path, std::move(temporary), descriptor);
-        if (ftruncate(descriptor, 0) != 0) return ioError(describe(path, "cannot write here"));
+        if (ftruncate(descriptor, 0) != 0) return ioError(describe(path, "cannot be written"));
         return file;
     }
 }

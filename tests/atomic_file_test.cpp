@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "synthetic_source.h"
+#include "tests/temporary_folder.h"
 
 namespace planet {
 namespace {
@@ -26,7 +26,7 @@ std::size_t filesIn(const std::filesystem::path& folder) {
 }
 
 TEST(AtomicFile, appearsOnlyWhenCommitted) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     auto file = AtomicFile::create(folder / "a");
     ASSERT_TRUE(file);
     ASSERT_TRUE(file->append(bytesOf("hello world")));
@@ -38,7 +38,7 @@ TEST(AtomicFile, appearsOnlyWhenCommitted) {
 }
 
 TEST(AtomicFile, uncommittedLeavesTheOldFileAndNothingElse) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     std::ofstream(folder / "a") << "old";
     {
         auto file = AtomicFile::create(folder / "a");
@@ -50,7 +50,7 @@ TEST(AtomicFile, uncommittedLeavesTheOldFileAndNothingElse) {
 }
 
 TEST(AtomicFile, secondWriterOfTheSamePathIsRefused) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     auto first = AtomicFile::create(folder / "a");
     ASSERT_TRUE(first);
     const auto second = AtomicFile::create(folder / "a");
@@ -61,7 +61,7 @@ TEST(AtomicFile, secondWriterOfTheSamePathIsRefused) {
 }
 
 TEST(AtomicFile, leftoverOfAKilledWriterIsWrittenOver) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     std::ofstream(folder / ".a.part") << "a long leftover of a writer that was killed";
     auto file = AtomicFile::create(folder / "a");
     ASSERT_TRUE(file);
@@ -72,7 +72,7 @@ TEST(AtomicFile, leftoverOfAKilledWriterIsWrittenOver) {
 }
 
 TEST(AtomicFile, missingFolderAndFolderAsFileAreErrorsThatNameThem) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     const auto missing = AtomicFile::create(folder / "no/such/file");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().kind, ErrorKind::Io);
@@ -81,7 +81,7 @@ TEST(AtomicFile, missingFolderAndFolderAsFileAreErrorsThatNameThem) {
 }
 
 TEST(AtomicFile, fullDiskIsAnErrorAndKeepsTheOldFile) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     std::ofstream(folder / "a") << "old";
     // A limit on a file's size fails the write as a full disk does, without needing one.
     rlimit before{};

@@ -16,12 +16,13 @@
 #include "planet/chunk_surface.h"
 #include "planet/file_report.h"
 #include "planet/quantise.h"
-#include "synthetic_source.h"
+#include "tests/synthetic_source.h"
+#include "tests/temporary_folder.h"
 
 namespace planet {
 namespace {
 
-using test::TemporaryFolder;
+using ::tests::TemporaryFolder;
 
 std::string contentOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

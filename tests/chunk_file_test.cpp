@@ -13,7 +13,8 @@
 #include "planet/chunk_file_format.h"
 #include "planet/file_report.h"
 #include "planet/little_endian.h"
-#include "synthetic_source.h"
+#include "tests/synthetic_source.h"
+#include "tests/temporary_folder.h"
 
 namespace planet {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Bytes bakedBytes() {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     const auto path = folder / "hills.chk";
     EXPECT_TRUE(bake(test::hillsSource(), BakeSettings{.chunkSize = 17}, path));
     std::ifstream file(path, std::ios::binary);
@@ -201,7 +202,7 @@ TEST_F(ChunkFileTest, readErrorsAreHandedOnNotSwallowed) {
 }
 
 TEST(ChunkFileOnDisk, missingFileAndFolderAreErrorsThatNameThem) {
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     const auto missing = ChunkFile::open(folder / "none.chk");
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().message.find("none.chk"), std::string::npos);

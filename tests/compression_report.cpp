@@ -13,7 +13,8 @@
 #include <functional>
 
 #include "planet/file_report.h"
-#include "synthetic_source.h"
+#include "tests/synthetic_source.h"
+#include "tests/temporary_folder.h"
 
 namespace {
 
@@ -84,7 +85,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return fmt::print(stderr, "usage: compression_report FILE.chk\n"), 2;
     const auto file = ChunkFile::open(argv[1]);
     if (!file) return fmt::print(stderr, "{}\n", file.error().message), 2;
-    const test::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     const int side = faceCells(file->info().shape) + 1;
     std::size_t png = 0;
     std::size_t zstd = 0;

@@ -5,7 +5,8 @@
 
 #include "planet/bake.h"
 #include "planet/planet.h"
-#include "synthetic_source.h"
+#include "tests/synthetic_source.h"
+#include "tests/temporary_folder.h"
 
 namespace planet {
 namespace {
@@ -31,7 +32,7 @@ protected:
     void SetUp() override {
         ASSERT_TRUE(bake(test::hillsSource(), BakeSettings{.faceSize = 513, .chunkSize = 17}, path_));
     }
-    test::TemporaryFolder folder_;
+    tests::TemporaryFolder folder_;
     std::filesystem::path path_ = folder_ / "hills.chk";
 };
 

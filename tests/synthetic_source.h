@@ -1,15 +1,9 @@
-// Height sources made of a formula, and temporary folders, for tests.
+// Height sources made of a formula, for tests.
 #pragma once
 
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <stdexcept>
-#include <string>
 
 #include "planet/height_source.h"
 
@@ -48,26 +42,5 @@ inline double hillsM(const glm::dvec3& d) {
 inline HeightSource hillsSource(int naturalFaceSize = 129) {
     return formulaSource(hillsM, -3000, 3000, 1, naturalFaceSize);
 }
-
-// A fresh folder, removed with all that is in it.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "worldy-test-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        path_ = pattern;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 }  // namespace planet::test

@@ -6,9 +6,11 @@
 #include <fstream>
 
 #include "planet/chunk_file.h"
-#include "tests/app/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace worldy {
+
+using tests::TemporaryFolder;
 namespace {
 
 namespace fs = std::filesystem;

@@ -9,9 +9,11 @@
 #include <glm/trigonometric.hpp>
 
 #include "planet/cube_sphere.h"
-#include "tests/app/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace worldy {
+
+using tests::TemporaryFolder;
 namespace {
 
 using testing::HasSubstr;

@@ -5,9 +5,11 @@
 
 #include <fstream>
 
-#include "tests/app/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace worldy {
+
+using tests::TemporaryFolder;
 namespace {
 
 using testing::HasSubstr;

@@ -32,6 +32,10 @@ struct BadCommand {
     const char* message;
 };
 
+void PrintTo(const BadCommand& command, std::ostream* out) {
+    *out << command.arguments;
+}
+
 class BadCommands : public testing::TestWithParam<BadCommand> {};
 
 TEST_P(BadCommands, EndWithTwoAndOneLineThatSaysWhy) {

@@ -7,9 +7,11 @@
 #include <sstream>
 #include <string>
 
-#include "tests/app/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace worldy {
+
+using tests::TemporaryFolder;
 
 struct Ran {
     int exitCode = -1;  // 128 + the signal where one ended it
