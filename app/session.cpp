@@ -48,7 +48,7 @@ void finishBake(Session& session, const ui::ViewSettings& settings, const Log& l
 }
 
 fs::file_time_type newestIn(const fs::path& folder) {
-    fs::file_time_type newest{};
+    fs::file_time_type newest = fs::file_time_type::min();  // today is negative on some clocks
     std::error_code status;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
         newest = std::max(newest, entry.last_write_time(status));

@@ -101,6 +101,22 @@ done
     EXPECT_EQ(ran.output, "");
 }
 
+TEST(Window, ABrokenShaderLeavesTheLastGoodOneAndAMendedOneIsTaken) {
+    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writeSmallWindow(folder);
+    std::filesystem::copy(WORLDY_SOURCE_DIR "/shaders", folder.path() / "glsl");
+    const Ran ran = runInWindow(folder, "planet.chk --shaders glsl", R"sh(
+says() { for i in $(seq 100); do grep -q "$1" .stderr && return 0; sleep 0.1; done; return 1; }
+echo 'this is no GLSL' >> glsl/chunk.frag; says 'error: .*chunk.frag' || echo "nothing is said of the broken shader"
+[ "$(brightness)" = 1 ] || echo "the planet is gone"
+sed -i '$d' glsl/chunk.frag; says 'Shaders of glsl reloaded' || echo "the mended shader is not taken"
+)sh");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+}
+
 TEST(Window, TheWheelComesNearerAndResetGoesBack) {
     if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
     const TemporaryFolder folder;
