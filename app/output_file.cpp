@@ -14,8 +14,9 @@ namespace fs = std::filesystem;
 planet::Result<void> writeAtomically(const fs::path& target,
                                      const std::function<planet::Result<void>(const fs::path&)>& write) {
     std::error_code status;
-    if (fs::is_directory(target, status)) {
-        return planet::ioError(fmt::format("{}: is a folder; give the path of a file", target.string()));
+    // The rename would put a file in the place of whatever is there, a device too.
+    if (fs::exists(target, status) && !fs::is_regular_file(target, status)) {
+        return planet::ioError(fmt::format("{}: is a folder or a device; name a file", target.string()));
     }
     const fs::path temporary =
         target.parent_path() / fmt::format(".worldy-{}{}", ::getpid(), target.extension().string());

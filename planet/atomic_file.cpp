@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace planet {
@@ -39,7 +40,12 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
       size_(other.size_) {}
 
 Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) return ioError(path.string() + ": is a folder; name a file");
+    // The rename would put a file in the place of whatever is there, a device too.
+    std::error_code problem;
+    const std::filesystem::file_status there = std::filesystem::status(path, problem);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        return ioError(path.string() + ": is a folder or a device; name a file");
+    }
     std::filesystem::path temporary = path;
     temporary.replace_filename("." + path.filename().string() + ".part");
     for (;;) {

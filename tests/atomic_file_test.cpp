@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -78,6 +79,15 @@ TEST(AtomicFile, missingFolderAndFolderAsFileAreErrorsThatNameThem) {
     EXPECT_EQ(missing.error().kind, ErrorKind::Io);
     EXPECT_NE(missing.error().message.find("no/such/file"), std::string::npos);
     EXPECT_FALSE(AtomicFile::create(folder.path()));
+}
+
+TEST(AtomicFile, deviceIsNotReplacedByAFile) {
+    const tests::TemporaryFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    const auto file = AtomicFile::create(folder / "pipe");
+    ASSERT_FALSE(file);
+    EXPECT_NE(file.error().message.find("pipe: is a folder or a device"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
 TEST(AtomicFile, fullDiskIsAnErrorAndKeepsTheOldFile) {

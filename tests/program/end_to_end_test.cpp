@@ -185,6 +185,25 @@ TEST(Program, AFlightReportsEveryFrame) {
     EXPECT_NEAR(report["frame"][11]["camera"]["altitude_m"].get<double>(), 8000, 1e-3);
 }
 
+TEST(Program, NoOpenGl33EndsWithTwoAndSaysWhatIsMissing) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran ran = runShell(folder, "LIBGL_ALWAYS_SOFTWARE=1 MESA_GL_VERSION_OVERRIDE=2.1 '" WORLDY_BINARY
+                                     "' shot planet.chk -o o.png");
+    EXPECT_EQ(ran.exitCode, 2);
+    EXPECT_THAT(ran.errors, HasSubstr("no OpenGL core profile of version 3.3"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.png"));
+}
+
+TEST(Program, ADeviceIsNeverReplacedByAFile) {
+    const TemporaryFolder folder;
+    writeHills(folder);
+    const Ran ran = runShell(folder, "mkfifo pipe.chk && '" WORLDY_BINARY "' bake hills.pgm -o pipe.chk");
+    EXPECT_EQ(ran.exitCode, 2);
+    EXPECT_THAT(ran.errors, HasSubstr("pipe.chk: is a folder or a device"));
+    EXPECT_TRUE(std::filesystem::is_fifo(folder.path() / "pipe.chk"));
+}
+
 TEST(Program, WithoutADisplayItWritesAPictureOfTheFirstView) {
     if (!canDraw()) GTEST_SKIP() << "no EGL context";
     const TemporaryFolder folder;
