@@ -24,14 +24,32 @@ std::string glfwProblem() {
     return description ? description : "unknown";
 }
 
+struct WindowSize {
+    int width, height;
+};
+
+// No larger than the screen has room for: kept sizes may come from another one.
+WindowSize fittingSize(const WindowConfig& config) {
+    WindowSize size{config.widthPx, config.heightPx};
+    if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor()) {
+        WindowSize room{};
+        glfwGetMonitorWorkarea(monitor, nullptr, nullptr, &room.width, &room.height);
+        if (room.width > 0 && room.height > 0) {
+            size = {std::min(size.width, room.width), std::min(size.height, room.height)};
+        }
+    }
+    return size;
+}
+
 GLFWwindow* createWindow(const WindowConfig& config) {
+    const WindowSize size = fittingSize(config);
     constexpr std::array<std::array<int, 2>, 2> versions = {{{4, 5}, {3, 3}}};
     for (const auto& [major, minor] : versions) {
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-        GLFWwindow* window = glfwCreateWindow(config.widthPx, config.heightPx, "Worldy", nullptr, nullptr);
+        GLFWwindow* window = glfwCreateWindow(size.width, size.height, "Worldy", nullptr, nullptr);
         if (window) return window;
     }
     return nullptr;
