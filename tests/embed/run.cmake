@@ -20,7 +20,9 @@ run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${BUILD_FOLDER}/embed/build -DCMAKE_
     -DCMAKE_PREFIX_PATH=${BUILD_FOLDER}/embed/installed -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${BUILD_FOLDER}/embed/build)
 run(${WORLDY} bake ${DATA} --face-size 257 -o ${BUILD_FOLDER}/embed/earth.chk)
-run(${BUILD_FOLDER}/embed/build/embed ${BUILD_FOLDER}/embed/earth.chk 30)
+# Under the address sanitizer what the window system's drivers never free is not ours to mend.
+run(${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
+    ${BUILD_FOLDER}/embed/build/embed ${BUILD_FOLDER}/embed/earth.chk 30)
 message("${output}")
 if(NOT output MATCHES "([1-9][0-9]*) chunks, ([1-9][0-9]*) triangles")
   message(FATAL_ERROR "the embedding program drew nothing")
