@@ -78,6 +78,7 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     render.cube = settings.cube;
     render.atmosphere = settings.atmosphere && !settings.cube;
     render.lighting = settings.lighting;
+    render.detail = settings.detail;
     render.rampTopM = rampTopM(tree);
     render.sunDirection = settings.sunFollows
                               ? morningSun(view.eyeM)

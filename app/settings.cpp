@@ -77,6 +77,7 @@ std::vector<Field> fieldsOf(Settings& s) {
         {"view", "surface", "Colour of the ground: image, or ramp by height.",
          Choice{asByte(v.surface), surfaceNames}},
         {"view", "atmosphere", "Draw the atmosphere.", &v.atmosphere},
+        {"view", "detail", "Roughen the ground between the samples: invented, only for the eye.", &v.detail},
         {"view", "lighting", "Light the ground by the sun; false: flat colour.", &v.lighting},
         {"view", "sun_follows", "Keep the sun to the camera's east, so that it is always day there.",
          &v.sunFollows},

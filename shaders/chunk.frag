@@ -4,6 +4,7 @@ in vec4 surface;
 in vec3 surfaceNormal;
 in vec3 gridCoordinate;
 flat in vec4 tint;
+in vec3 finestCell;
 
 uniform sampler2D colourImage;  // equirectangular, sRGB decoded by the sampler
 
@@ -90,6 +91,50 @@ float meshLine() {
     return mix(line, 0.35, smoothstep(0.2, 0.6, widest));
 }
 
+// A number from 0 to 1 for a point of the lattice, which repeats every 4096 cells (Wang's integer hash).
+float latticeValue(ivec2 at, int repeat) {
+    uvec2 p = uvec2(at & (repeat - 1));
+    uint h = (p.x * 0x9E3779B1u) ^ (p.y * 0x85EBCA77u);
+    h = (h ^ (h >> 15u)) * 0x27D4EB2Du;
+    return float((h ^ (h >> 13u)) & 0xFFFFu) * (1.0 / 65535.0);
+}
+
+// Value noise and its slopes along both axes.
+vec3 noiseAndSlope(vec2 at, int repeat) {
+    vec2 corner = floor(at);
+    ivec2 i = ivec2(corner);
+    vec2 f = at - corner;
+    vec2 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    vec2 ds = 30.0 * f * f * (f * (f - 2.0) + 1.0);
+    float a = latticeValue(i, repeat);
+    float b = latticeValue(i + ivec2(1, 0), repeat) - a;
+    float c = latticeValue(i + ivec2(0, 1), repeat) - a;
+    float d = latticeValue(i + ivec2(1, 1), repeat) - a - b - c;
+    return vec3(a + b * s.x + c * s.y + d * s.x * s.y, ds * vec2(b + d * s.y, c + d * s.x));
+}
+
+// Ridges and their slopes between the finest samples, in octaves that each fade out before a pixel blurs them.
+vec3 inventedRidges(vec2 cells, float cellsAPixel) {
+    vec3 sum = vec3(0.0);
+    float weight = 1.0;
+    for (int octave = -1; octave < 4; ++octave) {
+        float frequency = exp2(float(octave));
+        float shown = 1.0 - smoothstep(0.15, 0.45, frequency * cellsAPixel);
+        if (shown <= 0.0) break;
+        vec3 noise = noiseAndSlope(cells * frequency, 4096 << max(octave, 0) >> max(-octave, 0));
+        float fold = 2.0 * noise.x - 1.0;
+        float ridge = sqrt(fold * fold + 0.02);
+        sum += shown * weight * vec3(0.5 - ridge, noise.yz * (-2.0 * fold / ridge));
+        weight *= 0.55;
+    }
+    return sum;
+}
+
+// Nothing where the samples are as fine as pixels, nor beside a face's edge, where the next face counts otherwise.
+float detailStrength(float cellsAPixel) {
+    return (1.0 - smoothstep(0.06, 0.25, cellsAPixel)) * smoothstep(0.0, 6.0, finestCell.z);
+}
+
 vec3 lit(Material material, vec3 up, vec3 normal, vec3 toEye) {
     float airOn = atmosphere.z;
     vec3 sunDirection = sun.xyz;
@@ -139,6 +184,19 @@ void main() {
 
     Material material = materialAt(up, surface.w, steepness);
     bool isLit = isOn(switchLighting);
+    if (isOn(switchDetail)) {
+        vec2 cellStep = fwidth(finestCell.xy);
+        float cellsAPixel = max(cellStep.x, cellStep.y);
+        float strength = detailStrength(cellsAPixel) * (1.0 - material.water);
+        if (strength > 0.0) {
+            vec3 ridges = strength * inventedRidges(finestCell.xy, cellsAPixel);
+            vec3 east = normalize(vec3(-up.y, up.x, 1e-6));
+            float relief = length(normal - up * dot(normal, up));
+            float rough = min(0.02 + 1.6 * relief, 0.22);
+            normal = normalize(normal - rough * (ridges.y * east + ridges.z * cross(up, east)));
+            material.albedo *= 1.0 + (0.25 + 0.5 * min(4.0 * relief, 1.0)) * ridges.x;
+        }
+    }
     // A tint is meant as seen, not as paint: darker in the sun, so that it does not bleach.
     material.albedo = mix(material.albedo, decodeSrgb(tint.rgb) * (isLit ? 0.3 : 1.0), tint.a);
     material.water *= 1.0 - tint.a;

@@ -12,6 +12,7 @@ out vec4 surface;         // position relative to the eye; height, metres
 out vec3 surfaceNormal;   // not unit
 out vec3 gridCoordinate;  // column and row for the wireframe; 1 at the skirt's lower end
 flat out vec4 tint;
+out vec3 finestCell;  // column and row among the finest cells, from a far corner; cells to the face's edge
 
 invariant gl_Position;
 
@@ -99,6 +100,14 @@ void main() {
                                   : normalOnSphere(face, place, planet.z + rise, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
     }
+
+    // Counted from a corner that is far off but the same for all chunks near here, so that a float holds fractions.
+    const int period = 4096;
+    ivec2 chunkPlace = ((ivec2(chunk.yz) * last) << spacing) >> grid.z;
+    vec2 withinChunk = vec2(vertex) * exp2(float(spacing - grid.z));
+    vec2 cells = vec2(chunkPlace) + withinChunk;
+    vec2 toEdge = min(cells, exp2(float(fineGridLog2 - grid.z)) - cells);
+    finestCell = vec3(vec2(chunkPlace & (period - 1)) + withinChunk, min(toEdge.x, toEdge.y));
 
     surface = vec4(position, height);
     surfaceNormal = normal;

@@ -25,7 +25,7 @@ layout(std140) uniform Frame {
                          // footprint over shortest in the image
     vec4 atmosphere;  // radius / scale height; 1 / scale height; 1 where drawn; unused
     vec4 screen;      // angle of a pixel, radians; depth of the sky in clip space; unused
-    ivec4 grid;       // reference step; log2 of cells a chunk side; unused
+    ivec4 grid;       // reference step; log2 of cells a chunk side; log2 of fine grid steps a finest cell; unused
     ivec4 switches;   // bits, see below; unused
 };
 
@@ -34,6 +34,7 @@ const int switchWireframe = 2;
 const int switchCube = 4;
 const int switchImage = 8;
 const int switchSea = 16;
+const int switchDetail = 32;
 
 bool isOn(int bit) {
     return (switches.x & bit) != 0;

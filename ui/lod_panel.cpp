@@ -82,6 +82,9 @@ void viewControls(const LodPanelInput& input, ViewSettings& settings) {
     checkbox("Atmosphere", settings.atmosphere, "Haze and sky.");
     checkbox("Lighting", settings.lighting, "Off: flat colour, no sun.");
     secondColumn();
+    checkbox(
+        "Detail", settings.detail,
+        "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
     checkbox("Sun follows", settings.sunFollows, "Keeps the sun to the camera's east: always day.");
 }
 

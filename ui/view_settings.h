@@ -14,6 +14,7 @@ struct ViewSettings {
     bool wireframe = false;      // draws edges only; not kept between sessions
     bool cube = false;           // draws the cube before it is blown up; not kept between sessions
     bool atmosphere = true;
+    bool detail = true;    // roughens the ground between the samples; invented, only for the eye
     bool lighting = true;  // off: flat colour
     planet::gl::ColourBy colourBy = planet::gl::ColourBy::None;
     planet::gl::SurfaceColour surface = planet::gl::SurfaceColour::Image;

@@ -35,7 +35,10 @@ struct RenderSettings {
     bool skirts = true;
     bool cube = false;  // draws the cube before it is blown up to the sphere, without atmosphere
     bool atmosphere = true;
-    bool lighting = true;                       // off: flat colour, no air before it
+    bool lighting = true;  // off: flat colour, no air before it
+    // Roughens the ground where the finest samples lie pixels apart. Invented and only for the eye: light and
+    // colour, no vertex moves. Never drawn without lighting or with ColourBy.
+    bool detail = true;
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
 };
 

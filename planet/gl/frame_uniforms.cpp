@@ -19,6 +19,7 @@ constexpr int switchWireframe = 2;
 constexpr int switchCube = 4;
 constexpr int switchImage = 8;
 constexpr int switchSea = 16;
+constexpr int switchDetail = 32;
 
 // Scale heights in the planet's radius: 10 km on Earth, a little over the real 8.4, so that the rim shows.
 constexpr double radiusInScaleHeights = 640;
@@ -59,7 +60,8 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
 int switchBits(const RenderSettings& settings, bool hasImage) {
     const bool image = hasImage && settings.surface == SurfaceColour::Image;
     return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
-           (settings.cube ? switchCube : 0) | (image ? switchImage : 0) | (settings.sea ? switchSea : 0);
+           (settings.cube ? switchCube : 0) | (image ? switchImage : 0) | (settings.sea ? switchSea : 0) |
+           (settings.detail && settings.lighting && settings.colourBy == ColourBy::None ? switchDetail : 0);
 }
 
 }  // namespace
@@ -87,7 +89,7 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.atmosphere =
         glm::dvec4(radiusInScaleHeights, radiusInScaleHeights / shape.radiusM, atmosphere, 0);
     uniforms.screen = glm::dvec4(2 * tanX / view.widthPx, projection.reversedZ ? 0 : 1, 0, 0);
-    uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
+    uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, fineGridLog2 - shape.faceCellsLog2, 0};
     uniforms.switches = {switchBits(settings, image.exists()), 0, 0, 0};
     return uniforms;
 }
