@@ -250,6 +250,18 @@ private:
     Clock::time_point reported_ = start_;
 };
 
+// oneTBB orders the stages of a pipeline, but a thread sanitizer cannot see into the library. What one stage
+// leaves for the next is therefore also handed over where it can see: give after writing, take before
+// reading.
+class Handover {
+public:
+    void give() { turn_.fetch_add(1, std::memory_order_release); }
+    void take() const { static_cast<void>(turn_.load(std::memory_order_acquire)); }
+
+private:
+    std::atomic<unsigned> turn_ = 0;
+};
+
 Result<void> bakeTiles(const BakeContext& bake, int threads, Assembler& assembler,
                        const BakeProgressCallback& progress) {
     const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * bake.tileLevel);
@@ -260,16 +272,24 @@ Result<void> bakeTiles(const BakeContext& bake, int threads, Assembler& assemble
     std::atomic<bool> stop = false;
     std::uint64_t next = 0;
     // Input and output run in order, one at a time; outcome belongs to the output.
+    Handover handover;
     const auto input = [&](tbb::flow_control& control) -> ChunkId {
+        handover.take();
         if (stop || next == tileCount) {
             control.stop();
             return {};
         }
-        return tileInQuadtreeOrder(next++, bake.tileLevel);
+        const ChunkId id = tileInQuadtreeOrder(next++, bake.tileLevel);
+        handover.give();
+        return id;
     };
-    const auto work = [&](const ChunkId& id) { return bakeTile(bake, id, scratches.local()); };
-    const auto output = [&](TileResult tile) {
-        if (!outcome) return;
+    const auto work = [&](const ChunkId& id) {
+        handover.take();
+        TileResult tile = bakeTile(bake, id, scratches.local());
+        handover.give();
+        return tile;
+    };
+    const auto write = [&](TileResult&& tile) {
         if (!tile.root) {
             outcome = tl::unexpected(tile.root.error());
         } else if (auto added = assembler.add(std::move(tile)); !added) {
@@ -279,6 +299,12 @@ Result<void> bakeTiles(const BakeContext& bake, int threads, Assembler& assemble
         }
         if (!outcome) stop = true;
     };
+    const auto output = [&](TileResult tile) {
+        handover.take();
+        if (outcome) write(std::move(tile));
+        handover.give();
+    };
+    handover.give();
     tbb::task_arena(threads).execute([&] {
         tbb::parallel_pipeline(
             static_cast<std::size_t>(threads) * 3,
@@ -286,6 +312,7 @@ Result<void> bakeTiles(const BakeContext& bake, int threads, Assembler& assemble
                 tbb::make_filter<ChunkId, TileResult>(tbb::filter_mode::parallel, work) &
                 tbb::make_filter<TileResult, void>(tbb::filter_mode::serial_in_order, output));
     });
+    handover.take();
     return outcome;
 }
 
