@@ -9,7 +9,7 @@
 const vec3 scattering = vec3(0.023, 0.054, 0.132);
 const float haze = 0.007;  // grey and mostly forward
 const vec3 sunLight = vec3(3.4, 3.3, 3.15);
-const vec3 extinction = scattering + vec3(haze);
+const float airUnderTint = 0.75;  // air taken away before a tint, which stays readable far away
 const vec3 sunExtinction = 1.6 * scattering + vec3(haze);  // a redder evening than so thin an air would make
 
 // Air from a height outwards, along a ray that rises with this cosine to the zenith, 0 or more.
@@ -41,31 +41,42 @@ vec3 sunOnAir(vec3 place) {
     return sunThrough(height, sunRise) + vec3(0.030, 0.040, 0.065) * smoothstep(-0.20, 0.06, sunRise);
 }
 
-// Light scattered towards the eye over so much air, the sun's light arriving there as given.
-vec3 scattered(float air, vec3 sunHere, float sunAlongRay) {
+// Light scattered towards the eye by air that scatters so much, the sun's light arriving there as given.
+vec3 scattered(float air, vec3 amount, vec3 sunHere, float sunAlongRay) {
     float rayleigh = 0.75 * (1.0 + sunAlongRay * sunAlongRay);
     float k = 1.0 / (1.0 - 0.76 * sunAlongRay);  // Schlick's phase function
     float forward = 0.42 * k * k;
-    vec3 share = (scattering * rayleigh + vec3(haze * forward)) / extinction;
-    return sunLight * 0.21 * sunHere * share * (1.0 - exp(-extinction * air));
+    vec3 taken = amount + vec3(haze);
+    vec3 share = (amount * rayleigh + vec3(haze * forward)) / taken;
+    return sunLight * 0.21 * sunHere * share * (1.0 - exp(-taken * air));
 }
 
-// Linear light to what a screen shows: rolls off softly, then the sRGB curve.
-vec3 encodeSrgb(vec3 colour) {
-    return mix(1.055 * pow(max(colour, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, colour * 12.92,
-               lessThanEqual(colour, vec3(0.0031308)));
+// What the air before the ground scatters. From nearby paler than Rayleigh's: the ground keeps its own colours,
+// and fades to a bright haze far away rather than to a dark blue on the way.
+vec3 scatteringBeforeGround() {
+    return mix(scattering, vec3(0.045, 0.068, 0.110), atmosphere.w);
 }
 
-vec3 decodeSrgb(vec3 colour) {
-    return mix(pow((colour + 0.055) / 1.055, vec3(2.4)), colour / 12.92, lessThanEqual(colour, vec3(0.04045)));
+// Air from a height outwards, likewise, but for heights that are small beside the radius.
+float airAboveGround(float height, float rise) {
+    float grazing = sqrt(1.5708 * atmosphere.x);
+    return grazing / ((grazing - 1.0) * rise + 1.0) * exp(-height);
 }
 
-vec3 exposed(vec3 light) {
-    return light * (1.0 + light * 0.09) / (1.0 + light);
+// Air between the eye and a place of the surface, thinner before near ground and thicker before far, for the same reason: its ray, unit, the direction up there, and the height, scale
+// heights.
+float airBefore(vec3 ray, vec3 up, float height) {
+    float fall = dot(eyeUp.xyz, ray);
+    float rise = dot(up, ray);
+    float ground = airAboveGround(height, fall < 0.0 ? max(-rise, 0.0) : max(rise, 0.0));
+    float here = airAbove(eyeUp.w, abs(fall));
+    float air = max(fall < 0.0 ? ground - here : here - ground, 0.0);
+    return air * mix(1.0, air * (1.0 + 0.125 * air) / (air + 1.8), atmosphere.w);
 }
 
-// Half a step of the 8 bits, in a pattern too fine to see, against bands in slow gradients.
-float ditherStep() {
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    return (noise - 0.5) / 255.0;
+// The sun's light on that air: along a slanting ray most of what is scattered comes from nearer and higher than
+// the surface itself.
+vec3 sunOnAirBefore(vec3 position, vec3 ray, vec3 up, float height) {
+    float nearer = min(min(1.0 / (max(-dot(up, ray), 0.0) + 0.04), 25.0), 0.7 * length(position) * atmosphere.y);
+    return sunOnAir(up * (atmosphere.x + height) - ray * nearer);
 }

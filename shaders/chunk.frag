@@ -1,34 +1,69 @@
 // The surface: what it is made of, the sun on it, and the air before it.
 
-in vec4 surface;
-in vec3 surfaceNormal;
-in vec3 gridCoordinate;
+in vec3 surface;
+in vec4 facePlace;
+in vec4 surfaceNormal;
+in vec3 sunLit;
+in vec3 skyLit;
+in vec3 airLit;
+in vec4 groundArriving;
+in vec4 airArriving;
+in float steep;
+in vec2 gridCoordinate;
+flat in vec3 faceU;
+flat in vec3 faceV;
 flat in vec4 tint;
-in vec3 finestCell;
 
-uniform sampler2D colourImage;  // equirectangular, sRGB decoded by the sampler
+uniform sampler2DArray colourImage;  // a face a layer: roots of linear light; where water may be
+uniform sampler3D detailNoise;       // a slope and a height, in [-1, 1]
 
 out vec4 fragment;
 
-const float pi = 3.14159265;
+// Between the samples that there are: INVENTED ground, purely for the eye. It moves no vertex. Noise fixed to the
+// planet, each octave gone where it would be finer than a pixel, all of it gone where the samples are.
+struct Detail {
+    vec3 slope;    // world axes
+    float height;  // [-1, 1]
+};
 
-// Texture coordinates from the direction itself, and their derivatives from the direction's: continuous across
-// the seam at longitude 180. The one along longitude is shortened with the circle of latitude, since near a
-// pole the image holds no more detail on the ground than elsewhere.
-vec3 imageColour(vec3 up) {
-    vec3 dx = dFdx(up);
-    vec3 dy = dFdy(up);
-    float ring = max(length(up.xy), 1e-5);
-    vec2 place = vec2(atan(up.y, up.x) / (2.0 * pi) + 0.5, acos(clamp(up.z, -1.0, 1.0)) / pi);
-    vec2 east = vec2(-up.y, up.x) / ring;
-    vec2 scale = vec2(0.5, -1.0) / pi;
-    vec2 across = scale * vec2(dot(east, dx.xy), dx.z / ring);
-    vec2 along = scale * vec2(dot(east, dy.xy), dy.z / ring);
-    // Seen at a slant a pixel's footprint is long; what the sampler cannot follow is cut, not blurred.
-    float longest = heights.w * sqrt(min(dot(across, across), dot(along, along)));
-    across *= min(1.0, longest / max(length(across), 1e-12));
-    along *= min(1.0, longest / max(length(along), 1e-12));
-    return textureGrad(colourImage, place, across, along).rgb;
+Detail noDetail() {
+    return Detail(vec3(0.0), 0.0);
+}
+
+Detail octave(int i, vec3 position) {
+    vec4 x = detailRows[3 * i];
+    vec4 y = detailRows[3 * i + 1];
+    vec4 z = detailRows[3 * i + 2];
+    vec3 place = vec3(dot(x.xyz, position) + x.w, dot(y.xyz, position) + y.w, dot(z.xyz, position) + z.w);
+    vec4 noise = texture(detailNoise, place) * 2.0 - 256.0 / 255.0;
+    return Detail(mat3(x.xyz, y.xyz, z.xyz) * noise.xyz * detailSizes[i], noise.w);
+}
+
+// Finer octaves are bent by the coarsest, and fade in its valleys, so that no pattern runs through.
+Detail detailAt(vec3 position) {
+    Detail coarse = octave(0, position);
+    vec3 bent = position + 0.07 * detailSizes.y * coarse.slope;
+    float rugged = 0.55 + 0.45 * coarse.height;
+    Detail middle = octave(1, bent);
+    Detail fine = noDetail();
+    if (isOn(switchFineDetail)) fine = octave(2, bent);
+    return Detail(coarse.slope + rugged * (1.5 * middle.slope + 1.2 * fine.slope),
+                  coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
+}
+
+// The image, its lookup moved by a part of a step so that its blobs get ragged edges. On a face's edge it only moves
+// along, where the next face's does the same.
+vec4 imageColour(Detail detail, float strength) {
+    vec2 place = facePlace.xy;
+    if (isOn(switchDetail)) {
+        vec2 inside = min(place, 1.0 - place) / (4.0 * detailPixels.z);
+        vec2 aside = vec2(dot(detail.slope, faceU), dot(detail.slope, faceV));
+        place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * detailPixels.z);
+    }
+    // The outermost texels have their middles on the edges.
+    vec2 size = vec2(textureSize(colourImage, 0).xy);
+    vec4 image = texture(colourImage, vec3(place * (1.0 - 1.0 / size) + 0.5 / size, facePlace.w));
+    return vec4(image.rgb * image.rgb, image.a);
 }
 
 vec3 seaByDepth(float height) {
@@ -40,7 +75,7 @@ vec3 seaByDepth(float height) {
 }
 
 // Lowland green to rock to snow; heights.y is 1 / the height of the highest band.
-vec3 landByHeight(float height, float latitudeSine, float steepness) {
+vec3 landByHeight(float height, float latitudeSine, float steep) {
     float h = max(height, 0.0) * heights.y;
     float cold = latitudeSine * latitudeSine;
     float dry = 1.0 - smoothstep(0.10, 0.26, abs(abs(latitudeSine) - 0.40));
@@ -49,9 +84,9 @@ vec3 landByHeight(float height, float latitudeSine, float steepness) {
     vec3 colour = mix(low, hills, smoothstep(0.03, 0.16, h));
     colour = mix(colour, vec3(0.150, 0.092, 0.048), smoothstep(0.16, 0.42, h));
     colour = mix(colour, vec3(0.120, 0.105, 0.092), smoothstep(0.42, 0.62, h));
-    colour = mix(colour, vec3(0.095, 0.080, 0.066), 0.7 * steepness);
+    colour = mix(colour, vec3(0.095, 0.080, 0.066), 0.7 * steep);
     float snowLine = 1.04 - 1.38 * cold * cold;
-    float snow = smoothstep(snowLine - 0.10, snowLine + 0.12, h) * (1.0 - 0.8 * steepness);
+    float snow = smoothstep(snowLine - 0.10, snowLine + 0.12, h) * (1.0 - 0.8 * steep);
     return mix(colour, vec3(0.82, 0.85, 0.88), snow);
 }
 
@@ -60,19 +95,16 @@ struct Material {
     float water;  // 1 where light falls on open sea
 };
 
-Material materialAt(vec3 up, float height, float steepness) {
+Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
     float below = 1.0 - smoothstep(-30.0 * planet.x / 6.371e6, 0.0, height);
     if (!isOn(switchSea)) below = 0.0;
     if (isOn(switchImage)) {
-        vec3 image = imageColour(up);
-        // The image knows sea ice, and coasts finer than the mesh; the mesh knows depth.
-        float blue = smoothstep(0.0, 0.008, image.b - 1.15 * image.r);
-        float dark = 1.0 - smoothstep(0.10, 0.30, image.g);
-        float water = below * blue * dark;
-        vec3 sea = mix(image, seaByDepth(height), 0.4);
-        return Material(mix(image * 1.2, sea, water), water);
+        vec4 image = imageColour(detail, strength);
+        float water = below * image.a;
+        vec3 sea = mix(image.rgb, seaByDepth(height), 0.4);
+        return Material(mix(image.rgb * 1.2, sea, water), water);
     }
-    vec3 land = landByHeight(height, up.z, steepness);
+    vec3 land = landByHeight(height, up.z, steep);
     float ice = below * smoothstep(0.955, 0.985, abs(up.z));
     vec3 sea = mix(seaByDepth(height), vec3(0.70, 0.76, 0.82), ice);
     return Material(mix(land, sea, below), below * (1.0 - ice));
@@ -80,7 +112,7 @@ Material materialAt(vec3 up, float height, float steepness) {
 
 // The chunk's mesh: lines one pixel wide along rows, columns and diagonals, smooth whatever their distance.
 float meshLine() {
-    vec3 at = vec3(gridCoordinate.xy, gridCoordinate.x - gridCoordinate.y);
+    vec3 at = vec3(gridCoordinate, gridCoordinate.x - gridCoordinate.y);
     vec3 width = fwidth(at);
     vec3 away = abs(at - floor(at + 0.5));
     vec3 cover = 1.0 - smoothstep(width * 0.3, width * 1.0, away);
@@ -91,124 +123,80 @@ float meshLine() {
     return mix(line, 0.35, smoothstep(0.2, 0.6, widest));
 }
 
-// A number from 0 to 1 for a point of the lattice, which repeats every 4096 cells (Wang's integer hash).
-float latticeValue(ivec2 at, int repeat) {
-    uvec2 p = uvec2(at & (repeat - 1));
-    uint h = (p.x * 0x9E3779B1u) ^ (p.y * 0x85EBCA77u);
-    h = (h ^ (h >> 15u)) * 0x27D4EB2Du;
-    return float((h ^ (h >> 13u)) & 0xFFFFu) * (1.0 / 65535.0);
+// A step of heights or of the image is drawn larger than some two pixels.
+float between(float pixels) {
+    return smoothstep(2.0, 6.0, pixels);
 }
 
-// Value noise and its slopes along both axes.
-vec3 noiseAndSlope(vec2 at, int repeat) {
-    vec2 corner = floor(at);
-    ivec2 i = ivec2(corner);
-    vec2 f = at - corner;
-    vec2 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    vec2 ds = 30.0 * f * f * (f * (f - 2.0) + 1.0);
-    float a = latticeValue(i, repeat);
-    float b = latticeValue(i + ivec2(1, 0), repeat) - a;
-    float c = latticeValue(i + ivec2(0, 1), repeat) - a;
-    float d = latticeValue(i + ivec2(1, 1), repeat) - a - b - c;
-    return vec3(a + b * s.x + c * s.y + d * s.x * s.y, ds * vec2(b + d * s.y, c + d * s.x));
+// A tint is meant as seen, not as paint: darker in the sun, so that it does not bleach.
+Material tinted(Material material) {
+    if (!isOn(switchTint)) return material;
+    return Material(mix(material.albedo, decodeSrgb(tint.rgb) * 0.3, tint.a), material.water * (1.0 - tint.a));
 }
 
-// Ridges and their slopes between the finest samples, in octaves that each fade out before a pixel blurs them.
-vec3 inventedRidges(vec2 cells, float cellsAPixel) {
-    vec3 sum = vec3(0.0);
-    float weight = 1.0;
-    for (int octave = -1; octave < 4; ++octave) {
-        float frequency = exp2(float(octave));
-        float shown = 1.0 - smoothstep(0.15, 0.45, frequency * cellsAPixel);
-        if (shown <= 0.0) break;
-        vec3 noise = noiseAndSlope(cells * frequency, 4096 << max(octave, 0) >> max(-octave, 0));
-        float fold = 2.0 * noise.x - 1.0;
-        float ridge = sqrt(fold * fold + 0.02);
-        sum += shown * weight * vec3(0.5 - ridge, noise.yz * (-2.0 * fold / ridge));
-        weight *= 0.55;
+// The air between the eye and the ground takes light away and scatters the sun's in.
+vec3 throughAir(vec3 light, vec3 ray, vec3 up) {
+    if (!isOn(switchAir)) return light;
+    float air = airBefore(ray, up, max(facePlace.z, 0.0) * atmosphere.y);
+    if (isOn(switchTint)) air *= 1.0 - airUnderTint * tint.a;
+    vec3 amount = scatteringBeforeGround();
+    return light * exp(-(amount + vec3(haze)) * air) + scattered(air, amount, airLit, dot(ray, sun.xyz));
+}
+
+vec3 lightByPixel() {
+    vec3 position = surface;
+    float nearness = inversesqrt(dot(position, position));
+    vec3 ray = position * nearness;
+    vec3 up = normalize(eye.xyz + position);
+    vec3 normal = normalize(surfaceNormal.xyz);
+    Detail detail = noDetail();
+    float rough = 0.0;
+    float ragged = 0.0;
+    float height = facePlace.z;
+    if (isOn(switchDetail)) {
+        detail = detailAt(position);
+        rough = between(detailPixels.x * nearness) * (0.05 + 0.95 * surfaceNormal.w);
+        ragged = between(detailPixels.y * nearness);
+        height += 500.0 * rough * detail.height * (planet.x / 6.371e6) * step(0.0, height);
+        vec3 tilt = rough * (detail.slope - up * dot(detail.slope, up));
+        normal = normalize(normal - tilt * inversesqrt(1.0 + 1.5 * dot(tilt, tilt)));
     }
-    return sum;
+    Material material = materialAt(up, height, steepness(normal, up), detail, ragged);
+    if (isOn(switchDetail))
+        material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - material.water) * detail.height;
+    material = tinted(material);
+    vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
+    vec3 light = material.albedo * (sunLit * max(dot(facing, sun.xyz), 0.0) + skyLit) +
+                 sunLit * (material.water * seaGlint(facing, -ray));
+    return throughAir(light, ray, up);
 }
 
-// Nothing where the samples are as fine as pixels, nor beside a face's edge, where the next face counts otherwise.
-float detailStrength(float cellsAPixel) {
-    return (1.0 - smoothstep(0.06, 0.25, cellsAPixel)) * smoothstep(0.0, 6.0, finestCell.z);
+vec3 lightByVertex() {
+    vec3 up = normalize(eye.xyz + surface);
+    Material material = tinted(materialAt(up, facePlace.z, steep, noDetail(), 0.0));
+    vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
+    return groundArriving.rgb * reflected + airArriving.rgb;
 }
 
-vec3 lit(Material material, vec3 up, vec3 normal, vec3 toEye) {
-    float airOn = atmosphere.z;
-    vec3 sunDirection = sun.xyz;
-    float sunRise = dot(up, sunDirection);
-    vec3 shading = normalize(mix(normal, up, 0.94 * material.water));
-    float day = smoothstep(-0.06, 0.10, sunRise);
-    vec3 sunHere = airOn > 0.0 ? sunThrough(0.1, sunRise) : vec3(1.0);
-    float facing = max(dot(shading, sunDirection), 0.0) * day;
-    vec3 sky = mix(vec3(0.010), vec3(0.085, 0.115, 0.165) * smoothstep(-0.18, 0.30, sunRise), airOn) +
-               vec3(0.0025, 0.003, 0.0045);
-    vec3 light = material.albedo * (sunLight * sunHere * facing + sunLight * 0.55 * sky);
-    if (material.water > 0.01) {
-        vec3 middle = normalize(toEye + sunDirection);
-        float away = 1.0 - dot(shading, middle);
-        float aside = 1.0 - max(dot(middle, toEye), 0.0);
-        float fresnel = 0.02 + 0.5 * aside * aside * aside * aside * aside;
-        float glint = 7.0 * exp(-260.0 * away) + 0.7 * exp(-60.0 * away);
-        light += sunLight * sunHere * (material.water * day * fresnel * glint);
-    }
-    return light;
+vec3 flatSurface() {
+    vec3 up = normalize(eye.xyz + surface);
+    vec3 albedo = materialAt(up, facePlace.z, 0.0, noDetail(), 0.0).albedo;
+    if (isOn(switchTint)) albedo = mix(albedo, decodeSrgb(tint.rgb), tint.a);
+    return encodeSrgb(clamp(albedo, 0.0, 1.0));
 }
 
-// The air between the eye and the surface takes light away and scatters the sun's in.
-vec3 throughAir(vec3 light, vec3 position, vec3 up, float height) {
-    vec3 ray = normalize(position);
-    float eyeRadius = length(eye.xyz);
-    vec3 eyeUp = eye.xyz / eyeRadius;
-    float eyeHeight = eyeRadius * atmosphere.y - atmosphere.x;
-    float here = max(height, 0.0) * atmosphere.y;
-    float fall = dot(eyeUp, ray);
-    float air = fall < 0.0 ? airAbove(here, max(-dot(up, ray), 0.0)) - airAbove(max(eyeHeight, 0.0), -fall)
-                           : airAbove(max(eyeHeight, 0.0), fall) - airAbove(here, max(dot(up, ray), 0.0));
-    air = max(air, 0.0);
-    // Along a slanting ray most light comes from nearer and higher than the surface itself.
-    float nearer = min(min(1.0 / (max(-dot(up, ray), 0.0) + 0.04), 25.0), 0.7 * length(position) * atmosphere.y);
-    vec3 sunHere = sunOnAir(up * (atmosphere.x + here) - ray * nearer);
-    air *= 1.0 - 0.75 * tint.a;  // a tint stays readable far away
-    return light * exp(-extinction * air) + scattered(air, sunHere, dot(ray, sun.xyz));
+vec3 litSurface() {
+    vec3 light = vec3(0.0);
+    if (isOn(switchLightByVertex)) light = lightByVertex();
+    else light = lightByPixel();
+    return developed(light) + ditherStep();
 }
 
 void main() {
-    vec3 position = surface.xyz;
-    vec3 fromCentre = eye.xyz + position;
-    vec3 up = normalize(fromCentre);
-    vec3 normal = normalize(surfaceNormal);
-    float steepness = isOn(switchLighting) ? smoothstep(0.08, 0.45, 1.0 - dot(normal, up)) : 0.0;
-
-    Material material = materialAt(up, surface.w, steepness);
-    bool isLit = isOn(switchLighting);
-    if (isOn(switchDetail)) {
-        vec2 cellStep = fwidth(finestCell.xy);
-        float cellsAPixel = max(cellStep.x, cellStep.y);
-        float strength = detailStrength(cellsAPixel) * (1.0 - material.water);
-        if (strength > 0.0) {
-            vec3 ridges = strength * inventedRidges(finestCell.xy, cellsAPixel);
-            vec3 east = normalize(vec3(-up.y, up.x, 1e-6));
-            float relief = length(normal - up * dot(normal, up));
-            float rough = min(0.02 + 1.6 * relief, 0.22);
-            normal = normalize(normal - rough * (ridges.y * east + ridges.z * cross(up, east)));
-            material.albedo *= 1.0 + (0.25 + 0.5 * min(4.0 * relief, 1.0)) * ridges.x;
-        }
-    }
-    // A tint is meant as seen, not as paint: darker in the sun, so that it does not bleach.
-    material.albedo = mix(material.albedo, decodeSrgb(tint.rgb) * (isLit ? 0.3 : 1.0), tint.a);
-    material.water *= 1.0 - tint.a;
-    vec3 colour = material.albedo;
-    if (isLit) colour = lit(material, up, normal, normalize(-position));
-    if (isLit && atmosphere.z > 0.0) colour = throughAir(colour, position, up, surface.w);
-    if (isLit) colour = exposed(colour);
-    colour = encodeSrgb(clamp(colour, 0.0, 1.0));
+    vec3 colour = isOn(switchLighting) ? litSurface() : flatSurface();
     if (isOn(switchWireframe)) {
-        vec3 lineColour = tint.a > 0.0 ? tint.rgb : vec3(0.92, 0.96, 1.0);
+        vec3 lineColour = isOn(switchTint) ? tint.rgb : vec3(0.92, 0.96, 1.0);
         colour = mix(colour * 0.35, lineColour, meshLine());
     }
-    if (isLit) colour += ditherStep();
     fragment = vec4(colour, 1.0);
 }

@@ -8,11 +8,19 @@ layout(location = 4) in vec4 chunkTint;    // colour, sRGB, and its strength
 
 uniform isampler2DArray heightPool;
 
-out vec4 surface;         // position relative to the eye; height, metres
-out vec3 surfaceNormal;   // not unit
-out vec3 gridCoordinate;  // column and row for the wireframe; 1 at the skirt's lower end
+out vec3 surface;         // position relative to the eye
+out vec4 facePlace;       // [0, 1] along u and v; height, metres; the face
+out vec4 surfaceNormal;   // not unit; [0, 1] how rough the ground is
+out vec3 sunLit;          // the sun's light on the ground
+out vec3 skyLit;          // the sky's
+out vec3 airLit;          // the sun's light on the air before the ground
+out vec4 groundArriving;  // by vertex: light that white land sends to the eye through the air; the sea's over it
+out vec4 airArriving;     // by vertex: what that air scatters; the glint on the sea over groundArriving
+out float steep;          // by vertex: [0, 1]
+out vec2 gridCoordinate;  // column and row, for the wireframe
+flat out vec3 faceU;      // the face's axes
+flat out vec3 faceV;
 flat out vec4 tint;
-out vec3 finestCell;  // column and row among the finest cells, from a far corner; cells to the face's edge
 
 invariant gl_Position;
 
@@ -29,8 +37,9 @@ int stepAt(ivec3 corner, ivec2 vertex) {
 
 // Steps a cell along one axis: a central difference, across the chunk's border too where the chunk beside it is
 // drawn at the same level. Elsewhere on the border second order and one-sided, so that both sides agree as far
-// as their heights tell.
-float slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slotBefore, uint slotAfter) {
+// as their heights tell. And the larger of the steps to
+// either side, 0 where only one is known: on a face's edge both faces then see only the steps along it, the same.
+vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slotBefore, uint slotAfter) {
     int at = vertex.x * axis.x + vertex.y * axis.y;
     bool first = at == 0;
     bool final = at == last;
@@ -55,7 +64,7 @@ float slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slo
     int twice = !oneSided ? after - before
                 : first   ? 4 * after - 3 * here - before
                           : 3 * here - 4 * before + after;
-    return 0.5 * float(twice);
+    return vec2(0.5 * float(twice), oneSided ? 0 : max(abs(here - before), abs(after - here)));
 }
 
 // The cross product of the tangents of (R + h) d(u, v), divided by R + h.
@@ -73,14 +82,44 @@ vec3 normalOnSphere(FaceFrame face, GridPlace place, float radius, vec2 heightSl
     return radius * cross(du, dv) + heightSlope.x * cross(d, dv) + heightSlope.y * cross(du, d);
 }
 
+void lightGround(vec3 position, vec3 up, float height) {
+    float sunRise = dot(up, sun.xyz);
+    float day = smoothstep(-0.06, 0.10, sunRise);
+    vec3 sky = vec3(0.0125, 0.013, 0.0145);
+    sunLit = sunLight * day;
+    airLit = vec3(0.0);
+    if (isOn(switchAir)) {
+        sky = vec3(0.085, 0.115, 0.165) * smoothstep(-0.18, 0.30, sunRise) + vec3(0.0025, 0.003, 0.0045);
+        sunLit *= sunThrough(0.1, sunRise);
+        airLit = sunOnAirBefore(position, normalize(position), up, max(height, 0.0) * atmosphere.y);
+    }
+    skyLit = sunLight * 0.55 * sky;
+}
+
+void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
+    vec3 ray = normalize(position);
+    vec3 land = sunLit * max(dot(normal, sun.xyz), 0.0) + skyLit;
+    vec3 sea = sunLit * max(dot(up, sun.xyz), 0.0) + skyLit;
+    steep = steepness(normal, up);
+    groundArriving = vec4(land, sea.g / land.g);
+    airArriving = vec4(0.0, 0.0, 0.0, seaGlint(up, -ray) * sunLit.g / land.g);
+    if (!isOn(switchAir)) return;
+    float air = airBefore(ray, up, max(height, 0.0) * atmosphere.y);
+    if (isOn(switchTint)) air *= 1.0 - airUnderTint * chunkTint.a;
+    vec3 amount = scatteringBeforeGround();
+    groundArriving.rgb *= exp(-(amount + vec3(haze)) * air);
+    airArriving.rgb = scattered(air, amount, airLit, dot(ray, sun.xyz));
+}
+
 void main() {
-    FaceFrame face = faces[chunk.x & 7u];
+    FaceFrame frame = faces[chunk.x & 7u];
     int level = int(chunk.x >> 3u);
     int cellsLog2 = grid.y;
     int last = 1 << cellsLog2;
     ivec2 vertex = ivec2(gridVertex.xy);
     int spacing = fineGridLog2 - cellsLog2 - level;
-    GridPlace place = gridPlace(face, (ivec2(chunk.yz) * last + vertex) << spacing);
+    ivec2 gridPoint = (ivec2(chunk.yz) * last + vertex) << spacing;
+    GridPlace place = gridPlace(frame, gridPoint);
 
     ivec3 corner = slotCorner(chunk.w, last);
     int heightStep = stepAt(corner, vertex);
@@ -88,30 +127,36 @@ void main() {
     float rise = float(heightStep - grid.x) * planet.y - drop;
     float height = heights.x + float(heightStep) * planet.y;
 
-    vec3 position = isOn(switchCube) ? positionOnCube(face, place, height - drop)
-                                     : positionOnSphere(face, place, rise);
-    vec3 normal = face.direction.xyz + place.turn;
+    vec3 position = isOn(switchCube) ? positionOnCube(frame, place, height - drop)
+                                     : positionOnSphere(frame, place, rise);
+    vec3 up = frame.direction.xyz + place.turn;
+    vec3 normal = up;
+    float rough = 0.0;
+    sunLit = skyLit = airLit = vec3(0.0);
+    groundArriving = airArriving = vec4(0.0);
+    steep = 0.0;
     if (isOn(switchLighting)) {
-        vec2 steps = vec2(slope(corner, vertex, ivec2(1, 0), last, heightStep, beside.x, beside.y),
-                          slope(corner, vertex, ivec2(0, 1), last, heightStep, beside.z, beside.w));
-        vec2 heightSlope = steps * (planet.y * heights.z) / (float(1 << spacing) * fineCell);
-        normal = isOn(switchCube) ? face.normal.xyz * planet.w - heightSlope.x * face.u.xyz -
-                                        heightSlope.y * face.v.xyz
-                                  : normalOnSphere(face, place, planet.z + rise, heightSlope);
+        vec2 along = slope(corner, vertex, ivec2(1, 0), last, heightStep, beside.x, beside.y);
+        vec2 across = slope(corner, vertex, ivec2(0, 1), last, heightStep, beside.z, beside.w);
+        float stepsPerSlope = planet.y / (float(1 << spacing) * fineCell);
+        vec2 heightSlope = vec2(along.x, across.x) * (stepsPerSlope * heights.z);
+        normal = isOn(switchCube) ? frame.normal.xyz * planet.w - heightSlope.x * frame.u.xyz -
+                                        heightSlope.y * frame.v.xyz
+                                  : normalOnSphere(frame, place, planet.z + rise, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
+        float steepest = max(along.y, across.y) * stepsPerSlope / (0.75 * planet.x);
+        rough = smoothstep(0.0, 0.09, steepest);
+        vec3 unitUp = normalize(up);
+        lightGround(position, unitUp, height);
+        if (isOn(switchLightByVertex)) lightByVertex(position, unitUp, normal, height);
     }
 
-    // Counted from a corner that is far off but the same for all chunks near here, so that a float holds fractions.
-    const int period = 4096;
-    ivec2 chunkPlace = ((ivec2(chunk.yz) * last) << spacing) >> grid.z;
-    vec2 withinChunk = vec2(vertex) * exp2(float(spacing - grid.z));
-    vec2 cells = vec2(chunkPlace) + withinChunk;
-    vec2 toEdge = min(cells, exp2(float(fineGridLog2 - grid.z)) - cells);
-    finestCell = vec3(vec2(chunkPlace & (period - 1)) + withinChunk, min(toEdge.x, toEdge.y));
-
-    surface = vec4(position, height);
-    surfaceNormal = normal;
-    gridCoordinate = vec3(vertex, gridVertex.z);
+    surface = position;
+    facePlace = vec4(vec2(gridPoint) * (0.5 * fineCell), height, float(chunk.x & 7u));
+    surfaceNormal = vec4(normal, rough);
+    gridCoordinate = vec2(vertex);
+    faceU = frame.u.xyz;
+    faceV = frame.v.xyz;
     tint = chunkTint;
     gl_Position = clipFromWorld * vec4(position, 1.0);
 }

@@ -21,21 +21,30 @@ layout(std140) uniform Frame {
     vec4 rayRight;
     vec4 rayUp;
     vec4 planet;      // radius; quantum; reference radius; half side of the cube
-    vec4 heights;     // height of step 0; 1 / the top of the ramp; relief boost of the lighting; longest
-                         // footprint over shortest in the image
-    vec4 atmosphere;  // radius / scale height; 1 / scale height; 1 where drawn; unused
+    vec4 heights;     // height of step 0; 1 / the top of the ramp; relief boost of the lighting; unused
+    vec4 atmosphere;  // radius / scale height; 1 / scale height; 1 where drawn; 1 near the ground, 0 in space
+    vec4 eyeUp;       // xyz: unit; height of the eye, scale heights, 0 or more
     vec4 screen;      // angle of a pixel, radians; depth of the sky in clip space; unused
-    ivec4 grid;       // reference step; log2 of cells a chunk side; log2 of fine grid steps a finest cell; unused
-    ivec4 switches;   // bits, see below; unused
+    vec4 detailRows[9];  // three octaves, three rows each: place in the noise = rows (position, 1)
+    vec4 detailSizes;    // metres that each octave's noise covers once; unused
+    vec4 detailPixels;   // pixels x metres that a step of heights and of the image covers; a step of the image,
+                         // [0, 1] across a face; unused
+    ivec4 grid;          // reference step; log2 of cells a chunk side; unused
 };
 
+// A program is compiled for the switches it is drawn with, in the constant variant: what is off costs nothing,
+// also where a branch is no saving.
 const int switchLighting = 1;
 const int switchWireframe = 2;
 const int switchCube = 4;
 const int switchImage = 8;
 const int switchSea = 16;
-const int switchDetail = 32;
+const int switchAir = 32;
+const int switchTint = 64;
+const int switchLightByVertex = 128;  // triangles are small enough to work light and air out at their corners
+const int switchDetail = 256;
+const int switchFineDetail = 512;  // its last octave, too
 
 bool isOn(int bit) {
-    return (switches.x & bit) != 0;
+    return (variant & bit) != 0;
 }

@@ -44,11 +44,11 @@ void main() {
         float toLowest = max(-rise * eyeRadius, 0.0);
         float nearer = min(20.0 * clamp(0.05 * air, 0.0, 1.0), toLowest);
         vec3 dense = eyeScaled + ray * (rise > 0.0 ? 1.5 : toLowest - nearer);
-        light = scattered(air, sunOnAir(dense), dot(ray, sun.xyz));
+        light = scattered(air, scattering, sunOnAir(dense), dot(ray, sun.xyz));
         clear = exp(-0.6 * air) * (1.0 - min(dot(light, vec3(3.0)), 1.0));
     }
     // A planet that is not drawn there still hides the stars behind it.
     if (rise < 0.0 && lowest < atmosphere.x) clear = 0.0;
     if (clear > 0.01) light += vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
-    fragment = vec4(encodeSrgb(exposed(light)) + ditherStep() * step(0.002, light.b), 1.0);
+    fragment = vec4(developed(max(light, 0.0)) + ditherStep() * step(0.002, light.b), 1.0);
 }

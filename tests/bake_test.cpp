@@ -48,8 +48,9 @@ void visitAll(const ChunkFile& file, const std::function<void(const ChunkData&)>
 
 TEST(Bake, everyChunkAndFaceSizeHoldsTheSourcesHeightsAtEveryLevel) {
     const TemporaryFolder folder;
-    for (const auto& [chunk, face] :
-         {std::pair{17, 17}, {17, 129}, {33, 65}, {33, 257}, {65, 257}, {129, 257}}) {
+    for (const auto& sizes : {std::pair{17, 17}, {17, 129}, {33, 65}, {33, 257}, {65, 257}, {129, 257}}) {
+        const int chunk = sizes.first;
+        const int face = sizes.second;
         const auto path = folder / "a.chk";
         const auto report =
             bake(test::hillsSource(), BakeSettings{.faceSize = face, .chunkSize = chunk}, path);

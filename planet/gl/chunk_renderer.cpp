@@ -11,9 +11,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <unordered_map>
+#include <vector>
 
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_image.h"
+#include "planet/gl/detail_noise.h"
 #include "planet/gl/frame_uniforms.h"
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/gpu_timer.h"
@@ -24,16 +26,20 @@ namespace planet::gl {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> chunkVertexFiles = {"frame.glsl", "vertex_position.glsl",
-                                                              "chunk.vert"};
-constexpr std::array<std::string_view, 3> chunkFragmentFiles = {"frame.glsl", "atmosphere.glsl",
-                                                                "chunk.frag"};
+constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
+                                                              "vertex_position.glsl", "chunk.vert"};
+constexpr std::array<std::string_view, 5> chunkFragmentFiles = {"frame.glsl", "atmosphere.glsl",
+                                                                "ground.glsl", "tone.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
-constexpr std::array<std::string_view, 3> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "sky.frag"};
+constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
+                                                              "sky.frag"};
+constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
+constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
 
 constexpr GLuint frameBinding = 0;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
+constexpr GLint noiseUnit = 2;
 constexpr std::uint8_t tintStrength = 225;  // of ColourBy over a lit surface, out of 255
 
 // One drawn chunk, as shaders/chunk.vert reads it.
@@ -50,7 +56,9 @@ static_assert(sizeof(Instance) == 40);
 constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 
 struct Programs {
-    Program chunk, sky;
+    ShaderText chunkVertex, chunkFragment;
+    std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
+    Program sky, faceImage;
 };
 
 void connect(const Program& program) {
@@ -59,17 +67,44 @@ void connect(const Program& program) {
     glUseProgram(program.name());
     glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "detailNoise"), noiseUnit);
     glUseProgram(0);
 }
 
-Result<Programs> buildPrograms(const std::filesystem::path& folder) {
-    Result<Program> chunk = linkProgram(folder, chunkVertexFiles, chunkFragmentFiles);
-    if (!chunk) return tl::unexpected(chunk.error());
-    Result<Program> sky = linkProgram(folder, skyVertexFiles, skyFragmentFiles);
+Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
+                             ShaderFiles fragmentFiles) {
+    const Result<ShaderText> vertex = readShader(folder, vertexFiles);
+    if (!vertex) return tl::unexpected(vertex.error());
+    const Result<ShaderText> fragment = readShader(folder, fragmentFiles);
+    if (!fragment) return tl::unexpected(fragment.error());
+    Result<Program> program = linkProgram(*vertex, *fragment);
+    if (program) connect(*program);
+    return program;
+}
+
+// With chunk programs for the variants given. All of them see the whole text, so that when one compiles,
+// others will later.
+Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::vector<int>& variants) {
+    Result<ShaderText> vertex = readShader(folder, chunkVertexFiles);
+    if (!vertex) return tl::unexpected(vertex.error());
+    Result<ShaderText> fragment = readShader(folder, chunkFragmentFiles);
+    if (!fragment) return tl::unexpected(fragment.error());
+    Programs programs;
+    for (const int variant : variants) {
+        Result<Program> chunk = linkProgram(*vertex, *fragment, variant);
+        if (!chunk) return tl::unexpected(chunk.error());
+        connect(*chunk);
+        programs.chunk[variant] = std::move(*chunk);
+    }
+    Result<Program> sky = buildProgram(folder, skyVertexFiles, skyFragmentFiles);
     if (!sky) return tl::unexpected(sky.error());
-    connect(*chunk);
-    connect(*sky);
-    return Programs{std::move(*chunk), std::move(*sky)};
+    Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
+    if (!faceImage) return tl::unexpected(faceImage.error());
+    programs.chunkVertex = std::move(*vertex);
+    programs.chunkFragment = std::move(*fragment);
+    programs.sky = std::move(*sky);
+    programs.faceImage = std::move(*faceImage);
+    return programs;
 }
 
 Result<void> checkContext() {
@@ -126,6 +161,27 @@ std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const 
             slotAt(id.y > 0, id.x, id.y - 1), slotAt(id.y < last, id.x, id.y + 1)};
 }
 
+// Light and air are worked out at vertices where cells are small beside their distance, so that air is all
+// but linear across one, and beside the planet, so that the sea's glint is.
+constexpr double widestSeenForLightByVertex = 0.05;  // of the distance
+constexpr double widestForLightByVertex = 0.025;     // of the radius
+
+bool cellsAreSmall(const PlanetShape& shape, const View& view, std::span<const DrawItem> items,
+                   double nearestGroundM) {
+    for (const DrawItem& item : items) {
+        const FaceSquare square = faceSquareOf(item.id);
+        const glm::dvec3 cube =
+            cubePoint(item.id.face, square.u + square.side / 2, square.v + square.side / 2);
+        const double side = 0.75 * square.side;  // of the radius
+        const double cell = side / chunkCells(shape);
+        const double toMiddleM = glm::length(shape.radiusM * sphereFromCube(cube) - view.eyeM);
+        const double distanceM = std::max(toMiddleM - 0.8 * side * shape.radiusM, nearestGroundM);
+        if (cell > widestForLightByVertex || cell * shape.radiusM > widestSeenForLightByVertex * distanceM)
+            return false;
+    }
+    return true;
+}
+
 const void* byteOffset(std::size_t offset) {
     return reinterpret_cast<const void*>(offset);
 }
@@ -140,7 +196,9 @@ struct ChunkRenderer::State {
     HeightPool pool;
     std::vector<std::int16_t> highestSteps;  // of each slot
     Programs programs;
-    Program capture;  // made when first asked for
+    Program capture;  // made when first asked for, for one variant
+    int captureVariant = 0;
+    Texture noise;
     VertexArray chunkArray, skyArray;
     Buffer gridVertices, gridIndices, instances, frame;
     std::size_t gridBytes = 0;
@@ -155,13 +213,17 @@ struct ChunkRenderer::State {
     State(const RendererConfig& from, HeightPool heightPool, Programs built);
     void makeGrid();
     void describeVertices();
+    double highestRadiusM(std::span<const DrawItem> items) const;
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
+    int chooseVariant(const View& view, std::span<const DrawItem> items,
+                      const RenderSettings& settings) const;
+    const Program& chunkProgram(int variant);
     void fillInstances(std::span<const DrawItem> items, const RenderSettings& settings);
     void fillFrame(const View& view, const RenderSettings& settings);
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
-    void drawChunks(const RenderSettings& settings);
+    void drawChunks(const RenderSettings& settings, const Program& program);
     void drawSky() const;
 };
 
@@ -171,6 +233,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       pool(std::move(heightPool)),
       highestSteps(from.slotCapacity, std::numeric_limits<std::int16_t>::min()),
       programs(std::move(built)),
+      noise(detailNoiseTexture()),
       chunkArray(makeVertexArray()),
       skyArray(makeVertexArray()),
       gridVertices(makeBuffer()),
@@ -213,15 +276,41 @@ void ChunkRenderer::State::describeVertices() {
     for (GLuint attribute = 1; attribute <= 4; ++attribute) glVertexAttribDivisor(attribute, 1);
 }
 
+// Of the highest ground drawn, metres from the planet's centre.
+double ChunkRenderer::State::highestRadiusM(std::span<const DrawItem> items) const {
+    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+    for (const DrawItem& item : items) highest = std::max(highest, highestSteps[item.slot]);
+    return config.shape.radiusM + heightM(config.shape, highest);
+}
+
 Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<const DrawItem> items) const {
     const double scale = std::min(config.shape.radiusM / 6.371e6, 1.0);
     if (capabilities.reversedZ && boundDepthIsFloat()) return reversedProjection(view, 0.1 * scale);
-    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
-    for (const DrawItem& item : items) highest = std::max(highest, highestSteps[item.slot]);
     const double eyeRadiusM = glm::length(view.eyeM);
-    const double topM = config.shape.radiusM + heightM(config.shape, highest);
+    const double topM = highestRadiusM(items);
     const double nearM = std::max(0.3 * (eyeRadiusM - topM), 2 * scale);
     return classicProjection(view, nearM, std::max(eyeRadiusM + topM, 10 * nearM));
+}
+
+int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawItem> items,
+                                        const RenderSettings& settings) const {
+    const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
+    const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
+    const int variant = switchesFor(config.shape, view, settings, image, nearestGroundM);
+    const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
+                          cellsAreSmall(config.shape, view, items, nearestGroundM);
+    return variant | (byVertex ? switchLightByVertex : 0);
+}
+
+// Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
+// a driver think otherwise, any that did is drawn with.
+const Program& ChunkRenderer::State::chunkProgram(int variant) {
+    const auto found = programs.chunk.find(variant);
+    if (found != programs.chunk.end()) return found->second;
+    Result<Program> program = linkProgram(programs.chunkVertex, programs.chunkFragment, variant);
+    if (!program) return programs.chunk.begin()->second;
+    connect(*program);
+    return programs.chunk.emplace(variant, std::move(*program)).first->second;
 }
 
 void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, const RenderSettings& settings) {
@@ -253,7 +342,9 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
 void ChunkRenderer::State::bindInputs() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
     glActiveTexture(GL_TEXTURE0 + imageUnit);
-    glBindTexture(GL_TEXTURE_2D, image.texture());
+    glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
+    glActiveTexture(GL_TEXTURE0 + noiseUnit);
+    glBindTexture(GL_TEXTURE_3D, noise.name());
     glActiveTexture(GL_TEXTURE0 + heightUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, pool.texture());
 }
@@ -273,11 +364,11 @@ void ChunkRenderer::State::endDepth() const {
     glDisable(GL_DEPTH_TEST);
 }
 
-void ChunkRenderer::State::drawChunks(const RenderSettings& settings) {
+void ChunkRenderer::State::drawChunks(const RenderSettings& settings, const Program& program) {
     const GLsizei indexCount = settings.skirts ? allIndexCount : gridIndexCount;
     const auto chunks = static_cast<GLsizei>(instanceData.size());
     glEnable(GL_CULL_FACE);
-    glUseProgram(programs.chunk.name());
+    glUseProgram(program.name());
     glBindVertexArray(chunkArray.name());
     if (chunks > 0) glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT, nullptr, chunks);
     glDisable(GL_CULL_FACE);
@@ -298,7 +389,7 @@ Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
     if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
     Result<HeightPool> pool = HeightPool::create(config.slotCapacity, chunkSize(config.shape));
     if (!pool) return tl::unexpected(pool.error());
-    Result<Programs> programs = buildPrograms(config.shaderFolder);
+    Result<Programs> programs = buildPrograms(config.shaderFolder, {0});
     if (!programs) return tl::unexpected(programs.error());
     return ChunkRenderer(std::make_unique<State>(config, std::move(*pool), std::move(*programs)));
 }
@@ -314,11 +405,13 @@ void ChunkRenderer::upload(std::uint32_t slot, std::span<const std::int16_t> hei
 }
 
 void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
-    state_->image = ColourImage(rgb, width, height);
+    state_->image = ColourImage(rgb, width, height, state_->programs.faceImage.name());
 }
 
 Result<void> ChunkRenderer::reloadShaders() {
-    Result<Programs> programs = buildPrograms(state_->config.shaderFolder);
+    std::vector<int> variants;
+    for (const auto& [variant, program] : state_->programs.chunk) variants.push_back(variant);
+    Result<Programs> programs = buildPrograms(state_->config.shaderFolder, variants);
     if (!programs) return tl::unexpected(programs.error());
     state_->programs = std::move(*programs);
     state_->capture = Program();
@@ -340,7 +433,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     glClearColor(0, 0, 0, 1);
     state.beginDepth();
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    state.drawChunks(settings);
+    state.drawChunks(settings, state.chunkProgram(state.chooseVariant(view, items, settings)));
     state.drawSky();
     state.endDepth();
     glBindVertexArray(0);
@@ -354,21 +447,23 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
                                                                   std::span<const DrawItem> items,
                                                                   const RenderSettings& settings) {
     State& state = *state_;
-    if (state.capture.name() == 0) {
+    const int variant = state.chooseVariant(view, items, settings);
+    if (state.capture.name() == 0 || state.captureVariant != variant) {
         const std::array<const char*, 1> captured = {"surface"};
         Result<Program> program =
-            linkProgram(state.config.shaderFolder, chunkVertexFiles, chunkFragmentFiles, captured);
+            linkProgram(state.programs.chunkVertex, state.programs.chunkFragment, variant, captured);
         if (!program) return tl::unexpected(program.error());
         connect(*program);
         state.capture = std::move(*program);
+        state.captureVariant = variant;
     }
     state.fillInstances(items, settings);
     state.fillFrame(view, settings);
     state.bindInputs();
 
     const int perChunk = chunkVertexCount(state.config.shape);
-    std::vector<glm::vec4> surface(items.size() * static_cast<std::size_t>(perChunk));
-    const auto bytes = static_cast<GLsizeiptr>(surface.size() * sizeof(glm::vec4));
+    std::vector<glm::vec3> surface(items.size() * static_cast<std::size_t>(perChunk));
+    const auto bytes = static_cast<GLsizeiptr>(surface.size() * sizeof(glm::vec3));
     const Buffer out = makeBuffer();
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, out.name());
     glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ);
@@ -383,7 +478,7 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
     glUseProgram(0);
     glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, surface.data());
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
-    return std::vector<glm::vec3>(surface.begin(), surface.end());
+    return surface;
 }
 
 const Projection& ChunkRenderer::projection() const {
@@ -400,7 +495,7 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
 
 std::size_t ChunkRenderer::gpuBytes() const {
     return state_->pool.layout().bytes() + state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) +
-           state_->image.bytes();
+           state_->image.bytes() + detailNoiseBytes;
 }
 
 }  // namespace planet::gl

@@ -36,8 +36,9 @@ struct RenderSettings {
     bool cube = false;  // draws the cube before it is blown up to the sphere, without atmosphere
     bool atmosphere = true;
     bool lighting = true;  // off: flat colour, no air before it
-    // Roughens the ground where the finest samples lie pixels apart. Invented and only for the eye: light and
-    // colour, no vertex moves. Never drawn without lighting or with ColourBy.
+    // Roughens near ground between the samples of the heights and the image. What it adds is invented and
+    // purely for the eye: light and colour only, no vertex moves. Never seen with ColourBy or without
+    // lighting, nor where the samples are finer than two pixels.
     bool detail = true;
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
 };
@@ -77,7 +78,8 @@ public:
     // chunkVertexCount steps, row by row from the south, into a slot below slotCapacity.
     void upload(std::uint32_t slot, std::span<const std::int16_t> heights);
 
-    // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180.
+    // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Keeps what is
+    // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off.
     void setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
     // Compiles the shaders again, from the folder where one was given; on an Error the last good ones go on.

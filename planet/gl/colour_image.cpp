@@ -1,9 +1,13 @@
 #include "planet/gl/colour_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
-#include <string_view>
+#include <glm/vec3.hpp>
 #include <vector>
+
+#include "planet/cube_sphere.h"
+#include "planet/gl/software_renderer.h"
 
 namespace planet::gl {
 
@@ -43,41 +47,78 @@ Pixels halved(const Pixels& from) {
     return to;
 }
 
-// Four bytes a texel: drivers pad the three.
-std::size_t bytesWithMipmaps(int width, int height) {
+std::size_t bytesWithMipmaps(int size) {
     std::size_t bytes = 0;
-    for (;;) {
-        bytes += std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        if (width == 1 && height == 1) return bytes;
-        width = std::max(width / 2, 1);
-        height = std::max(height / 2, 1);
+    for (;; size /= 2) {
+        bytes += std::size_t{4} * faceCount * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+        if (size == 1) return bytes;
     }
 }
 
-// Mesa's software renderer has the extension, but some footprints make it sample at the wrong place.
-bool hasGoodAnisotropy() {
-    const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") &&
-           renderer.find("llvmpipe") == std::string_view::npos;
+void setSampling(GLenum target, GLint across, float anisotropy) {
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, across);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, mipmapFilter());
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    if (anisotropy > 1) glTexParameterf(target, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
 }
 
-// Returns the anisotropy set.
-float setSampling() {
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    if (!hasGoodAnisotropy()) return 1;
+// Mesa's software renderer has anisotropy, but some footprints make it sample at the wrong place.
+float anisotropyToUse() {
+    if (isSoftwareRenderer() || !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return 1;
     GLfloat most = 1;
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    const float anisotropy = std::min(most, wantedAnisotropy);
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
-    return anisotropy;
+    return std::min(most, wantedAnisotropy);
+}
+
+Texture uploaded(std::span<const std::uint8_t> rgb, int width, int height) {
+    Texture texture = makeTexture();
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    setSampling(GL_TEXTURE_2D, GL_REPEAT, 1);
+    return texture;
+}
+
+void setAxis(GLuint program, const char* name, const glm::vec3& axis) {
+    glUniform3f(glGetUniformLocation(program, name), axis.x, axis.y, axis.z);
+}
+
+// Draws each face into its layer, then puts the caller's framebuffer and viewport back.
+void drawFaces(GLuint program, GLuint faces, int size) {
+    GLint framebufferBefore = 0;
+    std::array<GLint, 4> viewportBefore{};
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebufferBefore);
+    glGetIntegerv(GL_VIEWPORT, viewportBefore.data());
+    const VertexArray noVertices = makeVertexArray();
+    const Framebuffer framebuffer = makeFramebuffer();
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
+    glBindVertexArray(noVertices.name());
+    glUseProgram(program);
+    glUniform1f(glGetUniformLocation(program, "overhang"),
+                static_cast<float>(size) / static_cast<float>(std::max(size - 1, 1)));
+    glViewport(0, 0, size, size);
+    for (const GLenum test : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST}) glDisable(test);
+    for (const Face face : allFaces) {
+        glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, faces, 0,
+                                  static_cast<GLint>(face));
+        setAxis(program, "faceNormal", faceAxes(face).normal);
+        setAxis(program, "faceU", faceAxes(face).u);
+        setAxis(program, "faceV", faceAxes(face).v);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    glUseProgram(0);
+    glBindVertexArray(0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(framebufferBefore));
+    glViewport(viewportBefore[0], viewportBefore[1], viewportBefore[2], viewportBefore[3]);
 }
 
 }  // namespace
 
-ColourImage::ColourImage(std::span<const std::uint8_t> rgb, int width, int height) : texture_(makeTexture()) {
+ColourImage::ColourImage(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram)
+    : texture_(makeTexture()) {
     assert(width > 0 && height > 0 && rgb.size() == byteCount(width, height));
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -89,13 +130,20 @@ ColourImage::ColourImage(std::span<const std::uint8_t> rgb, int width, int heigh
         width = smaller.width;
         height = smaller.height;
     }
-    glBindTexture(GL_TEXTURE_2D, texture_.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glGenerateMipmap(GL_TEXTURE_2D);
-    anisotropy_ = setSampling();
-    bytes_ = bytesWithMipmaps(width, height);
+    glActiveTexture(GL_TEXTURE0);
+    const Texture sphereImage = uploaded(rgb, width, height);
+
+    // A quarter of the way around, and a quarter more, since each texel is read through another filter.
+    faceSizePx_ = std::max(width * 5 / 16, 2);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, faceSizePx_, faceSizePx_, faceCount, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, nullptr);
+    setSampling(GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE, anisotropyToUse());
+    glBindTexture(GL_TEXTURE_2D, sphereImage.name());
+    drawFaces(faceProgram, texture_.name(), faceSizePx_);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    bytes_ = bytesWithMipmaps(faceSizePx_);
 }
 
 }  // namespace planet::gl

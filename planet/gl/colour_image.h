@@ -1,4 +1,7 @@
-// The picture laid over the planet: an equirectangular sRGB texture with mipmaps.
+// The picture laid over the planet: an array of the six faces, drawn from an equirectangular image. A face's
+// outermost texels have their middles on the cube's edges, so that faces meet without a seam. RGB holds roots
+// of linear light, which filter in 8 bits about as well as sRGB and cost less to decode; alpha is 1 where the
+// image may show water.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +17,17 @@ public:
     ColourImage() = default;  // none
 
     // 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Halved until the context can hold it.
-    ColourImage(std::span<const std::uint8_t> rgb, int width, int height);
+    // Draws with the program of shaders/face_image; leaves depth test, culling, blending and scissor off.
+    ColourImage(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram);
 
     bool exists() const { return texture_.name() != 0; }
     GLuint texture() const { return texture_.name(); }
-    float anisotropy() const { return anisotropy_; }  // longest footprint over shortest that is sampled well
-    std::size_t bytes() const { return bytes_; }      // mipmaps included
+    int faceSizePx() const { return faceSizePx_; }  // texels along a face
+    std::size_t bytes() const { return bytes_; }    // mipmaps included
 
 private:
     Texture texture_;
-    float anisotropy_ = 1;
+    int faceSizePx_ = 0;
     std::size_t bytes_ = 0;
 };
 

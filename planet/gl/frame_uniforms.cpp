@@ -13,14 +13,6 @@ namespace planet::gl {
 
 namespace {
 
-// As in shaders/frame.glsl.
-constexpr int switchLighting = 1;
-constexpr int switchWireframe = 2;
-constexpr int switchCube = 4;
-constexpr int switchImage = 8;
-constexpr int switchSea = 16;
-constexpr int switchDetail = 32;
-
 // Scale heights in the planet's radius: 10 km on Earth, a little over the real 8.4, so that the rim shows.
 constexpr double radiusInScaleHeights = 640;
 
@@ -34,6 +26,13 @@ double reliefBoost(const PlanetShape& shape, const View& view) {
     const double altitude = (glm::length(view.eyeM) - shape.radiusM) / shape.radiusM;
     const double t = std::clamp((std::log10(std::max(altitude, 1e-9)) + 4) / 3, 0.0, 1.0);
     return 1 + 3 * t * t * (3 - 2 * t);
+}
+
+// 1 up to a hundredth of the radius above it, 0 from a tenth: 64 and 640 km on Earth.
+double nearness(const PlanetShape& shape, double eyeRadiusM) {
+    const double altitude = eyeRadiusM / shape.radiusM - 1;
+    const double t = std::clamp(-1 - std::log10(std::max(altitude, 1e-9)), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
 }
 
 std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const View& view,
@@ -57,14 +56,61 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
     return all;
 }
 
-int switchBits(const RenderSettings& settings, bool hasImage) {
-    const bool image = hasImage && settings.surface == SurfaceColour::Image;
-    return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
-           (settings.cube ? switchCube : 0) | (image ? switchImage : 0) | (settings.sea ? switchSea : 0) |
-           (settings.detail && settings.lighting && settings.colourBy == ColourBy::None ? switchDetail : 0);
+// Metres that each octave of the detail's noise covers once, where the heights' samples lie one metre apart:
+// its coarsest waves are about as long as the shortest of the heights.
+constexpr std::array<double, 3> detailSizes = {8, 1.3, 0.22};
+
+// Turned out of the axes, each octave its own way, so that the ground cuts the noise at odd angles and does
+// not repeat.
+glm::dmat3 detailTurn(int octave) {
+    const double a = 0.7 + 1.1 * octave;
+    const double b = 0.5 + 0.4 * octave;
+    const glm::dmat3 aroundZ({std::cos(a), std::sin(a), 0}, {-std::sin(a), std::cos(a), 0}, {0, 0, 1});
+    const glm::dmat3 aroundX({1, 0, 0}, {0, std::cos(b), std::sin(b)}, {0, -std::sin(b), std::cos(b)});
+    return aroundZ * aroundX;
+}
+
+double samplesApartM(const PlanetShape& shape) {
+    return 1.5 * shape.radiusM / faceCells(shape);
+}
+
+// The eye's place in the noise is worked out in doubles, and only what is behind the point sent on: noise
+// that repeats needs no more, and the planet's centre is too far away for floats.
+void setDetail(const PlanetShape& shape, const View& view, const ColourImage& image,
+               FrameUniforms& uniforms) {
+    const double apartM = samplesApartM(shape);
+    for (int octave = 0; octave < 3; ++octave) {
+        const double sizeM = detailSizes[static_cast<std::size_t>(octave)] * apartM;
+        const glm::dmat3 rows = glm::transpose(detailTurn(octave));
+        for (int row = 0; row < 3; ++row) {
+            const double eyeAt = glm::dot(rows[row], view.eyeM) / sizeM;
+            uniforms.detailRows[static_cast<std::size_t>(3 * octave + row)] =
+                glm::dvec4(rows[row] / sizeM, eyeAt - std::floor(eyeAt));
+        }
+        uniforms.detailSizes[octave] = static_cast<float>(sizeM);
+    }
+    const double imageStep = image.exists() ? 1.0 / image.faceSizePx() : 0;
+    uniforms.detailPixels = glm::dvec4(apartM * screenScalePx(view),
+                                       1.5 * shape.radiusM * imageStep * screenScalePx(view), imageStep, 0);
 }
 
 }  // namespace
+
+int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
+                const ColourImage& image, double nearestGroundM) {
+    const bool withImage = image.exists() && settings.surface == SurfaceColour::Image;
+    const double coarsestM =
+        std::max(samplesApartM(shape), withImage ? 1.5 * shape.radiusM / image.faceSizePx() : 0.0);
+    const double stepPx = coarsestM * screenScalePx(view) / nearestGroundM;
+    const bool detail = settings.detail && settings.lighting && !settings.cube &&
+                        settings.colourBy == ColourBy::None && stepPx > 2;
+    const bool fineDetail = detail && stepPx > 200;
+    const bool air = settings.atmosphere && settings.lighting && !settings.cube;
+    return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
+           (settings.cube ? switchCube : 0) | (withImage ? switchImage : 0) | (settings.sea ? switchSea : 0) |
+           (air ? switchAir : 0) | (settings.colourBy != ColourBy::None ? switchTint : 0) |
+           (detail ? switchDetail : 0) | (fineDetail ? switchFineDetail : 0);
+}
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
                             const RenderSettings& settings, const ColourImage& image) {
@@ -84,13 +130,15 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.rayRight = padded(tanX * view.right);
     uniforms.rayUp = padded(tanY * view.up);
     uniforms.planet = glm::dvec4(shape.radiusM, shape.quantumM, frame.referenceRadiusM, cubeHalfM);
-    uniforms.heights = glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view),
-                                  2 * image.anisotropy());
-    uniforms.atmosphere =
-        glm::dvec4(radiusInScaleHeights, radiusInScaleHeights / shape.radiusM, atmosphere, 0);
+    uniforms.heights = glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view), 0);
+    const double eyeRadiusM = glm::length(view.eyeM);
+    uniforms.atmosphere = glm::dvec4(radiusInScaleHeights, radiusInScaleHeights / shape.radiusM, atmosphere,
+                                     nearness(shape, eyeRadiusM));
+    const double eyeHeight = std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radiusInScaleHeights;
+    uniforms.eyeUp = glm::dvec4(eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0), eyeHeight);
     uniforms.screen = glm::dvec4(2 * tanX / view.widthPx, projection.reversedZ ? 0 : 1, 0, 0);
-    uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, fineGridLog2 - shape.faceCellsLog2, 0};
-    uniforms.switches = {switchBits(settings, image.exists()), 0, 0, 0};
+    uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
+    setDetail(shape, view, image, uniforms);
     return uniforms;
 }
 

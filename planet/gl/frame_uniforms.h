@@ -16,6 +16,20 @@ namespace planet::gl {
 class ColourImage;
 struct RenderSettings;
 
+// What a program is compiled for, as in shaders/frame.glsl.
+enum Switch : int {
+    switchLighting = 1,
+    switchWireframe = 2,
+    switchCube = 4,
+    switchImage = 8,
+    switchSea = 16,
+    switchAir = 32,
+    switchTint = 64,
+    switchLightByVertex = 128,
+    switchDetail = 256,
+    switchFineDetail = 512
+};
+
 // std140: only members of 16 bytes, so that C++ and GLSL agree without padding.
 struct FaceUniforms {
     glm::ivec4 grid;
@@ -25,10 +39,17 @@ struct FaceUniforms {
 struct FrameUniforms {
     std::array<FaceUniforms, faceCount> faces;
     glm::mat4 clipFromWorld;
-    glm::vec4 eye, sun, rayForward, rayRight, rayUp, planet, heights, atmosphere, screen;
-    glm::ivec4 grid, switches;
+    glm::vec4 eye, sun, rayForward, rayRight, rayUp, planet, heights, atmosphere, eyeUp, screen;
+    std::array<glm::vec4, 9> detailRows;
+    glm::vec4 detailSizes, detailPixels;
+    glm::ivec4 grid;
 };
-static_assert(sizeof(FaceUniforms) == 9 * 16 && sizeof(FrameUniforms) == (6 * 9 + 4 + 9 + 2) * 16);
+static_assert(sizeof(FaceUniforms) == 9 * 16 && sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1) * 16);
+
+// The switches that follow from the settings and how near the ground is, metres. LightByVertex follows from
+// the triangles, and is left off.
+int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
+                const ColourImage& image, double nearestGroundM);
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
                             const RenderSettings& settings, const ColourImage& image);

@@ -10,7 +10,7 @@ namespace planet::gl {
 
 namespace {
 
-Result<std::string> readShader(const std::filesystem::path& folder, std::string_view name) {
+Result<std::string> readFile(const std::filesystem::path& folder, std::string_view name) {
     if (folder.empty()) return std::string(embeddedShader(name));
     const std::filesystem::path path = folder / name;
     std::ifstream file(path, std::ios::binary);
@@ -20,17 +20,12 @@ Result<std::string> readShader(const std::filesystem::path& folder, std::string_
     return text;
 }
 
-// "0 is frame.glsl, 1 is chunk.frag": compilers name a source by its number.
 std::string sourceNumbers(ShaderFiles files) {
     std::string text;
     int number = 0;
     for (const std::string_view file : files)
         text += fmt::format("{}{} is {}", number == 0 ? "" : ", ", number, file), ++number;
     return text;
-}
-
-std::string lastFile(ShaderFiles files) {
-    return std::string(files.back());
 }
 
 std::string compileLog(GLuint shader) {
@@ -49,14 +44,9 @@ std::string linkLog(GLuint program) {
     return log.c_str();
 }
 
-Result<Shader> compile(GLenum stage, const std::filesystem::path& folder, ShaderFiles files) {
-    std::string text = "#version 330 core\n";
-    int number = 0;
-    for (const std::string_view file : files) {
-        const Result<std::string> source = readShader(folder, file);
-        if (!source) return tl::unexpected(source.error());
-        text += fmt::format("#line 1 {}\n{}\n", number++, *source);
-    }
+Result<Shader> compile(GLenum stage, const ShaderText& source, int variant) {
+    const std::string text =
+        fmt::format("#version 330 core\nconst int variant = {};\n{}", variant, source.text);
     Shader shader(glCreateShader(stage));
     const char* const start = text.c_str();
     glShaderSource(shader.name(), 1, &start, nullptr);
@@ -64,18 +54,28 @@ Result<Shader> compile(GLenum stage, const std::filesystem::path& folder, Shader
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_TRUE) return shader;
-    return badInput(fmt::format("{}: the shader does not compile ({}):\n{}",
-                                (folder / lastFile(files)).string(), sourceNumbers(files),
+    return badInput(fmt::format("{}: the shader does not compile ({}):\n{}", source.name, source.numbers,
                                 compileLog(shader.name())));
 }
 
 }  // namespace
 
-Result<Program> linkProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
-                            ShaderFiles fragmentFiles, std::span<const char* const> captured) {
-    const Result<Shader> vertex = compile(GL_VERTEX_SHADER, folder, vertexFiles);
+Result<ShaderText> readShader(const std::filesystem::path& folder, ShaderFiles files) {
+    ShaderText shader{(folder / files.back()).string(), sourceNumbers(files), {}};
+    int number = 0;
+    for (const std::string_view file : files) {
+        const Result<std::string> source = readFile(folder, file);
+        if (!source) return tl::unexpected(source.error());
+        shader.text += fmt::format("#line 1 {}\n{}\n", number++, *source);
+    }
+    return shader;
+}
+
+Result<Program> linkProgram(const ShaderText& vertexText, const ShaderText& fragmentText, int variant,
+                            std::span<const char* const> captured) {
+    const Result<Shader> vertex = compile(GL_VERTEX_SHADER, vertexText, variant);
     if (!vertex) return tl::unexpected(vertex.error());
-    const Result<Shader> fragment = compile(GL_FRAGMENT_SHADER, folder, fragmentFiles);
+    const Result<Shader> fragment = compile(GL_FRAGMENT_SHADER, fragmentText, variant);
     if (!fragment) return tl::unexpected(fragment.error());
 
     Program program(glCreateProgram());
@@ -91,8 +91,8 @@ Result<Program> linkProgram(const std::filesystem::path& folder, ShaderFiles ver
     GLint linked = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
     if (linked == GL_TRUE) return program;
-    return badInput(fmt::format("{} and {}: the shaders do not link:\n{}", lastFile(vertexFiles),
-                                lastFile(fragmentFiles), linkLog(program.name())));
+    return badInput(fmt::format("{} and {}: the shaders do not link:\n{}", vertexText.name, fragmentText.name,
+                                linkLog(program.name())));
 }
 
 }  // namespace planet::gl

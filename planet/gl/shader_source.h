@@ -17,10 +17,18 @@ std::string_view embeddedShader(std::string_view name);
 // A shader is put together from files in the order given; the version line is added in front.
 using ShaderFiles = std::span<const std::string_view>;
 
-// Links a program from the built-in files, or from those in the folder where one is named. Outputs named in
-// captured are recorded by transform feedback, interleaved. The Error names the files and has the
-// compiler's own words.
-Result<Program> linkProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
-                            ShaderFiles fragmentFiles, std::span<const char* const> captured = {});
+struct ShaderText {
+    std::string name;     // of the last file, with its folder
+    std::string numbers;  // "0 is frame.glsl, 1 is chunk.frag": compilers name a source by its number
+    std::string text;
+};
+
+// Reads the built-in files, or those in the folder where one is named. The Error names the file.
+Result<ShaderText> readShader(const std::filesystem::path& folder, ShaderFiles files);
+
+// Links a program; both shaders see the number as the constant int variant. Outputs named in captured are
+// recorded by transform feedback, interleaved. The Error names the files and has the compiler's own words.
+Result<Program> linkProgram(const ShaderText& vertex, const ShaderText& fragment, int variant = 0,
+                            std::span<const char* const> captured = {});
 
 }  // namespace planet::gl

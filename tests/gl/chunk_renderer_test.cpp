@@ -389,6 +389,102 @@ TEST_F(ChunkRendererTest, LowLandIsSeaOnlyWhereThereIsSea) {
     EXPECT_GT(land.y, land.z);
 }
 
+// Rough enough for the detail to show, smooth across the edges of faces.
+double ridges(const glm::dvec3& d) {
+    return 9000 + 2500 * std::sin(110 * d.x) + 2500 * std::sin(130 * d.y + 1) + 2500 * std::sin(120 * d.z);
+}
+
+std::vector<std::uint8_t> imageOfStripes(int width, int height) {
+    std::vector<std::uint8_t> rgb;
+    for (int i = 0; i < width * height; ++i) {
+        const double latitude = std::numbers::pi * (i / width + 0.5) / height;
+        const auto value = static_cast<std::uint8_t>(std::lround(120 + 60 * std::sin(30 * latitude)));
+        rgb.insert(rgb.end(), {value, 110, 90});
+    }
+    return rgb;
+}
+
+int largestDifference(const Picture& a, const Picture& b) {
+    int largest = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) largest = std::max(largest, std::abs(a.rgb[i] - b.rgb[i]));
+    return largest;
+}
+
+TEST_F(ChunkRendererTest, DetailShowsNearTheGroundAndMovesNothing) {
+    TestPlanet planet({}, 384);
+    planet.addLevel(3, ridges, 6000);
+    RenderSettings with;
+    with.sunDirection = {1, 0.9, 0.2};
+    const View near = viewFrom({}, 10, 10, 60000, -40, 0, 240, 160);
+    const View far = viewFrom({}, 10, 10, 2e7, -90, 0, 240, 160);
+    const auto drawBoth = [&](const View& view, RenderSettings settings) {
+        const Picture on = drawPicture(planet.renderer(), view, planet.items(), settings);
+        settings.detail = false;
+        const Picture off = drawPicture(planet.renderer(), view, planet.items(), settings);
+        EXPECT_EQ(on.depth, off.depth);
+        return largestDifference(on, off);
+    };
+    EXPECT_GT(drawBoth(near, with), 15);
+    EXPECT_EQ(drawBoth(far, with), 0) << "the samples are finer than pixels";
+    RenderSettings coloured = with;
+    coloured.colourBy = ColourBy::Level;
+    EXPECT_EQ(drawBoth(near, coloured), 0);
+    RenderSettings unlit = with;
+    unlit.lighting = false;
+    EXPECT_EQ(drawBoth(near, unlit), 0);
+}
+
+// Looking down at a face's edge, it runs straight through the picture's middle; at a corner, three do.
+TEST_F(ChunkRendererTest, DetailAndImageHaveNoSeamAtTheEdgesOfFaces) {
+    TestPlanet planet({}, 384);
+    planet.addLevel(3, ridges);
+    planet.renderer().setColourImage(imageOfStripes(512, 256), 512, 256);
+    RenderSettings settings;
+    settings.sunDirection = {1, 1.2, 0.4};
+    const auto stepAcross = [](const Picture& picture, int column) {
+        double sum = 0;
+        for (int y = 0; y < picture.height; ++y)
+            sum += std::abs(picture.brightness(column, y) - picture.brightness(column - 1, y));
+        return sum / picture.height;
+    };
+    for (const double latitudeDeg : {12.0, -20.0, 35.2644}) {
+        const View view = viewFrom({}, latitudeDeg, 45, 150000, -90, 0, 201, 200);
+        const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings);
+        std::vector<double> steps;
+        for (int column = 1; column < 201; ++column) steps.push_back(stepAcross(picture, column));
+        const double atEdge = *std::max_element(steps.begin() + 98, steps.begin() + 102);
+        std::sort(steps.begin(), steps.end());
+        EXPECT_GT(steps[100], 0.3) << "there is something to see";
+        EXPECT_LE(atEdge, 1.05 * steps[195]) << latitudeDeg;
+    }
+}
+
+// A coarse mesh is lit by pixel and a fine one by vertex: both look the same.
+TEST_F(ChunkRendererTest, LightByVertexLooksLikeLightByPixel) {
+    TestPlanet coarse({}, 6);
+    coarse.addLevel(0, flat);
+    TestPlanet fine({}, 384);
+    fine.addLevel(3, flat);
+    const View view = viewFrom({}, 0, 0, 1.2e7, -90, 0, 300, 300);
+    RenderSettings settings;
+    settings.sunDirection = {1, 0.8, 0.3};
+    for (const bool atmosphere : {true, false}) {
+        settings.atmosphere = atmosphere;
+        const Picture byPixel = drawPicture(coarse.renderer(), view, coarse.items(), settings);
+        const Picture byVertex = drawPicture(fine.renderer(), view, fine.items(), settings);
+        int largest = 0;
+        for (int y = 0; y < 300; ++y) {
+            for (int x = 0; x < 300; ++x) {
+                if (std::hypot(x - 149.5, y - 149.5) > 85) continue;  // the rim is elsewhere on a coarse mesh
+                const glm::ivec3 d = glm::abs(byPixel.at(x, y) - byVertex.at(x, y));
+                largest = std::max({largest, d.x, d.y, d.z});
+            }
+        }
+        EXPECT_LE(largest, 4) << atmosphere;
+        EXPECT_GT(byVertex.brightness(150, 150), 60);
+    }
+}
+
 TEST_F(ChunkRendererTest, SeveralSamplesSmoothTheRim) {
     TestPlanet planet({}, 24);
     planet.addLevel(1, flat);
@@ -422,11 +518,12 @@ TEST_F(ChunkRendererTest, GpuBytesAreWhatWasAllocated) {
     const std::size_t before = planet.renderer().gpuBytes();
     const std::size_t pool = 170u * 170 * 2;  // ten slots of 17 a side, squared
     const std::size_t grid = (17u * 17 + 64) * 4 + (16u * 16 * 6 + 64 * 6) * 2;
-    EXPECT_GE(before, pool + grid);
-    EXPECT_LE(before, pool + grid + 4096);
-    const std::vector<std::uint8_t> rgb(8 * 4 * 3, 128);
-    planet.renderer().setColourImage(rgb, 8, 4);
-    EXPECT_EQ(planet.renderer().gpuBytes() - before, 4u * (8 * 4 + 4 * 2 + 2 + 1));
+    const std::size_t noise = (64u * 64 * 64 * 8 - 1) / 7 * 4;  // and its mipmaps
+    EXPECT_GE(before, pool + grid + noise);
+    EXPECT_LE(before, pool + grid + noise + 4096);
+    const std::vector<std::uint8_t> rgb(16 * 8 * 3, 128);
+    planet.renderer().setColourImage(rgb, 16, 8);
+    EXPECT_EQ(planet.renderer().gpuBytes() - before, 6u * 4u * (5 * 5 + 2 * 2 + 1));  // six faces
 }
 
 TEST_F(ChunkRendererTest, TimesArriveSomeFramesLater) {
