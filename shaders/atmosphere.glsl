@@ -54,7 +54,7 @@ vec3 scattered(float air, vec3 amount, vec3 sunHere, float sunAlongRay) {
 // What the air before the ground scatters. From nearby paler than Rayleigh's: the ground keeps its own colours,
 // and fades to a bright haze far away rather than to a dark blue on the way.
 vec3 scatteringBeforeGround() {
-    return mix(scattering, vec3(0.045, 0.068, 0.110), atmosphere.w);
+    return mix(scattering, vec3(0.030, 0.055, 0.104), atmosphere.w);
 }
 
 // Air from a height outwards, likewise, but for heights that are small beside the radius.
@@ -78,5 +78,6 @@ float airBefore(vec3 ray, vec3 up, float height) {
 // the surface itself.
 vec3 sunOnAirBefore(vec3 position, vec3 ray, vec3 up, float height) {
     float nearer = min(min(1.0 / (max(-dot(up, ray), 0.0) + 0.04), 25.0), 0.7 * length(position) * atmosphere.y);
-    return sunOnAir(up * (atmosphere.x + height) - ray * nearer);
+    vec3 bluer = mix(vec3(1.0), vec3(0.80, 0.95, 1.12), atmosphere.w);  // lit again by the air around it
+    return bluer * sunOnAir(up * (atmosphere.x + height) - ray * nearer);
 }

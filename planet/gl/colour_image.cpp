@@ -100,7 +100,8 @@ void drawFaces(GLuint program, GLuint faces, int size) {
     glUniform1f(glGetUniformLocation(program, "overhang"),
                 static_cast<float>(size) / static_cast<float>(std::max(size - 1, 1)));
     glViewport(0, 0, size, size);
-    for (const GLenum test : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST}) glDisable(test);
+    for (const GLenum test : std::to_array<GLenum>({GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST}))
+        glDisable(test);
     for (const Face face : allFaces) {
         glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, faces, 0,
                                   static_cast<GLint>(face));

@@ -108,7 +108,7 @@ Texture detailNoiseTexture() {
     glBindTexture(GL_TEXTURE_3D, texture.name());
     glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, size, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     glGenerateMipmap(GL_TEXTURE_3D);
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    for (const GLenum axis : std::to_array<GLenum>({GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}))
         glTexParameteri(GL_TEXTURE_3D, axis, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, mipmapFilter());
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
