@@ -16,6 +16,7 @@
 
 #include "planet/atomic_file.h"
 #include "planet/chunk_file_format.h"
+#include "planet/chunk_surface.h"
 #include "planet/geometric_error.h"
 #include "planet/level_images.h"
 #include "planet/little_endian.h"
@@ -66,12 +67,7 @@ std::span<std::int16_t> joinQuarters(const PlanetShape& shape,
     const std::size_t refinedSide = 2 * side - 1;
     refined.resize(refinedSide * refinedSide);
     for (std::size_t q = 0; q < children.size(); ++q) {
-        const std::size_t column = (q & 1) * (side - 1);
-        const std::size_t row = (q >> 1) * (side - 1);
-        for (std::size_t j = 0; j < side; ++j) {
-            std::copy_n(children[q].heights.begin() + static_cast<std::ptrdiff_t>(j * side), side,
-                        refined.begin() + static_cast<std::ptrdiff_t>((row + j) * refinedSide + column));
-        }
+        placeQuarter(children[q].heights, chunkCells(shape), static_cast<int>(q), refined);
     }
     return refined;
 }

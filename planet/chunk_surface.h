@@ -11,4 +11,9 @@ namespace planet {
 // heights is (cells + 1)^2, row-major.
 double stepOnTriangles(std::span<const std::int16_t> heights, int cells, double x, double y);
 
+// Lays a child's grid of (cells + 1)^2 into its quarter of the (2 cells + 1)^2 grid that four siblings cover
+// together.
+void placeQuarter(std::span<const std::int16_t> quarter, int cells, int quadrant,
+                  std::span<std::int16_t> refined);
+
 }  // namespace planet

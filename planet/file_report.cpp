@@ -210,10 +210,7 @@ private:
             if (child.minStep < chunk.minStep || child.maxStep > chunk.maxStep) {
                 chunkProblem(child.id, "its extremes reach beyond its parent's");
             }
-            for (std::size_t i = 0; i < child.heights.size(); ++i) {
-                const std::size_t row = (q >> 1) * (side - 1) + i / side;
-                refined[row * refinedSide + (q & 1) * (side - 1) + i % side] = child.heights[i];
-            }
+            placeQuarter(child.heights, chunkCells(shape_), static_cast<int>(q), refined);
         }
         if (childrenDeltaM > chunk.deltaCM) chunkProblem(chunk.id, "delta_c grows from it to a child");
         const double expected = geometricErrorM(shape_, chunk.id, refined, scratch_) + childrenDeltaM;
