@@ -1,0 +1,25 @@
+// What a bake would cost, before it is done: by baking a few blocks of it in memory. Any thread; takes about
+// a second.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "planet/bake.h"
+
+namespace planet {
+
+struct BakeEstimate {
+    PlanetShape shape;
+    std::uint64_t samples = 0;  // distinct finest-level samples
+    std::uint64_t chunks = 0;
+    double fileBytes = 0;
+    double seconds = 0;  // on this machine with the settings' threads
+};
+
+// Blocks are chosen by a fixed seed, evenly over the sphere. The callback is asked between blocks; false
+// cancels.
+Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings& settings,
+                                  const std::function<bool()>& goOn = {});
+
+}  // namespace planet

@@ -1,0 +1,70 @@
+// The pieces of a bake: what turns a square of the source into chunks and their blocks. The bake and its
+// estimate share them. Pure functions but for the source; any thread, each with a scratch of its own.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "planet/bake.h"
+#include "planet/chunk_file.h"
+#include "planet/geometric_error.h"
+
+namespace planet {
+
+// Blocks are made before their place in the file is known, as if their run began here.
+inline constexpr std::uint64_t provisionalOrigin = chunkFileHeaderBytes;
+
+struct BakedChunk {
+    ChunkId id;
+    ChunkEntry entry;
+    std::vector<std::int16_t> heights;
+};
+
+struct BakedTile {
+    BakedChunk root;
+    std::vector<std::byte> blocks;  // of everything under the root, the root's children last
+};
+
+// Kept between calls so that nothing is allocated.
+struct BakeScratch {
+    std::vector<float> sampledM;
+    std::vector<std::int16_t> steps;
+    std::vector<std::int16_t> refined;
+    GeometricErrorScratch geometry;
+};
+
+struct BakeContext {
+    const HeightSource& source;
+    PlanetShape shape;
+    int compressionLevel = defaultCompressionLevel;
+};
+
+// Settings that no source can change: compression level and threads. The Error says what would be right.
+Result<void> checkBakeSettings(const BakeSettings& settings);
+
+// The shape that a source and settings give. The Error names the setting and its range.
+Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& settings);
+
+// 0 threads: one a core.
+int bakeThreads(const BakeSettings& settings);
+
+// Of a whole planet: distinct finest-level samples, and chunks of all levels.
+std::uint64_t sampleCountOf(const PlanetShape& shape);
+std::uint64_t chunkCountOf(const PlanetShape& shape);
+
+// A tile is the subtree that one task bakes: samples its square and bakes it bottom-up. The Error names the
+// source's file, or a height that 16 bits cannot hold.
+Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch);
+
+// Removes every other row and column: appends the block of the four children, returns their parent. Places in
+// the file count from origin, where the first of the blocks lies.
+BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
+                         const std::array<BakedChunk, quadrantCount>& children, std::uint64_t origin,
+                         BakeScratch& scratch, std::vector<std::byte>& blocks);
+
+// The chunks of a level in quadtree order: face by face, each quarter whole before the next.
+ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level);
+
+}  // namespace planet
