@@ -68,19 +68,15 @@ std::array<glm::dvec3, 3> localAxes(const Samples& samples) {
     return {east, glm::cross(up, east), up};
 }
 
-OrientedBox boxOf(const Samples& samples, double margin, double minRadiusM, double maxRadiusM) {
+OrientedBox boxOf(const ChunkDirections& directions, double minRadiusM, double maxRadiusM) {
     OrientedBox box;
-    box.axes = localAxes(samples);
+    box.axes = directions.axes;
     for (int a = 0; a < 3; ++a) {
-        const glm::dvec3& axis = box.axes[static_cast<std::size_t>(a)];
-        Range range;
-        for (const glm::dvec3& direction : samples) range.add(glm::dot(axis, direction));
-        // No unit vector reaches beyond 1 along an axis, so the top of the box needs no margin.
-        const double low = range.low - margin;
-        const double high = std::min(range.high + margin, 1 + rounding);
+        const double low = directions.low[a];
+        const double high = directions.high[a];
         const double lowM = low * (low < 0 ? maxRadiusM : minRadiusM);
         const double highM = high * (high > 0 ? maxRadiusM : minRadiusM);
-        box.centreM += axis * ((lowM + highM) / 2);
+        box.centreM += box.axes[static_cast<std::size_t>(a)] * ((lowM + highM) / 2);
         box.halfSizeM[a] = (highM - lowM) / 2 + rounding * maxRadiusM;
     }
     return box;
@@ -104,16 +100,37 @@ double angleOf(double adjacent, double hypotenuse) {
 
 }  // namespace
 
-ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM) {
-    assert(radiusM + minHeightM > 0 && minHeightM <= maxHeightM);
+ChunkDirections chunkDirections(const ChunkId& id) {
     const FaceSquare square = faceSquareOf(id);
     const Samples samples = sampleDirections(id.face, square);
     const double margin = marginBetweenSamples(square.side);
+    ChunkDirections directions;
+    directions.axes = localAxes(samples);
+    for (int a = 0; a < 3; ++a) {
+        Range range;
+        for (const glm::dvec3& direction : samples) {
+            range.add(glm::dot(directions.axes[static_cast<std::size_t>(a)], direction));
+        }
+        directions.low[a] = range.low - margin;
+        // No unit vector reaches beyond 1 along an axis, so the top of the box needs no margin.
+        directions.high[a] = std::min(range.high + margin, 1 + rounding);
+    }
+    directions.cone = coneOf(samples, margin);
+    return directions;
+}
+
+ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, double minHeightM,
+                        double maxHeightM) {
+    assert(radiusM + minHeightM > 0 && minHeightM <= maxHeightM);
     ChunkBounds bounds;
-    bounds.box = boxOf(samples, margin, radiusM + minHeightM, radiusM + maxHeightM);
-    bounds.cone = coneOf(samples, margin);
+    bounds.box = boxOf(directions, radiusM + minHeightM, radiusM + maxHeightM);
+    bounds.cone = directions.cone;
     bounds.maxRadiusM = radiusM + maxHeightM;
     return bounds;
+}
+
+ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM) {
+    return chunkBounds(chunkDirections(id), radiusM, minHeightM, maxHeightM);
 }
 
 double distanceM(const OrientedBox& box, const glm::dvec3& pointM) {

@@ -31,7 +31,19 @@ struct ChunkBounds {
     double maxRadiusM = 0;  // no vertex lies farther from the planet's centre
 };
 
+// The part of the bounds that no height changes, and that takes most of the time to find: how far the chunk's
+// directions reach along the box's axes, which is [-1, 1] at most.
+struct ChunkDirections {
+    std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
+    glm::dvec3 low{0, 0, 0};           // along each axis
+    glm::dvec3 high{0, 0, 0};
+    DirectionCone cone;
+};
+ChunkDirections chunkDirections(const ChunkId& id);
+
 // radiusM + minHeightM must be over 0, and minHeightM <= maxHeightM.
+ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, double minHeightM,
+                        double maxHeightM);
 ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM);
 
 // 0 inside the box.

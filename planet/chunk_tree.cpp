@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "planet/geometric_error.h"
+
 namespace planet {
 
 namespace {
@@ -45,17 +47,46 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
     return {};
 }
 
-ChunkNode makeNode(const PlanetShape& shape, ChunkData&& data, NodeIndex parent, std::uint32_t slot) {
-    ChunkNode node;
-    node.id = data.id;
-    node.deltaCM = data.deltaCM;
-    const double lowM = heightM(shape, data.minStep);
-    const double highM = heightM(shape, data.maxStep);
+// A_l + A_l+1 + ... down to the leaves' parents: 0 at a leaf.
+double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
+    double sum = 0;
+    for (int level = fromLevel; level < leafLevel(shape); ++level) sum += curvatureErrorM(shape, level);
+    return sum;
+}
+
+// What follows from the node's directions, its stored steps and delta_c, and the tree's exaggeration.
+void setMeasures(const ChunkTree& tree, ChunkNode& node) {
+    const PlanetShape& shape = tree.shape;
+    const double lowM = heightM(shape, node.minStep);
+    const double highM = heightM(shape, node.maxStep);
     node.minHeightM = static_cast<float>(lowM);
     node.maxHeightM = static_cast<float>(highM);
+    const ChunkDirections directions{node.bounds.box.axes, node.directionLow, node.directionHigh,
+                                     node.bounds.cone};
+    node.bounds = chunkBounds(directions, shape.radiusM, lowM, highM);
+    node.deltaCM = node.storedDeltaCM;
+    if (tree.exaggeration == 1) return;
+    const double bent = std::abs(tree.exaggeration - 1) * curvatureErrorsM(shape, node.id.level);
+    node.deltaCM = roundedUp(tree.exaggeration * node.storedDeltaCM + bent);
+}
+
+void setOccluder(ChunkTree& tree) {
+    const double lowestM = tree.shape.radiusM + heightM(tree.shape, tree.minStep);
+    tree.occluderRadiusM = radiusInsideTriangles(lowestM, chunkCells(tree.shape));
+}
+
+ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, std::uint32_t slot) {
+    ChunkNode node;
+    node.id = data.id;
+    node.storedDeltaCM = data.deltaCM;
     node.minStep = data.minStep;
     node.maxStep = data.maxStep;
-    node.bounds = chunkBounds(data.id, shape.radiusM, lowM, highM);
+    const ChunkDirections directions = chunkDirections(node.id);
+    node.bounds.box.axes = directions.axes;
+    node.bounds.cone = directions.cone;
+    node.directionLow = directions.low;
+    node.directionHigh = directions.high;
+    setMeasures(tree, node);
     node.parent = parent;
     node.childrenState = data.children.exists() ? ChildrenState::Absent : ChildrenState::None;
     node.children = data.children;
@@ -135,10 +166,10 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
                         heightM(shape, minStep), shape.radiusM));
     }
     ChunkTree tree;
-    tree.shape = shape;
+    tree.shape = tree.storedShape = shape;
     tree.minStep = minStep;
     tree.maxStep = maxStep;
-    tree.occluderRadiusM = radiusInsideTriangles(lowestM, chunkCells(shape));
+    setOccluder(tree);
     for (const Face face : allFaces) {
         const auto index = static_cast<std::uint32_t>(face);
         const ChunkId id{face, 0, 0, 0};
@@ -146,16 +177,44 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
         if (auto checked = checkChunk(shape, roots[index], id, limits); !checked) {
             return tl::unexpected(std::move(checked.error()));
         }
-        tree.nodes.push_back(makeNode(shape, std::move(roots[index]), noNode, index));
+        tree.nodes.push_back(makeNode(tree, std::move(roots[index]), noNode, index));
     }
     tree.residentChunks = faceCount;
     return tree;
 }
 
+void setExaggeration(ChunkTree& tree, double factor) {
+    assert(factor > 0 && factor <= largestExaggeration(tree));
+    tree.exaggeration = factor;
+    tree.shape.quantumM = factor * tree.storedShape.quantumM;
+    tree.shape.baseHeightM = factor * tree.storedShape.baseHeightM;
+    setOccluder(tree);
+    forEachNode(tree, [&](NodeIndex index, const ChunkNode&) { setMeasures(tree, tree.nodes[index]); });
+}
+
+double largestExaggeration(const ChunkTree& tree) {
+    constexpr double most = 100;
+    constexpr double deepest = 0.99;  // of the radius
+    const double lowestM = heightM(tree.storedShape, tree.minStep);
+    if (lowestM >= 0) return most;
+    return std::clamp(deepest * tree.storedShape.radiusM / -lowestM, 1.0, most);
+}
+
+// Along a line of the cube a vertex at parameter 0 between neighbours at -1 and 1 lies off their middle by at
+// most half of the largest second derivative between them. An edge's neighbours lie o = half a cell away
+// along u or v, which makes that o^2 |d_uu| <= 1.5 o^2 (bounds.cpp). A diagonal's lie o along both: o^2 |d_uu
+// + 2 d_uv + d_vv|, which is 1 o^2 in a face's middle and largest at the corners u = -v = 1: there the first
+// component is -10/3 / (2 sqrt(1/3)) = -2.887 and the others +-0.144, so 2.894 o^2.
+double curvatureErrorM(const PlanetShape& shape, int level) {
+    constexpr double mostBent = 2.9;
+    const double offset = std::ldexp(1.0, -level) / chunkCells(shape);  // half of a cell of a face 2 wide
+    return shape.radiusM * offset * offset * mostBent / 2;
+}
+
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
                            const std::array<ChunkData, quadrantCount>& children) {
     const ChunkNode& above = tree.nodes[parent];
-    const Limits limits{above.minStep, above.maxStep, above.deltaCM};
+    const Limits limits{above.minStep, above.maxStep, above.storedDeltaCM};
     for (int q = 0; q < quadrantCount; ++q) {
         const ChunkData& data = children[static_cast<std::size_t>(q)];
         if (auto checked = checkChunk(tree.shape, data, childOf(above.id, q), limits); !checked)
@@ -170,7 +229,7 @@ NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, q
     const NodeIndex first = takeGroup(tree);
     for (std::uint32_t q = 0; q < quadrantCount; ++q) {
         assert(children[q].id == childOf(tree.nodes[parent].id, static_cast<int>(q)));
-        tree.nodes[first + q] = makeNode(tree.shape, std::move(children[q]), parent, slots[q]);
+        tree.nodes[first + q] = makeNode(tree, std::move(children[q]), parent, slots[q]);
     }
     tree.nodes[parent].firstChild = first;
     tree.nodes[parent].childrenState = ChildrenState::Resident;

@@ -1,5 +1,15 @@
 // The resident part of the six quadtrees: plain data that selection reads and paging grows and prunes.
 // One thread at a time.
+//
+// Exaggeration by a factor e draws each height h as e h, on the same sphere. A vertex that a chunk of level l
+// lacks lies off the middle of the edge that replaces it by A + B: A as on the bare sphere, R times how far
+// Nowell's map bends there, and B, which is linear in the heights. Exaggerated it is off by
+//
+//   |A + e B| = |e (A + B) + (1 - e) A| <= e |A + B| + |e - 1| |A|,     |A| <= A_l  (curvatureErrorM)
+//
+// and adding that up from a chunk's level L to its leaves' parents, the first term gives e times the stored
+// delta_c. So delta_c = e stored + |e - 1| (A_L + A_L+1 + ... ) is a true bound again, 0 at a leaf, never
+// grows from parent to child, and is the stored one where e = 1.
 #pragma once
 
 #include <array>
@@ -30,12 +40,15 @@ enum class ChildrenState : std::uint8_t {
 // A chunk that is loaded and drawable.
 struct ChunkNode {
     ChunkId id;
-    float deltaCM = 0;     // metres
-    float minHeightM = 0;  // over all finest samples below
+    float deltaCM = 0;        // metres, exaggeration counted in
+    float storedDeltaCM = 0;  // as the file has it
+    float minHeightM = 0;     // over all finest samples below
     float maxHeightM = 0;
     std::int16_t minStep = 0;  // the same, as stored
     std::int16_t maxStep = 0;
     ChunkBounds bounds;
+    glm::dvec3 directionLow{0, 0, 0};  // along the axes of its box, so that bounds follow heights cheaply
+    glm::dvec3 directionHigh{0, 0, 0};
     NodeIndex parent = noNode;
     NodeIndex firstChild = noNode;  // four in a row, in quadrant order
     ChildrenState childrenState = ChildrenState::None;
@@ -43,10 +56,14 @@ struct ChunkNode {
     std::uint32_t slot = 0;           // in the pool of heights
     SharedHeights heights;            // never null
     std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
+    double loadedAtS = 0;             // when it became resident, seconds since the planet was opened
+    std::uint32_t loadOrder = 0;      // 0 for the roots, then 1 for the first block, 2, ...
 };
 
 struct ChunkTree {
-    PlanetShape shape;
+    PlanetShape shape;         // exaggeration counted in
+    PlanetShape storedShape;   // as the file has it
+    double exaggeration = 1;   // heights are drawn this many times as high
     std::int16_t minStep = 0;  // over the whole planet
     std::int16_t maxStep = 0;
     double occluderRadiusM = 0;         // of a sphere that lies inside every surface the tree can draw
@@ -61,6 +78,18 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
                                 std::array<ChunkData, faceCount>&& roots);
 // The same, read from a file.
 Result<ChunkTree> makeChunkTree(const ChunkFile& file);
+
+// Draws heights this many times as high, (0, largestExaggeration]: shape, and every node's heights, bounds
+// and delta_c follow, as will those of nodes added later.
+void setExaggeration(ChunkTree& tree, double factor);
+
+// 100, or less where that would bring the lowest ground nearer to the planet's centre than a hundredth of its
+// radius; never less than 1.
+double largestExaggeration(const ChunkTree& tree);
+
+// A_l above: the farthest that a vertex of the bare sphere, lacking at a level, lies from the middle of the
+// edge or diagonal that replaces it, metres; an upper bound.
+double curvatureErrorM(const PlanetShape& shape, int level);
 
 // Whether four chunks may become the children of a node: the right ids and number of heights, heights within
 // the chunk's range and that within the parent's, delta_c no larger than the parent's. What bounds and

@@ -1,5 +1,5 @@
 // The loader threads: they take page-ins from the paging queue, best first, read and decode them, and leave
-// what they loaded in a list for the owning thread.
+// what they loaded in a list for the owning thread. One thread owns a pager and makes all calls.
 #pragma once
 
 #include <array>
@@ -13,8 +13,10 @@
 #include <span>
 #include <stop_token>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
+#include "planet/bad_disk.h"
 #include "planet/chunk_file.h"
 #include "planet/paging_queue.h"
 #include "planet/result.h"
@@ -31,20 +33,34 @@ using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, B
 struct FinishedLoad {
     PagingRequest request;  // as it was when a loader took it
     Result<SiblingBlock> children;
-    double seconds = 0;  // reading and decoding
+    double seconds = 0;       // reading and decoding, a bad disk's waiting included
+    std::uint32_t bytes = 0;  // read; 0 where a bad disk failed the read
+};
+
+// A request that a loader has taken.
+struct LoadInProgress {
+    ChunkId parent;
+    double priority = 0;
+    std::uint32_t bytes = 0;
+    double seconds = 0;  // since it was taken
 };
 
 struct PagerStatus {
     std::uint32_t queued = 0;   // page-ins waiting for a loader
     std::uint32_t loading = 0;  // taken by a loader and not yet finished
     std::uint32_t finished = 0;
+    bool held = false;  // paused, and no queued page-in is let through
 
     bool idle() const { return queued + loading + finished == 0; }
+    // Nothing is on its way, and nothing will be by itself.
+    bool atRest() const { return loading + finished == 0 && (queued == 0 || held); }
 };
+
+inline constexpr int maxLoaderThreads = 64;
 
 class Pager {
 public:
-    // threads: [1, 64].
+    // threads: [1, maxLoaderThreads].
     Pager(LoadChildren load, int threads);
     // Lets the blocks being read come to their end and drops everything else.
     ~Pager();
@@ -59,6 +75,27 @@ public:
         const std::lock_guard lock(mutex_);
         return edit(queue_);
     }
+    // The same for looking only: wakes nobody.
+    template <class Look>
+    auto readQueue(Look&& look) const {
+        const std::lock_guard lock(mutex_);
+        return look(queue_);
+    }
+
+    // How many loaders take requests from now on. Waits for no read: a loader that is one too many goes when
+    // its read is done, so for that long there may be more.
+    void setThreads(int threads);
+
+    // While paused the loaders take nothing but what loadOne() lets through, one request a call; with nothing
+    // queued it does nothing.
+    void setPaused(bool paused);
+    void loadOne();
+
+    // Reads are slowed and fail as these say, those that wait already included. A block's attempts are
+    // counted while there is trouble, and anew after each change.
+    void setBadDisk(const BadDiskSettings& settings);
+    // So that the bad disk's troubles come again as they came.
+    void forgetAttempts();
 
     // The finished loads in the order they finished, one a call.
     std::optional<FinishedLoad> takeFinished();
@@ -68,24 +105,49 @@ public:
     bool waitForFinished(std::chrono::steady_clock::time_point until);
 
     PagerStatus status() const;
+    // Longest first.
+    std::vector<LoadInProgress> loadingNow() const;
 
 private:
+    using Clock = std::chrono::steady_clock;
+    using Lock = std::unique_lock<std::mutex>;
     struct Wake {
         std::condition_variable_any& condition;
         ~Wake() { condition.notify_all(); }
     };
+    struct Reading {
+        ChunkId parent;
+        double priority = 0;
+        std::uint32_t bytes = 0;
+        Clock::time_point since;
+    };
+    struct Loader {
+        bool running = false;
+        std::optional<Reading> reading;
+    };
 
-    void runLoader(const std::stop_token& stop);
+    void runLoader(std::size_t index, const std::stop_token& stop);
+    void serve(std::size_t index, const std::stop_token& stop, Lock& lock);
+    bool sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock);
+    bool mayTake() const;
+    PagingRequest take();
     PagerStatus statusLocked() const;
 
     const LoadChildren load_;
-    mutable std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards what follows, but the threads
     std::condition_variable_any workArrived_;
     std::condition_variable_any loadFinished_;
+    std::condition_variable_any badDiskChanged_;
     PagingQueue queue_;
     std::deque<FinishedLoad> finished_;
-    std::uint32_t loading_ = 0;
-    std::vector<std::jthread> loaders_;  // last: joined before the rest goes
+    std::size_t loadersWanted_ = 0;
+    std::array<Loader, maxLoaderThreads> loaders_{};
+    bool paused_ = false;
+    std::size_t letThrough_ = 0;  // requests that may still be taken while paused
+    BadDiskSettings badDisk_{};
+    std::uint64_t badDiskVersion_ = 0;  // one more with each change
+    std::unordered_map<ChunkId, std::uint32_t> attempts_;
+    std::array<std::jthread, maxLoaderThreads> threads_;  // last: joined before the rest goes
 };
 
 }  // namespace planet

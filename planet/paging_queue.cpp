@@ -24,13 +24,26 @@ SubmitOutcome PagingQueue::submit(PagingRequest request) {
         return SubmitOutcome::Opposed;
     }
     ++counters_.merged;
-    pending.renewedFrame = std::max(pending.renewedFrame, request.renewedFrame);
-    if (request.priority > pending.priority) {
-        auto node = order(pending.type).extract({pending.priority, pending.parent});
-        pending.priority = node.value().priority = request.priority;
-        order(pending.type).insert(std::move(node));
-    }
+    ++pending.timesAsked;
+    merge(pending, request);
     return SubmitOutcome::Merged;
+}
+
+void PagingQueue::merge(PagingRequest& pending, const PagingRequest& again) {
+    double priority = again.priority;
+    if (again.renewedFrame > pending.renewedFrame) {
+        pending.renewedFrame = again.renewedFrame;
+        pending.viewPriority = again.viewPriority;
+    } else {
+        priority = std::max(priority, pending.priority);
+        for (std::size_t view = 0; view < maxViews; ++view) {
+            pending.viewPriority[view] = std::max(pending.viewPriority[view], again.viewPriority[view]);
+        }
+    }
+    if (priority == pending.priority) return;
+    auto node = order(pending.type).extract({pending.priority, pending.parent});
+    pending.priority = node.value().priority = priority;
+    order(pending.type).insert(std::move(node));
 }
 
 const PagingRequest* PagingQueue::best(PagingType type) const {
@@ -48,8 +61,25 @@ const PagingRequest* PagingQueue::find(const ChunkId& parent) const {
 
 std::optional<PagingRequest> PagingQueue::popBest(PagingType type) {
     if (order(type).empty()) return std::nullopt;
-    ++counters_.popped[static_cast<std::size_t>(type)];
-    return take(order(type).begin()->parent);
+    return pop(order(type).begin()->parent);
+}
+
+std::optional<PagingRequest> PagingQueue::pop(ChunkId parent) {
+    const PagingRequest* found = find(parent);
+    if (!found) return std::nullopt;
+    ++counters_.popped[static_cast<std::size_t>(found->type)];
+    return take(parent);
+}
+
+std::optional<PagingRequest> PagingQueue::popFirst(
+    PagingType type, const std::function<std::uint64_t(const ChunkId&)>& placeOf) {
+    std::optional<std::pair<std::uint64_t, ChunkId>> first;
+    for (const Place& place : order(type)) {
+        const std::pair here{placeOf(place.parent), place.parent};
+        if (!first || here < *first) first = here;
+    }
+    if (!first) return std::nullopt;
+    return pop(first->second);
 }
 
 std::optional<PagingRequest> PagingQueue::cancel(ChunkId parent) {

@@ -1,13 +1,15 @@
 // What is to be loaded and dropped next, in order of urgency (paging queues after Zhu, MSV 2004).
 //
 // A request is about the sibling block under a chunk: page it in or page it out. At most one is pending for a
-// block. Asking for the same again only raises its priority; asking for the opposite cancels both, since the
-// block is then to stay as it is. Not safe for several threads at once.
+// block. Asking for the same again merges the two: in the same frame the higher priority holds, in a later
+// one the new one, since the eye has moved. Asking for the opposite cancels both, since the block is then to
+// stay as it is. Not safe for several threads at once.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -20,16 +22,23 @@ namespace planet {
 enum class PagingType : std::uint8_t { PageIn, PageOut };
 inline constexpr int pagingTypeCount = 2;
 
+inline constexpr std::size_t maxViews = 4;  // of one planet at a time
+
 struct PagingRequest {
     ChunkId parent;  // whose children are meant
     PagingType type = PagingType::PageIn;
     double priority = 0;             // larger first; ties in order of parent. Not NaN
     std::uint64_t renewedFrame = 0;  // last frame it was asked for
+    double askedAtS = 0;             // when it was first asked for, seconds since the planet was opened
+    std::uint32_t timesAsked = 1;    // merged ones included
+    // What each view that wants it gives it, by the view's index; 0 where a view does not. priority is the
+    // largest.
+    std::array<float, maxViews> viewPriority{};
 
-    // A page-in only: what a loader needs, and the slots the block will take.
-    BlockLocation location;
-    SharedHeights parentHeights;
-    std::array<std::uint32_t, quadrantCount> slots{};
+    // A page-in only: what a loader needs, and a number that no other request ever has.
+    BlockLocation location{};
+    SharedHeights parentHeights{};
+    std::uint64_t ticket = 0;
 };
 
 // Totals, of both types together unless said otherwise.
@@ -43,7 +52,7 @@ struct PagingQueueCounters {
 
 enum class SubmitOutcome {
     Added,
-    Merged,   // was pending: renewed, and raised if the new priority is higher
+    Merged,   // was pending: renewed
     Opposed,  // the opposite was pending: that is gone, and this was not added
 };
 
@@ -58,7 +67,12 @@ public:
     // The pending request about a chunk's children, of whatever type.
     const PagingRequest* find(const ChunkId& parent) const;
 
+    // Takes a request out to serve it.
     std::optional<PagingRequest> popBest(PagingType type);
+    std::optional<PagingRequest> pop(ChunkId parent);
+    // The one whose place is smallest; looks at each.
+    std::optional<PagingRequest> popFirst(PagingType type,
+                                          const std::function<std::uint64_t(const ChunkId&)>& placeOf);
     // Takes a request out unserved.
     std::optional<PagingRequest> cancel(ChunkId parent);
     // Takes out all of a type that were last asked for before a frame.
@@ -82,6 +96,7 @@ private:
     const Order& order(PagingType type) const { return orders_[static_cast<std::size_t>(type)]; }
     Order& order(PagingType type) { return orders_[static_cast<std::size_t>(type)]; }
     PagingRequest take(ChunkId parent);
+    void merge(PagingRequest& pending, const PagingRequest& again);
 
     std::unordered_map<ChunkId, PagingRequest> pending_;
     std::array<Order, pagingTypeCount> orders_;

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "planet/bad_disk.h"
 #include "planet/chunk_file.h"
 #include "planet/chunk_tree.h"
 #include "planet/lod_select.h"
@@ -30,15 +32,40 @@ namespace planet {
 struct PagingSettings {
     std::size_t budgetBytes =
         256u << 20;            // for resident chunks, CPU and GPU together; smaller: coarser when it is full
-    int loaderThreads = 1;     // [1, 64]
-    double uploadLimitMs = 4;  // time a frame spent on making loaded chunks drawable; at least one block is
+    int loaderThreads = 1;     // [1, maxLoaderThreads]
+    double uploadLimitMs = 4;  // >= 0, of a frame, for making loaded chunks drawable; at least one block is
+    bool paused = false;       // loaders take nothing but what loadOne() lets through
+    BadDiskSettings badDisk{};
+
+    bool operator==(const PagingSettings&) const = default;
+};
+
+// One of the views that share a planet.
+struct ViewInput {
+    View lodView;
+    LodSettings lod;
+    double priorityFactor = 1;  // of its requests against the other views'; > 0
+};
+
+enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };
+// How a request ended.
+struct PagingEvent {
+    ChunkId parent;  // of the block
+    PagingOutcome outcome = PagingOutcome::Loaded;
+    double atS = 0;                // seconds since the planet was opened
+    double waitedS = 0;            // since it was first asked for
+    double readS = 0;              // reading and decoding, a bad disk's waiting included
+    std::uint32_t bytes = 0;       // read
+    std::uint32_t timesAsked = 1;  // over 1: merged
+    double priority = 0;
+    PagingType type = PagingType::PageIn;  // only of Cancelled may be either
 };
 
 // Totals since the file was opened, unless said otherwise.
 struct PagingCounters {
     std::uint64_t requested = 0;       // page-ins put into the queue
     std::uint64_t merged = 0;          // asked again while queued
-    std::uint64_t cancelled = 0;       // taken back by the opposite request, or no longer wanted
+    std::uint64_t cancelled = 0;       // taken back by the opposite request, no longer wanted, or thrown away
     std::uint64_t loaded = 0;          // blocks read and made resident
     double loadSeconds = 0;            // spent on reading and decoding blocks, over all loader threads
     std::uint64_t evicted = 0;         // blocks paged out
@@ -88,8 +115,32 @@ public:
     // The first step uploads the root chunks too.
     void step(const View& lodView, const LodSettings& settings, const UploadChunk& upload);
 
-    // Steps until nothing more is wanted or can be had. False if that takes longer than the given seconds.
+    // The same for several views, 1 to maxViews: each has its own selection, and asks for what it wants with
+    // its own priorities; a block that several want is loaded once, at the highest.
+    void step(std::span<const ViewInput> views, const UploadChunk& upload);
+
+    // Steps until nothing more is wanted or can be had. False if that takes longer than the given seconds, or
+    // if a pause holds up what is wanted.
     bool settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload, double timeoutS);
+    bool settle(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
+
+    // New settings, at once, waiting for no read: loaders are started or sent home, blocks are dropped down
+    // to a smaller budget, those out of use first. True if slotCapacity() has changed; then every slot has
+    // moved, the selections are made anew, and the renderer wants a pool of that size and uploadAll. The
+    // Error says what is wrong, as open's does, and nothing has changed.
+    Result<bool> setPaging(const PagingSettings& settings);
+    const PagingSettings& pagingSettings() const;
+    // While paused: lets the most urgent request through.
+    void loadOne();
+    // Drops all blocks and every request; the roots stay, and may be refined again if that failed. Blocks now
+    // being read are thrown away when they arrive. The selections are made anew. A bad disk's troubles come
+    // again as they came.
+    void dropAll();
+
+    // Draws heights this many times as high, (0, 100], but no more than largestExaggeration(tree()), which
+    // keeps the lowest ground off the planet's centre; tree().exaggeration says what it is. Bounds and
+    // delta_c follow at once, the selection at the next step. Tell the renderer shape(). No slot changes.
+    void setExaggeration(double factor);
 
     // Uploads every resident chunk again: for a renderer that was made anew.
     void uploadAll(const UploadChunk& upload) const;
@@ -97,7 +148,9 @@ public:
     const ChunkFile& file() const;  // only of a planet that was opened from one
     const PlanetShape& shape() const;
     const ChunkTree& tree() const;
-    const Selection& selection() const;  // of the last step; its nodes and slots hold until the next
+    // Of the last step; its nodes and slots hold until the next.
+    const Selection& selection(std::size_t view = 0) const;
+    std::size_t viewCount() const;  // of the last step; 1 before it
     const PagingCounters& paging() const;
     const StageTimes& times() const;
     std::uint32_t slotCapacity() const;  // slots of the pool of heights that the budget pays for
@@ -110,6 +163,14 @@ public:
     // The pending requests of a type, most urgent first: a copy, for display. Page-outs are the blocks out of
     // use, the longest unused first; they stay resident until their room is needed.
     std::vector<PagingRequest> pendingRequests(PagingType type) const;
+    // Those that a view wants, by its own priorities. No view wants a page-out.
+    std::vector<PagingRequest> pendingRequests(PagingType type, std::size_t view) const;
+    std::vector<LoadInProgress> loadingNow() const;
+    // How the last 1000 requests ended, oldest first.
+    const std::deque<PagingEvent>& pagingHistory() const;
+    double seconds() const;                                      // since it was opened, as of the last step
+    const LodSettings& lodSettings(std::size_t view = 0) const;  // of the last step
+    const View& lodView(std::size_t view = 0) const;
 
 private:
     struct State;

@@ -50,7 +50,8 @@ CameraPose poseFromView(const View& view, double radiusM) {
     pose.altitudeM = glm::length(view.eyeM) - radiusM;
     // The right vector is level whatever the pitch, so heading is defined looking straight down too.
     const double heading = std::atan2(-glm::dot(view.right, frame.north), glm::dot(view.right, frame.east));
-    pose.headingDeg = glm::degrees(heading < 0 ? heading + glm::radians(360.0) : heading);
+    // What rounding leaves just west of north is north.
+    pose.headingDeg = glm::degrees(heading < -1e-12 ? heading + glm::radians(360.0) : std::max(heading, 0.0));
     pose.pitchDeg = glm::degrees(std::asin(std::clamp(-glm::dot(view.back, frame.up), -1.0, 1.0)));
     return pose;
 }

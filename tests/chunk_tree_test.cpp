@@ -208,5 +208,175 @@ TEST(ChunkTree, ResidentHeightFollowsTheFinestLevelThere) {
     EXPECT_NEAR(residentHeightM(tree, place), truth, 1e-6);
 }
 
+// The point of a chunk's triangles at a place given in its cells.
+glm::dvec3 surfacePointM(const PlanetShape& shape, const ChunkData& chunk, double column, double row) {
+    const int cells = chunkCells(shape);
+    const int i = std::min(static_cast<int>(column), cells - 1);
+    const int j = std::min(static_cast<int>(row), cells - 1);
+    const double s = column - i;
+    const double t = row - j;
+    const glm::dvec3 southWest = vertexM(shape, chunk, i, j);
+    const glm::dvec3 northEast = vertexM(shape, chunk, i + 1, j + 1);
+    if (s >= t) {
+        return southWest * (1 - s) + vertexM(shape, chunk, i + 1, j) * (s - t) + northEast * t;
+    }
+    return southWest * (1 - t) + vertexM(shape, chunk, i, j + 1) * (t - s) + northEast * s;
+}
+
+// The largest distance of the finest samples under a chunk from its surface at the same place.
+double measuredDeltaM(const FakePyramid& pyramid, const PlanetShape& shape, const ChunkData& chunk) {
+    const int levels = leafLevel(shape) - chunk.id.level;
+    const int cells = chunkCells(shape);
+    double most = 0;
+    for (std::uint32_t leafY = 0; leafY < 1u << levels; ++leafY) {
+        for (std::uint32_t leafX = 0; leafX < 1u << levels; ++leafX) {
+            const ChunkData& leaf =
+                pyramid.at({chunk.id.face, static_cast<std::uint8_t>(chunk.id.level + levels),
+                            (chunk.id.x << levels) + leafX, (chunk.id.y << levels) + leafY});
+            for (int j = 0; j <= cells; ++j) {
+                for (int i = 0; i <= cells; ++i) {
+                    const glm::dvec3 drawn =
+                        surfacePointM(shape, chunk, std::ldexp(i + cells * static_cast<int>(leafX), -levels),
+                                      std::ldexp(j + cells * static_cast<int>(leafY), -levels));
+                    most = std::max(most, glm::length(drawn - vertexM(shape, leaf, i, j)));
+                }
+            }
+        }
+    }
+    return most;
+}
+
+const FakePyramid& smallPyramid() {
+    static const FakePyramid pyramid = makeFakePyramid(3);
+    return pyramid;
+}
+
+TEST(ChunkTree, ExaggeratedDeltaBoundsWhatIsMeasured) {
+    ChunkTree tree = residentTree(smallPyramid(), 3);
+    int needsMoreThanScaling = 0;
+    for (const double factor : {0.2, 1.0, 5.0, 20.0}) {
+        setExaggeration(tree, factor);
+        double tightest = 0;
+        for (const ChunkNode& node : tree.nodes) {
+            if (node.id.face != Face::PosX && node.id.face != Face::NegZ) continue;
+            const double measured = measuredDeltaM(smallPyramid(), tree.shape, smallPyramid().at(node.id));
+            ASSERT_LE(measured, node.deltaCM * (1 + 1e-6)) << factor << ' ' << toString(node.id);
+            if (node.id.level < leafLevel(tree.shape)) tightest = std::max(tightest, measured / node.deltaCM);
+            needsMoreThanScaling += measured > 1.01 * factor * node.storedDeltaCM;
+        }
+        EXPECT_GT(tightest, 0.4) << factor;
+    }
+    EXPECT_GT(needsMoreThanScaling, 10);
+}
+
+TEST(ChunkTree, AtExaggerationOneDeltaIsTheStoredOne) {
+    ChunkTree tree = residentTree(fakePyramid(), 4);
+    setExaggeration(tree, 3.7);
+    setExaggeration(tree, 1);
+    const ChunkTree untouched = residentTree(fakePyramid(), 4);
+    EXPECT_EQ(tree.shape.quantumM, untouched.shape.quantumM);
+    EXPECT_EQ(tree.occluderRadiusM, untouched.occluderRadiusM);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        EXPECT_EQ(tree.nodes[i].deltaCM, fakePyramid().at(tree.nodes[i].id).deltaCM);
+        EXPECT_EQ(tree.nodes[i].storedDeltaCM, tree.nodes[i].deltaCM);
+        EXPECT_EQ(tree.nodes[i].maxHeightM, untouched.nodes[i].maxHeightM);
+        EXPECT_EQ(tree.nodes[i].bounds.box.centreM, untouched.nodes[i].bounds.box.centreM);
+        EXPECT_EQ(tree.nodes[i].bounds.box.halfSizeM, untouched.nodes[i].bounds.box.halfSizeM);
+    }
+}
+
+TEST(ChunkTree, ExaggeratedDeltaNeverGrowsFromParentToChild) {
+    ChunkTree tree = residentTree(fakePyramid(), 4);
+    for (const double factor : {0.01, 0.2, 0.999, 1.001, 5.0, 40.0}) {
+        setExaggeration(tree, factor);
+        for (const ChunkNode& node : tree.nodes) {
+            if (node.parent != noNode) {
+                ASSERT_LE(node.deltaCM, tree.nodes[node.parent].deltaCM);
+            }
+            if (node.childrenState == ChildrenState::None) {
+                EXPECT_EQ(node.deltaCM, 0);
+            }
+        }
+    }
+}
+
+TEST(ChunkTree, ExaggeratedBoundsHoldTheSurface) {
+    ChunkTree tree = residentTree(smallPyramid(), 3);
+    for (const double factor : {0.2, 20.0}) {
+        setExaggeration(tree, factor);
+        EXPECT_EQ(tree.shape.quantumM, factor * smallPyramid().shape.quantumM);
+        for (const ChunkNode& node : tree.nodes) {
+            const ChunkData& chunk = smallPyramid().at(node.id);
+            EXPECT_FLOAT_EQ(node.maxHeightM,
+                            static_cast<float>(factor * heightM(smallPyramid().shape, chunk.maxStep)));
+            for (int j = 0; j <= 16; j += 4) {
+                for (int i = 0; i <= 16; i += 4) {
+                    const glm::dvec3 vertex = vertexM(tree.shape, chunk, i, j);
+                    EXPECT_LT(distanceM(node.bounds.box, vertex), 1e-6);
+                    EXPECT_GT(glm::length(vertex), tree.occluderRadiusM);
+                    EXPECT_LT(glm::length(vertex), node.bounds.maxRadiusM + 1e-6);
+                }
+            }
+        }
+    }
+}
+
+TEST(ChunkTree, NodesAddedLaterAreExaggeratedToo) {
+    ChunkTree before = residentTree(fakePyramid(), 2);
+    setExaggeration(before, 6.5);
+    ChunkTree after = residentTree(fakePyramid(), 1);
+    setExaggeration(after, 6.5);
+    for (NodeIndex i = 6; i < 6 + 24; ++i) {
+        const SiblingBlock block = fakePyramid().childrenOf(after.nodes[i].id);
+        ASSERT_TRUE(checkChildren(after, i, block));
+        const auto next = static_cast<std::uint32_t>(after.nodes.size());
+        addChildren(after, i, SiblingBlock(block), {next, next + 1, next + 2, next + 3});
+    }
+    forEachNode(before, [&](NodeIndex, const ChunkNode& node) {
+        const ChunkNode& same = after.nodes[findNode(after, node.id)];
+        EXPECT_EQ(same.deltaCM, node.deltaCM);
+        EXPECT_EQ(same.minHeightM, node.minHeightM);
+        EXPECT_EQ(same.bounds.box.centreM, node.bounds.box.centreM);
+        EXPECT_EQ(same.bounds.maxRadiusM, node.bounds.maxRadiusM);
+    });
+}
+
+TEST(ChunkTree, ExaggerationEndsBeforeThePlanetsCentre) {
+    ChunkTree tree = residentTree(fakePyramid(), 1);
+    const double most = largestExaggeration(tree);
+    EXPECT_LT(most, 100);  // its valleys are 2% deep
+    setExaggeration(tree, most);
+    EXPECT_NEAR(tree.shape.radiusM + heightM(tree.shape, tree.minStep), 0.01 * tree.shape.radiusM, 1);
+    EXPECT_EQ(largestExaggeration(tree), most);
+    EXPECT_GT(tree.occluderRadiusM, 0);
+    tree.storedShape.baseHeightM = 1e5;
+    EXPECT_EQ(largestExaggeration(tree), 100);
+    tree.storedShape.baseHeightM = -0.999 * tree.shape.radiusM - heightM(fakePyramid().shape, tree.minStep);
+    EXPECT_EQ(largestExaggeration(tree), 1);
+}
+
+TEST(ChunkTree, CurvatureErrorBoundsTheBareSphere) {
+    const PlanetShape shape = fakePyramid().shape;
+    for (int level = 0; level < 4; ++level) {
+        const int vertices = 2 * chunkCells(shape) << level;  // of the next level, along a face
+        const auto at = [&](int i, int j) {
+            return shape.radiusM *
+                   sphereFromCube(cubePoint(Face::PosY, 2.0 * i / vertices - 1, 2.0 * j / vertices - 1));
+        };
+        double most = 0;
+        for (int j = 1; j < vertices; ++j) {
+            for (int i = 1; i < vertices; ++i) {
+                const int di = i % 2;
+                const int dj = j % 2;
+                if (di + dj == 0) continue;
+                most =
+                    std::max(most, glm::length((at(i - di, j - dj) + at(i + di, j + dj)) / 2.0 - at(i, j)));
+            }
+        }
+        EXPECT_LE(most, curvatureErrorM(shape, level));
+        EXPECT_GT(most, 0.7 * curvatureErrorM(shape, level));
+    }
+}
+
 }  // namespace
 }  // namespace planet

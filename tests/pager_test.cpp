@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <functional>
 #include <stdexcept>
 
 #include "tests/fake_pyramid.h"
@@ -157,6 +159,234 @@ TEST(Pager, ManyRequestsFromManyRoundsAllFinishOnce) {
     const auto counters = pager.withQueue([](PagingQueue& queue) { return queue.counters(); });
     EXPECT_EQ(static_cast<std::uint64_t>(finished), counters.added[0]);
     EXPECT_EQ(counters.added[0] + counters.merged, 300u * 6);
+}
+
+// A loader that waits at a gate and then loads.
+LoadChildren through(Gate& gate) {
+    return [&gate](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+        gate.pass();
+        return loadFake(parent, location, heights);
+    };
+}
+
+// All that are still to come, in the order they finish.
+std::vector<FinishedLoad> takeAll(Pager& pager) {
+    std::vector<FinishedLoad> all;
+    while (!pager.status().idle()) {
+        if (!pager.waitForFinished(muchLater())) break;
+        while (auto load = pager.takeFinished()) all.push_back(std::move(*load));
+    }
+    return all;
+}
+
+TEST(Pager, MoreThreadsStartAtOnceAndFewerWaitForNoRead) {
+    Gate gate;
+    Pager pager(through(gate), 1);
+    for (const Face face : allFaces) submit(pager, rootRequest(face));
+    gate.waitForArrivals(1);
+    pager.setThreads(4);
+    gate.waitForArrivals(4);
+    EXPECT_EQ(pager.status().loading, 4u);
+    pager.setThreads(1);  // returns though four are being read
+    EXPECT_EQ(pager.status().loading, 4u);
+    EXPECT_EQ(pager.status().queued, 2u);
+    gate.open();
+    EXPECT_EQ(takeAll(pager).size(), 6u);
+}
+
+TEST(Pager, LoadersSentHomeTakeNothingMore) {
+    Gate gate;
+    std::atomic<int> reading = 0;
+    std::atomic<int> most = 0;
+    Pager pager(
+        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+            const int now = ++reading;
+            most = std::max<int>(most, now);
+            gate.pass();
+            auto block = loadFake(parent, location, heights);
+            --reading;
+            return block;
+        },
+        4);
+    for (const Face face : {Face::PosX, Face::NegX, Face::PosY, Face::NegY}) submit(pager, rootRequest(face));
+    gate.waitForArrivals(4);
+    pager.setThreads(1);
+    gate.open();
+    EXPECT_EQ(takeAll(pager).size(), 4u);
+    most = 0;
+    for (int round = 0; round < 50; ++round) {
+        for (const Face face : allFaces) submit(pager, rootRequest(face));
+        EXPECT_EQ(takeAll(pager).size(), 6u);
+    }
+    EXPECT_EQ(most, 1);
+}
+
+TEST(Pager, ThreadsMayChangeAtAnyMoment) {
+    Pager pager(loadFake, 1);
+    std::size_t finished = 0;
+    std::size_t submitted = 0;
+    for (int round = 0; round < 200; ++round) {
+        pager.setThreads(1 + round * 7 % 5);
+        for (const Face face : allFaces) submit(pager, rootRequest(face));
+        if (round % 3 == 0) pager.setThreads(1 + round % 4);
+        finished += takeAll(pager).size();
+        submitted += 6;
+    }
+    EXPECT_EQ(finished, submitted);
+}
+
+TEST(Pager, PausedItTakesNothingButWhatIsLetThrough) {
+    Pager pager(loadFake, 3);
+    pager.setPaused(true);
+    pager.loadOne();  // nothing to let through, and nothing kept for later
+    for (const Face face : allFaces) submit(pager, rootRequest(face, static_cast<double>(face)));
+    EXPECT_TRUE(pager.status().held);
+    EXPECT_TRUE(pager.status().atRest());
+    EXPECT_FALSE(pager.waitForFinished(muchLater()));
+    EXPECT_EQ(pager.status().queued, 6u);
+    for (int i = 0; i < 2; ++i) {
+        pager.loadOne();
+        ASSERT_TRUE(pager.waitForFinished(muchLater()));
+        EXPECT_EQ(pager.takeFinished()->request.parent.face, allFaces[static_cast<std::size_t>(5 - i)]);
+        EXPECT_FALSE(pager.waitForFinished(muchLater()));
+        EXPECT_EQ(pager.status().queued, static_cast<std::uint32_t>(5 - i));
+    }
+    pager.setPaused(false);
+    EXPECT_EQ(takeAll(pager).size(), 4u);
+}
+
+TEST(Pager, SaysWhatIsBeingRead) {
+    Gate gate;
+    Pager pager(through(gate), 2);
+    EXPECT_TRUE(pager.loadingNow().empty());
+    submit(pager, rootRequest(Face::NegX, 7));
+    gate.waitForArrivals(1);
+    submit(pager, rootRequest(Face::PosZ, 9));
+    gate.waitForArrivals(2);
+    const std::vector<LoadInProgress> loading = pager.loadingNow();
+    ASSERT_EQ(loading.size(), 2u);
+    EXPECT_EQ(loading[0].parent.face, Face::NegX);
+    EXPECT_EQ(loading[0].priority, 7);
+    EXPECT_EQ(loading[0].bytes, rootRequest(Face::NegX).location.size);
+    EXPECT_GE(loading[0].seconds, loading[1].seconds);
+    gate.open();
+    takeAll(pager);
+    EXPECT_TRUE(pager.loadingNow().empty());
+}
+
+TEST(Pager, ABadDiskFailsReadsAndSaysThatItDoes) {
+    std::atomic<int> reads = 0;
+    Pager pager(
+        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+            ++reads;
+            return loadFake(parent, location, heights);
+        },
+        1);
+    pager.setBadDisk({.failureRate = 1, .seed = 42});
+    submit(pager, rootRequest(Face::PosZ));
+    const auto loads = takeAll(pager);
+    ASSERT_EQ(loads.size(), 1u);
+    ASSERT_FALSE(loads[0].children);
+    EXPECT_EQ(loads[0].children.error().message, "z_pos/0/0/0: read failed on purpose (bad disk, seed 42)");
+    EXPECT_EQ(loads[0].bytes, 0u);
+    EXPECT_EQ(reads, 0);
+}
+
+// Which of the six faces fail in a round.
+std::vector<bool> failuresOfARound(Pager& pager) {
+    for (const Face face : allFaces) submit(pager, rootRequest(face));
+    std::vector<bool> fails(6);
+    for (const FinishedLoad& load : takeAll(pager)) {
+        fails[static_cast<std::size_t>(load.request.parent.face)] = !load.children;
+    }
+    return fails;
+}
+
+TEST(Pager, TheSameSeedFailsTheSameReadsHoweverManyThreads) {
+    const BadDiskSettings settings{.failureRate = 0.5, .seed = 5};
+    std::vector<std::vector<bool>> rounds;
+    {
+        Pager pager(loadFake, 1);
+        pager.setBadDisk(settings);
+        for (int round = 0; round < 6; ++round) rounds.push_back(failuresOfARound(pager));
+    }
+    EXPECT_NE(rounds[0], rounds[1]);  // attempts are counted
+    Pager pager(loadFake, 4);
+    pager.setBadDisk(settings);
+    for (const auto& round : rounds) EXPECT_EQ(failuresOfARound(pager), round);
+    pager.forgetAttempts();
+    for (const auto& round : rounds) EXPECT_EQ(failuresOfARound(pager), round);
+    for (std::uint32_t attempt = 0; attempt < rounds.size(); ++attempt) {
+        for (const Face face : allFaces) {
+            EXPECT_EQ(rounds[attempt][static_cast<std::size_t>(face)],
+                      diskFault(settings, {face, 0, 0, 0}, attempt, 100).fails);
+        }
+    }
+}
+
+TEST(Pager, ABadDiskServesInItsOwnOrder) {
+    const BadDiskSettings settings{.shuffledOrder = true, .seed = 3};
+    Pager pager(loadFake, 1);
+    pager.setBadDisk(settings);
+    pager.setPaused(true);
+    for (const Face face : allFaces) submit(pager, rootRequest(face, static_cast<double>(face)));
+    pager.setPaused(false);
+    std::vector<ChunkId> order;
+    for (const FinishedLoad& load : takeAll(pager)) order.push_back(load.request.parent);
+    std::vector<ChunkId> expected = order;
+    std::sort(expected.begin(), expected.end(), [&](const ChunkId& a, const ChunkId& b) {
+        return shuffledPlace(settings, a) < shuffledPlace(settings, b);
+    });
+    EXPECT_EQ(order, expected);
+    std::vector<ChunkId> byUrgency = order;
+    std::sort(byUrgency.begin(), byUrgency.end(), std::greater<>());
+    EXPECT_NE(order, byUrgency);
+}
+
+TEST(Pager, ALoadTakesAsLongAsTheBadDiskWants) {
+    Pager pager(loadFake, 1);
+    const BadDiskSettings settings{.latencyMs = 4, .bandwidthMBs = 0.05};  // 100 bytes take 2 ms
+    pager.setBadDisk(settings);
+    submit(pager, rootRequest(Face::PosX));
+    const auto loads = takeAll(pager);
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_TRUE(loads[0].children);
+    EXPECT_GE(loads[0].seconds, diskFault(settings, loads[0].request.parent, 0, 100).waitS);
+    EXPECT_EQ(loads[0].bytes, 100u);
+}
+
+// A day a read: a test that has to wait for one fails.
+constexpr BadDiskSettings stuckDisk{.latencyMs = 10'000, .bandwidthMBs = 1e-12};
+
+TEST(Pager, SwitchingTheLatencyOffFreesWhoeverWaits) {
+    Pager pager(loadFake, 2);
+    pager.setBadDisk(stuckDisk);
+    for (const Face face : allFaces) submit(pager, rootRequest(face));
+    while (pager.status().loading < 2) std::this_thread::yield();
+    EXPECT_EQ(pager.status().finished, 0u);
+    pager.setBadDisk({});
+    const auto loads = takeAll(pager);
+    EXPECT_EQ(loads.size(), 6u);
+    for (const FinishedLoad& load : loads) EXPECT_TRUE(load.children);
+}
+
+TEST(Pager, WhoeverWaitsFollowsTheBadDisksNewWord) {
+    Pager pager(loadFake, 1);
+    pager.setBadDisk(stuckDisk);
+    submit(pager, rootRequest(Face::PosY));
+    while (pager.status().loading < 1) std::this_thread::yield();
+    pager.setBadDisk({.failureRate = 1});
+    const auto loads = takeAll(pager);
+    ASSERT_EQ(loads.size(), 1u);
+    EXPECT_FALSE(loads[0].children);
+}
+
+TEST(Pager, EndsWhileABadDiskKeepsItWaiting) {
+    Pager pager(loadFake, 4);
+    pager.setBadDisk(stuckDisk);
+    for (const Face face : allFaces) submit(pager, rootRequest(face));
+    while (pager.status().loading < 4) std::this_thread::yield();
+    pager.setThreads(2);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(PagingQueue, TheMostUrgentComesFirst) {
     EXPECT_EQ(queue.popBest(PagingType::PageOut)->parent, chunk(3));
 }
 
-TEST(PagingQueue, AskingAgainRaisesThePriorityAndNeverLowersIt) {
+TEST(PagingQueue, AskingAgainInTheSameFrameRaisesThePriorityAndNeverLowersIt) {
     PagingQueue queue;
     queue.submit(makeRequest(1, PagingType::PageIn, 2));
     queue.submit(makeRequest(2, PagingType::PageIn, 3));
@@ -47,6 +47,49 @@ TEST(PagingQueue, AskingAgainRaisesThePriorityAndNeverLowersIt) {
     EXPECT_EQ(queue.find(chunk(1))->priority, 5);
     EXPECT_EQ(queue.find(chunk(2))->priority, 3);
     EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunk(1));
+}
+
+TEST(PagingQueue, AskingInALaterFrameSetsThePriority) {
+    PagingQueue queue;
+    PagingRequest request = makeRequest(1, PagingType::PageIn, 5, 10);
+    request.viewPriority = {5, 2};
+    queue.submit(request);
+    queue.submit(makeRequest(2, PagingType::PageIn, 3, 10));
+    request = makeRequest(1, PagingType::PageIn, 2, 11);
+    request.viewPriority = {0, 2};
+    EXPECT_EQ(queue.submit(request), SubmitOutcome::Merged);
+    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunk(2));
+    EXPECT_EQ(queue.find(chunk(1))->priority, 2);
+    EXPECT_EQ(queue.find(chunk(1))->viewPriority, (std::array<float, maxViews>{0, 2}));
+    EXPECT_EQ(queue.find(chunk(1))->timesAsked, 2u);
+}
+
+TEST(PagingQueue, ViewsThatAskInTheSameFrameKeepAPriorityEach) {
+    PagingQueue queue;
+    PagingRequest request = makeRequest(1, PagingType::PageIn, 5, 10);
+    request.viewPriority = {5, 0};
+    queue.submit(request);
+    request.priority = 3;
+    request.viewPriority = {0, 3};
+    queue.submit(request);
+    EXPECT_EQ(queue.find(chunk(1))->priority, 5);
+    EXPECT_EQ(queue.find(chunk(1))->viewPriority, (std::array<float, maxViews>{5, 3}));
+}
+
+TEST(PagingQueue, WhatIsFirstInAnotherOrderCanBeServedFirst) {
+    PagingQueue queue;
+    for (std::uint32_t i = 0; i < 5; ++i) queue.submit(makeRequest(i, PagingType::PageIn, i));
+    const auto byFace = [](const ChunkId& id) { return static_cast<std::uint64_t>((id.face == Face::NegY)); };
+    // Of those with the same place the first in order of parent.
+    EXPECT_EQ(queue.popFirst(PagingType::PageIn, byFace)->parent, chunk(0));
+    const auto reversed = [](const ChunkId& id) { return 100 - static_cast<std::uint64_t>(id.face); };
+    EXPECT_EQ(queue.popFirst(PagingType::PageIn, reversed)->parent, chunk(4));
+    EXPECT_EQ(queue.pop(chunk(2))->parent, chunk(2));
+    EXPECT_FALSE(queue.pop(chunk(2)));
+    EXPECT_FALSE(queue.popFirst(PagingType::PageOut, reversed));
+    EXPECT_EQ(queue.count(PagingType::PageIn), 2u);
+    EXPECT_EQ(queue.counters().popped[0], 3u);
+    EXPECT_EQ(queue.counters().withdrawn, 0u);
 }
 
 TEST(PagingQueue, OppositeRequestsCancelEachOther) {
@@ -78,13 +121,15 @@ TEST(PagingQueue, ARequestKeepsWhatItCarries) {
     PagingQueue queue;
     PagingRequest request = makeRequest(1, PagingType::PageIn, 1);
     request.location = {77, 5};
-    request.slots = {4, 3, 2, 1};
+    request.askedAtS = 3.5;
+    request.ticket = 4;
     request.parentHeights = std::make_shared<const std::vector<std::int16_t>>(9);
     queue.submit(request);
     queue.submit(makeRequest(1, PagingType::PageIn, 8));  // says only that it is still wanted
     const auto popped = queue.popBest(PagingType::PageIn);
     EXPECT_EQ(popped->location, request.location);
-    EXPECT_EQ(popped->slots, request.slots);
+    EXPECT_EQ(popped->askedAtS, 3.5);
+    EXPECT_EQ(popped->ticket, 4u);
     EXPECT_EQ(popped->parentHeights, request.parentHeights);
 }
 
@@ -112,7 +157,8 @@ struct SimpleQueue {
             ++counters.opposed;
             return SubmitOutcome::Opposed;
         }
-        same->priority = std::max(same->priority, request.priority);
+        const bool later = request.renewedFrame > same->renewedFrame;
+        same->priority = later ? request.priority : std::max(same->priority, request.priority);
         same->renewedFrame = std::max(same->renewedFrame, request.renewedFrame);
         ++counters.merged;
         return SubmitOutcome::Merged;

@@ -4,91 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
-#include <mutex>
 #include <random>
 #include <set>
 
-#include "tests/fake_pyramid.h"
-#include "tests/gate.h"
+#include "tests/planet_fixture.h"
 #include "tests/random_view.h"
 
 namespace planet {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double timeoutS = 60;  // longer than any machine takes
-
-std::size_t bytesOf(std::size_t chunks) {
-    const PlanetShape& shape = fakePyramid().shape;
-    return chunks * (chunkBytesCpu(shape) + chunkBytesGpu(shape));
-}
-
-std::unique_ptr<Planet> openFake(PlanetSource source = fakePyramid().source(),
-                                 std::size_t budgetChunks = 100'000, int loaderThreads = 1) {
-    PagingSettings settings;
-    settings.budgetBytes = bytesOf(budgetChunks);
-    settings.loaderThreads = loaderThreads;
-    return Planet::open(std::move(source), settings).value();
-}
-
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
-View viewAt(double latitudeDeg, double longitudeDeg, double altitudeM = 8000, double pitchDeg = -60) {
-    CameraPose pose;
-    pose.latitudeDeg = latitudeDeg;
-    pose.longitudeDeg = longitudeDeg;
-    pose.altitudeM = altitudeM;
-    pose.pitchDeg = pitchDeg;
-    return viewFromPose(pose, fakePyramid().shape.radiusM, 1.1, 1280, 720);
-}
-
-LodSettings fineSettings() {
-    LodSettings settings;
-    settings.tauPx = 0.5;
-    return settings;
-}
-
-std::vector<ChunkId> drawn(const Planet& planet) {
-    std::vector<ChunkId> ids;
-    for (const DrawItem& item : planet.selection().draw) ids.push_back(item.id);
-    std::sort(ids.begin(), ids.end());
-    return ids;
-}
-
-// What would be drawn if everything were resident.
-std::vector<ChunkId> drawnOfWhole(const View& view, const LodSettings& settings) {
-    static const ChunkTree whole = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-    Selection selection;
-    selectChunks(whole, view, settings, selection);
-    std::vector<ChunkId> ids;
-    for (const DrawItem& item : selection.draw) ids.push_back(item.id);
-    std::sort(ids.begin(), ids.end());
-    return ids;
-}
-
-// A source whose loads wait at a gate, and that notes what it was asked for.
-struct Gated {
-    Gate gate;
-    std::mutex mutex;
-    std::vector<ChunkId> asked;
-
-    PlanetSource source() {
-        PlanetSource source = fakePyramid().source();
-        source.loadChildren = [this](const ChunkId& parent, BlockLocation location,
-                                     std::span<const std::int16_t> heights) {
-            {
-                const std::lock_guard lock(mutex);
-                asked.push_back(parent);
-            }
-            gate.pass();
-            return fakePyramid().load(parent, location, heights);
-        };
-        return source;
-    }
-};
 
 TEST(Planet, SettlesOnWhatAWholeTreeWouldDraw) {
     std::mt19937 random(41);
@@ -374,7 +300,7 @@ TEST(Planet, WhatIsDrawnIsNotDroppedBeforeTheNextStep) {
     for (int i = 0; i < 1500; ++i) {
         const View view = viewAt(20, i / 40 * 9.0, 5000 + i % 3);
         planet->step(view, settings, noUpload);
-        for (const NodeIndex index : planet->selection().touched) {
+        for (const auto& [index, fate] : planet->selection().touched) {
             EXPECT_NE(planet->tree().nodes[index].heights, nullptr);
         }
         for (const DrawItem& item : planet->selection().draw) {
@@ -395,7 +321,7 @@ TEST(Planet, WhatWasUsedInTheLastFramesIsNotDropped) {
     for (int i = 0; i < 300; ++i) {
         const View view = viewAt(10, i * 7.0);
         std::vector<ChunkId> before;
-        for (const NodeIndex index : planet->selection().touched) {
+        for (const auto& [index, fate] : planet->selection().touched) {
             before.push_back(planet->tree().nodes[index].id);
         }
         planet->step(view, settings, noUpload);
@@ -444,27 +370,6 @@ TEST(Planet, AShakingCameraReadsNothingTwice) {
     EXPECT_EQ(planet->paging().loaded, loaded);
     EXPECT_GT(planet->paging().cancelled, 0u);  // page-outs, taken back by the next frame
 }
-
-// A source that fails for some blocks, for as long as it is told to.
-struct Faulty {
-    std::atomic<bool> broken = true;
-    std::atomic<int> failures = 0;
-
-    static bool affects(const ChunkId& parent) { return parent.level == 1 && parent.x == 1; }
-
-    PlanetSource source() {
-        PlanetSource source = fakePyramid().source();
-        source.loadChildren = [this](const ChunkId& parent, BlockLocation location,
-                                     std::span<const std::int16_t> heights) -> Result<SiblingBlock> {
-            if (broken && affects(parent)) {
-                ++failures;
-                return ioError("children of " + toString(parent) + ": the disk is bad");
-            }
-            return fakePyramid().load(parent, location, heights);
-        };
-        return source;
-    }
-};
 
 TEST(Planet, ABlockThatFailsIsReportedOnceAndDrawnAsItsParent) {
     Faulty faulty;
@@ -539,6 +444,175 @@ TEST(Planet, MayBeClosedWhileBlocksAreOnTheirWay) {
         const auto planet = openFake(fakePyramid().source(), 1000, 3);
         for (int k = 0; k < i % 5; ++k) planet->step(viewAt(10 * k, 20 * i), fineSettings(), noUpload);
     }
+}
+
+std::vector<ChunkId> drawnBy(const Planet& planet, std::size_t view) {
+    std::vector<ChunkId> ids;
+    for (const DrawItem& item : planet.selection(view).draw) ids.push_back(item.id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+TEST(Planet, EachOfSeveralViewsSettlesOnWhatItWouldDrawAlone) {
+    std::mt19937 random(51);
+    const auto planet = openFake(fakePyramid().source(), 100'000, 2);
+    for (int i = 0; i < 12; ++i) {
+        std::vector<ViewInput> views;
+        for (int v = 0; v <= i % 4; ++v) {
+            LodSettings lod = fineSettings();
+            lod.tauPx = 0.5 + v;
+            views.push_back({randomView(random, 1e5), lod, 1.0 + v});
+        }
+        ASSERT_TRUE(planet->settle(views, noUpload, timeoutS));
+        ASSERT_EQ(planet->viewCount(), views.size());
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            EXPECT_EQ(drawnBy(*planet, v), drawnOfWhole(views[v].lodView, views[v].lod));
+            EXPECT_EQ(planet->lodSettings(v).tauPx, views[v].lod.tauPx);
+            EXPECT_EQ(planet->lodView(v).eyeM, views[v].lodView.eyeM);
+        }
+    }
+    EXPECT_EQ(planet->paging().residentChunks, 6 + 4 * planet->paging().loaded);  // nothing twice
+}
+
+// A paused planet with the roots' children resident, so that there is more to want.
+std::unique_ptr<Planet> openPausedAtLevelOne() {
+    auto planet = openFake();
+    LodSettings coarse;
+    coarse.maxLevel = 1;
+    coarse.frustumCulling = coarse.horizonCulling = false;
+    coarse.tauPx = 1e-3;
+    EXPECT_TRUE(planet->settle(viewAt(0, 0), coarse, noUpload, timeoutS));
+    PagingSettings paused = planet->pagingSettings();
+    paused.paused = true;
+    EXPECT_FALSE(planet->setPaging(paused).value());
+    return planet;
+}
+
+// Each sees something that the other does not, and both the middle of a face.
+std::array<ViewInput, 2> overlappingViews() {
+    return {ViewInput{viewAt(0, -20, 6e4, -90), fineSettings(), 1},
+            ViewInput{viewAt(0, 30, 4e4, -90), fineSettings(), 3}};
+}
+
+TEST(Planet, RequestsOfAllViewsAreMergedAndKeepAPriorityForEach) {
+    const auto planet = openPausedAtLevelOne();
+    const auto views = overlappingViews();
+    planet->step(views, noUpload);
+    const auto pending = planet->pendingRequests(PagingType::PageIn);
+    int ofBoth = 0;
+    std::size_t wishes = 0;
+    for (const PagingRequest& request : pending) {
+        double highest = 0;
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            const auto& own = planet->selection(v).requests;
+            const auto found = std::find_if(own.begin(), own.end(), [&](const ChildrenRequest& one) {
+                return one.parentId == request.parent;
+            });
+            const double expected = found == own.end() ? 0 : found->priority * views[v].priorityFactor;
+            EXPECT_FLOAT_EQ(request.viewPriority[v], static_cast<float>(expected));
+            highest = std::max<double>(highest, request.viewPriority[v]);
+        }
+        EXPECT_EQ(request.priority, highest);
+        ofBoth += request.viewPriority[0] > 0 && request.viewPriority[1] > 0;
+    }
+    for (std::size_t v = 0; v < views.size(); ++v) wishes += planet->selection(v).requests.size();
+    EXPECT_EQ(wishes, pending.size() + static_cast<std::size_t>(ofBoth));
+    EXPECT_GT(ofBoth, 0);
+    EXPECT_EQ(planet->paging().queued, pending.size());
+}
+
+TEST(Planet, AViewsPendingRequestsAreThoseItWantsByItsOwnPriorities) {
+    const auto planet = openPausedAtLevelOne();
+    const auto views = overlappingViews();
+    planet->step(views, noUpload);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const auto pending = planet->pendingRequests(PagingType::PageIn, v);
+        const auto& own = planet->selection(v).requests;
+        ASSERT_GT(own.size(), 2u);
+        ASSERT_EQ(pending.size(), own.size());
+        for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(pending[i].parent, own[i].parentId);
+        EXPECT_TRUE(planet->pendingRequests(PagingType::PageOut, v).empty());
+    }
+    EXPECT_LT(planet->pendingRequests(PagingType::PageIn, 0).size(),
+              planet->pendingRequests(PagingType::PageIn).size());
+}
+
+TEST(Planet, AViewThatGoesAwayFreesItsWishes) {
+    const auto planet = openPausedAtLevelOne();
+    const auto views = overlappingViews();
+    planet->step(views, noUpload);
+    const std::size_t ofBoth = planet->pendingRequests(PagingType::PageIn).size();
+    const std::uint64_t cancelled = planet->paging().cancelled;
+    planet->step(std::span(views).first(1), noUpload);
+    const auto pending = planet->pendingRequests(PagingType::PageIn);
+    EXPECT_EQ(planet->viewCount(), 1u);
+    EXPECT_EQ(pending.size(), planet->selection().requests.size());
+    EXPECT_LT(pending.size(), ofBoth);
+    for (std::size_t i = 0; i < pending.size(); ++i) {
+        EXPECT_EQ(pending[i].viewPriority[1], 0);
+        EXPECT_EQ(pending[i].priority, planet->selection().requests[i].priority);
+    }
+    EXPECT_EQ(planet->paging().cancelled - cancelled, ofBoth - pending.size());
+}
+
+TEST(Planet, WhatAnyViewUsesIsNotOutOfUse) {
+    const auto planet = openFake(fakePyramid().source(), 200);
+    LodSettings settings;
+    settings.tauPx = 1;
+    for (int i = 0; i < 10; ++i) {
+        const std::array<ViewInput, 2> views = {ViewInput{viewAt(10, 20), settings},
+                                                ViewInput{viewAt(-5, 60 + i * 40), settings}};
+        ASSERT_TRUE(planet->settle(views, noUpload, timeoutS));
+        std::set<NodeIndex> used;
+        for (std::size_t v = 0; v < 2; ++v) {
+            for (const VisitedNode& visited : planet->selection(v).touched) used.insert(visited.node);
+            EXPECT_EQ(drawnBy(*planet, v), drawnOfWhole(views[v].lodView, settings));
+        }
+        const auto outOfUse = planet->pendingRequests(PagingType::PageOut);
+        EXPECT_EQ(used.size() + 4 * outOfUse.size(), planet->tree().residentChunks);
+        for (const PagingRequest& request : outOfUse) {
+            const NodeIndex parent = findNode(planet->tree(), request.parent);
+            EXPECT_FALSE(used.contains(planet->tree().nodes[parent].firstChild));
+        }
+    }
+    EXPECT_GT(planet->paging().evicted, 0u);
+}
+
+// At rest a tiny budget has gone to what any of the views wants most.
+TEST(Planet, ViewsShareATinyBudgetByTheirLargestPriorities) {
+    const auto planet = openFake(fakePyramid().source(), 110);
+    std::mt19937 random(52);
+    LodSettings settings;
+    settings.tauPx = 0.1;
+    int waiting = 0;
+    for (int i = 0; i < 40; ++i) {
+        const std::array<ViewInput, 2> views = {ViewInput{randomView(random, 1e5), settings, 1},
+                                                ViewInput{randomView(random, 1e5), settings, 0.25}};
+        ASSERT_TRUE(planet->settle(views, noUpload, timeoutS));
+        std::map<NodeIndex, double> splits;
+        double mostWanted = 0;
+        for (std::size_t v = 0; v < 2; ++v) {
+            const double factor = views[v].priorityFactor;
+            for (const ChildrenRequest& split : planet->selection(v).splits) {
+                double& worth = splits[split.parent];
+                worth = std::max(worth, split.priority * factor);
+            }
+            for (const ChildrenRequest& wanted : planet->selection(v).requests) {
+                mostWanted = std::max(mostWanted, wanted.priority * factor);
+            }
+        }
+        waiting += mostWanted > 0;
+        for (const auto& [parent, worth] : splits) {
+            const auto first = planet->tree().nodes.begin() + planet->tree().nodes[parent].firstChild;
+            const bool finest = std::none_of(first, first + quadrantCount, [](const ChunkNode& node) {
+                return node.childrenState == ChildrenState::Resident;
+            });
+            if (finest) {
+                EXPECT_LE(mostWanted, 1.5f * worth * (1 + 1e-6));
+            }
+        }
+    }
+    EXPECT_GT(waiting, 10);
 }
 
 }  // namespace

@@ -1,0 +1,213 @@
+#include "planet/chunk_explanation.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace planet {
+
+namespace {
+
+ChunkId ancestorAt(ChunkId id, int level) {
+    while (id.level > level) id = parentOf(id);
+    return id;
+}
+
+// A chunk's own node or one above it, and what became of it in the last selection, if it was looked at.
+struct PathNode {
+    NodeIndex node = noNode;
+    std::optional<NodeFate> fate;
+};
+
+// From the root down to the chunk, as far as it is resident.
+std::vector<PathNode> pathTo(const ChunkTree& tree, const Selection& selection, const ChunkId& id) {
+    std::vector<PathNode> path = {{static_cast<NodeIndex>(id.face), std::nullopt}};
+    for (int level = 1; level <= id.level; ++level) {
+        const ChunkNode& above = tree.nodes[path.back().node];
+        if (above.childrenState != ChildrenState::Resident) break;
+        const auto quadrant = static_cast<NodeIndex>(quadrantOf(ancestorAt(id, level)));
+        path.push_back({above.firstChild + quadrant, std::nullopt});
+    }
+    std::size_t next = 0;
+    for (const VisitedNode& visited : selection.touched) {  // parents first
+        if (visited.node != path[next].node) continue;
+        path[next].fate = visited.fate;
+        if (++next == path.size()) break;
+    }
+    return path;
+}
+
+class Explainer {
+public:
+    Explainer(const StepFacts& facts, const ChunkId& id)
+        : facts_(facts), id_(id), path_(pathTo(facts.tree, facts.selection, id)) {
+        scalePx_ = screenScalePx(facts.lodView);
+        out_.id = id;
+        out_.decidedBy = id;
+        out_.queueLength = facts.pageIns.size();
+        out_.tauPx = facts.lod.tauPx;
+    }
+
+    ChunkExplanation explain() {
+        if (path_.size() == id_.level + 1u) {
+            fillMeasures();
+            explainByFate(ChunkState::Resident);
+        } else if (deepest().childrenState == ChildrenState::None) {
+            out_.state = ChunkState::NotInFile;
+            out_.decidedBy = deepest().id;
+        } else if (id_.level > leafLevel(facts_.tree.shape)) {
+            out_.state = ChunkState::NotInFile;
+            out_.decidedBy = ancestorAt(id_, leafLevel(facts_.tree.shape));
+        } else {
+            explainMissing();
+        }
+        if (const NodeIndex node = findNode(facts_.tree, out_.decidedBy); node != noNode) {
+            out_.decidedByEpsPx = epsPx(facts_.tree.nodes[node]);
+        }
+        return out_;
+    }
+
+private:
+    const ChunkNode& deepest() const { return facts_.tree.nodes[path_.back().node]; }
+
+    double distanceToM(const ChunkNode& node) const {
+        return std::max(distanceM(node.bounds.box, facts_.lodView.eyeM), nearestM);
+    }
+    double epsPx(const ChunkNode& node) const { return node.deltaCM * scalePx_ / distanceToM(node); }
+    // As selection does it, so that both agree to the last bit.
+    double switchDistanceM(const ChunkNode& node) const {
+        return node.deltaCM * (scalePx_ / facts_.lod.tauPx);
+    }
+
+    std::optional<std::size_t> placeInQueue(const ChunkId& parent) const {
+        const auto found =
+            std::find_if(facts_.pageIns.begin(), facts_.pageIns.end(),
+                         [&](const PagingRequest& request) { return request.parent == parent; });
+        if (found == facts_.pageIns.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - facts_.pageIns.begin()) + 1;
+    }
+
+    // The first chunk from the root down that was not split: it is drawn or culled. Null where all are split,
+    // or nothing was selected yet.
+    const PathNode* decider() const {
+        const auto found = std::find_if(path_.begin(), path_.end(),
+                                        [](const PathNode& node) { return node.fate != NodeFate::Split; });
+        return found == path_.end() || !found->fate ? nullptr : &*found;
+    }
+
+    void fillMeasures() {
+        const ChunkNode& node = deepest();
+        out_.node = path_.back().node;
+        out_.deltaCM = node.deltaCM;
+        out_.distanceM = distanceToM(node);
+        out_.epsPx = epsPx(node);
+        out_.switchDistanceM = switchDistanceM(node);
+        out_.queuePlace = placeInQueue(id_);
+        float below = 0;
+        const bool childrenKnown = node.childrenState == ChildrenState::Resident;
+        for (NodeIndex q = 0; childrenKnown && q < quadrantCount; ++q) {
+            below = std::max(below, facts_.tree.nodes[node.firstChild + q].deltaCM);
+        }
+        out_.deltaGM = node.deltaCM - below;
+        out_.deltaGIsBound =
+            (!childrenKnown && node.childrenState != ChildrenState::None) || facts_.tree.exaggeration != 1;
+        for (const DrawItem& item : facts_.selection.draw) {
+            if (item.id == id_) out_.morph = item.morph;
+        }
+    }
+
+    // Of a chunk that is drawn.
+    WhyNotSplit whyNotSplit(const ChunkNode& node) const {
+        if (switchDistanceM(node) <= distanceToM(node)) return WhyNotSplit::GoodEnough;
+        if (node.childrenState == ChildrenState::None) return WhyNotSplit::Leaf;
+        if (node.id.level >= facts_.lod.maxLevel) return WhyNotSplit::LevelLimit;
+        switch (node.childrenState) {
+            case ChildrenState::Resident:
+                return WhyNotSplit::SeamLimit;
+            case ChildrenState::Failed:
+                return WhyNotSplit::ChildrenFailed;
+            case ChildrenState::Requested:
+                return placeInQueue(node.id) ? WhyNotSplit::WaitingInQueue : WhyNotSplit::WaitingForRead;
+            default:
+                break;
+        }
+        return WhyNotSplit::WaitingForBudget;
+    }
+
+    // Where the selection has decided: whether the chunk is drawn or split, or what above it is drawn or
+    // culled. A chunk that is not resident, or nobody looked at, keeps the state given.
+    void explainByFate(ChunkState under) {
+        out_.state = under;
+        const PathNode* by = decider();
+        if (!by) {
+            if (out_.node == noNode || path_.back().fate != NodeFate::Split) return;
+            out_.state = ChunkState::Split;
+            out_.notSplit = out_.decidedByNotSplit = WhyNotSplit::IsSplit;
+            return;
+        }
+        const ChunkNode& node = facts_.tree.nodes[by->node];
+        out_.decidedBy = node.id;
+        if (by->fate == NodeFate::CulledFrustum) out_.state = ChunkState::CulledFrustum;
+        if (by->fate == NodeFate::CulledHorizon) out_.state = ChunkState::CulledHorizon;
+        if (by->fate != NodeFate::Drawn) return;
+        out_.decidedByNotSplit = whyNotSplit(node);
+        if (node.id != id_) return;
+        out_.state = ChunkState::Drawn;
+        out_.notSplit = out_.decidedByNotSplit;
+    }
+
+    // In the file, and not resident: brought, or held up, by the block under the deepest resident chunk.
+    void explainMissing() {
+        const ChunkNode& above = deepest();
+        const ChunkId next = ancestorAt(id_, above.id.level + 1);
+        out_.queuePlace = placeInQueue(above.id);
+        if (above.childrenState == ChildrenState::Failed) {
+            out_.state = ChunkState::Failed;
+            out_.decidedBy = next;
+        } else if (above.childrenState == ChildrenState::Requested) {
+            const bool queued = out_.queuePlace.has_value();
+            out_.state = queued ? ChunkState::Requested : ChunkState::Loading;
+            if (next != id_) out_.state = ChunkState::NotResident;
+            out_.decidedBy = next;
+            out_.decidedByNotSplit = queued ? WhyNotSplit::WaitingInQueue : WhyNotSplit::WaitingForRead;
+        } else {
+            explainByFate(ChunkState::NotResident);
+        }
+    }
+
+    const StepFacts& facts_;
+    const ChunkId id_;
+    const std::vector<PathNode> path_;
+    double scalePx_ = 0;
+    ChunkExplanation out_;
+};
+
+}  // namespace
+
+ChunkExplanation explainChunk(const StepFacts& facts, const ChunkId& id) {
+    assert(id.level <= maxLevel && (id.x >> id.level) == 0 && (id.y >> id.level) == 0);
+    return Explainer(facts, id).explain();
+}
+
+std::array<std::vector<ChunkId>, edgeCount> drawnNeighbours(const Selection& selection, const ChunkId& id) {
+    std::array<ChunkId, edgeCount> beyond;
+    for (std::size_t e = 0; e < edgeCount; ++e) beyond[e] = neighbourOf(id, static_cast<Edge>(e));
+    std::array<std::vector<ChunkId>, edgeCount> beside;
+    for (const DrawItem& item : selection.draw) {
+        const ChunkId& other = item.id;
+        for (std::size_t e = 0; e < edgeCount; ++e) {
+            if (other.level <= id.level) {
+                if (ancestorAt(beyond[e], other.level) == other) beside[e].push_back(other);
+                continue;
+            }
+            if (ancestorAt(other, id.level) != beyond[e]) continue;
+            for (int back = 0; back < edgeCount; ++back) {
+                if (ancestorAt(neighbourOf(other, static_cast<Edge>(back)), id.level) != id) continue;
+                beside[e].push_back(other);
+                break;
+            }
+        }
+    }
+    return beside;
+}
+
+}  // namespace planet

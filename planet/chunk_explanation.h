@@ -1,0 +1,84 @@
+// Why a chunk is drawn, not drawn, or not split: the facts, for people to read. Pure functions over a
+// planet's last step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planet/planet.h"
+
+namespace planet {
+
+enum class ChunkState : std::uint8_t {
+    Drawn,
+    Split,          // its children or chunks below them are drawn in its place
+    CulledFrustum,  // it, or a chunk above it, lies outside the view
+    CulledHorizon,  // it, or a chunk above it, lies below the horizon
+    Resident,       // loaded, but a chunk above it is drawn
+    Requested,      // queued
+    Loading,        // being read
+    NotResident,    // in the file, not asked for
+    Failed,         // could not be read
+    NotInFile,      // no such chunk: deeper than the leaves
+};
+
+enum class WhyNotSplit : std::uint8_t {
+    IsSplit,
+    NotDrawn,    // there is nothing to split
+    GoodEnough,  // eps <= tau
+    Leaf,
+    LevelLimit,      // LodSettings::maxLevel
+    SeamLimit,       // a neighbour would be too much coarser for stitched seams
+    WaitingInQueue,  // for its children
+    WaitingForRead,
+    WaitingForBudget,
+    ChildrenFailed,
+};
+
+struct ChunkExplanation {
+    ChunkId id;
+    ChunkState state = ChunkState::NotResident;
+    WhyNotSplit notSplit = WhyNotSplit::NotDrawn;
+    // The chunk that the state comes from: itself, or the one above it that is drawn, culled, waited for,
+    // could not be read or is a leaf.
+    ChunkId decidedBy;
+    // Why that one is not split, if it is drawn; if it is waited for, whether in the queue or for its read.
+    WhyNotSplit decidedByNotSplit = WhyNotSplit::NotDrawn;
+    double decidedByEpsPx = 0;  // that one's; 0 where it is not resident
+    NodeIndex node = noNode;    // the chunk's own, where it is resident
+    // Known where it is resident.
+    float deltaGM = 0;  // metres; exact with resident children and heights as the file has them, else a bound
+    bool deltaGIsBound = false;
+    float deltaCM = 0;     // metres
+    double distanceM = 0;  // from the lod view's eye to its bounds
+    double epsPx = 0;
+    double switchDistanceM = 0;  // d_m: nearer than this it must be replaced by its children
+    float morph = 0;
+    // Of the request that would bring it, or what is first needed above it, or else its children: 1 is next;
+    // nothing where there is none.
+    std::optional<std::size_t> queuePlace;
+    std::size_t queueLength = 0;
+    double tauPx = 0;
+};
+
+// What a planet's last step leaves behind.
+struct StepFacts {
+    const ChunkTree& tree;
+    const Selection& selection;
+    const View& lodView;
+    const LodSettings& lod;
+    std::span<const PagingRequest> pageIns;  // pending, the most urgent first
+};
+ChunkExplanation explainChunk(const StepFacts& facts, const ChunkId& id);
+
+// The queue is that of all views together, since it decides when a chunk comes.
+ChunkExplanation explainChunk(const Planet& planet, const ChunkId& id, std::size_t view = 0);
+
+// What lies beside a chunk: by edge, west to north, the drawn chunks there, whatever their levels, near to
+// far.
+std::array<std::vector<ChunkId>, edgeCount> drawnNeighbours(const Selection& selection, const ChunkId& id);
+
+}  // namespace planet

@@ -1,0 +1,445 @@
+// What stays resident, what is asked for and what makes room: the paging half of a Planet.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+#include "planet/planet_state.h"
+
+namespace planet {
+
+namespace {
+
+// A block used in one of the last frames is not dropped: a camera that shakes would have it loaded and
+// dropped in turns.
+constexpr std::uint64_t framesKept = 4;
+
+// Where all that is resident is in use, a block yields to one that is wanted this many times as much: so many
+// times that the two never take turns. A few a frame, since what yields is drawn coarser at once.
+constexpr float yieldFactor = 1.5f;
+constexpr std::size_t yieldsPerFrame = 8;
+
+constexpr std::size_t eventsKept = 1000;
+constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any
+
+std::uint64_t chunkCountOf(const PlanetShape& shape) {
+    return faceCount * ((std::uint64_t{1} << (2 * (leafLevel(shape) + 1))) - 1) / 3;
+}
+
+double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Result<std::uint32_t> slotsFor(const PlanetShape& shape, std::size_t budgetBytes) {
+    const std::size_t bytes = chunkBytesCpu(shape) + chunkBytesGpu(shape);
+    const std::size_t wanted = faceCount + 4 * quadrantCount * static_cast<std::size_t>(leafLevel(shape));
+    const std::size_t least = std::min<std::uint64_t>(wanted, chunkCountOf(shape));
+    if (budgetBytes < least * bytes) {
+        return badInput(fmt::format("a budget of {} bytes is too small for this planet: it needs at least {}",
+                                    budgetBytes, least * bytes));
+    }
+    constexpr std::uint64_t most = std::uint64_t{1} << 31;
+    const std::uint64_t slots = std::min({std::uint64_t{budgetBytes / bytes}, chunkCountOf(shape), most});
+    return static_cast<std::uint32_t>(slots - (slots - faceCount) % quadrantCount);
+}
+
+std::vector<BlockSlots> freeSlotsFrom(std::uint32_t firstFree, std::uint32_t slotCapacity) {
+    std::vector<BlockSlots> free;
+    free.reserve((slotCapacity - firstFree) / quadrantCount);
+    for (std::uint32_t end = slotCapacity; end > firstFree; end -= quadrantCount) {
+        free.push_back({end - 4, end - 3, end - 2, end - 1});
+    }
+    return free;
+}
+
+std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
+                                         std::vector<ChildrenRequest> Selection::*list) {
+    std::vector<MergedRequest> all;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const double factor = views[v].input.priorityFactor;
+        assert(factor > 0);
+        for (const ChildrenRequest& one : views[v].selection.*list) {
+            MergedRequest merged{one.parent, one.parentId};
+            // Not 0, which would say that the view does not want it.
+            merged.priority =
+                std::max(static_cast<float>(one.priority * factor), std::numeric_limits<float>::min());
+            merged.viewPriority[v] = merged.priority;
+            all.push_back(merged);
+        }
+    }
+    if (views.size() > 1) {
+        std::sort(all.begin(), all.end(),
+                  [](const MergedRequest& a, const MergedRequest& b) { return a.parent < b.parent; });
+        std::size_t kept = 0;
+        for (const MergedRequest& one : all) {
+            if (kept == 0 || all[kept - 1].parent != one.parent) {
+                all[kept++] = one;
+                continue;
+            }
+            MergedRequest& same = all[kept - 1];
+            same.priority = std::max(same.priority, one.priority);
+            for (std::size_t v = 0; v < maxViews; ++v) same.viewPriority[v] += one.viewPriority[v];
+        }
+        all.resize(kept);
+    }
+    std::sort(all.begin(), all.end(), [](const MergedRequest& a, const MergedRequest& b) {
+        return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;
+    });
+    return all;
+}
+
+void Planet::State::select() {
+    for (PlanetView& view : views) selectChunks(tree, view.input.lodView, view.input.lod, view.selection);
+}
+
+void Planet::State::uploadFinished(const UploadChunk& upload) {
+    const Clock::time_point start = Clock::now();
+    if (frame == 1) {
+        for (NodeIndex root = 0; root < faceCount; ++root) {
+            upload(tree.nodes[root].slot, *tree.nodes[root].heights);
+        }
+    }
+    do {
+        std::optional<FinishedLoad> load = pager->takeFinished();
+        if (!load) return;
+        finish(std::move(*load), upload);
+    } while (msSince(start) < settings.uploadLimitMs);
+}
+
+void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
+    paging.bytesRead += load.bytes;
+    paging.loadSeconds += load.seconds;
+    if (load.request.ticket < oldestTicketKept) return throwAway(load);
+    // Still there: a block above a block that is being loaded is never dropped, unless the load is thrown
+    // away.
+    const NodeIndex parent = findNode(tree, load.request.parent);
+    assert(parent != noNode && tree.nodes[parent].childrenState == ChildrenState::Requested);
+    --promised;
+    if (!load.children) return fail(parent, load, std::move(load.children.error().message));
+    if (auto checked = checkChildren(tree, parent, *load.children); !checked) {
+        return fail(parent, load, std::move(checked.error().message));
+    }
+    assert(!freeSlots.empty());
+    const BlockSlots slots = freeSlots.back();
+    freeSlots.pop_back();
+    for (std::size_t q = 0; q < quadrantCount; ++q) upload(slots[q], (*load.children)[q].heights);
+    const NodeIndex first = addChildren(tree, parent, std::move(*load.children), slots);
+    ++blocksLoaded;
+    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
+        // As if used by the frame that asked for it, in case this one no longer does.
+        tree.nodes[child].lastUsedFrame = frame - 1;
+        tree.nodes[child].loadedAtS = nowS;
+        tree.nodes[child].loadOrder = blocksLoaded;
+    }
+    watched.push_back(first);
+    ++paging.loaded;
+    note(load.request, PagingOutcome::Loaded, &load);
+}
+
+void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, std::string message) {
+    tree.nodes[parent].childrenState = ChildrenState::Failed;
+    problems.push_back(std::move(message));
+    ++paging.failed;
+    note(load.request, PagingOutcome::Failed, &load);
+}
+
+void Planet::State::throwAway(const FinishedLoad& load) {
+    ++thrownAway;
+    note(load.request, PagingOutcome::Cancelled, &load);
+}
+
+// Keeps the page-outs what they are meant to be: the blocks that are out of use by all views, the longest
+// unused first and of those the deepest, so that children go before their parents.
+void Planet::State::markUsed(PagingQueue& queue) {
+    std::vector<NodeIndex> before;
+    before.swap(watched);
+    usedChunks = 0;
+    for (const PlanetView& view : views) {
+        for (const VisitedNode& visited : view.selection.touched) {
+            ChunkNode& node = tree.nodes[visited.node];
+            if (node.lastUsedFrame == frame) continue;  // by a view before
+            ++usedChunks;
+            const bool wasOutOfUse = std::exchange(node.lastUsedFrame, frame) + 1 < frame;
+            if (node.parent == noNode || quadrantOf(node.id) != 0) continue;
+            watched.push_back(visited.node);
+            if (!wasOutOfUse) continue;
+            // Wanted after all: the two requests cancel each other.
+            const ChunkId parentId = parentOf(node.id);
+            if (const PagingRequest* pageOut = queue.find(parentId)) {
+                note(*pageOut, PagingOutcome::Cancelled);
+                queue.submit({.parent = parentId, .type = PagingType::PageIn, .renewedFrame = frame});
+            }
+        }
+    }
+    for (const NodeIndex index : before) {
+        const ChunkNode& node = tree.nodes[index];
+        if (node.lastUsedFrame == frame) continue;
+        const double priority = node.id.level / 32.0 - static_cast<double>(node.lastUsedFrame);
+        queue.submit({.parent = parentOf(node.id),
+                      .type = PagingType::PageOut,
+                      .priority = priority,
+                      .renewedFrame = frame,
+                      .askedAtS = nowS});
+    }
+}
+
+// Page-ins for what the views lack, the most wanted first, as far as there is room for them.
+void Planet::State::request(PagingQueue& queue) {
+    wanted = mergeRequests(views, &Selection::requests);
+    for (const MergedRequest& one : wanted) {
+        if (!queue.find(one.parentId)) continue;
+        queue.submit({.parent = one.parentId,
+                      .priority = one.priority,
+                      .renewedFrame = frame,
+                      .viewPriority = one.viewPriority});
+    }
+    for (const PagingRequest& stale : queue.cancelNotRenewed(PagingType::PageIn, frame)) withdraw(stale);
+    paging.budgetWaits = 0;
+    for (const MergedRequest& one : wanted) {
+        ChunkNode& parent = tree.nodes[one.parent];
+        if (parent.childrenState != ChildrenState::Absent) continue;
+        if (!promiseRoom(queue, one.priority)) {
+            ++paging.budgetWaits;
+            continue;
+        }
+        parent.childrenState = ChildrenState::Requested;
+        queue.submit({.parent = one.parentId,
+                      .priority = one.priority,
+                      .renewedFrame = frame,
+                      .askedAtS = nowS,
+                      .viewPriority = one.viewPriority,
+                      .location = parent.children,
+                      .parentHeights = parent.heights,
+                      .ticket = nextTicket++});
+    }
+}
+
+// Undoes what request did for a page-in that no loader has taken.
+void Planet::State::withdraw(const PagingRequest& request) {
+    tree.nodes[findNode(tree, request.parent)].childrenState = ChildrenState::Absent;
+    --promised;
+    note(request, PagingOutcome::Cancelled);
+}
+
+// Free slots first, then those of the block that is out of use longest, then those promised to a page-in that
+// is wanted less.
+bool Planet::State::promiseRoom(PagingQueue& queue, double priority) {
+    if (freeSlots.size() <= promised && !evictOne(queue)) {
+        const PagingRequest* least = queue.worst(PagingType::PageIn);
+        if (!least || least->priority >= priority) return false;
+        withdraw(*queue.cancel(least->parent));
+    }
+    ++promised;
+    return true;
+}
+
+bool Planet::State::evictOne(PagingQueue& queue) {
+    while (const PagingRequest* oldest = queue.best(PagingType::PageOut)) {
+        const NodeIndex parent = findNode(tree, oldest->parent);
+        const NodeIndex first = tree.nodes[parent].firstChild;
+        if (tree.nodes[first].lastUsedFrame + framesKept >= frame) return false;
+        if (mayBeEvicted(first)) {
+            evict(queue, parent);
+            return true;
+        }
+        queue.popBest(PagingType::PageOut);
+        watched.push_back(first);
+    }
+    return false;
+}
+
+// Also ends the page-out that may be pending. Leaves what is watched as it is.
+void Planet::State::evict(PagingQueue& queue, NodeIndex parent) {
+    PagingRequest request{.parent = tree.nodes[parent].id, .type = PagingType::PageOut, .askedAtS = nowS};
+    if (auto pending = queue.pop(request.parent)) request = std::move(*pending);
+    assert(request.type == PagingType::PageOut);
+    BlockSlots slots{};
+    for (NodeIndex q = 0; q < quadrantCount; ++q) {
+        slots[q] = tree.nodes[tree.nodes[parent].firstChild + q].slot;
+    }
+    freeSlots.push_back(slots);
+    removeChildren(tree, parent);
+    ++paging.evicted;
+    note(request, PagingOutcome::Evicted);
+}
+
+// Evens out the errors of views that the budget cannot pay for: without this, what came first would stay fine
+// and what came closer since would stay coarse. A block that several views split is worth what it is worth to
+// the one that wants it most.
+void Planet::State::chooseYielding() {
+    if (paging.budgetWaits == 0 || hasBlocksOutOfUse()) return;
+    std::vector<MergedRequest> least = mergeRequests(views, &Selection::splits);
+    std::erase_if(least, [&](const MergedRequest& split) {
+        return !mayBeEvicted(tree.nodes[split.parent].firstChild);
+    });
+    std::sort(least.begin(), least.end(), [](const MergedRequest& a, const MergedRequest& b) {
+        return a.priority != b.priority ? a.priority < b.priority : a.parentId < b.parentId;
+    });
+    for (const MergedRequest& one : wanted) {
+        if (tree.nodes[one.parent].childrenState != ChildrenState::Absent) continue;
+        const std::size_t next = yielding.size();
+        if (next == std::min(least.size(), yieldsPerFrame)) return;
+        if (one.priority <= yieldFactor * least[next].priority) return;
+        yielding.push_back(least[next].parentId);
+    }
+}
+
+// Not in the step that chose them, whose draw lists they are in.
+void Planet::State::dropYielding() {
+    if (yielding.empty()) return;
+    pager->withQueue([&](PagingQueue& queue) {
+        for (const ChunkId& parentId : yielding) evict(queue, findNode(tree, parentId));
+    });
+    yielding.clear();
+    forgetGone();
+}
+
+// Not while anything below is resident or on its way.
+bool Planet::State::mayBeEvicted(NodeIndex firstChild) const {
+    const auto begin = tree.nodes.begin() + firstChild;
+    return std::none_of(begin, begin + quadrantCount, [](const ChunkNode& node) {
+        return node.childrenState == ChildrenState::Resident ||
+               node.childrenState == ChildrenState::Requested;
+    });
+}
+
+// A freed node has no parent, and only roots have none else, which are never watched.
+void Planet::State::forgetGone() {
+    std::erase_if(watched, [&](NodeIndex index) { return tree.nodes[index].parent == noNode; });
+}
+
+bool Planet::State::isOver(std::size_t blocks) const {
+    return (tree.residentChunks - faceCount) / quadrantCount + promised > blocks;
+}
+
+// What no view uses goes first, then the requests that are wanted least, then what was used longest ago, and
+// where even that is held up by the loads below it, those loads.
+void Planet::State::shrinkTo(PagingQueue& queue, std::size_t blocks) {
+    evictLeastUsed(queue, blocks, frame);
+    while (isOver(blocks) && queue.count(PagingType::PageIn) > 0) {
+        withdraw(*queue.cancel(queue.worst(PagingType::PageIn)->parent));
+    }
+    evictLeastUsed(queue, blocks, noFrame);
+    if (!isOver(blocks)) return;
+    abandonLoads();
+    evictLeastUsed(queue, blocks, noFrame);
+    assert(!isOver(blocks));
+}
+
+// Drops blocks last used before a frame until there are few enough or no more such blocks: the longest unused
+// first, of those the deepest. In rounds, since dropping a block can free the one above it.
+void Planet::State::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore) {
+    if (!isOver(blocks)) return;
+    struct Candidate {
+        NodeIndex parent;
+        std::uint64_t lastUsedFrame;
+        std::uint8_t level;
+    };
+    std::vector<Candidate> candidates;
+    forEachNode(tree, [&](NodeIndex index, const ChunkNode& node) {
+        if (node.childrenState != ChildrenState::Resident) return;
+        const std::uint64_t lastUsedFrame = tree.nodes[node.firstChild].lastUsedFrame;
+        if (lastUsedFrame < usedBefore) candidates.push_back({index, lastUsedFrame, node.id.level});
+    });
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.lastUsedFrame != b.lastUsedFrame ? a.lastUsedFrame < b.lastUsedFrame : a.level > b.level;
+    });
+    bool dropped = true;
+    while (dropped) {
+        dropped = false;
+        for (const Candidate& candidate : candidates) {
+            if (!isOver(blocks)) return;
+            const ChunkNode& node = tree.nodes[candidate.parent];
+            if (node.childrenState != ChildrenState::Resident || !mayBeEvicted(node.firstChild)) continue;
+            evict(queue, candidate.parent);
+            dropped = true;
+        }
+    }
+}
+
+// Only with no page-in queued: what is requested then is being read, or has been and is not yet resident.
+void Planet::State::abandonLoads() {
+    for (ChunkNode& node : tree.nodes) {
+        if (node.childrenState == ChildrenState::Requested) node.childrenState = ChildrenState::Absent;
+    }
+    oldestTicketKept = nextTicket;
+    promised = 0;
+}
+
+// The lowest slots, in the order of the tree.
+void Planet::State::renumber() {
+    std::uint32_t next = faceCount;
+    forEachNode(tree, [&](NodeIndex, const ChunkNode& node) {
+        if (node.childrenState != ChildrenState::Resident) return;
+        for (NodeIndex q = 0; q < quadrantCount; ++q) tree.nodes[node.firstChild + q].slot = next++;
+    });
+    freeSlots = freeSlotsFrom(next, slotCapacity);
+    assert(freeSlots.size() >= promised);
+}
+
+void Planet::State::resize(std::uint32_t newCapacity) {
+    slotCapacity = newCapacity;
+    const std::size_t blocks = (slotCapacity - faceCount) / quadrantCount;
+    pager->withQueue([&](PagingQueue& queue) { shrinkTo(queue, blocks); });
+    renumber();
+    afterDrops();
+}
+
+void Planet::State::dropEverything() {
+    pager->withQueue([&](PagingQueue& queue) {
+        for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame)) {
+            withdraw(request);
+        }
+        abandonLoads();
+        evictLeastUsed(queue, 0, noFrame);
+    });
+    for (NodeIndex root = 0; root < faceCount; ++root) {
+        ChildrenState& children = tree.nodes[root].childrenState;
+        if (children == ChildrenState::Failed) children = ChildrenState::Absent;
+    }
+    pager->forgetAttempts();
+    afterDrops();
+}
+
+// The selections, which hold nodes and slots, must not outlive what was dropped or moved between steps.
+void Planet::State::afterDrops() {
+    yielding.clear();
+    forgetGone();
+    if (frame > 0) select();
+}
+
+void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load) {
+    PagingEvent event;
+    event.parent = request.parent;
+    event.outcome = outcome;
+    event.atS = nowS;
+    event.waitedS = nowS - request.askedAtS;
+    if (load) {
+        event.readS = load->seconds;
+        event.bytes = load->bytes;
+    }
+    event.timesAsked = request.timesAsked;
+    event.priority = request.priority;
+    event.type = request.type;
+    history.push_back(event);
+    if (history.size() > eventsKept) history.pop_front();
+}
+
+void Planet::State::count() {
+    const auto counters = pager->readQueue([](const PagingQueue& queue) { return queue.counters(); });
+    const PagerStatus status = pager->status();
+    paging.queued = status.queued;
+    paging.loading = status.loading + status.finished;
+    paging.requested = counters.added[static_cast<std::size_t>(PagingType::PageIn)];
+    paging.merged = counters.merged;
+    paging.cancelled = counters.opposed + counters.withdrawn + thrownAway;
+    paging.residentChunks = tree.residentChunks;
+    paging.residentBytesCpu = tree.residentChunks * chunkBytesCpu(tree.shape);
+    paging.residentBytesGpu = tree.residentChunks * chunkBytesGpu(tree.shape);
+}
+
+}  // namespace planet

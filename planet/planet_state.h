@@ -1,0 +1,111 @@
+// What a Planet holds. Inside the library only.
+//
+// Slots come in fours, one four for each sibling block, and are taken when a block has been read. Each
+// page-in that is queued or being read is promised a four, without saying which, so that a block that arrives
+// always finds room: freeSlots.size() >= promised.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planet/planet.h"
+
+namespace planet {
+
+using BlockSlots = std::array<std::uint32_t, quadrantCount>;
+
+// One view of the last step.
+struct PlanetView {
+    ViewInput input;
+    Selection selection;
+};
+
+// What several views together say of a sibling block.
+struct MergedRequest {
+    NodeIndex parent = noNode;
+    ChunkId parentId;
+    float priority = 0;  // the largest of what follows
+    std::array<float, maxViews> viewPriority{};
+};
+
+struct Planet::State {
+    using Clock = std::chrono::steady_clock;
+
+    PagingSettings settings;
+    std::shared_ptr<const ChunkFile> file;
+    ChunkTree tree;
+    std::vector<PlanetView> views{1};
+    PagingCounters paging;
+    StageTimes times;
+    std::uint32_t slotCapacity = 0;
+    std::vector<BlockSlots> freeSlots;
+    std::size_t promised = 0;           // page-ins that will want slots
+    std::vector<NodeIndex> watched;     // first nodes of resident blocks that have no page-out pending
+    std::vector<ChunkId> yielding;      // parents of blocks that the next step drops before it selects
+    std::vector<MergedRequest> wanted;  // by any view, the most wanted first; of the last step
+    std::size_t usedChunks = 0;         // visited by any view in the last step
+    std::uint64_t frame = 0;            // of the current step; the first is 1
+    bool changed = false;               // by something other than a step, since the last step
+    std::uint64_t nextTicket = 1;
+    std::uint64_t oldestTicketKept = 1;  // loads of older ones are thrown away
+    std::uint64_t thrownAway = 0;        // their number
+    std::uint32_t blocksLoaded = 0;      // for ChunkNode::loadOrder
+    Clock::time_point opened = Clock::now();
+    double nowS = 0;  // since then, as of the last step
+    std::deque<PagingEvent> history;
+    std::vector<std::string> problems;
+    std::unique_ptr<Pager> pager;
+
+    // The stages of a step.
+    void dropYielding();
+    void uploadFinished(const UploadChunk& upload);
+    void select();
+    void markUsed(PagingQueue& queue);
+    void request(PagingQueue& queue);
+    void chooseYielding();
+    void count();
+
+    void finish(FinishedLoad&& load, const UploadChunk& upload);
+    void fail(NodeIndex parent, const FinishedLoad& load, std::string message);
+    void throwAway(const FinishedLoad& load);
+    void withdraw(const PagingRequest& request);
+    bool promiseRoom(PagingQueue& queue, double priority);
+    bool evictOne(PagingQueue& queue);
+    void evict(PagingQueue& queue, NodeIndex parent);
+    bool mayBeEvicted(NodeIndex firstChild) const;
+    bool hasBlocksOutOfUse() const { return tree.residentChunks > usedChunks; }
+
+    // Changes between steps.
+    void resize(std::uint32_t newCapacity);
+    void dropEverything();
+
+    void note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load = nullptr);
+
+private:
+    bool isOver(std::size_t blocks) const;
+    void shrinkTo(PagingQueue& queue, std::size_t blocks);
+    void evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore);
+    void abandonLoads();
+    void renumber();
+    void forgetGone();
+    void afterDrops();
+};
+
+// The requests or the splits of all views, merged by parent, the largest priority first.
+std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
+                                         std::vector<ChildrenRequest> Selection::*list);
+
+// The slots that a budget pays for: the roots' six and then whole sibling blocks, and no more than the planet
+// has chunks. The Error says what the least is: enough that the finest level can be reached in one place,
+// even where four chunks meet.
+Result<std::uint32_t> slotsFor(const PlanetShape& shape, std::size_t budgetBytes);
+
+// Every slot from one on, in fours; the lowest are taken first.
+std::vector<BlockSlots> freeSlotsFrom(std::uint32_t firstFree, std::uint32_t slotCapacity);
+
+}  // namespace planet
