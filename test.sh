@@ -15,6 +15,7 @@ configure "$preset"
 cmake --build --preset "$preset"
 folder=build
 [ "$preset" = release ] || folder="build-$preset"
+# The embedding program wants a display; the window's tests start their own.
 display=""
 [ -n "${DISPLAY:-}" ] || display='xvfb-run -a -s "-screen 0 1600x1000x24"'
 eval "exec $display"' ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@"'

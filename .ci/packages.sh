@@ -30,6 +30,7 @@ libgmock-dev            unit tests
 libbenchmark-dev        benchmarks
 xvfb                    a display for the window's tests
 xauth                   the same
+libx11-dev              drops files onto the window in its tests
 xdotool                 presses keys in the window's tests
 imagemagick             takes their screenshots
 libzstd-dev             what the height codec is compared with"

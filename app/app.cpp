@@ -10,6 +10,7 @@
 #include "app/editor.h"
 #include "app/exit_code.h"
 #include "app/places.h"
+#include "app/screenshot.h"
 #include "app/shot_command.h"
 #include "app/window.h"
 #include "planet/height_source.h"
@@ -35,7 +36,7 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
     open.file = named ? options.settingsFile : configFolder() / "settings.toml";
     std::error_code status;
     if (named || fs::exists(open.file, status)) {
-        Result<Settings> loaded = loadSettings(open.file);
+        Result<Settings> loaded = named ? loadSettingsOfAnyKind(open.file) : loadSettings(open.file);
         if (!loaded && named) return tl::unexpected(loaded.error());
         if (loaded)
             open.settings = *loaded;
@@ -69,13 +70,12 @@ Result<void> checkDataSet(const DataSet& set) {
     return planet::ChunkFile::open(set.chunkFile).map([](const auto&) {});
 }
 
-int runWindow(const Window& window, const AppOptions& options, DataSet data, const OpenSettings& open,
-              Log& log) {
+int runWindow(Window& window, const AppOptions& options, DataSet data, const OpenSettings& open, Log& log) {
     window.setTitle(fmt::format("{} - Worldy", data.source.filename().string()));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data), options.shaderFolder, log);
-    Editor editor;
-    editor.settings = open.settings;
+    Editor editor = openEditor(open.settings, log);
+    editor.itemMapFile = options.itemMapFile;
     auto last = std::chrono::steady_clock::now();
     while (!window.closing()) {
         const auto now = std::chrono::steady_clock::now();
@@ -85,6 +85,7 @@ int runWindow(const Window& window, const AppOptions& options, DataSet data, con
     editor.settings.windowWidthPx = static_cast<int>(window.width());
     editor.settings.windowHeightPx = static_cast<int>(window.height());
     saveIfChanged(open, editor.settings, log);
+    if (shownScene(session)) return exitOk;
     if (session.bake) return exitCancelled;
     if (!session.problem) return exitOk;
     return session.problem->kind == planet::ErrorKind::Cancelled ? exitCancelled : exitBadInput;
@@ -126,8 +127,9 @@ int runApp(const AppOptions& options) {
 
     std::error_code status;
     fs::create_directories(configFolder(), status);
-    const auto window = Window::open(
-        {open->settings.windowWidthPx, open->settings.windowHeightPx, configFolder() / "imgui.ini"});
+    auto window = Window::open({open->settings.windowWidthPx, open->settings.windowHeightPx,
+                                configFolder() / "imgui.ini", open->settings.workspace.theme,
+                                open->settings.workspace.scale});
     if (window) return runWindow(*window, options, *data, *open, log);
     if (window.error().problem == WindowProblem::NoOpenGl) {
         return reportError({planet::ErrorKind::BadInput, window.error().message});

@@ -1,4 +1,4 @@
-// A bake on a thread of its own.
+// A bake, and an estimate of one, on threads of their own.
 #pragma once
 
 #include <atomic>
@@ -6,15 +6,21 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "planet/bake.h"
+#include "planet/bake_estimate.h"
+#include "planet/height_source.h"
 
 namespace worldy {
 
 // All calls from one thread.
 class BakeJob {
 public:
-    BakeJob(std::filesystem::path source, planet::BakeSettings settings, std::filesystem::path output);
+    BakeJob(std::filesystem::path source, planet::BakeSettings settings, std::filesystem::path output)
+        : BakeJob(std::move(source), {}, std::move(settings), std::move(output)) {}
+    BakeJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
+            planet::BakeSettings settings, std::filesystem::path output);
     ~BakeJob();  // cancels, and waits for the bake's end
     BakeJob(const BakeJob&) = delete;
     BakeJob& operator=(const BakeJob&) = delete;
@@ -26,12 +32,32 @@ public:
     std::optional<planet::Result<planet::BakeReport>> takeResult();
 
 private:
-    void run(const std::filesystem::path& source, const planet::BakeSettings& settings,
-             const std::filesystem::path& output);
+    void run(const std::filesystem::path& source, const planet::HeightSourceSettings& sourceSettings,
+             const planet::BakeSettings& settings, const std::filesystem::path& output);
 
     mutable std::mutex mutex_;
     planet::BakeProgress progress_;                             // guarded
     std::optional<planet::Result<planet::BakeReport>> result_;  // guarded
+    std::atomic<bool> cancelled_{false};
+    std::thread thread_;
+};
+
+// All calls from one thread.
+class EstimateJob {
+public:
+    EstimateJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
+                planet::BakeSettings settings);
+    ~EstimateJob();  // cancels, and waits for its end
+    EstimateJob(const EstimateJob&) = delete;
+    EstimateJob& operator=(const EstimateJob&) = delete;
+
+    void cancel() { cancelled_ = true; }
+    // Once it has ended; nothing until then and nothing again after.
+    std::optional<planet::Result<planet::BakeEstimate>> takeResult();
+
+private:
+    mutable std::mutex mutex_;
+    std::optional<planet::Result<planet::BakeEstimate>> result_;  // guarded
     std::atomic<bool> cancelled_{false};
     std::thread thread_;
 };

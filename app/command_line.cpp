@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <charconv>
-#include <functional>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/app.h"
 #include "app/bake_command.h"
@@ -22,23 +22,9 @@ namespace {
 
 using planet::Result;
 
-// Options as text that only their own parser understands, beside those that CLI11 fills in.
-struct ShotTexts {
-    std::string camera;
-    std::string size = "1280x720";
-    std::string colourBy = "none";
-    std::string surface = "image";
-    bool noSkirts = false;
-};
-
 template <std::size_t count>
 CLI::IsMember oneOf(const std::array<std::string_view, count>& names) {
     return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
-}
-
-template <class Enum, std::size_t count>
-Enum enumerator(const std::array<std::string_view, count>& names, const std::string& name) {
-    return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 // CLI11's own range lets "nan" through.
@@ -98,34 +84,42 @@ void addBake(CLI::App& app, BakeOptions& options) {
     addSourceOptions(command, options.sourceSettings);
 }
 
-void addViewOptions(CLI::App& command, ui::ViewSettings& view, std::string& size) {
-    command.add_option("--size", size, "Picture size, WIDTHxHEIGHT (1280x720)");
+void addViewOptions(CLI::App& command, ViewTexts& view) {
+    command.add_option("--settings", view.settingsFile,
+                       "Settings to start from: a settings file, a preset, or a screenshot by Worldy");
+    command
+        .add_option("--set", view.assignments,
+                    "Any setting, as lod.tau_px=3; may be given again and again, and wins over the others")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    command.add_option("--size", view.size, "Picture size, WIDTHxHEIGHT (1280x720)");
     command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(number(1e-6, 1000));
     command.add_option("--budget", view.budgetMB, "Memory for resident chunks, MiB (256)")
         ->check(CLI::Range(16, 65536));
-    command.add_flag_callback(
-        "--no-culling", [&view] { view.frustumCulling = view.horizonCulling = false; },
-        "Also draw and load what is out of sight");
+    command.add_flag("--no-culling", view.noCulling, "Also draw and load what is out of sight");
 }
 
-void addShot(CLI::App& app, ShotOptions& options, ShotTexts& texts) {
+void addShot(CLI::App& app, ShotOptions& options, ViewTexts& view) {
     CLI::App& command = *app.add_subcommand("shot", "Draw one picture of a chunk file, without a display");
     command.add_option("FILE", options.file, "Chunk file")->required();
     command.add_option("-o,--output", options.output, "Picture to write, .png")->required();
-    command.add_option("--camera", texts.camera,
+    command.add_option("--camera", view.camera,
                        "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius (the whole planet)");
-    addViewOptions(command, options.view, texts.size);
-    command.add_option("--fov", options.view.fovDeg, "Horizontal field of view, degrees (60)")
-        ->check(number(5, 150));
+    addViewOptions(command, view);
+    command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
     command.add_option("--samples", options.samples, "Multisampling, samples a pixel (4)")
         ->check(CLI::Range(1, 16));
-    command.add_flag("--wireframe", options.view.wireframe, "Draw the triangles' edges");
-    command.add_flag("--no-skirts", texts.noSkirts, "Leave out the skirts that hide cracks");
-    command.add_flag("--cube", options.view.cube, "Draw the cube before it is blown up to the sphere");
+    command.add_flag("--wireframe", view.wireframe, "Draw the triangles' edges");
+    command.add_flag("--no-skirts", view.noSkirts,
+                     "Leave out the skirts that hide cracks: short for --set seams.mode=none");
+    command.add_flag("--cube", view.cube, "Draw the cube before it is blown up to the sphere");
     command
-        .add_option("--colour-by", texts.colourBy, "What a chunk's colour shows: none, level or error (none)")
+        .add_option("--colour-by", view.colourBy,
+                    fmt::format("What a chunk's tint shows: {} (none)", fmt::join(colourByNames, ", ")))
         ->check(oneOf(colourByNames));
-    command.add_option("--surface", texts.surface, "Colour of the ground: image or ramp (image)")
+    command.add_option("--surface", view.surface, "Colour of the ground: image or ramp (image)")
         ->check(oneOf(surfaceNames));
     command.add_option("--colour-image", options.colourImage,
                        "Picture laid over the planet (colour.jpg beside FILE)");
@@ -133,14 +127,14 @@ void addShot(CLI::App& app, ShotOptions& options, ShotTexts& texts) {
     command.add_flag("--json", options.json, "Print what was drawn as JSON");
 }
 
-void addFly(CLI::App& app, FlyOptions& options, std::string& size) {
+void addFly(CLI::App& app, FlyOptions& options, ViewTexts& view) {
     CLI::App& command =
         *app.add_subcommand("fly", "Fly a recorded path without a display, and measure each frame");
     command.add_option("FILE", options.file, "Chunk file")->required();
     command.add_option("--path", options.path, "The flight's keys, .toml")->required();
     command.add_option("--frames", options.frames, "Frames, evenly over the flight (300)")
         ->check(CLI::Range(1, 1000000));
-    addViewOptions(command, options.view, size);
+    addViewOptions(command, view);
     command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
     command.add_option("--json", options.jsonOutput, "Write every frame's figures there");
 }
@@ -162,7 +156,12 @@ void addFileCommands(CLI::App& app, FileCommandOptions& options) {
     probe.add_option("LONGITUDE", options.longitudeDeg, "Degrees east")->required()->check(number(-360, 360));
 }
 
-Result<void> runShot(ShotOptions& options, const ShotTexts& texts) {
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code status;
+    return a == b || std::filesystem::equivalent(a, b, status);
+}
+
+Result<ShotOptions> withView(ShotOptions options, const ViewTexts& texts) {
     const Result<PictureSize> size = pictureSizeFromText(texts.size);
     if (!size) return tl::unexpected(size.error());
     options.size = *size;
@@ -171,16 +170,23 @@ Result<void> runShot(ShotOptions& options, const ShotTexts& texts) {
         if (!pose) return tl::unexpected(pose.error());
         options.camera = *pose;
     }
-    options.view.skirts = !texts.noSkirts;
-    options.view.colourBy = enumerator<planet::gl::ColourBy>(colourByNames, texts.colourBy);
-    options.view.surface = enumerator<planet::gl::SurfaceColour>(surfaceNames, texts.surface);
-    return takeShot(options);
+    const Result<Settings> settings = settingsFrom(texts);
+    if (!settings) return tl::unexpected(settings.error());
+    options.view = settings->view;
+    options.start = settings->camera;
+    // The settings' picture belongs to the settings' data set.
+    const bool sameData = settings->dataSet.empty() || sameFile(settings->dataSet, options.file);
+    if (options.colourImage.empty() && sameData) options.colourImage = settings->colourImage;
+    return options;
 }
 
-Result<void> runFly(FlyOptions& options, const std::string& sizeText) {
-    const Result<PictureSize> size = pictureSizeFromText(sizeText);
+Result<void> runFly(FlyOptions options, const ViewTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts.size);
     if (!size) return tl::unexpected(size.error());
+    const Result<Settings> settings = settingsFrom(texts);
+    if (!settings) return tl::unexpected(settings.error());
     options.size = *size;
+    options.view = settings->view;
     return flyPath(options);
 }
 
@@ -188,45 +194,73 @@ int exitCodeOf(const Result<void>& result) {
     return result ? exitOk : reportError(result.error());
 }
 
-}  // namespace
-
-int runCommandLine(int argumentCount, const char* const* arguments) {
-    CLI::App app(
+// All options, and where what was given goes. The parser points into it, so it stays where it is.
+struct CommandLine {
+    CLI::App app{
         "Worldy: shows, tunes and measures planets drawn by chunked level of detail.\n"
         "Without a command it opens a window on FILE, or on the Earth.",
-        "worldy");
-    app.set_version_flag("--version", "worldy " WORLDY_VERSION);
+        "worldy"};
     AppOptions window;
-    app.add_option("FILE", window.file, "Chunk file (.chk), elevation image or cube faces to show");
-    app.add_option("--settings", window.settingsFile, "Settings to use instead of the user's own");
-    app.add_option("--shaders", window.shaderFolder,
-                   "Read the shaders from this folder, and again when they change");
     BakeOptions bake;
-    ShotOptions shot;
-    ShotTexts shotTexts;
-    FlyOptions fly;
-    std::string flySize = "1280x720";
     FileCommandOptions file;
-    addBake(app, bake);
-    addFileCommands(app, file);
-    addShot(app, shot, shotTexts);
-    addFly(app, fly, flySize);
-    app.require_subcommand(0, 1);
+    ShotOptions shot;
+    ViewTexts shotView;
+    FlyOptions fly;
+    ViewTexts flyView;
 
-    try {
-        app.parse(argumentCount, arguments);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        return reportError({planet::ErrorKind::BadInput,
-                            fmt::format("{}; worldy --help tells what would be right", error.what())});
+    CommandLine() {
+        app.set_version_flag("--version", "worldy " WORLDY_VERSION);
+        app.add_option("FILE", window.file, "Chunk file (.chk), elevation image or cube faces to show");
+        app.add_option("--settings", window.settingsFile, "Settings to use instead of the user's own");
+        app.add_option("--shaders", window.shaderFolder,
+                       "Read the shaders from this folder, and again when they change");
+        app.add_option(
+            "--item-map", window.itemMapFile,
+            "Keep writing there where each control is on the screen, and what is counted, for scripts");
+        addBake(app, bake);
+        addFileCommands(app, file);
+        addShot(app, shot, shotView);
+        addFly(app, fly, flyView);
+        app.require_subcommand(0, 1);
     }
-    if (app.got_subcommand("bake")) return exitCodeOf(runBake(bake));
-    if (app.got_subcommand("info")) return exitCodeOf(runInfo(file));
-    if (app.got_subcommand("verify")) return exitCodeOf(runVerify(file));
-    if (app.got_subcommand("probe")) return exitCodeOf(runProbe(file));
-    if (app.got_subcommand("shot")) return exitCodeOf(runShot(shot, shotTexts));
-    if (app.got_subcommand("fly")) return exitCodeOf(runFly(fly, flySize));
-    return runApp(window);
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+};
+
+planet::Error errorOf(const CLI::ParseError& error) {
+    return {planet::ErrorKind::BadInput,
+            fmt::format("{}; worldy --help tells what would be right", error.what())};
+}
+
+}  // namespace
+
+Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments) {
+    CommandLine line;
+    try {
+        line.app.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const CLI::ParseError& error) {
+        return tl::unexpected(errorOf(error));
+    }
+    if (!line.app.got_subcommand("shot"))
+        return planet::badInput("this is no `worldy shot`; worldy shot FILE -o PICTURE would be right");
+    return withView(line.shot, line.shotView);
+}
+
+int runCommandLine(int argumentCount, const char* const* arguments) {
+    CommandLine line;
+    const CLI::App& app = line.app;
+    try {
+        line.app.parse(argumentCount, arguments);
+    } catch (const CLI::ParseError& error) {
+        return error.get_exit_code() == 0 ? app.exit(error) : reportError(errorOf(error));
+    }
+    if (app.got_subcommand("bake")) return exitCodeOf(runBake(line.bake));
+    if (app.got_subcommand("info")) return exitCodeOf(runInfo(line.file));
+    if (app.got_subcommand("verify")) return exitCodeOf(runVerify(line.file));
+    if (app.got_subcommand("probe")) return exitCodeOf(runProbe(line.file));
+    if (app.got_subcommand("shot")) return exitCodeOf(withView(line.shot, line.shotView).and_then(takeShot));
+    if (app.got_subcommand("fly")) return exitCodeOf(runFly(line.fly, line.flyView));
+    return runApp(line.window);
 }
 
 }  // namespace worldy

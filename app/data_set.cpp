@@ -80,6 +80,17 @@ fs::path colourImageOf(const fs::path& chunkFile) {
     return file && file->info().source == ourEarth ? colourImageBeside(earthElevation()) : fs::path();
 }
 
+// Empty for the defaults, so that their bakes keep their names. Memory for the source changes nothing.
+std::string identityOf(const planet::HeightSourceSettings& settings) {
+    const auto text = [](const planet::HeightSourceSettings& s) {
+        return fmt::format(" s{} {} {} {} {} {} {} {} {}", s.metresPerUnit, s.offsetM,
+                           s.noDataValue.has_value(), s.noDataValue.value_or(0), s.fillM,
+                           s.rawSize.value_or(0), s.rawBits.value_or(0), s.rawSigned, s.rawBigEndian);
+    };
+    const std::string identity = text(settings);
+    return identity == text({}) ? std::string() : identity;
+}
+
 // Whether a file and its root chunks can be read: what a planet needs to open.
 bool opensWhole(const fs::path& chunkFile) {
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
@@ -93,10 +104,14 @@ fs::path earthElevation() {
     return dataFolder() / "earth" / "elevation.tif";
 }
 
-fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settings) {
+fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settings,
+                      const planet::HeightSourceSettings& sourceSettings) {
     std::string identity =
         fmt::format("{} {} {} {} {}", planet::chunkFileVersion, settings.faceSize.value_or(0),
                     settings.chunkSize, settings.radiusM, settings.quantumM.value_or(0));
+    if (settings.compressionLevel != planet::defaultCompressionLevel)
+        identity += fmt::format(" c{}", settings.compressionLevel);
+    identity += identityOf(sourceSettings);
     for (const fs::path& file : filesOf(source)) {
         std::error_code status;
         identity += fmt::format("|{}|{}|{}", fs::absolute(file, status).lexically_normal().string(),
@@ -107,7 +122,12 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
            fmt::format("{}-{:016x}.chk", shortened(stemWithoutFace(source)), hashOf(identity));
 }
 
-planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings) {
+bool sourceExists(const fs::path& source) {
+    return !source.empty() && source.extension() != ".chk" && !filesOf(source).empty();
+}
+
+planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,
+                                    const planet::HeightSourceSettings& sourceSettings) {
     if (filesOf(named).empty()) {
         return planet::badInput(
             fmt::format("{}: no such file; a chunk file (.chk), an elevation image or one of six cube faces "
@@ -116,7 +136,7 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
     }
     if (named.extension() == ".chk") return DataSet{named, named, colourImageOf(named), false};
     DataSet set{.source = named, .chunkFile = {}, .colourImage = colourImageBeside(named)};
-    set.chunkFile = cachedBakeOf(named, settings);
+    set.chunkFile = cachedBakeOf(named, settings, sourceSettings);
     set.needsBake = !opensWhole(set.chunkFile);
     return set;
 }

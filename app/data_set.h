@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planet/bake.h"
+#include "planet/height_source.h"
 #include "planet/result.h"
 
 namespace worldy {
@@ -21,10 +22,16 @@ struct DataSet {
 std::filesystem::path earthElevation();
 
 // The Error says that nothing is there. A bake in the cache that cannot be opened is baked again.
-planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const planet::BakeSettings& settings);
+planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const planet::BakeSettings& settings,
+                                    const planet::HeightSourceSettings& sourceSettings = {});
 
 // Where the bake of a source is kept. The name carries a hash of the source's path, size and time of change,
-// of all six faces where it has them, and of the settings, so that a changed source is baked anew.
-std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const planet::BakeSettings& settings);
+// of all six faces where it has them, and of all settings that change the file, so that a changed source is
+// baked anew.
+std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const planet::BakeSettings& settings,
+                                   const planet::HeightSourceSettings& sourceSettings = {});
+
+// Whether an elevation image, or a face of a cube, is there.
+bool sourceExists(const std::filesystem::path& source);
 
 }  // namespace worldy

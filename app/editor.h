@@ -1,35 +1,69 @@
-// What happens in a frame of the window.
+// What happens in a frame of the window, and all that it remembers from one frame to the next.
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "app/camera_control.h"
-#include "app/input.h"
+#include "app/bookmarks.h"
+#include "app/camera_rig.h"
 #include "app/log.h"
+#include "app/presets.h"
 #include "app/session.h"
 #include "app/settings.h"
+#include "app/undo.h"
+#include "app/viewport.h"
 #include "app/window.h"
-#include "planet/gl/render_target.h"
-#include "ui/frame_stats.h"
-#include "ui/log_panel.h"
+#include "ui/docks.h"
+#include "ui/editor_view.h"
+#include "ui/item_map.h"
+#include "ui/menu_bar.h"
+#include "ui/open_dialog.h"
 
 namespace worldy {
 
-// Where the user is and looks, and what the last frame did. Plain state; owns no window and no planet.
+// Where the user is, looks and has got to. Plain state; owns no window and no planet.
 struct Editor {
     Settings settings;
-    std::optional<Camera> camera;  // once a planet is open
-    double speedFactor = 1;
-    bool lodFrozen = false;
+
+    std::optional<CameraRig> rig;       // once a planet is open
+    std::optional<CameraRig> observer;  // once it was looked through
+    ui::CameraSettings observerControls;
     planet::View lodView;  // follows the camera but while frozen
-    PointerInput pointer;  // of the last frame's picture
+    bool lodFrozen = false;
+    bool framesPaused = false;
+    bool stepOneFrame = false;
+    bool pagingPaused = false;
+    Viewport viewport;
+    ui::ChunkFocus focus;
+    const planet::Planet* lastPlanet = nullptr;  // of the frame before, to see that another took its place
+    double lastRadiusM = 0;
+
+    double timeS = 0;  // since the window opened
     ui::FrameStats stats;
-    std::optional<planet::gl::RenderTarget> target;  // as large as the viewport
+    std::deque<ui::FrameSample> history;
+    planet::LodChanges changes;
     std::deque<ui::LogLine> logLines;
-    ui::LogPanelState logPanel;
+
+    ui::PanelStates panels;
+    ui::MenuState menu;
+    ui::OpenDialogState openDialog;
+
+    UndoHistory undo;
+    PresetShelf presets{presetFolders()};
+    Bookmarks bookmarks;
+    std::vector<std::filesystem::path> flights;
+    std::vector<std::filesystem::path> recent;       // as kept
+    std::vector<std::filesystem::path> recentShown;  // those that are there
+    bool screenshotPending = false;                  // with panels: once they are drawn
+    std::filesystem::path itemMapFile;               // where to write where controls are; empty: nowhere
+    std::uint64_t frames = 0;                        // run so far
 };
 
-void runFrame(const Window& window, Session& session, Editor& editor, Log& log, double secondsSinceLast);
+Editor openEditor(const Settings& settings, const Log& log);
+
+void runFrame(Window& window, Session& session, Editor& editor, Log& log, double secondsSinceLast);
 
 }  // namespace worldy

@@ -37,7 +37,7 @@ struct Quantity {
     double (*of)(const ui::FrameStats&);
 };
 using Stats = ui::FrameStats;
-constexpr std::array<Quantity, 16> quantities = {{
+constexpr std::array<Quantity, 18> quantities = {{
     {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
     {"culled",
      [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
@@ -53,7 +53,9 @@ constexpr std::array<Quantity, 16> quantities = {{
     {"select_ms", [](const Stats& s) { return s.stages.selectMs; }},
     {"paging_ms", [](const Stats& s) { return s.stages.pagingMs; }},
     {"draw_cpu_ms", [](const Stats& s) { return s.drawCpuMs; }},
-    {"draw_gpu_ms", [](const Stats& s) { return s.render.drawMs; }},
+    {"draw_gpu_ms", [](const Stats& s) { return s.render.chunksMs + s.render.skyMs; }},
+    {"chunks_gpu_ms", [](const Stats& s) { return s.render.chunksMs; }},
+    {"sky_gpu_ms", [](const Stats& s) { return s.render.skyMs; }},
     {"frame_ms", [](const Stats& s) { return s.frameMs; }},
 }};
 
@@ -72,17 +74,18 @@ Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity)
     return {rank(50), rank(99), values.back()};
 }
 
-FlownFrame flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS,
-                    const ui::ViewSettings& settings) {
+Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS,
+                            const ui::ViewSettings& settings) {
     Scene& scene = offscreen.scene;
     const double radiusM = scene.planet->shape().radiusM;
     const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
     const Camera camera = keepInRange(wanted, groundBelow(scene, wanted.eyeM));
-    const planet::View view = viewOf(camera, glm::radians(settings.fovDeg), offscreen.target.widthPx(),
+    const planet::View view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                                      offscreen.target.heightPx());
     const Stopwatch watch;
     stepScene(scene, view, settings);
-    drawAndFinish(offscreen, view, settings);
+    if (const Result<void> drawn = drawAndFinish(offscreen, view, settings); !drawn)
+        return tl::unexpected(drawn.error());
     FlownFrame frame{timeS, planet::poseFromView(view, radiusM), camera.eyeM != wanted.eyeM, statsOf(scene)};
     frame.stats.frameMs = watch.elapsedMs();
     return frame;
@@ -94,8 +97,8 @@ Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector
                    {"frames", frames.size()},
                    {"width_px", options.size.widthPx},
                    {"height_px", options.size.heightPx},
-                   {"tau_px", options.view.tauPx},
-                   {"budget_mb", options.view.budgetMB}};
+                   {"tau_px", options.view.lod.tauPx},
+                   {"budget_mb", options.view.paging.budgetMB}};
     for (const Quantity& quantity : quantities) {
         const Spread spread = spreadOf(frames, quantity);
         report["summary"][quantity.name] = {
@@ -140,7 +143,9 @@ Result<void> flyPath(const FlyOptions& options) {
         if (watch.interrupted()) return planet::cancelled();
         const double share = options.frames > 1 ? static_cast<double>(i) / (options.frames - 1) : 0;
         const double timeS = path->keys.front().timeS + share * durationS(*path);
-        frames.push_back(flyFrame(*offscreen, *path, timeS, options.view));
+        const Result<FlownFrame> frame = flyFrame(*offscreen, *path, timeS, options.view);
+        if (!frame) return tl::unexpected(frame.error());
+        frames.push_back(*frame);
     }
     for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
         fmt::print(stderr, "worldy: {}\n", problem);

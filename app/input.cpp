@@ -3,8 +3,6 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include <algorithm>
-
 namespace worldy {
 
 namespace {
@@ -29,27 +27,24 @@ glm::dvec2 dragOf(ImGuiMouseButton button) {
     return {static_cast<double>(delta.x), static_cast<double>(delta.y)};
 }
 
+// Let go where it went down, so that a drag selects nothing.
+bool clickedInPlace() {
+    if (!ImGui::IsItemHovered() || !ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return false;
+    const float most = ImGui::GetIO().MouseDragThreshold * ImGui::GetIO().MouseDragThreshold;
+    return ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < most;
+}
+
 }  // namespace
 
-KeyInput readKeys(const std::vector<int>& pressedKeys) {
+KeyInput readKeys() {
     KeyInput keys;
-    if (ImGui::GetIO().WantTextInput) return keys;
-    const auto pressed = [&](int key) {
-        return std::find(pressedKeys.begin(), pressedKeys.end(), key) != pressedKeys.end();
-    };
+    if (ImGui::GetIO().WantTextInput || ImGui::GetIO().KeyCtrl) return keys;
     keys.held = {.forward = axis(GLFW_KEY_W, GLFW_KEY_S),
                  .right = axis(GLFW_KEY_D, GLFW_KEY_A),
                  .up = axis(GLFW_KEY_E, GLFW_KEY_Q),
                  .lookRight = axis(GLFW_KEY_L, GLFW_KEY_J),
                  .lookUp = axis(GLFW_KEY_I, GLFW_KEY_K)};
     keys.speedSteps = speedSteps();
-    keys.toggleWireframe = pressed(GLFW_KEY_F1);
-    keys.toggleFreeze = pressed(GLFW_KEY_F2);
-    keys.resetCamera = pressed(GLFW_KEY_F3);
-    keys.toggleCube = pressed(GLFW_KEY_F4);
-    // Escape leaves an open list before it leaves the program.
-    keys.quit = pressed(GLFW_KEY_ESCAPE) &&
-                !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     return keys;
 }
 
@@ -58,8 +53,11 @@ PointerInput readPointer(float pixelRatio) {
     const ImGuiIO& io = ImGui::GetIO();
     const ImVec2 corner = ImGui::GetItemRectMin();
     const double ratio = static_cast<double>(pixelRatio);
+    input.over = ImGui::IsItemHovered() || ImGui::IsItemActive();
     input.positionPx = ratio * glm::dvec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
     if (ImGui::IsItemHovered()) input.wheelNotches = static_cast<double>(io.MouseWheel);
+    input.clicked = clickedInPlace();
+    input.doubleClicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (!ImGui::IsItemActive()) return input;
     input.dragPx = ratio * dragOf(ImGuiMouseButton_Left);
     input.lookPx = ratio * dragOf(ImGuiMouseButton_Right);

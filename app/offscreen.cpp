@@ -5,11 +5,26 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/overlay_lines.h"
+#include "ui/overlay_colours.h"
+
 namespace worldy {
 
 namespace {
 
 constexpr double settleTimeoutS = 120;
+
+planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, const planet::Lines& lines) {
+    if (!offscreen.lines) {
+        planet::Result<planet::gl::DebugLines> made = planet::gl::DebugLines::create();
+        if (!made) return tl::unexpected(made.error());
+        offscreen.lines.emplace(std::move(*made));
+    }
+    // As wide as in the window.
+    offscreen.lines->draw(view, offscreen.scene.renderer.projection(), lines, 1.5f,
+                          planet::gl::LineDepth::Hidden);
+    return {};
+}
 
 }  // namespace
 
@@ -25,11 +40,22 @@ planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::Vie
     return Offscreen{std::move(*context), std::move(*target), std::move(*scene)};
 }
 
-void drawAndFinish(Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings) {
+planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,
+                                   const ui::ViewSettings& settings) {
+    Scene& scene = offscreen.scene;
+    const planet::Selection& selection = scene.planet->selection();
     offscreen.target.bind();
-    drawScene(offscreen.scene, view, settings);
+    drawScene(scene, view, settings, 0,
+              ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
+                             settings.surface.lighting));
+    const planet::Lines lines = overlayLines(scene.planet->tree(), selection, view, settings);
+    // Lines are those of the sphere.
+    if (!lines.empty() && !settings.overlay.cube) {
+        if (planet::Result<void> drawn = drawLines(offscreen, view, lines); !drawn) return drawn;
+    }
     offscreen.target.resolve();
     glFinish();
+    return {};
 }
 
 Picture readPicture(const Offscreen& offscreen) {
@@ -42,7 +68,7 @@ SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const
     Camera camera = cameraFromPose(pose, radiusM);
     SettledView result;
     const auto settle = [&] {
-        result.view = viewOf(camera, glm::radians(settings.fovDeg), offscreen.target.widthPx(),
+        result.view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                              offscreen.target.heightPx());
         result.pose = planet::poseFromView(result.view, radiusM);
         result.settled = settleScene(scene, result.view, settings, settleTimeoutS);

@@ -1,8 +1,11 @@
 // Drawing a planet without a window: what shot, fly and a machine without a display share.
 #pragma once
 
+#include <optional>
+
 #include "app/scene.h"
 #include "app/view_options.h"
+#include "planet/gl/debug_lines.h"
 #include "planet/gl/offscreen_context.h"
 #include "planet/gl/render_target.h"
 
@@ -13,13 +16,15 @@ struct Offscreen {
     planet::gl::OffscreenContext context;
     planet::gl::RenderTarget target;
     Scene scene;
+    std::optional<planet::gl::DebugLines> lines{};  // once any were drawn
 };
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
                                         const PictureSize& size, int samples);
 
-// Draws the last selection and waits until the GPU has done it.
-void drawAndFinish(Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings);
+// Draws the last selection, tints and lines over it included, and waits until the GPU has done it.
+planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,
+                                   const ui::ViewSettings& settings);
 
 Picture readPicture(const Offscreen& offscreen);
 

@@ -12,15 +12,17 @@ namespace {
 
 constexpr int maxSidePx = 32768;
 
+tl::unexpected<planet::Error> notAnImage(const std::filesystem::path& file) {
+    OIIO::geterror();  // kept for the next failure if nobody takes it
+    return planet::badInput(fmt::format(
+        "{}: cannot be read as an image; a JPEG, PNG or TIFF picture would be right", file.string()));
+}
+
 }  // namespace
 
 planet::Result<Picture> readPicture(const std::filesystem::path& file) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
-    if (!input) {
-        OIIO::geterror();
-        return planet::badInput(fmt::format(
-            "{}: cannot be read as an image; a JPEG, PNG or TIFF picture would be right", file.string()));
-    }
+    if (!input) return notAnImage(file);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > maxSidePx || spec.height > maxSidePx) {
         return planet::badInput(fmt::format("{}: is {} x {} pixels; 1 to {} a side would be right",
@@ -41,10 +43,18 @@ planet::Result<Picture> readPicture(const std::filesystem::path& file) {
     return picture;
 }
 
-planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file) {
+planet::Result<std::string> readPictureText(const std::filesystem::path& file, const std::string& keyword) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
+    if (!input) return notAnImage(file);
+    return std::string(input->spec().get_string_attribute(keyword));
+}
+
+planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file,
+                                  std::span<const PictureText> texts) {
     return writeAtomically(file, [&](const std::filesystem::path& temporary) -> planet::Result<void> {
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
-        const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+        OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+        for (const PictureText& text : texts) spec.attribute(text.keyword, text.text);
         if (!output || !output->open(temporary.string(), spec) ||
             !output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !output->close()) {
             const std::string why = output ? output->geterror() : OIIO::geterror();

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "planet/result.h"
@@ -18,7 +20,17 @@ struct Picture {
 // Any image that OpenImageIO reads; grey becomes colour, alpha is left out.
 planet::Result<Picture> readPicture(const std::filesystem::path& file);
 
+// A text kept in a picture's file: in a PNG a tEXt chunk of that keyword, 1 to 79 bytes.
+struct PictureText {
+    std::string keyword;
+    std::string text;
+};
+
 // Written under a temporary name, then renamed. The file's ending chooses the format.
-planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file);
+planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file,
+                                  std::span<const PictureText> texts = {});
+
+// The text of a keyword without reading the picture; empty where there is none.
+planet::Result<std::string> readPictureText(const std::filesystem::path& file, const std::string& keyword);
 
 }  // namespace worldy

@@ -23,12 +23,14 @@ Json jsonOf(const ui::FrameStats& stats) {
             {"waiting", stats.selection.waiting},
             {"deepest_level", stats.selection.deepestLevel},
             {"worst_eps_px", stats.selection.worstEpsPx},
+            {"widest_seam", stats.selection.widestSeam},
             {"requests", stats.paging.requested},
             {"queued", stats.paging.queued},
             {"loading", stats.paging.loading},
             {"loaded_blocks", stats.paging.loaded},
             {"evicted_blocks", stats.paging.evicted},
             {"failed_blocks", stats.paging.failed},
+            {"budget_waits", stats.paging.budgetWaits},
             {"resident_chunks", stats.paging.residentChunks},
             {"resident_bytes_cpu", stats.paging.residentBytesCpu},
             {"resident_bytes_gpu", stats.paging.residentBytesGpu},
@@ -37,7 +39,9 @@ Json jsonOf(const ui::FrameStats& stats) {
             {"select_ms", stats.stages.selectMs},
             {"paging_ms", stats.stages.pagingMs},
             {"draw_cpu_ms", stats.drawCpuMs},
-            {"draw_gpu_ms", stats.render.drawMs},
+            {"draw_gpu_ms", stats.render.chunksMs + stats.render.skyMs},
+            {"chunks_gpu_ms", stats.render.chunksMs},
+            {"sky_gpu_ms", stats.render.skyMs},
             {"frame_ms", stats.frameMs}};
 }
 

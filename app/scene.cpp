@@ -1,6 +1,7 @@
 #include "app/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -13,11 +14,8 @@ namespace worldy {
 
 namespace {
 
-planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings) {
-    return {.budgetBytes = static_cast<std::size_t>(settings.budgetMB) << 20,
-            .loaderThreads = settings.loaderThreads,
-            .uploadLimitMs = settings.uploadLimitMs};
-}
+// An observer looks at the same planet from afar; the lod view is what one works on.
+constexpr double observerPriorityFactor = 0.5;
 
 planet::UploadChunk uploadInto(planet::gl::ChunkRenderer& renderer) {
     return [&renderer](std::uint32_t slot, std::span<const std::int16_t> heights) {
@@ -33,11 +31,46 @@ glm::dvec3 morningSun(const glm::dvec3& eyeM) {
     return 0.65 * up + 0.65 * east + 0.4 * glm::cross(up, east);
 }
 
-// The ramp's colours spread over the planet's own heights, whatever they are.
+// The ramp's colours spread over the planet's own heights, whatever they are. Exaggeration is in the shape.
 double rampTopM(const planet::ChunkTree& tree) {
     const double highestM = planet::heightM(tree.shape, tree.maxStep);
     const double lowestM = planet::heightM(tree.shape, tree.minStep);
     return std::max({0.85 * highestM, 0.3 * (highestM - lowestM), 1.0});
+}
+
+bool samePaging(const planet::PagingSettings& a, const planet::PagingSettings& b) {
+    return a.budgetBytes == b.budgetBytes && a.loaderThreads == b.loaderThreads &&
+           a.uploadLimitMs == b.uploadLimitMs && a.paused == b.paused && a.badDisk == b.badDisk;
+}
+
+// The renderer's pool follows the planet's slots. Where it cannot, the planet goes back to the slots it had.
+planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before) {
+    planet::Result<void> fitted = scene.renderer.setSlotCapacity(scene.planet->slotCapacity());
+    if (!fitted) static_cast<void>(scene.planet->setPaging(before));
+    scene.planet->uploadAll(uploadInto(scene.renderer));
+    return fitted;
+}
+
+planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wanted) {
+    const planet::PagingSettings before = scene.planet->pagingSettings();
+    if (samePaging(wanted, before)) {
+        scene.refusedPaging.reset();
+        return {};
+    }
+    if (scene.refusedPaging && samePaging(*scene.refusedPaging, wanted)) return {};
+    const planet::Result<bool> moved = scene.planet->setPaging(wanted);
+    planet::Result<void> applied;
+    if (!moved)
+        applied = tl::unexpected(moved.error());
+    else if (*moved)
+        applied = fitPool(scene, before);
+    scene.refusedPaging = applied ? std::nullopt : std::optional(wanted);
+    return applied;
+}
+
+void beginFrame(Scene& scene) {
+    scene.drawCpuMs = 0;
+    scene.drawn = {};
 }
 
 }  // namespace
@@ -45,11 +78,12 @@ double rampTopM(const planet::ChunkTree& tree) {
 planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSettings& settings) {
     auto planet = planet::Planet::open(config.chunkFile, pagingSettingsOf(settings));
     if (!planet) return tl::unexpected(planet.error());
+    (*planet)->setExaggeration(settings.surface.exaggeration);
     auto renderer = planet::gl::ChunkRenderer::create(
         {(*planet)->shape(), (*planet)->slotCapacity(), config.shaderFolder});
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
-    scene.openBudgetMB = settings.budgetMB;
+    scene.exaggeration = settings.surface.exaggeration;
     if (config.colour) {
         scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
         scene.hasColourImage = true;
@@ -59,47 +93,97 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
 
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     planet::LodSettings lod;
-    lod.tauPx = settings.tauPx;
-    lod.skirtFactor = settings.skirtFactor;
+    lod.tauPx = settings.lod.tauPx;
+    lod.hysteresis = settings.lod.hysteresis;
+    lod.maxLevel = settings.lod.maxLevel;
     // Bounds are those of the sphere; on the cube they would cut away what is in view.
-    lod.frustumCulling = settings.frustumCulling && !settings.cube;
-    lod.horizonCulling = settings.horizonCulling && !settings.cube;
+    lod.frustumCulling = settings.lod.frustumCulling && !settings.overlay.cube;
+    lod.horizonCulling = settings.lod.horizonCulling && !settings.overlay.cube;
+    lod.morph = settings.lod.morph;
+    lod.morphRange = settings.lod.morphRange;
+    lod.seams = settings.seams.mode;
+    lod.skirtDepth = settings.seams.depth;
+    lod.skirtDepthM = settings.seams.skirtDepthM;
+    lod.skirtFactor = settings.seams.skirtFactor;
     return lod;
+}
+
+planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused) {
+    return {.budgetBytes = static_cast<std::size_t>(settings.paging.budgetMB) << 20,
+            .loaderThreads = settings.paging.loaderThreads,
+            .uploadLimitMs = settings.paging.uploadLimitMs,
+            .paused = paused,
+            .badDisk = settings.paging.badDisk};
 }
 
 planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
                                             const planet::ChunkTree& tree) {
+    const ui::SurfaceSettings& surface = settings.surface;
+    const ui::OverlaySettings& overlay = settings.overlay;
     planet::gl::RenderSettings render;
-    render.surface = settings.surface;
-    render.colourBy = settings.colourBy;
-    render.tauPx = settings.tauPx;
-    render.wireframe = settings.wireframe;
-    render.skirts = settings.skirts;
-    render.cube = settings.cube;
-    render.atmosphere = settings.atmosphere && !settings.cube;
-    render.lighting = settings.lighting;
-    render.detail = settings.detail;
+    render.surface = surface.surface;
+    render.imageOpacity = surface.imageOpacity;
     render.rampTopM = rampTopM(tree);
-    render.sunDirection = settings.sunFollows
+    // Users name true heights; the renderer's are as drawn.
+    render.ramp = surface.ramp;
+    for (planet::gl::RampStop& stop : render.ramp) stop.heightM *= tree.exaggeration;
+    render.sea = surface.sea;
+    render.seaLevelM = surface.seaLevelM * tree.exaggeration;
+    render.wireframe = overlay.wireframe;
+    render.outlines = overlay.outlines;
+    render.skirtPaint = overlay.skirtPaint;
+    render.stitched = settings.seams.mode == planet::SeamMode::Stitched;
+    render.cube = overlay.cube;
+    render.atmosphere = surface.atmosphere && !overlay.cube;
+    render.lighting = surface.lighting;
+    render.detail = surface.detail;
+    render.sunDirection = surface.sunFollows
                               ? morningSun(view.eyeM)
-                              : planet::directionFromGeographic({glm::radians(settings.sunLatitudeDeg),
-                                                                 glm::radians(settings.sunLongitudeDeg)});
+                              : planet::directionFromGeographic({glm::radians(surface.sunLatitudeDeg),
+                                                                 glm::radians(surface.sunLongitudeDeg)});
     return render;
 }
 
+planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& settings, bool pagingPaused) {
+    if (scene.exaggeration != settings.surface.exaggeration) {
+        scene.exaggeration = settings.surface.exaggeration;
+        scene.planet->setExaggeration(settings.surface.exaggeration);
+        scene.renderer.setShape(scene.planet->shape());
+    }
+    return applyPaging(scene, pagingSettingsOf(settings, pagingPaused));
+}
+
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
+    beginFrame(scene);
     scene.planet->step(lodView, lodSettingsOf(settings), uploadInto(scene.renderer));
 }
 
-void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings) {
+void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
+               const ui::ViewSettings& settings) {
+    beginFrame(scene);
+    const planet::LodSettings lod = lodSettingsOf(settings);
+    const std::array<planet::ViewInput, 2> views = {
+        {{lodView, lod}, {observerView, lod, observerPriorityFactor}}};
+    scene.planet->step(views, uploadInto(scene.renderer));
+}
+
+void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+               std::size_t selection, std::span<const planet::gl::ChunkTint> tints) {
     const Stopwatch watch;
-    scene.renderer.draw(renderView, scene.planet->selection().draw,
-                        renderSettingsOf(settings, renderView, scene.planet->tree()));
-    scene.drawCpuMs = watch.elapsedMs();
+    scene.renderer.draw(renderView, scene.planet->selection(selection).draw,
+                        renderSettingsOf(settings, renderView, scene.planet->tree()), tints);
+    scene.drawCpuMs += watch.elapsedMs();
+    const planet::gl::RenderCounters& counters = scene.renderer.counters();
+    scene.drawn.chunks += counters.chunks;
+    scene.drawn.triangles += counters.triangles;
+    scene.drawn.uploads += counters.uploads;
+    scene.drawn.chunksMs += counters.chunksMs;
+    scene.drawn.skyMs += counters.skyMs;
 }
 
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS) {
+    beginFrame(scene);
     return scene.planet->settle(lodView, lodSettingsOf(settings), uploadInto(scene.renderer), timeoutS);
 }
 
@@ -108,8 +192,8 @@ ui::FrameStats statsOf(const Scene& scene) {
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
     stats.stages = scene.planet->times();
-    stats.render = scene.renderer.counters();
-    stats.gpuBytes = scene.renderer.gpuBytes();
+    stats.render = scene.drawn;
+    stats.gpuMemory = scene.renderer.gpuMemory();
     stats.drawCpuMs = scene.drawCpuMs;
     return stats;
 }

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "app/camera_control.h"
 #include "app/picture.h"
@@ -18,32 +20,51 @@ struct Scene {
     std::unique_ptr<planet::Planet> planet;
     planet::gl::ChunkRenderer renderer;
     bool hasColourImage = false;
-    int openBudgetMB = 0;
-    double drawCpuMs = 0;  // of the last drawScene
+    // Of all drawScene calls since the last stepScene: a split viewport draws twice a frame.
+    double drawCpuMs = 0;
+    planet::gl::RenderCounters drawn{};
+    double exaggeration = 1;  // last asked for
+    // What setPaging has refused; told once, and not tried again until it changes.
+    std::optional<planet::PagingSettings> refusedPaging{};
 };
 
 struct SceneConfig {
     std::filesystem::path chunkFile;
-    std::filesystem::path shaderFolder;  // empty: the shaders built in
-    const Picture* colour = nullptr;     // none: a ramp by height
+    std::filesystem::path shaderFolder{};  // empty: the shaders built in
+    const Picture* colour = nullptr;       // none: a ramp by height
 };
 
 planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSettings& settings);
 
 // The user's units into the library's, here and nowhere else.
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings);
+planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused = false);
 planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
                                             const planet::ChunkTree& tree);
 
+// What changes the planet itself takes effect at once: memory, loaders, the bad disk, the pause, vertical
+// exaggeration. Cheap where nothing has changed. An Error comes once for each change that is refused; the
+// planet then goes on as it was.
+planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& settings,
+                                       bool pagingPaused = false);
+
 // One frame in two stages: choose and load by the lod view, then draw as the render view sees it.
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings);
-void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings);
+// The same for an observer who has a selection of its own, number 1; what it wants comes after what the lod
+// view wants.
+void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
+               const ui::ViewSettings& settings);
+
+// Draws a selection of the last step, with a tint for each of its items or none, into what is bound.
+void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+               std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {});
 
 // Steps until nothing more is wanted or can be had. False if that takes longer.
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS);
 
-// All but the frame and panel times, which the caller knows.
+// What the planet and its renderer know: selection 0, paging, stages, drawing, and the renderer's memory. The
+// rest the caller knows.
 ui::FrameStats statsOf(const Scene& scene);
 
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM);

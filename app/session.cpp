@@ -1,5 +1,7 @@
 #include "app/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -10,41 +12,143 @@ namespace worldy {
 namespace {
 
 namespace fs = std::filesystem;
+using planet::Result;
 
-void openBaked(Session& session, const ui::ViewSettings& settings, const Log& log) {
-    const SceneConfig config{session.data.chunkFile, session.shaderFolder,
-                             session.colour ? &*session.colour : nullptr};
-    planet::Result<Scene> scene = openScene(config, settings);
-    if (!scene) {
-        log->error("{}", scene.error().message);
-        session.problem = scene.error();
-        return;
-    }
-    session.scene.emplace(std::move(*scene));
-    log->info("Open: {}, {} on disk, {} levels", session.data.chunkFile.string(),
-              ui::bytesText(static_cast<double>(session.scene->planet->file().sizeBytes())),
-              planet::leafLevel(session.scene->planet->shape()) + 1);
-    log->debug("Depth buffer: {}", session.scene->renderer.capabilities().reversedZ
+// What a file tells of its bake. Its compression level is not in it, nor is its source's path.
+ui::BakeRequest requestOf(const planet::PlanetShape& shape) {
+    ui::BakeRequest request;
+    request.settings.faceSize = planet::faceCells(shape) + 1;
+    request.settings.chunkSize = planet::chunkSize(shape);
+    request.settings.radiusM = shape.radiusM;
+    request.settings.quantumM = shape.quantumM;
+    return request;
+}
+
+// A colour image that cannot be read is told; the planet is then coloured by height.
+std::optional<Picture> readColour(const fs::path& file, const Log& log) {
+    if (file.empty()) return std::nullopt;
+    Result<Picture> colour = readPicture(file);
+    if (colour) return std::move(*colour);
+    log->warn("{}", colour.error().message);
+    return std::nullopt;
+}
+
+Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::ViewSettings& settings,
+                              const Log& log) {
+    const bool sameColour = data.colourImage == session.colourFile;
+    std::optional<Picture> fresh = sameColour ? std::nullopt : readColour(data.colourImage, log);
+    const std::optional<Picture>& colour = sameColour ? session.colour : fresh;
+    Result<Scene> scene =
+        openScene({data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr}, settings);
+    if (!scene) return tl::unexpected(scene.error());
+    if (!sameColour) session.colour = std::move(fresh);
+    session.colourFile = data.colourImage;
+    // As stored; the planet's own shape has the exaggeration counted in.
+    const planet::ChunkFile& file = scene->planet->file();
+    OpenPlanet open{data, requestOf(file.info().shape), false, false, std::move(*scene)};
+    if (data.source != data.chunkFile) open.baked.source = data.source;
+    open.sourceIsThere = sourceExists(open.baked.source);
+    log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
+              ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
+    log->debug("Depth buffer: {}", open.scene.renderer.capabilities().reversedZ
                                        ? "float, reversed"
                                        : "the near plane follows the ground");
+    return open;
+}
+
+void show(Session& session, OpenPlanet&& open, bool keepOld) {
+    session.showsPrevious = false;
+    session.previous.reset();
+    if (keepOld && session.open) session.previous.emplace(std::move(*session.open));
+    session.data = open.data;
+    session.data.needsBake = false;
+    session.open.emplace(std::move(open));
+    session.problem.reset();
+}
+
+void fail(Session& session, const planet::Error& error, const Log& log) {
+    log->error("{}", error.message);
+    session.problem = error;
+}
+
+// Nobody waits for it any more; it is let go once it has ended.
+void retireBake(Session& session, const Log& log) {
+    if (!session.bake) return;
+    if (!session.bake->stopping())
+        log->warn("The bake of {} was cancelled", session.bake->data.source.string());
+    if (session.bake->job) {
+        session.bake->job->cancel();
+        session.ending.push_back(std::move(session.bake->job));
+    }
+    session.bake.reset();
+}
+
+void beginBake(Session& session, SessionBake&& bake, const Log& log) {
+    log->info("Baking {} into {}", bake.data.source.string(), bake.data.chunkFile.string());
+    session.bakeProblem.reset();
+    session.bake.emplace(std::move(bake));
+}
+
+// Two bakes must not write the same file, and one that was cancelled may still be at it.
+void launchWaitingBake(Session& session) {
+    std::erase_if(session.ending, [](const auto& job) { return job->takeResult().has_value(); });
+    if (!session.bake || session.bake->job || !session.ending.empty()) return;
+    const SessionBake& bake = *session.bake;
+    std::error_code status;
+    fs::create_directories(bake.data.chunkFile.parent_path(), status);
+    session.bake->job = std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings,
+                                                  bake.request.settings, bake.data.chunkFile);
+}
+
+void failBake(Session& session, const SessionBake& bake, const planet::Error& error, const Log& log) {
+    const bool cancelled = error.kind == planet::ErrorKind::Cancelled;
+    log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}",
+             cancelled ? "The bake was cancelled" : error.message);
+    session.bakeProblem = error;
+    if (bake.needed) session.problem = error;
 }
 
 void finishBake(Session& session, const ui::ViewSettings& settings, const Log& log) {
-    const std::optional<planet::Result<planet::BakeReport>> result = session.bake->takeResult();
+    if (!session.bake || !session.bake->job) return;
+    const std::optional<Result<planet::BakeReport>> result = session.bake->job->takeResult();
     if (!result) return;
+    SessionBake bake = std::move(*session.bake);
     session.bake.reset();
-    if (!*result) {
-        const bool cancelled = result->error().kind == planet::ErrorKind::Cancelled;
-        log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}",
-                 cancelled ? "The bake was cancelled" : result->error().message);
-        session.problem = result->error();
-        return;
-    }
+    if (!*result) return failBake(session, bake, result->error(), log);
     const planet::BakeReport& report = **result;
     log->info("Baked: {} samples in {}, {}", ui::countText(static_cast<double>(report.samples)),
               ui::durationText(report.seconds), ui::bytesText(static_cast<double>(report.fileBytes)));
-    session.data.needsBake = false;
-    openBaked(session, settings, log);
+    session.bakeReport = report;
+    bake.data.needsBake = false;
+    Result<OpenPlanet> open = openPlanet(session, bake.data, settings, log);
+    if (!open) return failBake(session, bake, open.error(), log);
+    open->baked = bake.request;
+    open->baked.settings.faceSize = planet::faceCells(report.shape) + 1;
+    open->baked.settings.quantumM = report.shape.quantumM;
+    open->compressionKnown = true;
+    open->sourceIsThere = sourceExists(bake.request.source);
+    show(session, std::move(*open), bake.forComparison);
+}
+
+void advanceEstimate(SessionEstimate& estimate) {
+    if (estimate.job) {
+        const std::optional<Result<planet::BakeEstimate>> result = estimate.job->takeResult();
+        if (!result) return;
+        estimate.job.reset();
+        // A newer question makes this answer worthless.
+        if (!estimate.next) {
+            estimate.result = *result ? std::optional(**result) : std::nullopt;
+            estimate.problem = *result ? std::string() : result->error().message;
+        }
+    }
+    if (!estimate.next) return;
+    const ui::BakeRequest request = *std::exchange(estimate.next, std::nullopt);
+    estimate.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings);
+}
+
+void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
+    if (!open) return;
+    for (const std::string& problem : open->scene.planet->takeProblems()) log->error("{}", problem);
 }
 
 fs::file_time_type newestIn(const fs::path& folder) {
@@ -56,6 +160,23 @@ fs::file_time_type newestIn(const fs::path& folder) {
     return newest;
 }
 
+const OpenPlanet* shownPlanet(const Session& session) {
+    if (session.showsPrevious && session.previous) return &*session.previous;
+    return session.open ? &*session.open : nullptr;
+}
+
+std::string summaryOf(const OpenPlanet& open) {
+    const planet::ChunkFile& file = open.scene.planet->file();
+    return fmt::format("{} vertices, {} samples, {}", planet::chunkSize(file.info().shape),
+                       planet::faceCells(file.info().shape) + 1,
+                       ui::bytesText(static_cast<double>(file.sizeBytes())));
+}
+
+bool samePlace(const fs::path& a, const fs::path& b) {
+    std::error_code status;
+    return fs::absolute(a, status).lexically_normal() == fs::absolute(b, status).lexically_normal();
+}
+
 }  // namespace
 
 Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log) {
@@ -63,50 +184,174 @@ Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log)
     session.data = std::move(data);
     session.shaderFolder = shaderFolder;
     if (!shaderFolder.empty()) session.shadersChanged = newestIn(shaderFolder);
-    if (!session.data.colourImage.empty()) {
-        planet::Result<Picture> colour = readPicture(session.data.colourImage);
-        if (colour)
-            session.colour = std::move(*colour);
-        else
-            log->warn("{}", colour.error().message);
-    }
     if (session.data.needsBake) startBake(session, log);
     return session;
 }
 
+bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& settings, const Log& log) {
+    const Result<DataSet> data = findDataSet(file, {});
+    if (!data) {
+        fail(session, data.error(), log);
+        return false;
+    }
+    if (data->needsBake) {
+        const bool underWay = session.bake && !session.bake->stopping() &&
+                              samePlace(session.bake->data.chunkFile, data->chunkFile);
+        if (underWay) return true;
+        retireBake(session, log);
+        SessionBake bake;
+        bake.request.source = data->source;
+        bake.data = *data;
+        bake.needed = true;
+        session.problem.reset();
+        if (!session.open) session.data = *data;
+        beginBake(session, std::move(bake), log);
+        return true;
+    }
+    Result<OpenPlanet> open = openPlanet(session, *data, settings, log);
+    if (!open) {
+        fail(session, open.error(), log);
+        return false;
+    }
+    retireBake(session, log);
+    show(session, std::move(*open), false);
+    return true;
+}
+
+void startBake(Session& session, const ui::BakeRequest& request, const Log& log) {
+    if (session.bake && !session.bake->stopping()) {
+        log->warn("A bake is running already; cancel it, or wait for its end");
+        return;
+    }
+    const Result<DataSet> found =
+        sourceExists(request.source)
+            ? findDataSet(request.source, request.settings, request.sourceSettings)
+            : planet::badInput(fmt::format("{}: no such source; an elevation image or one of six cube faces "
+                                           "would be right",
+                                           request.source.string()));
+    if (!found) {
+        log->error("{}", found.error().message);
+        session.bakeProblem = found.error();
+        return;
+    }
+    retireBake(session, log);
+    SessionBake bake;
+    bake.request = request;
+    bake.data = *found;
+    // A picture that was chosen for this source stays.
+    if (samePlace(session.data.source, request.source)) bake.data.colourImage = session.data.colourImage;
+    bake.forComparison = true;
+    bake.needed = !session.open;
+    if (bake.needed) session.problem.reset();
+    beginBake(session, std::move(bake), log);
+}
+
 void startBake(Session& session, const Log& log) {
-    std::error_code status;
-    fs::create_directories(session.data.chunkFile.parent_path(), status);
-    log->info("Baking {} into {}", session.data.source.string(), session.data.chunkFile.string());
-    session.problem.reset();
-    session.bake =
-        std::make_unique<BakeJob>(session.data.source, session.bakeSettings, session.data.chunkFile);
+    ui::BakeRequest request;
+    request.source = session.data.source;
+    startBake(session, request, log);
+}
+
+void cancelBake(Session& session) {
+    if (!session.bake) return;
+    if (session.bake->job) return session.bake->job->cancel();
+    session.bakeProblem = planet::cancelled().value();
+    if (session.bake->needed) session.problem = session.bakeProblem;
+    session.bake.reset();
 }
 
 void advanceSession(Session& session, const ui::ViewSettings& settings, const Log& log) {
-    if (session.problem) return;
-    if (session.bake) {
-        finishBake(session, settings, log);
-    } else if (!session.scene) {
-        openBaked(session, settings, log);
+    finishBake(session, settings, log);
+    launchWaitingBake(session);
+    advanceEstimate(session.estimate);
+    if (!session.open && !session.bake && !session.problem) {
+        Result<OpenPlanet> open = openPlanet(session, session.data, settings, log);
+        if (open)
+            show(session, std::move(*open), false);
+        else
+            fail(session, open.error(), log);
     }
-    if (!session.scene) return;
-    for (const std::string& problem : session.scene->planet->takeProblems()) log->error("{}", problem);
+    tellProblems(session.open, log);
+    tellProblems(session.previous, log);
 }
 
-void reopenScene(Session& session, const ui::ViewSettings& settings, const Log& log) {
-    if (!session.scene) return;
-    // The old planet first gives its memory back.
-    session.scene.reset();
-    openBaked(session, settings, log);
+void showPreviousBake(Session& session, bool shown) {
+    session.showsPrevious = shown && session.previous;
+}
+
+void dismissPreviousBake(Session& session) {
+    session.showsPrevious = false;
+    session.previous.reset();
+}
+
+void requestEstimate(Session& session, const ui::BakeRequest& request) {
+    session.estimate.next = request;
+    session.estimate.result.reset();
+    session.estimate.problem.clear();
+    if (session.estimate.job) session.estimate.job->cancel();
+}
+
+Scene* shownScene(Session& session) {
+    return const_cast<Scene*>(shownScene(std::as_const(session)));
+}
+
+const Scene* shownScene(const Session& session) {
+    const OpenPlanet* open = shownPlanet(session);
+    return open ? &open->scene : nullptr;
+}
+
+ui::BakeView bakeViewOf(const Session& session) {
+    ui::BakeView view;
+    if (const OpenPlanet* open = shownPlanet(session)) {
+        view.current = open->baked;
+        view.compressionKnown = open->compressionKnown;
+        view.canBake = open->sourceIsThere;
+    } else {
+        view.current.source = session.data.source;
+        view.canBake = sourceExists(view.current.source);
+    }
+    if (session.bake) {
+        view.running = session.bake->request;
+        view.stopping = session.bake->stopping();
+        if (session.bake->job) view.progress = session.bake->job->progress();
+    }
+    if (session.bakeProblem) {
+        const bool cancelled = session.bakeProblem->kind == planet::ErrorKind::Cancelled;
+        view.lastProblem = cancelled ? "The bake was cancelled." : session.bakeProblem->message;
+    }
+    view.lastReport = session.bakeReport;
+    view.estimating = session.estimate.job || session.estimate.next;
+    view.estimate = session.estimate.result;
+    view.estimateProblem = session.estimate.problem;
+    return view;
+}
+
+ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent) {
+    ui::DataView view;
+    const OpenPlanet* open = shownPlanet(session);
+    const DataSet& data = open ? open->data : session.data;
+    view.name = data.source.filename().string();
+    view.source = data.source;
+    view.chunkFile = data.chunkFile;
+    view.hasColourImage = open && open->scene.hasColourImage;
+    view.hasPreviousBake = session.previous.has_value();
+    view.showsPreviousBake = session.showsPrevious;
+    if (session.previous) view.previousName = summaryOf(*session.previous);
+    if (session.problem) {
+        const bool cancelled = session.problem->kind == planet::ErrorKind::Cancelled;
+        view.problem = cancelled ? "The bake was cancelled." : session.problem->message;
+    }
+    view.recent = recent;
+    return view;
 }
 
 void reloadChangedShaders(Session& session, const Log& log) {
-    if (!session.scene || session.shaderFolder.empty()) return;
+    if (!session.open || session.shaderFolder.empty()) return;
     const fs::file_time_type newest = newestIn(session.shaderFolder);
     if (newest == session.shadersChanged) return;
     session.shadersChanged = newest;
-    const planet::Result<void> reloaded = session.scene->renderer.reloadShaders();
+    Result<void> reloaded = session.open->scene.renderer.reloadShaders();
+    if (reloaded && session.previous) reloaded = session.previous->scene.renderer.reloadShaders();
     if (reloaded)
         log->info("Shaders of {} reloaded", session.shaderFolder.string());
     else

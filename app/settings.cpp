@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
-#include <span>
-#include <sstream>
-#include <variant>
-#include <vector>
+#include <utility>
 
 #include "app/output_file.h"
+#include "app/settings_table.h"
 #include "app/toml_file.h"
 
 namespace worldy {
@@ -20,218 +17,193 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-struct Number {
-    double* value;
-    NumberRange range;
-};
-struct Integer {
-    int* value;
-    NumberRange range;
-};
-// An enumerator, by its name's place in a list.
-struct Choice {
-    std::uint8_t* value;
-    std::span<const std::string_view> names;
-};
-
-// One setting: where it stands in the file, what it means, and which field holds it.
-struct Field {
-    std::string_view table;
-    std::string_view key;
-    std::string_view meaning;
-    std::variant<Number, Integer, bool*, std::string*, Choice> value;
-
-    std::string name() const { return fmt::format("{}.{}", table, key); }
-};
-
-// The enumerations are bytes, so one kind of field serves them all.
-template <class Enum>
-std::uint8_t* asByte(Enum& value) {
-    static_assert(sizeof(Enum) == 1);
-    return reinterpret_cast<std::uint8_t*>(&value);
-}
-
-// Grouped by table, in the order of the file.
-std::vector<Field> fieldsOf(Settings& s) {
-    ui::ViewSettings& v = s.view;
-    return {
-        {"data", "set", "Chunk file, elevation image or cube faces to open; empty: the Earth.", &s.dataSet},
-        {"data", "colour_image", "Picture laid over it; empty: colour.jpg or colour.png beside the data set.",
-         &s.colourImage},
-        {"lod", "tau_px", "Tolerance on screen, pixels; larger: fewer triangles, more visible error.",
-         Number{&v.tauPx, {0.1, 64, "pixels"}}},
-        {"lod", "skirt_factor", "Skirt depth in units of the errors it has to hide.",
-         Number{&v.skirtFactor, {0, 10, ""}}},
-        {"lod", "frustum_culling", "Leave out what lies beside and behind the view.", &v.frustumCulling},
-        {"lod", "horizon_culling", "Leave out what the planet itself hides.", &v.horizonCulling},
-        {"paging", "budget_mb", "Memory for resident chunks, CPU and GPU together, MiB.",
-         Integer{&v.budgetMB, {16, 65536, "MiB"}}},
-        {"paging", "loader_threads", "Threads that read chunks.",
-         Integer{&v.loaderThreads, {1, 64, "threads"}}},
-        {"paging", "upload_limit_ms", "Time a frame spent on chunks that have been loaded, milliseconds.",
-         Number{&v.uploadLimitMs, {0.1, 100, "milliseconds"}}},
-        {"view", "fov_deg", "Horizontal field of view, degrees.", Number{&v.fovDeg, {5, 150, "degrees"}}},
-        {"view", "skirts", "Draw the curtains that hide cracks between chunks.", &v.skirts},
-        {"view", "colour_by", "What the colour of a chunk shows: none, level or error.",
-         Choice{asByte(v.colourBy), colourByNames}},
-        {"view", "surface", "Colour of the ground: image, or ramp by height.",
-         Choice{asByte(v.surface), surfaceNames}},
-        {"view", "atmosphere", "Draw the atmosphere.", &v.atmosphere},
-        {"view", "detail", "Roughen the ground between the samples: invented, only for the eye.", &v.detail},
-        {"view", "lighting", "Light the ground by the sun; false: flat colour.", &v.lighting},
-        {"view", "sun_follows", "Keep the sun to the camera's east, so that it is always day there.",
-         &v.sunFollows},
-        {"view", "sun_latitude_deg", "Else: where the sun stands in the zenith, degrees north.",
-         Number{&v.sunLatitudeDeg, {-90, 90, "degrees"}}},
-        {"view", "sun_longitude_deg", "Where the sun stands in the zenith, degrees east.",
-         Number{&v.sunLongitudeDeg, {-180, 180, "degrees"}}},
-        {"camera", "latitude_deg", "Where a session starts, degrees north.",
-         Number{&s.camera.latitudeDeg, {-90, 90, "degrees"}}},
-        {"camera", "longitude_deg", "Degrees east.", Number{&s.camera.longitudeDeg, {-180, 180, "degrees"}}},
-        {"camera", "altitude_m", "Metres above the planet's radius; 0: the whole planet in view.",
-         Number{&s.camera.altitudeM, {0, 2e10, "metres"}}},
-        {"camera", "heading_deg", "0 north, 90 east.", Number{&s.camera.headingDeg, {-360, 360, "degrees"}}},
-        {"camera", "pitch_deg", "-90 straight down, 0 level.",
-         Number{&s.camera.pitchDeg, {-90, 90, "degrees"}}},
-        {"window", "width_px", "Size of the window, pixels.",
-         Integer{&s.windowWidthPx, {640, 16384, "pixels"}}},
-        {"window", "height_px", "", Integer{&s.windowHeightPx, {400, 16384, "pixels"}}},
-        {"window", "lod_panel_width", "Sizes of the panels, in units that follow the font.",
-         Number{&s.panels.lodWidth, {160, 1000, ""}}},
-        {"window", "log_panel_height", "", Number{&s.panels.logHeight, {60, 1000, ""}}},
-    };
-}
-
-std::string joined(std::span<const std::string_view> names) {
-    std::string text;
-    for (const std::string_view name : names)
-        text += (text.empty() ? "\"" : ", \"") + std::string(name) + "\"";
-    return text;
-}
-
-struct ReadField {
-    const fs::path& file;
-    const Field& field;
-    const toml::node& node;
-
-    Result<void> operator()(const Number& number) const {
-        return readNumber(file, field.name(), node, number.range).map([&](double v) { *number.value = v; });
-    }
-    Result<void> operator()(const Integer& integer) const {
-        return readInteger(file, field.name(), node, integer.range).map([&](std::int64_t v) {
-            *integer.value = static_cast<int>(v);
-        });
-    }
-    Result<void> operator()(bool* flag) const {
-        return readBool(file, field.name(), node).map([&](bool v) { *flag = v; });
-    }
-    Result<void> operator()(std::string* text) const {
-        return readText(file, field.name(), node).map([&](const std::string& v) { *text = v; });
-    }
-    Result<void> operator()(const Choice& choice) const {
-        const std::string text = node.value_or(std::string());
-        const auto found = std::find(choice.names.begin(), choice.names.end(), text);
-        if (found == choice.names.end()) {
-            return planet::badInput(fmt::format("{}: {} is not one of its words; one of {} would be right",
-                                                placeOf(file, node), field.name(), joined(choice.names)));
-        }
-        *choice.value = static_cast<std::uint8_t>(found - choice.names.begin());
-        return {};
-    }
-};
-
-// Levenshtein's distance: how many letters differ.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t above = row[j + 1];
-            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row.back();
-}
-
-tl::unexpected<planet::Error> unknownKey(const std::string& place, const std::string& name,
-                                         const std::vector<Field>& fields) {
-    const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const Field& a, const Field& b) {
-        return editDistance(a.name(), name) < editDistance(b.name(), name);
-    });
-    return planet::badInput(
-        fmt::format("{}: {} is not a setting; the nearest one is {}", place, name, nearest->name()));
-}
-
+// The names of the settings that a table holds go to read. Former names in one pass and the present ones in
+// another, so that where a file has both the present one counts.
 Result<void> readTable(const fs::path& file, std::string_view tableName, const toml::table& table,
-                       const std::vector<Field>& fields) {
+                       const std::vector<Field>& fields, bool formerNames, std::vector<std::string>& read) {
     for (const auto& [key, node] : table) {
-        const std::string_view name = key.str();
-        const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& f) {
-            return f.table == tableName && f.key == name;
-        });
-        if (field == fields.end()) {
-            return unknownKey(placeOf(file, node), fmt::format("{}.{}", tableName, name), fields);
-        }
-        if (Result<void> read = std::visit(ReadField{file, *field, node}, field->value); !read) return read;
+        const std::string name = fmt::format("{}.{}", tableName, key.str());
+        const Field* field = findField(fields, name);
+        if (!field) return unknownSetting(placeOf(file, node), name, fields);
+        if (isFormerName(name) != formerNames) continue;
+        if (Result<void> good = readField(file, *field, name, node); !good) return good;
+        read.push_back(field->name());
     }
     return {};
 }
 
-struct FieldText {
-    // The shortest digits that read back as the same number.
-    std::string operator()(const Number& number) const { return fmt::format("{}", *number.value); }
-    std::string operator()(const Integer& integer) const { return fmt::format("{}", *integer.value); }
-    std::string operator()(const bool* flag) const { return *flag ? "true" : "false"; }
-    std::string operator()(const std::string* text) const {
-        std::ostringstream stream;
-        stream << toml::value<std::string>(*text);
-        return stream.str();
-    }
-    std::string operator()(const Choice& choice) const {
-        return fmt::format("\"{}\"", choice.names[*choice.value]);
-    }
-};
-
-}  // namespace
-
-Result<Settings> loadSettings(const fs::path& file) {
-    const Result<toml::table> document = parseTomlFile(file);
-    if (!document) return tl::unexpected(document.error());
-    Settings settings;
+// Into the settings; returns the names of those that the document holds.
+Result<std::vector<std::string>> readDocument(const fs::path& file, const toml::table& document,
+                                              Settings& settings) {
     const std::vector<Field> fields = fieldsOf(settings);
-    for (const auto& [key, node] : *document) {
-        const std::string_view name = key.str();
-        const bool known =
-            std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.table == name; });
-        const toml::table* table = node.as_table();
-        if (!known || !table) return unknownKey(placeOf(file, node), std::string(name), fields);
-        if (Result<void> read = readTable(file, name, *table, fields); !read) {
-            return tl::unexpected(read.error());
+    std::vector<std::string> read;
+    for (const bool formerNames : {true, false}) {
+        for (const auto& [key, node] : document) {
+            const std::string_view name = key.str();
+            const bool known =
+                std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.table == name; });
+            const toml::table* table = node.as_table();
+            if (!known || !table) return unknownSetting(placeOf(file, node), name, fields);
+            if (Result<void> good = readTable(file, name, *table, fields, formerNames, read); !good)
+                return tl::unexpected(good.error());
         }
     }
-    return settings;
+    return read;
 }
 
-std::string settingsText(const Settings& settings) {
+Result<Settings> settingsOf(const fs::path& file, const toml::table& document, const Settings& base) {
+    Settings settings = base;
+    return readDocument(file, document, settings).map([&](const auto&) { return std::move(settings); });
+}
+
+template <class Wanted>
+std::string textOf(const Settings& settings, const Wanted& wanted) {
     Settings copy = settings;
-    std::string text = "# Worldy's settings, written when it ends. Delete a line to get its default back.\n";
+    std::string text;
     std::string_view table;
     for (const Field& field : fieldsOf(copy)) {
+        if (!wanted(field)) continue;
         if (field.table != table) text += fmt::format("\n[{}]\n", field.table);
         table = field.table;
         if (!field.meaning.empty()) text += fmt::format("# {}\n", field.meaning);
-        text += fmt::format("{} = {}\n", field.key, std::visit(FieldText{}, field.value));
+        text += fmt::format("{} = {}\n", field.key, tomlText(field));
     }
     return text;
+}
+
+template <class Wanted>
+std::vector<ui::SettingDifference> differencesIn(Settings here, Settings there, const Wanted& wanted) {
+    const std::vector<Field> hereFields = fieldsOf(here), thereFields = fieldsOf(there);
+    std::vector<ui::SettingDifference> found;
+    for (std::size_t i = 0; i < hereFields.size(); ++i) {
+        if (!wanted(hereFields[i])) continue;
+        std::string hereText = plainText(hereFields[i]), thereText = plainText(thereFields[i]);
+        if (hereText == thereText) continue;
+        found.push_back({hereFields[i].name(), std::move(hereText), std::move(thereText)});
+    }
+    return found;
+}
+
+bool isViewField(const Field& field) {
+    return isViewTable(field.table);
+}
+
+Settings settingsWith(const ui::ViewSettings& view) {
+    Settings settings;
+    settings.view = view;
+    return settings;
+}
+
+std::string_view withoutSpaces(std::string_view text) {
+    const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
+    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
+// The value of an assignment. Words and texts may do without quotes; what is not TOML at all is taken for a
+// text, and the field says what would be right.
+toml::table valueFrom(const Field& field, std::string_view text) {
+    const bool bare =
+        std::holds_alternative<Choice>(field.value) || std::holds_alternative<Text>(field.value);
+    if (!std::holds_alternative<Text>(field.value)) text = withoutSpaces(text);
+    const bool quoted = text.starts_with('"') || text.starts_with('\'');
+    if (!bare || quoted) {
+        try {
+            const toml::table parsed = toml::parse(fmt::format("value = {}", text));
+            // A copy has forgotten its line, which the user never saw.
+            if (parsed.size() == 1) return toml::table(parsed);
+        } catch (const toml::parse_error&) {
+        }
+    }
+    return toml::table{{"value", std::string(text)}};
+}
+
+}  // namespace
+
+bool operator==(const Settings& a, const Settings& b) {
+    return a.view == b.view && settingsText(a) == settingsText(b);
+}
+
+Result<Settings> loadSettings(const fs::path& file, const Settings& base) {
+    return parseTomlFile(file).and_then(
+        [&](const toml::table& document) { return settingsOf(file, document, base); });
+}
+
+Result<Settings> settingsFromText(std::string_view text, const fs::path& place, const Settings& base) {
+    return parseTomlText(text, place).and_then([&](const toml::table& document) {
+        return settingsOf(place, document, base);
+    });
+}
+
+std::string settingsText(const Settings& settings) {
+    return "# Worldy's settings, written when it ends. Delete a line to get its default back.\n" +
+           textOf(settings, [](const Field&) { return true; });
 }
 
 Result<void> saveSettings(const Settings& settings, const fs::path& file) {
     std::error_code status;
     fs::create_directories(fs::absolute(file).parent_path(), status);
     return writeTextFile(file, settingsText(settings));
+}
+
+Result<void> setSetting(Settings& settings, std::string_view assignment) {
+    const std::string place = fmt::format("{:.60}", assignment);
+    const std::size_t equals = assignment.find('=');
+    const std::string_view name = withoutSpaces(assignment.substr(0, equals));
+    const std::vector<Field> fields = fieldsOf(settings);
+    const Field* field = findField(fields, name);
+    if (!field) return unknownSetting(place, name, fields);
+    if (equals == std::string_view::npos) {
+        return planet::badInput(
+            fmt::format("{}: has no value; {}={} would be right", place, name, plainText(*field)));
+    }
+    const toml::table value = valueFrom(*field, assignment.substr(equals + 1));
+    return readField(place, *field, name, *value.get("value"));
+}
+
+std::vector<ui::SettingDifference> differences(const Settings& here, const Settings& there) {
+    return differencesIn(here, there, isViewField);
+}
+
+std::vector<std::string> assignmentsFor(const ui::ViewSettings& view) {
+    std::vector<std::string> assignments;
+    for (const ui::SettingDifference& difference : differences(Settings{}, settingsWith(view)))
+        assignments.push_back(fmt::format("{}={}", difference.setting, difference.there));
+    return assignments;
+}
+
+std::string viewSettingsText(const ui::ViewSettings& view) {
+    return "# Settings of Worldy's view, to be laid over others: what is not in here stays as it is.\n" +
+           textOf(settingsWith(view), isViewField);
+}
+
+Result<ViewPart> loadViewPart(const fs::path& file) {
+    const Result<toml::table> document = parseTomlFile(file);
+    if (!document) return tl::unexpected(document.error());
+    Settings settings;
+    const Result<std::vector<std::string>> names = readDocument(file, *document, settings);
+    if (!names) return tl::unexpected(names.error());
+    ViewPart part{settings.view, {}};
+    std::copy_if(names->begin(), names->end(), std::back_inserter(part.names),
+                 [](const std::string& name) { return isViewTable(name.substr(0, name.find('.'))); });
+    return part;
+}
+
+ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now) {
+    Settings from = settingsWith(part.values), to = settingsWith(now);
+    const std::vector<Field> fromFields = fieldsOf(from), toFields = fieldsOf(to);
+    for (const std::string& name : part.names)
+        copyValue(*findField(fromFields, name), *findField(toFields, name));
+    return to.view;
+}
+
+std::vector<ui::SettingDifference> differences(const ui::ViewSettings& here, const ViewPart& there) {
+    return differencesIn(settingsWith(here), settingsWith(there.values), [&](const Field& field) {
+        return std::find(there.names.begin(), there.names.end(), field.name()) != there.names.end();
+    });
+}
+
+Result<ui::ViewSettings> loadViewSettings(const fs::path& file, const ui::ViewSettings& now) {
+    return loadViewPart(file).map([&](const ViewPart& part) { return applied(part, now); });
 }
 
 }  // namespace worldy

@@ -9,6 +9,8 @@
 #include "app/offscreen.h"
 #include "app/picture.h"
 #include "app/report.h"
+#include "app/screenshot.h"
+#include "app/shot_line.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -30,19 +32,40 @@ Result<std::optional<Picture>> colourPicture(const ShotOptions& options) {
         [](Picture&& picture) { return std::optional<Picture>(std::move(picture)); });
 }
 
+planet::CameraPose wantedPose(const ShotOptions& options, double radiusM) {
+    if (options.camera) return *options.camera;
+    planet::CameraPose pose = options.start;
+    if (pose.altitudeM == 0) pose.altitudeM = wholePlanetPose(radiusM).altitudeM;
+    return pose;
+}
+
+Result<void> writeShot(const Picture& picture, const planet::CameraPose& pose, const ShotOptions& options) {
+    if (options.output.extension() != ".png") return writePicture(picture, options.output);
+    std::error_code status;
+    const std::filesystem::path file = std::filesystem::absolute(options.file, status);
+    Settings settings;
+    settings.view = options.view;
+    settings.dataSet = file.string();
+    settings.colourImage = options.colourImage.empty()
+                               ? std::string()
+                               : std::filesystem::absolute(options.colourImage, status).string();
+    const std::string line = shotLine(file, pose, options.size, options.view, settings.colourImage);
+    return writeScreenshot(picture, options.output, {settingsText(settings), pose, file, line, {}});
+}
+
 void printReport(const Offscreen& offscreen, const SettledView& view, const ShotOptions& options) {
     const planet::Selection& selection = offscreen.scene.planet->selection();
     const ui::FrameStats stats = statsOf(offscreen.scene);
     if (options.json) {
         nlohmann::ordered_json report = {
-            {"output", options.output.string()},  {"width_px", options.size.widthPx},
-            {"height_px", options.size.heightPx}, {"tau_px", options.view.tauPx},
-            {"fov_deg", options.view.fovDeg},     {"settled", view.settled},
-            {"camera", jsonOf(view.pose)},        {"levels", levelHistogram(selection)}};
+            {"output", options.output.string()},     {"width_px", options.size.widthPx},
+            {"height_px", options.size.heightPx},    {"tau_px", options.view.lod.tauPx},
+            {"fov_deg", options.view.camera.fovDeg}, {"settled", view.settled},
+            {"camera", jsonOf(view.pose)},           {"levels", levelHistogram(selection)}};
         nlohmann::ordered_json drawn = jsonOf(stats);
         // Of a run of frames, and there was one.
         drawn.erase("frame_ms");
-        drawn.erase("draw_gpu_ms");
+        for (const char* key : {"draw_gpu_ms", "chunks_gpu_ms", "sky_gpu_ms"}) drawn.erase(key);
         report.update(drawn);
         fmt::print("{}\n", report.dump(2));
         return;
@@ -62,8 +85,7 @@ Result<void> takeShot(const ShotOptions& options) {
     if (!offscreen) return tl::unexpected(offscreen.error());
 
     const double radiusM = offscreen->scene.planet->shape().radiusM;
-    const SettledView view =
-        settleAt(*offscreen, options.camera.value_or(wholePlanetPose(radiusM)), options.view);
+    const SettledView view = settleAt(*offscreen, wantedPose(options, radiusM), options.view);
     if (view.lifted) {
         fmt::print(stderr, "worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
                    view.pose.altitudeM, minGroundClearanceM);
@@ -73,8 +95,8 @@ Result<void> takeShot(const ShotOptions& options) {
     for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
         fmt::print(stderr, "worldy: {}\n", problem);
     }
-    drawAndFinish(*offscreen, view.view, options.view);
-    if (Result<void> written = writePicture(readPicture(*offscreen), options.output); !written)
+    if (Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view); !drawn) return drawn;
+    if (Result<void> written = writeShot(readPicture(*offscreen), view.pose, options); !written)
         return written;
     printReport(*offscreen, view, options);
     return {};

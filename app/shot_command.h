@@ -15,13 +15,16 @@ struct ShotOptions {
     std::filesystem::path output;
     std::filesystem::path shaderFolder;
     std::filesystem::path colourImage;  // empty: colour.jpg or colour.png beside the file, if there is one
-    std::optional<planet::CameraPose> camera;  // the whole planet where not given
+    std::optional<planet::CameraPose> camera;
+    planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
     PictureSize size;
     int samples = 4;  // of the multisampling, [1, 16]
     bool json = false;
     ui::ViewSettings view;
 };
 
+// A .png keeps the settings and the camera as a screenshot does. Labels on chunks and the observer are the
+// window's alone.
 planet::Result<void> takeShot(const ShotOptions& options);
 
 }  // namespace worldy

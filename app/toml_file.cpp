@@ -10,11 +10,7 @@ namespace worldy {
 
 namespace {
 
-std::string shown(const toml::node& node) {
-    std::ostringstream text;
-    node.visit([&](const auto& value) { text << value; });
-    return text.str().substr(0, 60);
-}
+constexpr std::uintmax_t maxFileBytes = 16u << 20;
 
 std::string wanted(std::string_view kind, const NumberRange& range) {
     const std::string unit = range.unit.empty() ? std::string() : fmt::format(" of {}", range.unit);
@@ -23,12 +19,50 @@ std::string wanted(std::string_view kind, const NumberRange& range) {
 
 tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, std::string_view name,
                                     const toml::node& node, const std::string& right) {
-    return planet::badInput(fmt::format("{}: {} is {}; {}", placeOf(file, node), name, shown(node), right));
+    return planet::badInput(
+        fmt::format("{}: {} is {}; {}", placeOf(file, node), name, shownValue(node), right));
+}
+
+// Bytes that follow a first byte in UTF-8, and the least code point that may need as many; no count where
+// the byte is none to begin with.
+struct Utf8Start {
+    int following = -1;
+    std::uint32_t bits = 0;
+    std::uint32_t least = 0;
+};
+Utf8Start utf8Start(unsigned char byte) {
+    if (byte < 0x80) return {0, byte, 0};
+    if ((byte & 0xE0u) == 0xC0u) return {1, byte & 0x1Fu, 0x80};
+    if ((byte & 0xF0u) == 0xE0u) return {2, byte & 0x0Fu, 0x800};
+    if ((byte & 0xF8u) == 0xF0u) return {3, byte & 0x07u, 0x10000};
+    return {};
 }
 
 }  // namespace
 
+bool isUtf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const Utf8Start start = utf8Start(static_cast<unsigned char>(text[i++]));
+        if (start.following < 0 || i + static_cast<std::size_t>(start.following) > text.size()) return false;
+        std::uint32_t point = start.bits;
+        for (int k = 0; k < start.following; ++k) {
+            const auto byte = static_cast<unsigned char>(text[i++]);
+            if ((byte & 0xC0u) != 0x80u) return false;
+            point = (point << 6) | (byte & 0x3Fu);
+        }
+        if (point < start.least || point > 0x10FFFF || (point >= 0xD800 && point < 0xE000)) return false;
+    }
+    return true;
+}
+
+std::string shownValue(const toml::node& node) {
+    std::ostringstream text;
+    node.visit([&](const auto& value) { text << value; });
+    return text.str().substr(0, 60);
+}
+
 std::string placeOf(const std::filesystem::path& file, const toml::node& node) {
+    if (node.source().begin.line == 0) return file.string();
     return fmt::format("{}: line {}", file.string(), node.source().begin.line);
 }
 
@@ -37,16 +71,26 @@ planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(path, status)) {
         return planet::ioError(fmt::format("{}: no such file; give the path of a TOML file", path.string()));
     }
+    if (const std::uintmax_t bytes = std::filesystem::file_size(path, status);
+        !status && bytes > maxFileBytes) {
+        return planet::badInput(
+            fmt::format("{}: is {} bytes large; at most {} would be right for a TOML file", path.string(),
+                        bytes, maxFileBytes));
+    }
     std::ifstream stream(path, std::ios::binary);
     std::stringstream text;
     text << stream.rdbuf();
     if (!stream)
         return planet::ioError(fmt::format("{}: cannot be read; check its permissions", path.string()));
+    return parseTomlText(text.str(), path);
+}
+
+planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place) {
     try {
-        return toml::parse(text.str(), path.string());
+        return toml::parse(text, place.string());
     } catch (const toml::parse_error& error) {
         return planet::badInput(fmt::format("{}: line {}: not TOML: {}; see toml.io for the syntax",
-                                            path.string(), error.source().begin.line, error.description()));
+                                            place.string(), error.source().begin.line, error.description()));
     }
 }
 

@@ -17,9 +17,18 @@ struct NumberRange {
     std::string_view unit;  // "pixels"; may be empty
 };
 
+// A file of at most 16 MiB.
 planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path);
+// The same of text; place stands for the file's name in errors.
+planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place);
 
-// "settings.toml: line 3"
+// Well-formed, as TOML has to be.
+bool isUtf8(std::string_view text);
+
+// A value for a message, cut short.
+std::string shownValue(const toml::node& node);
+
+// "settings.toml: line 3"; without the line where the node was not read from a text.
 std::string placeOf(const std::filesystem::path& file, const toml::node& node);
 
 // A finite number of the range, integers included.

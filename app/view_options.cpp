@@ -6,7 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "app/screenshot.h"
 
 namespace worldy {
 
@@ -73,6 +76,32 @@ planet::Result<Pose> poseFromText(const std::string& text) {
         pose.*field.value = (*numbers)[i];
     }
     return pose;
+}
+
+planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
+    Settings settings;
+    if (!texts.settingsFile.empty()) {
+        planet::Result<Settings> loaded = loadSettingsOfAnyKind(texts.settingsFile);
+        if (!loaded) return loaded;
+        settings = std::move(*loaded);
+    }
+    ui::ViewSettings& view = settings.view;
+    view.lod.tauPx = texts.tauPx.value_or(view.lod.tauPx);
+    view.camera.fovDeg = texts.fovDeg.value_or(view.camera.fovDeg);
+    view.paging.budgetMB = texts.budgetMB.value_or(view.paging.budgetMB);
+    if (texts.noCulling) view.lod.frustumCulling = view.lod.horizonCulling = false;
+    if (texts.noSkirts) view.seams.mode = planet::SeamMode::None;
+    if (texts.wireframe) view.overlay.wireframe = true;
+    if (texts.cube) view.overlay.cube = true;
+    std::vector<std::string> assignments;
+    if (!texts.colourBy.empty()) assignments.push_back("overlay.colour_by=" + texts.colourBy);
+    if (!texts.surface.empty()) assignments.push_back("surface.colour=" + texts.surface);
+    assignments.insert(assignments.end(), texts.assignments.begin(), texts.assignments.end());
+    for (const std::string& assignment : assignments) {
+        if (const planet::Result<void> set = setSetting(settings, assignment); !set)
+            return planet::badInput("--set " + set.error().message);
+    }
+    return settings;
 }
 
 }  // namespace worldy

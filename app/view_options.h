@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/settings.h"
 #include "planet/result.h"
@@ -21,5 +22,26 @@ planet::Result<PictureSize> pictureSizeFromText(const std::string& text);
 
 // "LAT,LON,ALT,HEADING,PITCH", trailing ones may be left out: heading 0, pitch -90.
 planet::Result<planet::CameraPose> poseFromText(const std::string& text);
+
+// What a command line says of the view, each part where it was given.
+struct ViewTexts {
+    std::filesystem::path settingsFile;    // settings, a preset or a screenshot
+    std::vector<std::string> assignments;  // "lod.tau_px=3"
+    std::string size = "1280x720";
+    std::string camera;    // poseFromText's
+    std::string colourBy;  // one of colourByNames
+    std::string surface;   // one of surfaceNames
+    std::optional<double> tauPx;
+    std::optional<double> fovDeg;
+    std::optional<int> budgetMB;
+    bool noCulling = false;
+    bool noSkirts = false;
+    bool wireframe = false;
+    bool cube = false;
+};
+
+// The defaults, changed by the settings file, then by the options with names of their own, then by the
+// assignments in their order.
+planet::Result<Settings> settingsFrom(const ViewTexts& texts);
 
 }  // namespace worldy

@@ -12,6 +12,7 @@
 #include <array>
 #include <utility>
 
+#include "app/stopwatch.h"
 #include "ui/theme.h"
 
 namespace worldy {
@@ -60,7 +61,10 @@ GLFWwindow* createWindow(const WindowConfig& config) {
 // GLFW itself and the one window, ended together and in order.
 struct Window::Glfw {
     GLFWwindow* window = nullptr;
-    std::vector<int> pressedKeys;
+    std::vector<KeyPress> pressedKeys;
+    std::vector<std::filesystem::path> droppedFiles;
+
+    static Glfw& of(GLFWwindow* handle) { return *static_cast<Glfw*>(glfwGetWindowUserPointer(handle)); }
 
     ~Glfw() {
         if (window) glfwDestroyWindow(window);
@@ -81,21 +85,26 @@ tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
                 glfwProblem())});
     }
     glfwSetWindowUserPointer(window.glfw_->window, window.glfw_.get());
-    glfwSetKeyCallback(window.glfw_->window, [](GLFWwindow* handle, int key, int, int action, int) {
-        if (action == GLFW_PRESS)
-            static_cast<Glfw*>(glfwGetWindowUserPointer(handle))->pressedKeys.push_back(key);
+    glfwSetKeyCallback(window.glfw_->window, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
+        if (action != GLFW_RELEASE) Glfw::of(handle).pressedKeys.push_back({key, modifiers});
+    });
+    glfwSetDropCallback(window.glfw_->window, [](GLFWwindow* handle, int count, const char** files) {
+        Glfw::of(handle).droppedFiles.assign(files, files + count);
     });
     glfwSetWindowSizeLimits(window.glfw_->window, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window.glfw_->window);
     glfwSwapInterval(1);
-    window.startImGui(config.imguiFile);
+    window.startImGui(config);
     return window;
 }
 
 Window::Window(Window&& other) noexcept
     : glfw_(std::move(other.glfw_)),
       imguiFile_(std::move(other.imguiFile_)),
-      imguiStarted_(std::exchange(other.imguiStarted_, false)) {
+      imguiStarted_(std::exchange(other.imguiStarted_, false)),
+      theme_(other.theme_),
+      appliedScale_(other.appliedScale_),
+      panelsTimer_(std::move(other.panelsTimer_)) {
     if (imguiStarted_) ImGui::GetIO().IniFilename = imguiFile_.c_str();
 }
 
@@ -106,17 +115,39 @@ Window::~Window() {
     ImGui::DestroyContext();
 }
 
-void Window::startImGui(const std::filesystem::path& imguiFile) {
-    ImGui::CreateContext();
-    imguiStarted_ = true;
-    imguiFile_ = imguiFile.string();
-    ImGui::GetIO().IniFilename = imguiFile_.c_str();
-    ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
+// Where ImGui's units are already scaled to pixels, the font must not be scaled a second time.
+float Window::contentScale() const {
     float scale = 1;
     glfwGetWindowContentScale(glfw_->window, &scale, nullptr);
-    // Where ImGui's units are already scaled to pixels, the font must not be scaled a second time.
-    ui::applyTheme(std::clamp(scale / pixelRatio(), 0.5f, 4.0f));
+    return std::clamp(scale / pixelRatio(), 0.5f, 4.0f);
+}
+
+void Window::startImGui(const WindowConfig& config) {
+    ImGui::CreateContext();
+    imguiStarted_ = true;
+    imguiFile_ = config.imguiFile.string();
+    ImGui::GetIO().IniFilename = imguiFile_.c_str();
+    // A table that is let go while its panel is hidden comes back a frame too narrow.
+    ImGui::GetIO().ConfigMemoryCompactTimer = -1;
+    ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    panelsTimer_.emplace();
+    setTheme(config.theme, config.scale);
+}
+
+void Window::setTheme(ui::Theme theme, double scale) {
+    const float wanted = contentScale() * static_cast<float>(scale);
+    if (theme == theme_ && wanted == appliedScale_) return;
+    const bool first = appliedScale_ == 0;  // the first frame makes the font's texture itself
+    theme_ = theme;
+    appliedScale_ = wanted;
+    if (!first) ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ui::applyTheme(theme, wanted);
+    if (!first) ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Window::setClipboard(const std::string& text) const {
+    glfwSetClipboardString(glfw_->window, text.c_str());
 }
 
 void Window::setTitle(const std::string& title) const {
@@ -133,6 +164,7 @@ void Window::close() const {
 
 void Window::beginFrame(double waitS) const {
     glfw_->pressedKeys.clear();
+    glfw_->droppedFiles.clear();
     if (waitS > 0)
         glfwWaitEventsTimeout(waitS);
     else
@@ -142,7 +174,7 @@ void Window::beginFrame(double waitS) const {
     ImGui::NewFrame();
 }
 
-void Window::endFrame() const {
+void Window::endFrame(const std::function<void()>& drawn) {
     ImGui::Render();
     int widthPx = 0, heightPx = 0;
     glfwGetFramebufferSize(glfw_->window, &widthPx, &heightPx);
@@ -150,12 +182,46 @@ void Window::endFrame() const {
     glViewport(0, 0, widthPx, heightPx);
     glClearColor(0.1f, 0.1f, 0.1f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
+    panelsTimer_->begin();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    panelsTimer_->end();
+    drawn();
+    const Stopwatch present;
     glfwSwapBuffers(glfw_->window);
+    presentMs_ = present.elapsedMs();
 }
 
-const std::vector<int>& Window::pressedKeys() const {
+const std::vector<KeyPress>& Window::pressedKeys() const {
     return glfw_->pressedKeys;
+}
+
+const std::vector<std::filesystem::path>& Window::droppedFiles() const {
+    return glfw_->droppedFiles;
+}
+
+Picture Window::readPicture() const {
+    Picture picture;
+    glfwGetFramebufferSize(glfw_->window, &picture.width, &picture.height);
+    const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
+    std::vector<std::uint8_t> upsideDown(rowBytes * static_cast<std::size_t>(picture.height));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, upsideDown.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    picture.rgb.reserve(upsideDown.size());
+    for (auto row = upsideDown.end(); row != upsideDown.begin();) {
+        row -= static_cast<std::ptrdiff_t>(rowBytes);
+        picture.rgb.insert(picture.rgb.end(), row, row + static_cast<std::ptrdiff_t>(rowBytes));
+    }
+    return picture;
+}
+
+double Window::panelsGpuMs() {
+    return panelsTimer_->lastMs();
+}
+
+double Window::presentMs() const {
+    return presentMs_;
 }
 
 float Window::width() const {

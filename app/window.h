@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/picture.h"
+#include "planet/gl/gpu_timer.h"
 #include "planet/result.h"
 #include "ui/layout.h"
 
@@ -17,6 +21,14 @@ struct WindowConfig {
     int widthPx = 1600;
     int heightPx = 1000;
     std::filesystem::path imguiFile;  // where ImGui keeps its layout
+    ui::Theme theme = ui::Theme::Dark;
+    double scale = 1;  // of the monitor's own, [0.5, 3]
+};
+
+// A key that went down, by GLFW's codes, with GLFW's modifiers.
+struct KeyPress {
+    int key = 0;
+    int modifiers = 0;
 };
 
 enum class WindowProblem { NoDisplay, NoOpenGl };
@@ -39,11 +51,24 @@ public:
 
     // Reads input, waiting for it for a while where there is no hurry, and starts ImGui's frame.
     void beginFrame(double waitS) const;
-    void endFrame() const;  // draws ImGui's windows and shows the picture
+    // Draws ImGui's windows and shows the picture; calls drawn with the picture done but not yet shown.
+    void endFrame(const std::function<void()>& drawn);
 
-    // GLFW's codes of the keys that went down since the frame before, however short: between two slow frames
-    // a key may be up again.
-    const std::vector<int>& pressedKeys() const;
+    // The keys that went down since the frame before, however short: between two slow frames a key may be up
+    // again.
+    const std::vector<KeyPress>& pressedKeys() const;
+    // What was dropped onto the window since the frame before.
+    const std::vector<std::filesystem::path>& droppedFiles() const;
+
+    // Between two frames: fonts and colours, where they or the monitor's scale have changed.
+    void setTheme(ui::Theme theme, double scale);
+    void setClipboard(const std::string& text) const;
+
+    // What the default framebuffer shows, before endFrame's swap of the next frame: rows from the top, sRGB.
+    Picture readPicture() const;
+    // Of drawing ImGui's windows, and of handing the picture to the monitor.
+    double panelsGpuMs();
+    double presentMs() const;
 
     // In ImGui's units; pixelRatio() framebuffer pixels each.
     float width() const;
@@ -53,12 +78,17 @@ public:
 
 private:
     Window() = default;
-    void startImGui(const std::filesystem::path& imguiFile);
+    void startImGui(const WindowConfig& config);
+    float contentScale() const;
 
     struct Glfw;
     std::unique_ptr<Glfw> glfw_;
     std::string imguiFile_;
     bool imguiStarted_ = false;
+    ui::Theme theme_ = ui::Theme::Dark;
+    float appliedScale_ = 0;  // contentScale times the user's
+    std::optional<planet::gl::GpuTimer> panelsTimer_;
+    double presentMs_ = 0;
 };
 
 }  // namespace worldy

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -55,8 +56,28 @@ VertexFrame vertexFrame(const PlanetShape& shape, const glm::dvec3& eyeM) {
     return frame;
 }
 
-glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face face, std::int32_t gridU, std::int32_t gridV,
+// Twice the grid's coordinates from a face's middle are those of the cube of twice the grid's side, exactly.
+FaceGridPoint onOwningFace(const FaceGridPoint& point) {
+    constexpr std::int32_t side = 1 << fineGridLog2;
+    const std::int32_t alongU = 2 * point.gridU - side;
+    const std::int32_t alongV = 2 * point.gridV - side;
+    if (std::max(std::abs(alongU), std::abs(alongV)) < side) return point;
+    const FaceAxes& from = faceAxes(point.face);
+    const glm::dvec3 cube = double{side} * from.normal + static_cast<double>(alongU) * from.u +
+                            static_cast<double>(alongV) * from.v;
+    int axis = 0;
+    while (std::abs(cube[axis]) != side) ++axis;
+    const Face owner = static_cast<Face>(2 * axis + (cube[axis] < 0 ? 1 : 0));
+    const FaceAxes& to = faceAxes(owner);
+    const auto gridAlong = [&](const glm::dvec3& direction) {
+        return (static_cast<std::int32_t>(glm::dot(cube, direction)) + side) / 2;
+    };
+    return {owner, gridAlong(to.u), gridAlong(to.v)};
+}
+
+glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face anyFace, std::int32_t anyGridU, std::int32_t anyGridV,
                          std::int16_t step, float skirtDropM) {
+    const auto [face, gridU, gridV] = onOwningFace({anyFace, anyGridU, anyGridV});
     const FaceReference& reference = frame.faces[static_cast<std::size_t>(face)];
     const float u0 = reference.u0;
     const float v0 = reference.v0;

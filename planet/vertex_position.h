@@ -7,8 +7,8 @@
 //
 //   position - eye = (P0 - eye) + (R + h) (d - d0) + (h - h0) d0,     P0 = (R + h0) d0
 //
-// is wrong by about 1e-7 of the vertex's distance to the eye, and vertices that chunks of any level share on
-// a face are the same to the last bit.
+// is wrong by about 1e-7 of the vertex's distance to the eye. Vertices that chunks of any level share are the
+// same to the last bit: on the cube's edges and corners all faces reckon with the point's owning face.
 //
 // Pure functions, any thread.
 #pragma once
@@ -44,6 +44,18 @@ struct VertexFrame {
 };
 
 VertexFrame vertexFrame(const PlanetShape& shape, const glm::dvec3& eyeM);
+
+struct FaceGridPoint {
+    Face face = Face::PosX;
+    std::int32_t gridU = 0;
+    std::int32_t gridV = 0;
+
+    bool operator==(const FaceGridPoint&) const = default;
+};
+
+// On an edge or a corner of the cube the same point on the face of the lowest index that has it; elsewhere
+// the point itself.
+FaceGridPoint onOwningFace(const FaceGridPoint& point);
 
 // Metres from the eye, world axes. The skirt drop is towards the planet's centre.
 glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face face, std::int32_t gridU, std::int32_t gridV,

@@ -10,6 +10,7 @@ in vec4 groundArriving;
 in vec4 airArriving;
 in float steep;
 in vec2 gridCoordinate;
+in float onSkirt;
 flat in vec3 faceU;
 flat in vec3 faceV;
 flat in vec4 tint;
@@ -95,19 +96,43 @@ struct Material {
     float water;  // 1 where light falls on open sea
 };
 
-Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
-    float below = 1.0 - smoothstep(-30.0 * planet.x / 6.371e6, 0.0, height);
-    if (!isOn(switchSea)) below = 0.0;
-    if (isOn(switchImage)) {
-        vec4 image = imageColour(detail, strength);
-        float water = below * image.a;
-        vec3 sea = mix(image.rgb, seaByDepth(height), 0.4);
-        return Material(mix(image.rgb * 1.2, sea, water), water);
+// The ramp's own stops, mixed one after the other: those above the height add nothing, those below it are covered.
+vec3 stopsAt(float height) {
+    vec3 root = rampColours[0].rgb;
+    for (int i = 1; i < grid.z; ++i)
+        root = mix(root, rampColours[i].rgb, clamp((height - rampRises[i].x) * rampRises[i].y, 0.0, 1.0));
+    return root * root;
+}
+
+Material rampMaterial(vec3 up, float height, float steep, float below) {
+    if (isOn(switchRamp)) {
+        vec3 stops = stopsAt(height);
+        return Material(mix(stops, seaByDepth(height), below * (1.0 - surfacing.y)), below);
     }
     vec3 land = landByHeight(height, up.z, steep);
     float ice = below * smoothstep(0.955, 0.985, abs(up.z));
     vec3 sea = mix(seaByDepth(height), vec3(0.70, 0.76, 0.82), ice);
     return Material(mix(land, sea, below), below * (1.0 - ice));
+}
+
+// The image says which low land is dry, but knows nothing of a sea that has risen.
+Material imageMaterial(float height, float below, Detail detail, float strength) {
+    vec4 image = imageColour(detail, strength);
+    float flooded = clamp(heights.w * (6.371e6 / 30.0) / planet.x, 0.0, 1.0);
+    float water = below * max(image.a, flooded);
+    vec3 sea = mix(image.rgb, seaByDepth(height), mix(0.8, 0.4, image.a));
+    return Material(mix(image.rgb * 1.2, sea, water), water);
+}
+
+// Height above the sea level.
+Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
+    float below = 1.0 - smoothstep(-30.0 * planet.x / 6.371e6, 0.0, height);
+    if (!isOn(switchSea)) below = 0.0;
+    if (!isOn(switchImage)) return rampMaterial(up, height, steep, below);
+    Material image = imageMaterial(height, below, detail, strength);
+    if (!isOn(switchImageOverRamp)) return image;
+    Material ramp = rampMaterial(up, height, steep, below);
+    return Material(mix(ramp.albedo, image.albedo, surfacing.x), mix(ramp.water, image.water, surfacing.x));
 }
 
 // The chunk's mesh: lines one pixel wide along rows, columns and diagonals, smooth whatever their distance.
@@ -121,6 +146,24 @@ float meshLine() {
     float line = max(0.85 * max(cover.x, cover.y), 0.5 * cover.z);
     float widest = max(width.x, width.y);
     return mix(line, 0.35, smoothstep(0.2, 0.6, widest));
+}
+
+// The chunk's border in pixels away, for a line half of which the chunk beside it draws; far away where the chunk
+// itself is only some pixels wide, and down a skirt, where a coordinate stands still.
+float borderAwayPx() {
+    vec2 width = fwidth(gridCoordinate);
+    vec2 away = min(gridCoordinate, float(1 << grid.y) - gridCoordinate) / max(width, vec2(1e-9));
+    away += 1e3 * (1.0 - step(vec2(1e-5), width));
+    float chunkPx = float(1 << grid.y) / max(width.x, width.y);
+    return min(away.x, away.y) + 10.0 * (1.0 - smoothstep(3.0, 8.0, chunkPx));
+}
+
+// A light line 1.5 pixels wide, shaded at its sides so that it shows on any ground.
+vec3 outlined(vec3 colour) {
+    float away = borderAwayPx();
+    vec3 line = isOn(switchWireframe) ? vec3(1.0, 0.70, 0.15) : vec3(1.0, 0.98, 0.92);
+    colour *= 1.0 - 0.45 * (1.0 - smoothstep(1.0, 2.25, away));
+    return mix(colour, line, 0.9 * (1.0 - smoothstep(0.25, 1.25, away)));
 }
 
 // A step of heights or of the image is drawn larger than some two pixels.
@@ -152,7 +195,7 @@ vec3 lightByPixel() {
     Detail detail = noDetail();
     float rough = 0.0;
     float ragged = 0.0;
-    float height = facePlace.z;
+    float height = facePlace.z - heights.w;
     if (isOn(switchDetail)) {
         detail = detailAt(position);
         rough = between(detailPixels.x * nearness) * (0.05 + 0.95 * surfaceNormal.w);
@@ -173,14 +216,14 @@ vec3 lightByPixel() {
 
 vec3 lightByVertex() {
     vec3 up = normalize(eye.xyz + surface);
-    Material material = tinted(materialAt(up, facePlace.z, steep, noDetail(), 0.0));
+    Material material = tinted(materialAt(up, facePlace.z - heights.w, steep, noDetail(), 0.0));
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
     return groundArriving.rgb * reflected + airArriving.rgb;
 }
 
 vec3 flatSurface() {
     vec3 up = normalize(eye.xyz + surface);
-    vec3 albedo = materialAt(up, facePlace.z, 0.0, noDetail(), 0.0).albedo;
+    vec3 albedo = materialAt(up, facePlace.z - heights.w, 0.0, noDetail(), 0.0).albedo;
     if (isOn(switchTint)) albedo = mix(albedo, decodeSrgb(tint.rgb), tint.a);
     return encodeSrgb(clamp(albedo, 0.0, 1.0));
 }
@@ -198,5 +241,7 @@ void main() {
         vec3 lineColour = isOn(switchTint) ? tint.rgb : vec3(0.92, 0.96, 1.0);
         colour = mix(colour * 0.35, lineColour, meshLine());
     }
+    if (isOn(switchOutlines)) colour = outlined(colour);
+    if (isOn(switchLoudSkirts) && onSkirt > 0.0) colour = vec3(1.0, 0.0, 0.8);
     fragment = vec4(colour, 1.0);
 }

@@ -3,8 +3,10 @@
 layout(location = 0) in uvec4 gridVertex;  // column; row; 1 at the skirt's lower end; unused
 layout(location = 1) in uvec4 chunk;       // face + 8 level; x; y; slot
 layout(location = 2) in uvec4 beside;      // slots of the chunks of the same level to the west, east, south, north
-layout(location = 3) in float skirtDepth;  // metres
+layout(location = 3) in vec2 skirtAndMorph;  // depth, metres; [0, 1]
 layout(location = 4) in vec4 chunkTint;    // colour, sRGB, and its strength
+layout(location = 5) in vec4 edgeMorph;    // west, east, south, north: [0, 1]
+layout(location = 6) in uvec4 coarserBy;   // levels that the chunk beside it is coarser and moved onto
 
 uniform isampler2DArray heightPool;
 
@@ -17,7 +19,8 @@ out vec3 airLit;          // the sun's light on the air before the ground
 out vec4 groundArriving;  // by vertex: light that white land sends to the eye through the air; the sea's over it
 out vec4 airArriving;     // by vertex: what that air scatters; the glint on the sea over groundArriving
 out float steep;          // by vertex: [0, 1]
-out vec2 gridCoordinate;  // column and row, for the wireframe
+out vec2 gridCoordinate;  // column and row, for lines
+out float onSkirt;        // 0 on the ground, 1 at the skirt's lower end
 flat out vec3 faceU;      // the face's axes
 flat out vec3 faceV;
 flat out vec4 tint;
@@ -35,44 +38,47 @@ int stepAt(ivec3 corner, ivec2 vertex) {
     return texelFetch(heightPool, corner + ivec3(vertex, 0), 0).r;
 }
 
-// Steps a cell along one axis: a central difference, across the chunk's border too where the chunk beside it is
-// drawn at the same level. Elsewhere on the border second order and one-sided, so that both sides agree as far
-// as their heights tell. And the larger of the steps to
-// either side, 0 where only one is known: on a face's edge both faces then see only the steps along it, the same.
-vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slotBefore, uint slotAfter) {
+// Steps a cell along one axis, between vertices so many cells apart: a central difference, across the chunk's border
+// too where the chunk beside it is drawn at the same level. Elsewhere on the border second order and one-sided, so
+// that both sides agree as far as their heights tell. And the larger of the steps to either side, 0 where only one is
+// known: on a face's edge both faces then see only the steps along it, the same.
+vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slotBefore, uint slotAfter,
+           int apart) {
     int at = vertex.x * axis.x + vertex.y * axis.y;
     bool first = at == 0;
     bool final = at == last;
     uint slotBeside = first ? slotBefore : final ? slotAfter : noSlot;
     bool oneSided = (first || final) && slotBeside == noSlot;
-    int stepBack = -1;
-    int stepOn = 1;
+    int stepBack = -apart;
+    int stepOn = apart;
     ivec3 cornerBack = corner;
     ivec3 cornerOn = corner;
-    if (oneSided && first) stepBack = 2;
-    if (oneSided && final) stepOn = -2;
+    if (oneSided && first) stepBack = 2 * apart;
+    if (oneSided && final) stepOn = -2 * apart;
     if (!oneSided && first) {
         cornerBack = slotCorner(slotBeside, last);
-        stepBack = last - 1;
+        stepBack = last - apart;
     }
     if (!oneSided && final) {
         cornerOn = slotCorner(slotBeside, last);
-        stepOn = 1 - last;
+        stepOn = apart - last;
     }
     int before = stepAt(cornerBack, vertex + axis * stepBack);
     int after = stepAt(cornerOn, vertex + axis * stepOn);
     int twice = !oneSided ? after - before
                 : first   ? 4 * after - 3 * here - before
                           : 3 * here - 4 * before + after;
-    return vec2(0.5 * float(twice), oneSided ? 0 : max(abs(here - before), abs(after - here)));
+    float steepest = oneSided ? 0.0 : float(max(abs(here - before), abs(after - here)));
+    return vec2(0.5 * float(twice), steepest) / float(apart);
 }
 
-// The cross product of the tangents of (R + h) d(u, v), divided by R + h.
-vec3 normalOnSphere(FaceFrame face, GridPlace place, float radius, vec2 heightSlope) {
-    float u = place.coordinates.x;
-    float v = place.coordinates.y;
-    vec3 roots = place.roots;
-    vec3 d = face.direction.xyz + place.turn;
+// The cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the axes are the
+// chunk's own face's, whichever face reckons the position.
+vec3 normalOnSphere(FaceFrame face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
+    float u = coordinates.x;
+    float v = coordinates.y;
+    vec3 roots = sqrt(vec3(1.0 - 0.5 * (u * u + v * v) + u * u * v * v * (1.0 / 3.0),
+                           0.5 - v * v * (1.0 / 6.0), 0.5 - u * u * (1.0 / 6.0)));
     float cross6 = -u * v * (1.0 / 6.0);
     vec3 along = vec3(u * (v * v * (1.0 / 3.0) - 0.5) / roots.x, roots.y, cross6 / roots.z);
     vec3 across = vec3(v * (u * u * (1.0 / 3.0) - 0.5) / roots.x, cross6 / roots.y, roots.z);
@@ -111,40 +117,95 @@ void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     airArriving.rgb = scattered(air, amount, airLit, dot(ray, sun.xyz));
 }
 
+// Both slopes at a vertex: along u, along v.
+mat2 slopes(ivec3 corner, ivec2 vertex, int last, int here, int apart) {
+    return mat2(slope(corner, vertex, ivec2(1, 0), last, here, beside.x, beside.y, apart),
+                slope(corner, vertex, ivec2(0, 1), last, here, beside.z, beside.w, apart));
+}
+
+// How a vertex of the grid is drawn while its chunk turns into a coarser one.
+struct Slide {
+    ivec2 vertex;  // itself; or, along a coarser chunk, the nearest of that chunk's vertices
+    ivec2 aside;   // from it to either end of the edge or diagonal that will replace it; 0 where it stays
+    float amount;  // [0, 1] of the way to the middle between those ends
+};
+
+Slide slideOf(ivec2 vertex, int last) {
+    bool west = vertex.x == 0;
+    bool east = vertex.x == last;
+    bool south = vertex.y == 0;
+    if (!(west || east || south || vertex.y == last)) return Slide(vertex, vertex & 1, skirtAndMorph.y);
+    int edge = west ? 0 : east ? 1 : south ? 2 : 3;
+    ivec2 along = edge < 2 ? ivec2(0, 1) : ivec2(1, 0);
+    int coarser = int(coarserBy[edge]);
+    int at = (vertex.x * along.x + vertex.y * along.y + ((1 << coarser) >> 1)) >> coarser;
+    return Slide(vertex + along * ((at << coarser) - vertex), along * ((at & 1) << coarser), edgeMorph[edge]);
+}
+
+ivec2 gridPointOf(ivec2 vertex) {
+    return ((ivec2(chunk.yz) << grid.y) + vertex) << (fineGridLog2 - grid.y - int(chunk.x >> 3u));
+}
+
+// And the direction from the planet's centre, of about unit length.
+vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
+    int face = int(chunk.x & 7u);
+    ivec2 gridPoint = gridPointOf(vertex);
+    moveToOwningFace(face, gridPoint);
+    GridPlace place = gridPlace(faces[face], gridPoint);
+    up = faces[face].direction.xyz + place.turn;
+    if (isOn(switchCube))
+        return positionOnCube(faces[face], place, heights.x + float(heightStep) * planet.y - drop);
+    return positionOnSphere(faces[face], place, float(heightStep - grid.x) * planet.y - drop);
+}
+
 void main() {
     FaceFrame frame = faces[chunk.x & 7u];
-    int level = int(chunk.x >> 3u);
-    int cellsLog2 = grid.y;
-    int last = 1 << cellsLog2;
-    ivec2 vertex = ivec2(gridVertex.xy);
-    int spacing = fineGridLog2 - cellsLog2 - level;
-    ivec2 gridPoint = (ivec2(chunk.yz) * last + vertex) << spacing;
-    GridPlace place = gridPlace(frame, gridPoint);
+    int last = 1 << grid.y;
+    Slide slide = Slide(ivec2(gridVertex.xy), ivec2(0), 0.0);
+    if (isOn(switchSlide)) slide = slideOf(slide.vertex, last);
+    ivec2 vertex = slide.vertex;
+    ivec2 gridPoint = gridPointOf(vertex);
 
     ivec3 corner = slotCorner(chunk.w, last);
     int heightStep = stepAt(corner, vertex);
-    float drop = gridVertex.z == 0u ? 0.0 : skirtDepth;
+    float drop = gridVertex.z == 0u ? 0.0 : skirtAndMorph.x;
     float rise = float(heightStep - grid.x) * planet.y - drop;
     float height = heights.x + float(heightStep) * planet.y;
 
-    vec3 position = isOn(switchCube) ? positionOnCube(frame, place, height - drop)
-                                     : positionOnSphere(frame, place, rise);
-    vec3 up = frame.direction.xyz + place.turn;
+    vec3 up;
+    vec3 position = positionOf(vertex, heightStep, drop, up);
+    int before = heightStep;
+    int after = heightStep;
+    if (isOn(switchSlide)) {
+        before = stepAt(corner, vertex - slide.aside);
+        after = stepAt(corner, vertex + slide.aside);
+        vec3 unused;
+        vec3 middle = 0.5 * (positionOf(vertex - slide.aside, before, drop, unused) +
+                             positionOf(vertex + slide.aside, after, drop, unused));
+        position += slide.amount * (middle - position);
+        height += slide.amount * (0.5 * float(before + after) - float(heightStep)) * planet.y;
+    }
     vec3 normal = up;
     float rough = 0.0;
     sunLit = skyLit = airLit = vec3(0.0);
     groundArriving = airArriving = vec4(0.0);
     steep = 0.0;
     if (isOn(switchLighting)) {
-        vec2 along = slope(corner, vertex, ivec2(1, 0), last, heightStep, beside.x, beside.y);
-        vec2 across = slope(corner, vertex, ivec2(0, 1), last, heightStep, beside.z, beside.w);
-        float stepsPerSlope = planet.y / (float(1 << spacing) * fineCell);
-        vec2 heightSlope = vec2(along.x, across.x) * (stepsPerSlope * heights.z);
+        mat2 steps = slopes(corner, vertex, last, heightStep, 1);
+        // The light turns into the coarser mesh's too, between the same two vertices of it.
+        if (isOn(switchMorph) && slide.amount > 0.0) {
+            mat2 coarser = 0.5 * (slopes(corner, vertex - slide.aside, last, before, 2) +
+                                  slopes(corner, vertex + slide.aside, last, after, 2));
+            steps += slide.amount * (coarser - steps);
+        }
+        float stepsPerSlope = planet.y / (float(1 << (fineGridLog2 - grid.y - int(chunk.x >> 3u))) * fineCell);
+        vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * heights.z);
+        vec2 coordinates = vec2(gridPoint) * fineCell - 1.0;
         normal = isOn(switchCube) ? frame.normal.xyz * planet.w - heightSlope.x * frame.u.xyz -
                                         heightSlope.y * frame.v.xyz
-                                  : normalOnSphere(frame, place, planet.z + rise, heightSlope);
+                                  : normalOnSphere(frame, coordinates, up, planet.z + rise, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
-        float steepest = max(along.y, across.y) * stepsPerSlope / (0.75 * planet.x);
+        float steepest = max(steps[0].y, steps[1].y) * stepsPerSlope / (0.75 * planet.x);
         rough = smoothstep(0.0, 0.09, steepest);
         vec3 unitUp = normalize(up);
         lightGround(position, unitUp, height);
@@ -154,7 +215,8 @@ void main() {
     surface = position;
     facePlace = vec4(vec2(gridPoint) * (0.5 * fineCell), height, float(chunk.x & 7u));
     surfaceNormal = vec4(normal, rough);
-    gridCoordinate = vec2(vertex);
+    gridCoordinate = vec2(gridVertex.xy);
+    onSkirt = float(gridVertex.z);
     faceU = frame.u.xyz;
     faceV = frame.v.xyz;
     tint = chunkTint;

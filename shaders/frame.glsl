@@ -21,7 +21,7 @@ layout(std140) uniform Frame {
     vec4 rayRight;
     vec4 rayUp;
     vec4 planet;      // radius; quantum; reference radius; half side of the cube
-    vec4 heights;     // height of step 0; 1 / the top of the ramp; relief boost of the lighting; unused
+    vec4 heights;     // height of step 0; 1 / the top of the ramp; relief boost of the lighting; the sea level
     vec4 atmosphere;  // radius / scale height; 1 / scale height; 1 where drawn; 1 near the ground, 0 in space
     vec4 eyeUp;       // xyz: unit; height of the eye, scale heights, 0 or more
     vec4 screen;      // angle of a pixel, radians; depth of the sky in clip space; unused
@@ -29,7 +29,10 @@ layout(std140) uniform Frame {
     vec4 detailSizes;    // metres that each octave's noise covers once; unused
     vec4 detailPixels;   // pixels x metres that a step of heights and of the image covers; a step of the image,
                          // [0, 1] across a face; unused
-    ivec4 grid;          // reference step; log2 of cells a chunk side; unused
+    ivec4 grid;          // reference step; log2 of cells a chunk side; stops of the ramp; unused
+    vec4 surfacing;      // opacity of the image over the ramp; 1 where the ramp colours the sea too; unused
+    vec4 rampColours[32];  // of the stops: roots of linear light; unused
+    vec4 rampRises[32];  // of each: height of the one before, above the sea level; 1 / metres from there; unused
 };
 
 // A program is compiled for the switches it is drawn with, in the constant variant: what is off costs nothing,
@@ -43,7 +46,13 @@ const int switchAir = 32;
 const int switchTint = 64;
 const int switchLightByVertex = 128;  // triangles are small enough to work light and air out at their corners
 const int switchDetail = 256;
-const int switchFineDetail = 512;  // its last octave, too
+const int switchFineDetail = 512;     // its last octave, too
+const int switchRamp = 1024;          // the ramp's own stops
+const int switchImageOverRamp = 2048;  // some of the ramp shows through the image
+const int switchOutlines = 4096;
+const int switchLoudSkirts = 8192;
+const int switchSlide = 16384;         // some vertices morph, or move onto a coarser neighbour's
+const int switchMorph = 32768;         // some morph: light does, too
 
 bool isOn(int bit) {
     return (variant & bit) != 0;

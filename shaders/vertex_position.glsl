@@ -30,6 +30,19 @@ GridPlace gridPlace(FaceFrame face, ivec2 grid) {
     return place;
 }
 
+// On an edge or a corner of the cube, the same point on the face of the lowest index that has it, so that all faces
+// make the same of it.
+void moveToOwningFace(inout int face, inout ivec2 grid) {
+    const int side = 1 << fineGridLog2;
+    ivec2 fromMiddle = 2 * grid - side;
+    if (max(abs(fromMiddle.x), abs(fromMiddle.y)) < side) return;
+    vec3 cube = float(side) * faces[face].normal.xyz + float(fromMiddle.x) * faces[face].u.xyz +
+                float(fromMiddle.y) * faces[face].v.xyz;
+    int axis = abs(cube.x) == float(side) ? 0 : abs(cube.y) == float(side) ? 1 : 2;
+    face = 2 * axis + (cube[axis] < 0.0 ? 1 : 0);
+    grid = (ivec2(dot(cube, faces[face].u.xyz), dot(cube, faces[face].v.xyz)) + side) / 2;
+}
+
 // Rise: height over the reference step, metres.
 vec3 positionOnSphere(FaceFrame face, GridPlace place, float rise) {
     return face.origin.xyz + (planet.z + rise) * place.turn + rise * face.direction.xyz;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <map>
 #include <random>
+#include <vector>
 
 namespace planet {
 namespace {
@@ -109,6 +111,40 @@ TEST_F(VertexPosition, TheSkirtHangsTowardsTheCentre) {
             reference(shape, vertex) - 250.0 * glm::normalize(reference(shape, vertex)) - eyeM;
         EXPECT_LT(glm::length(dropped - expected), 1e-3);
     }
+}
+
+// Every place on the cube's edges is reached from two faces, a corner from three.
+TEST_F(VertexPosition, FacesMakeTheSameOfTheVerticesTheyShare) {
+    const PlanetShape shape = earth();
+    constexpr std::int32_t side = 1 << fineGridLog2;
+    const VertexFrame frame = vertexFrame(shape, {4e6, 3e6, 4.5e6});
+    std::map<std::array<double, 3>, std::vector<glm::vec3>> byPlace;
+    for (const Face face : allFaces) {
+        for (const std::int32_t along : {0, 1, 1234567, side / 2, 3 * side / 4, side - 1, side}) {
+            for (const auto& [u, v] : {std::pair{along, 0},
+                                       {along, side},
+                                       {0, along},
+                                       {side, along},
+                                       {side - along, side},
+                                       {side, side - along},
+                                       {side - along, 0},
+                                       {0, side - along}}) {
+                const glm::dvec3 cube = cubePoint(face, u * 2.0 / side - 1, v * 2.0 / side - 1);
+                byPlace[{cube.x, cube.y, cube.z}].push_back(vertexFromEyeM(frame, face, u, v, 77));
+                const FaceGridPoint owner = onOwningFace({face, u, v});
+                EXPECT_EQ(cubePoint(owner.face, owner.gridU * 2.0 / side - 1, owner.gridV * 2.0 / side - 1),
+                          cube);
+                EXPECT_EQ(owner.face, facePointFromCube(cube).face);
+            }
+        }
+    }
+    EXPECT_EQ(byPlace.size(), 12u * 7 + 8);
+    for (const auto& [place, positions] : byPlace) {
+        EXPECT_GE(positions.size(), 2u);
+        for (const glm::vec3& position : positions) EXPECT_EQ(position, positions.front());
+    }
+    const FaceGridPoint inside{Face::NegZ, 1, side - 1};
+    EXPECT_EQ(onOwningFace(inside), inside);
 }
 
 TEST_F(VertexPosition, AnEyeAtTheCentreIsNoTrouble) {

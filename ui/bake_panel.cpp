@@ -4,7 +4,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <thread>
 
+#include "ui/item_map.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -13,52 +18,377 @@ namespace ui {
 
 namespace {
 
-void progressLines(const planet::BakeProgress& progress) {
-    const double total = std::max(static_cast<double>(progress.samplesTotal), 1.0);
-    const double share = static_cast<double>(progress.samplesDone) / total;
-    ImGui::ProgressBar(static_cast<float>(share), {-1, 0}, fmt::format("{:.0f} %", 100 * share).c_str());
-    if (!beginValues("bake")) return;
-    valueRow("Samples",
-             fmt::format("{} of {}", countText(static_cast<double>(progress.samplesDone)), countText(total)),
-             "Heights of the finest level.");
-    valueRow("Rate", fmt::format("{} samples/s", countText(progress.samplesPerS)), "Since the bake began.");
-    valueRow("Time left", progress.samplesDone == 0 ? "..." : durationText(progress.remainingS),
-             "At this rate.");
+namespace fs = std::filesystem;
+
+constexpr double askAfterS = 0.5;  // since the last edit
+constexpr std::array<int, 4> chunkSizes = {17, 33, 65, 129};
+constexpr int smallestFaceLog2 = 4;
+constexpr int largestFaceLog2 = 16;
+
+// An image, one of six faces, or the common stem of six.
+bool isThere(const fs::path& source) {
+    std::error_code status;
+    if (source.empty() || source.extension() == ".chk") return false;
+    if (fs::is_regular_file(source, status)) return true;
+    for (const char* ending : {".raw", ".png", ".tif", ".tiff", ".exr", ".pgm"}) {
+        if (fs::is_regular_file(source.string() + "_x_pos" + ending, status)) return true;
+    }
+    return false;
+}
+
+bool sameFile(const BakeRequest& a, const BakeRequest& b) {
+    return a.source == b.source && a.settings.faceSize == b.settings.faceSize &&
+           a.settings.chunkSize == b.settings.chunkSize && a.settings.radiusM == b.settings.radiusM &&
+           a.settings.quantumM == b.settings.quantumM &&
+           a.settings.compressionLevel == b.settings.compressionLevel;
+}
+
+void setSource(const fs::path& source, BakePanelState& state) {
+    const std::string text = source.string();
+    state.sourceText.fill(0);
+    std::copy_n(text.begin(), std::min(text.size(), state.sourceText.size() - 1), state.sourceText.begin());
+    state.sourceIsThere = isThere(source);
+}
+
+// Another file is open than the one that was edited: what was chosen for that one is over.
+void followOpenFile(const EditorView& view, BakePanelState& state) {
+    if (state.editedOf == view.data.chunkFile) return;
+    state.editedOf = view.data.chunkFile;
+    state.edited.reset();
+    state.estimateAtS.reset();
+    setSource(view.bake.current.source, state);
+}
+
+void edited(const BakeRequest& request, double timeS, BakePanelState& state) {
+    state.edited = request;
+    state.estimateAtS = timeS + askAfterS;
+}
+
+void parameterRow(const char* name, const std::string& value, bool live, const char* explanation) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(palette().dim, "%s", name);
+    tooltip(explanation);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(value.c_str());
+    tooltip(explanation);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(live ? palette().good : palette().dim, "%s", live ? "live" : "needs a bake");
+    tooltip(live ? "Takes effect at once, in the panel that is named."
+                 : "Stands in the file; changed below.");
+}
+
+void bakedRows(const EditorView& view) {
+    const planet::BakeSettings& baked = view.bake.current.settings;
+    parameterRow(
+        "Source",
+        view.bake.current.source.empty() ? "not recorded" : view.bake.current.source.filename().string(),
+        false,
+        view.bake.current.source.empty() ? "The file does not say where its source lies."
+                                         : view.bake.current.source.string().c_str());
+    parameterRow("Face size", fmt::format("{} samples", baked.faceSize.value_or(0)), false,
+                 "Samples along a side of each of the six faces, on the finest level.");
+    parameterRow("Chunk size", fmt::format("{} vertices", baked.chunkSize), false,
+                 "Vertices along a chunk's side, the same on every level.");
+    parameterRow("Radius", fmt::format("{:.1f} km", baked.radiusM / 1000), false,
+                 "Of the sphere that heights are counted from.");
+    parameterRow("Quantum", fmt::format("{:g} m", baked.quantumM.value_or(0)), false,
+                 "Height of one of the 65536 steps that the file keeps.");
+    parameterRow("Compression",
+                 view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel)
+                                            : "not recorded in the file",
+                 false, "How hard the encoder tried. Reading takes the same time whatever it was.");
+}
+
+void liveRows(const ViewSettings& settings) {
+    parameterRow("Tolerance", fmt::format("{:.2f} px", settings.lod.tauPx), true, "In the LOD panel.");
+    parameterRow("Exaggeration", fmt::format("{:.2f} x", settings.surface.exaggeration), true,
+                 "Heights are drawn this many times as high. In the Surface panel.");
+    parameterRow("Sea level", fmt::format("{:.0f} m", settings.surface.seaLevelM), true,
+                 "In the Surface panel.");
+    parameterRow("Memory", fmt::format("{} MiB", settings.paging.budgetMB), true,
+                 "For resident chunks. In the Paging panel.");
+}
+
+void openFileSection(const EditorView& view, const ViewSettings& settings) {
+    if (!view.planet || !section("Open file")) return;
+    if (!ImGui::BeginTable("parameters", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    bakedRows(view);
+    liveRows(settings);
+    ImGui::EndTable();
+}
+
+// A label that is lit where the value is not that of the open file.
+void bakeControl(const char* label, bool changed, const char* explanation) {
+    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    labelledControl(label, explanation);
+    if (changed) ImGui::PopStyleColor();
+}
+
+bool sourceControl(const EditorView& view, BakePanelState& state, BakeRequest& request) {
+    constexpr const char* explanation =
+        "Path of an elevation image (equirectangular), of one of six cube faces, or of their common stem.";
+    bakeControl("Source", request.source != view.bake.current.source, explanation);
+    const bool changed = ImGui::InputTextWithHint("##source", "path of an image or of cube faces",
+                                                  state.sourceText.data(), state.sourceText.size());
+    noteItem("Source");
+    tooltip(explanation);
+    if (changed) {
+        request.source = state.sourceText.data();
+        state.sourceIsThere = isThere(request.source);
+    }
+    if (state.sourceIsThere) return changed;
+    ImGui::PushTextWrapPos(0);
+    const char* problem = state.sourceText[0] ? "There is no such image, and no such faces."
+                          : view.planet
+                              ? "The file does not say what it was baked from: name its source here."
+                              : "Name what to bake.";
+    ImGui::TextColored(palette().warning, "%s", problem);
+    ImGui::PopTextWrapPos();
+    return changed;
+}
+
+bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
+    constexpr const char* explanation =
+        "Vertices along a chunk's side. Larger: fewer draw items and nodes, better compression, but coarser "
+        "steps of detail and more triangles than the tolerance needs. Smaller: the other way round.";
+    int index = static_cast<int>(std::find(chunkSizes.begin(), chunkSizes.end(), request.settings.chunkSize) -
+                                 chunkSizes.begin());
+    bakeControl("Chunk size", request.settings.chunkSize != current.settings.chunkSize, explanation);
+    const bool changed =
+        combo("Chunk size", index, "17 vertices\00033 vertices\00065 vertices\000129 vertices\0");
+    tooltip(explanation);
+    if (changed) request.settings.chunkSize = chunkSizes[static_cast<std::size_t>(index)];
+    return changed;
+}
+
+bool faceSizeControl(const BakeRequest& current, BakeRequest& request) {
+    constexpr const char* explanation =
+        "Samples along a side of each of the six faces, 2^n + 1. Natural: the smallest that loses nothing of "
+        "the source. Smaller: less detail; larger: a bigger file and nothing new to see.";
+    const std::optional<int> size = request.settings.faceSize;
+    const auto text = [](int samples) { return fmt::format("{} samples", samples); };
+    bakeControl("Face size", size != current.settings.faceSize, explanation);
+    bool changed = false;
+    const bool open = ImGui::BeginCombo("##face", size ? text(*size).c_str() : "natural");
+    if (!open) noteItem("Face size");
+    tooltip(explanation);
+    if (!open) return false;
+    if (ImGui::Selectable("natural", !size)) {
+        request.settings.faceSize.reset();
+        changed = true;
+    }
+    for (int log2 = smallestFaceLog2; log2 <= largestFaceLog2; ++log2) {
+        const int samples = (1 << log2) + 1;
+        if (samples < request.settings.chunkSize) continue;
+        const bool chosen = ImGui::Selectable(text(samples).c_str(), size == samples);
+        noteItem("Face size: " + text(samples));
+        if (!chosen) continue;
+        request.settings.faceSize = samples;
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool radiusControl(const BakeRequest& current, BakeRequest& request) {
+    constexpr const char* explanation =
+        "Of the sphere that heights are counted from, kilometres: Earth 6371, Mars 3389.5, Moon 1737.4. "
+        "Wrong: "
+        "mountains look too steep or too flat.";
+    bakeControl("Radius", request.settings.radiusM != current.settings.radiusM, explanation);
+    double radiusKm = request.settings.radiusM / 1000;
+    const bool changed = ImGui::InputDouble("##radius", &radiusKm, 0, 0, "%.3f km");
+    tooltip(explanation);
+    if (changed) request.settings.radiusM = 1000 * std::clamp(radiusKm, 1e-3, 1e6);
+    return changed;
+}
+
+bool quantumControl(const BakeRequest& current, BakeRequest& request) {
+    constexpr const char* explanation =
+        "Metres of one of the file's 65536 height steps. Automatic: the source's own step, or for floating "
+        "point the finest that holds its range. Larger: terraces on flat ground, a smaller file; too small: "
+        "the bake says that the heights do not fit.";
+    std::optional<double>& quantum = request.settings.quantumM;
+    bakeControl("Quantum", quantum != current.settings.quantumM, explanation);
+    bool automatic = !quantum;
+    bool changed = ImGui::Checkbox("automatic", &automatic);
+    tooltip(explanation);
+    if (changed) quantum = automatic ? std::nullopt : std::optional(current.settings.quantumM.value_or(1));
+    if (!quantum) return changed;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    double metres = *quantum;
+    if (ImGui::InputDouble("##quantum", &metres, 0, 0, "%g m")) {
+        quantum = std::clamp(metres, 1e-6, 1e6);
+        changed = true;
+    }
+    tooltip(explanation);
+    return changed;
+}
+
+bool effortControls(const EditorView& view, BakeRequest& request) {
+    const planet::BakeSettings& current = view.bake.current.settings;
+    const bool packed = slider(
+        "Compression", request.settings.compressionLevel,
+        view.bake.compressionKnown ? current.compressionLevel : planet::defaultCompressionLevel,
+        planet::minCompressionLevel, planet::maxCompressionLevel, "level %d",
+        "How hard the encoder tries. 0: samples as they are, 2 bytes each; 2: the usual; 3: a fifth of "
+        "the speed for about 1 % fewer bytes. Reading takes the same time.");
+    const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+    const bool threads = slider(
+        "Threads", request.settings.threads, 0, 0, cores, request.settings.threads == 0 ? "one a core" : "%d",
+        "Threads that bake. Fewer: slower, but more is left for flying meanwhile. Same file either way.");
+    return packed || threads;
+}
+
+void requestSection(const EditorView& view, BakePanelState& state) {
+    if (!section("Bake anew")) return;
+    BakeRequest request = state.edited.value_or(view.bake.current);
+    ImGui::BeginDisabled(view.bake.running.has_value());
+    bool changed = sourceControl(view, state, request);
+    changed |= chunkSizeControl(view.bake.current, request);
+    changed |= faceSizeControl(view.bake.current, request);
+    changed |= radiusControl(view.bake.current, request);
+    changed |= quantumControl(view.bake.current, request);
+    changed |= effortControls(view, request);
+    ImGui::EndDisabled();
+    if (changed) edited(request, view.timeS, state);
+}
+
+void askForEstimate(const EditorView& view, BakePanelState& state, Commands& commands) {
+    if (!state.estimateAtS || view.timeS < *state.estimateAtS || view.bake.running) return;
+    state.estimateAtS.reset();
+    if (state.edited && state.sourceIsThere) commands.push_back(EstimateBake{*state.edited});
+}
+
+// What the new file's size is against the open one's: "12.3 MiB, 1.4 x the open file".
+std::string sizeText(const EditorView& view, double bytes) {
+    if (!view.planet) return bytesText(bytes);
+    const double open = static_cast<double>(view.planet->file().sizeBytes());
+    return fmt::format("{}, {:.2f} x as now", bytesText(bytes), bytes / open);
+}
+
+void estimateValues(const EditorView& view, const BakePanelState& state) {
+    if (!state.edited) return;
+    const BakeView& bake = view.bake;
+    const bool waiting = state.estimateAtS || bake.estimating;
+    if (!waiting && !bake.estimateProblem.empty()) {
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextColored(palette().bad, "%s", bake.estimateProblem.c_str());
+        ImGui::PopTextWrapPos();
+        return;
+    }
+    if ((!waiting && !bake.estimate) || !beginValues("estimate")) return;
+    const auto value = [&](const auto& text) {
+        return waiting || !bake.estimate ? std::string("...") : text(*bake.estimate);
+    };
+    using Estimate = planet::BakeEstimate;
+    valueRow("Expected size", value([&](const Estimate& e) { return sizeText(view, e.fileBytes); }),
+             "Of the file, from a few of its blocks baked in memory; right to about a tenth.");
+    valueRow("Expected time", value([](const Estimate& e) { return durationText(e.seconds); }),
+             "On this machine, with these threads and nothing else to do; flying meanwhile takes its share.");
+    valueRow("Chunks", value([](const Estimate& e) {
+                 return fmt::format("{} on {} levels", countText(static_cast<double>(e.chunks)),
+                                    planet::leafLevel(e.shape) + 1);
+             }),
+             "Of all levels together.");
+    valueRow("Samples", value([](const Estimate& e) {
+                 return fmt::format("{}, {} a face side", countText(static_cast<double>(e.samples)),
+                                    planet::faceCells(e.shape) + 1);
+             }),
+             "Of the finest level.");
     endValues();
+}
+
+void bakeButtons(const EditorView& view, BakePanelState& state, Commands& commands) {
+    const BakeRequest request = state.edited.value_or(view.bake.current);
+    const bool same = sameFile(request, view.bake.current);
+    ImGui::BeginDisabled(!state.sourceIsThere);
+    if (button(
+            same ? "Bake again" : "Bake",
+            "Bakes in the background while the planet flies on; then the new one takes its place, with the "
+            "camera and all settings kept. The old one stays at hand for comparison.")) {
+        state.estimateAtS.reset();
+        commands.push_back(StartBake{request});
+    }
+    ImGui::EndDisabled();
+    if (!state.edited) return;
+    ImGui::SameLine();
+    if (button("As the open file", "Takes back what was changed above.")) {
+        state.edited.reset();
+        state.estimateAtS.reset();
+        setSource(view.bake.current.source, state);
+    }
+}
+
+void progressSection(const BakeView& bake, Commands& commands) {
+    const planet::BakeProgress& progress = bake.progress;
+    const bool begun = progress.samplesTotal > 0;
+    const double share =
+        begun ? static_cast<double>(progress.samplesDone) / static_cast<double>(progress.samplesTotal) : 0;
+    usageBar(share, begun ? fmt::format("{:.0f} %", 100 * share) : std::string("opening the source"));
+    if (beginValues("progress")) {
+        valueRow("Baking", bake.running->source.filename().string(), bake.running->source.string().c_str());
+        valueRow("Rate", begun ? fmt::format("{} samples/s", countText(progress.samplesPerS)) : "...",
+                 "Finest-level samples a second since the bake began.");
+        valueRow("Time left", begun ? durationText(progress.remainingS) : "...", "At this rate.");
+        endValues();
+    }
+    ImGui::BeginDisabled(bake.stopping);
+    if (button(bake.stopping ? "Stopping..." : "Cancel",
+               "Ends the bake and leaves nothing behind; the planet stays as it is."))
+        commands.push_back(CancelBake{});
+    ImGui::EndDisabled();
+}
+
+void outcomeLines(const BakeView& bake) {
+    ImGui::PushTextWrapPos(0);
+    if (!bake.lastProblem.empty()) {
+        ImGui::TextColored(palette().warning, "Last bake: %s", bake.lastProblem.c_str());
+    } else if (bake.lastReport) {
+        const planet::BakeReport& report = *bake.lastReport;
+        const std::string text = fmt::format(
+            "Last bake: {} in {}, {:.2f} bits a sample{}", bytesText(static_cast<double>(report.fileBytes)),
+            durationText(report.seconds),
+            8 * static_cast<double>(report.fileBytes) / static_cast<double>(report.samples),
+            report.missingSamples == 0 ? std::string()
+                                       : fmt::format("; {} samples had no data",
+                                                     countText(static_cast<double>(report.missingSamples))));
+        ImGui::TextColored(palette().good, "%s", text.c_str());
+    }
+    ImGui::PopTextWrapPos();
+}
+
+void previousSection(const DataView& data, Commands& commands) {
+    if (!data.hasPreviousBake || !section("Previous bake")) return;
+    ImGui::TextColored(palette().dim, "%s", data.previousName.c_str());
+    bool shown = data.showsPreviousBake;
+    if (ImGui::Checkbox("Show it", &shown)) commands.push_back(ShowPreviousBake{shown});
+    noteItem("Show it");
+    tooltip("Flips between the two with the camera where it is. What differs is what the bake changed.");
+    secondColumn();
+    if (button("Dismiss", "Gives its memory back. Its file stays in the cache."))
+        commands.push_back(DismissPreviousBake{});
 }
 
 }  // namespace
 
-BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within) {
-    BakePanelCommands commands;
-    const float width = std::min(ImGui::GetFontSize() * 28, within.width * 0.9f);
-    ImGui::SetNextWindowPos({within.x + within.width / 2, within.y + within.height / 2}, ImGuiCond_Always,
-                            {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({width, 0});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ImGui::GetStyle().PopupRounding);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize(), ImGui::GetFontSize()});
-    ImGui::Begin("Bake", nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(input.problem.empty() ? fmt::format("Baking {}", input.source).c_str()
-                                                 : fmt::format("{} cannot be shown", input.source).c_str());
-    if (input.problem.empty()) {
-        ImGui::TextDisabled("Needed once; the result is kept for the next time.");
-        progressLines(input.progress);
-        if (ImGui::Button(input.stopping ? "Stopping..." : "Cancel") && !input.stopping)
-            commands.cancel = true;
+void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& settings, Commands& commands) {
+    followOpenFile(view, state);
+    previousSection(view.data, commands);
+    openFileSection(view, settings);
+    requestSection(view, state);
+    askForEstimate(view, state, commands);
+    ImGui::Spacing();
+    if (view.bake.running) {
+        progressSection(view.bake, commands);
     } else {
-        ImGui::TextColored(palette().warning, "%s", input.problem.c_str());
-        if (input.canBake && ImGui::Button("Bake again")) commands.bakeAgain = true;
+        // What comes and goes stands below the button, so that it does not move under the pointer.
+        bakeButtons(view, state, commands);
+        estimateValues(view, state);
     }
-    ImGui::PopTextWrapPos();
-    ImGui::End();
-    ImGui::PopStyleVar(3);
-    ImGui::PopStyleColor();
-    return commands;
+    outcomeLines(view.bake);
 }
 
 }  // namespace ui

@@ -1,27 +1,23 @@
-// What the viewport shows while there is no planet to show: a bake on its way, or why it ended.
+// Bake: the open file's parameters, what a bake with others would cost, and the bake itself.
 #pragma once
 
-#include <string>
+#include <array>
+#include <filesystem>
+#include <optional>
 
-#include "planet/bake.h"
-#include "ui/layout.h"
+#include "ui/editor_view.h"
 
 namespace ui {
 
-struct BakePanelInput {
-    std::string source;  // "elevation.tif"
-    planet::BakeProgress progress;
-    bool stopping = false;  // cancelled, but not yet at its end
-    std::string problem;    // why there is no planet; empty while it bakes
-    bool canBake = false;   // baking again may help
+struct BakePanelState {
+    std::optional<BakeRequest> edited;    // what the user has chosen; none: as the open file
+    std::filesystem::path editedOf;       // the chunk file that was open then
+    std::array<char, 1024> sourceText{};  // being typed
+    bool sourceIsThere = false;           // of sourceText
+    std::optional<double> estimateAtS;    // when to ask; none: has been asked
 };
 
-struct BakePanelCommands {
-    bool cancel = false;
-    bool bakeAgain = false;
-};
-
-// A window of its own in the middle of a rectangle.
-BakePanelCommands bakePanel(const BakePanelInput& input, const Rect& within);
+// Fills the current window.
+void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& settings, Commands& commands);
 
 }  // namespace ui

@@ -9,9 +9,13 @@ FrameStats smoothed(const FrameStats& before, const FrameStats& now) {
     stats.stages.uploadMs = mix(before.stages.uploadMs, now.stages.uploadMs);
     stats.stages.selectMs = mix(before.stages.selectMs, now.stages.selectMs);
     stats.stages.pagingMs = mix(before.stages.pagingMs, now.stages.pagingMs);
-    stats.render.drawMs = mix(before.render.drawMs, now.render.drawMs);
+    stats.render.chunksMs = mix(before.render.chunksMs, now.render.chunksMs);
+    stats.render.skyMs = mix(before.render.skyMs, now.render.skyMs);
     stats.drawCpuMs = mix(before.drawCpuMs, now.drawCpuMs);
+    stats.overlaysMs = mix(before.overlaysMs, now.overlaysMs);
     stats.panelsMs = mix(before.panelsMs, now.panelsMs);
+    stats.panelsGpuMs = mix(before.panelsGpuMs, now.panelsGpuMs);
+    stats.presentMs = mix(before.presentMs, now.presentMs);
     stats.frameMs = mix(before.frameMs, now.frameMs);
     return stats;
 }

@@ -12,10 +12,15 @@ struct FrameStats {
     planet::PagingCounters paging;
     planet::StageTimes stages;
     planet::gl::RenderCounters render;
-    std::size_t gpuBytes = 0;  // all that the renderer holds
-    double drawCpuMs = 0;      // making the draw calls
-    double panelsMs = 0;
-    double frameMs = 0;  // from this frame's start to the next one's
+    planet::gl::GpuMemory gpuMemory;  // of the renderer
+    std::size_t targetBytes = 0;      // of the pictures drawn into
+    std::size_t processBytes = 0;     // the whole program's resident memory
+    double drawCpuMs = 0;             // making the planet's draw calls
+    double overlaysMs = 0;            // lines and labels over it, on the CPU
+    double panelsMs = 0;              // making the panels
+    double panelsGpuMs = 0;           // drawing them, by a timer query
+    double presentMs = 0;             // handing the picture to the monitor, waiting for it included
+    double frameMs = 0;               // from this frame's start to the next one's
 };
 
 // Times with their flicker taken out; counts stay as they are.

@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <string>
-#include <type_traits>
+#include <vector>
 
+#include "ui/chunk_link.h"
+#include "ui/history.h"
+#include "ui/item_map.h"
+#include "ui/overlay_colours.h"
+#include "ui/plots.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -15,81 +21,132 @@ namespace ui {
 
 namespace {
 
-template <class T>
-ImGuiDataType dataType() {
-    static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>);
-    return std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32;
-}
+constexpr std::array chunkSizes = {17, 33, 65, 129};
+// Of the list of chunks that flip back and forth.
+constexpr std::size_t thrashingShown = 6;
 
-template <class T>
-bool slider(const char* label, T& value, T min, T max, const char* format, const char* explanation,
-            ImGuiSliderFlags flags = 0) {
-    labelledControl(label, explanation);
-    const bool changed = ImGui::SliderScalar(("##" + std::string(label)).c_str(), dataType<T>(), &value, &min,
-                                             &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
-    tooltip(explanation);
-    return changed;
-}
-
-void checkbox(const char* label, bool& value, const char* explanation) {
-    ImGui::Checkbox(label, &value);
-    tooltip(explanation);
-}
-
-// Starts the right-hand column of a pair of check boxes.
-void secondColumn() {
-    ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionMax().x * 0.5f);
-}
-
-template <class Enum>
-void choice(const char* label, Enum& value, const char* items, const char* explanation) {
-    labelledControl(label, explanation);
-    int index = static_cast<int>(value);
-    if (ImGui::Combo(("##" + std::string(label)).c_str(), &index, items)) value = static_cast<Enum>(index);
-    tooltip(explanation);
-}
-
-void detailControls(LodPanelCommands& commands, bool lodFrozen, ViewSettings& settings) {
-    slider(fmt::format("Tolerance {}", tauSymbol()).c_str(), settings.tauPx, 0.1, 64.0, "%.2f px",
-           "Error on screen that is good enough, in pixels. Larger: fewer triangles, more visible error.",
-           ImGuiSliderFlags_Logarithmic);
-    slider("Skirt factor", settings.skirtFactor, 0.0, 10.0, "%.2f",
-           "Skirt depth in units of the errors that a skirt has to hide. 0: no depth, cracks show.");
-    bool frozen = lodFrozen;
-    if (ImGui::Checkbox("Freeze LOD (F2)", &frozen)) commands.toggleFreeze = true;
-    tooltip("What is drawn stays chosen for the view as it is now, while the camera flies on.");
-    checkbox("Frustum culling", settings.frustumCulling, "Leaves out what lies beside and behind the view.");
-    secondColumn();
-    checkbox("Horizon culling", settings.horizonCulling, "Leaves out what the planet itself hides.");
-}
-
-void viewControls(const LodPanelInput& input, ViewSettings& settings) {
-    choice("Colour by", settings.colourBy, "nothing\0level\0error\0",
-           "Level: one colour a level. Error: green at 0, yellow at the tolerance, red at twice that.");
-    choice("Surface", settings.surface, "image\0height ramp\0",
-           input.hasColourImage ? "The colour image, or a ramp of colours by height."
-                                : "No colour image is loaded, so the ramp is drawn for both.");
-    slider("Field of view", settings.fovDeg, 5.0, 150.0, "%.0f deg", "Horizontal angle of view, degrees.");
-    ImGui::BeginDisabled(settings.sunFollows);
-    slider("Sun, east", settings.sunLongitudeDeg, -180.0, 180.0, "%.0f deg",
-           "Longitude where the sun stands in the zenith, degrees east.");
+void toleranceKnobs(LodKnobs& lod) {
+    const LodKnobs defaults;
+    slider(
+        fmt::format("Tolerance {}", tauSymbol()).c_str(), lod.tauPx, defaults.tauPx, 0.1, 64, "%.2f px",
+        fmt::format("Error on screen that is good enough, pixels. A chunk is replaced by its children while "
+                    "{} = delta_c K' / D > {}. Larger: fewer triangles and less memory, more visible error "
+                    "and later, larger pops. Smaller: more of everything.",
+                    epsSymbol(), tauSymbol())
+            .c_str(),
+        ImGuiSliderFlags_Logarithmic);
+    slider(
+        "Hysteresis", lod.hysteresis, defaults.hysteresis, 0, 0.9, "%.2f",
+        fmt::format("Share of {0} by which a merge comes later than the split: what is split stays split "
+                    "until {1} <= {0} (1 - hysteresis). Larger: fewer chunks that flip back and forth, but "
+                    "more triangles than {0} alone asks for. 0: chunks near {0} flip with every move.",
+                    tauSymbol(), epsSymbol())
+            .c_str());
+    slider("Largest level", lod.maxLevel, defaults.maxLevel, 0, planet::maxLevel, "%d",
+           "Deepest level drawn; chunks of this level are not split. 0 is a whole cube face. Smaller: coarse "
+           "ground near the camera, whatever the tolerance says.");
+    checkbox("Morph", lod.morph, defaults.morph,
+             "Slides a chunk's vertices onto its parent's surface before the parent takes its place. Off: "
+             "chunks pop when their level changes.");
+    ImGui::BeginDisabled(!lod.morph);
+    slider(
+        "Morph range", lod.morphRange, defaults.morphRange, 0.01, 4, "%.2f",
+        fmt::format("Share of {0} over which a chunk slides: by its parent's {1}, from {0} (1 + range) where "
+                    "it is itself down to {0} where it is its parent. Larger: slower slides, but more of the "
+                    "picture is coarser than it could be. Small: nearly a pop.",
+                    tauSymbol(), epsSymbol())
+            .c_str(),
+        ImGuiSliderFlags_Logarithmic);
     ImGui::EndDisabled();
-    checkbox("Wireframe (F1)", settings.wireframe, "Draws the triangles' edges.");
-    secondColumn();
-    checkbox("Cube (F4)", settings.cube, "Draws the cube before it is blown up to the sphere.");
-    checkbox("Skirts", settings.skirts, "Curtains along the chunks' edges that hide cracks.");
-    secondColumn();
-    checkbox("Atmosphere", settings.atmosphere, "Haze and sky.");
-    checkbox("Lighting", settings.lighting, "Off: flat colour, no sun.");
+}
+
+void cullingKnobs(const EditorView& view, LodKnobs& lod, Commands& commands) {
+    const LodKnobs defaults;
+    checkbox("Frustum culling", lod.frustumCulling, defaults.frustumCulling,
+             "Leaves out what lies beside and behind the view. Off: it is loaded and drawn too, so a turn of "
+             "the camera shows nothing coarse, for several times the chunks.");
     secondColumn();
     checkbox(
-        "Detail", settings.detail,
-        "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
-    checkbox("Sun follows", settings.sunFollows, "Keeps the sun to the camera's east: always day.");
+        "Horizon culling", lod.horizonCulling, defaults.horizonCulling,
+        "Leaves out what the planet itself hides. Off: its far side is loaded and drawn too, at no gain.");
+    bool frozen = view.lodFrozen;
+    if (frozen) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+    if (ImGui::Checkbox("Freeze (F2)", &frozen)) commands.push_back(FreezeLod{frozen});
+    noteItem("Freeze (F2)");
+    if (view.lodFrozen) ImGui::PopStyleColor();
+    tooltip(
+        "What is drawn stays chosen for the view as it is now, while the camera flies on: look at the "
+        "selection from outside. Meanwhile the picture is as coarse as it was chosen to be.");
 }
 
-void drawnValues(const FrameStats& stats, double tauPx) {
-    const planet::SelectionCounters& s = stats.selection;
+// The index of a chunk size, or the number of sizes where it is none of them.
+std::size_t sizeIndex(int chunkSize) {
+    return static_cast<std::size_t>(std::find(chunkSizes.begin(), chunkSizes.end(), chunkSize) -
+                                    chunkSizes.begin());
+}
+
+void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
+    ImGui::AlignTextToFramePadding();
+    const bool running = view.bake.running.has_value();
+    ImGui::TextColored(palette().warning, "%s", running ? "being baked" : "needs a bake");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!view.bake.canBake || running);
+    const char* explanation =
+        running ? "A bake is running; see the Bake panel."
+        : view.bake.canBake
+            ? "Bakes the source again with this chunk size, while you fly on. The file in use is "
+              "kept until the new one is whole."
+            : "Cannot be baked: the source of this file is not known or no longer there. Open "
+              "the elevation data itself to bake it.";
+    if (button("Bake", explanation)) {
+        BakeRequest request = view.bake.current;
+        request.settings.chunkSize = wantedSize;
+        commands.push_back(StartBake{request});
+    }
+    ImGui::EndDisabled();
+}
+
+void chunkSizeKnob(const EditorView& view, Commands& commands) {
+    const int fileSize = planet::chunkSize(view.planet->shape());
+    // What the user would like to have; 0 while that is what the file has.
+    int* wanted = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wantedChunkSize"), 0);
+    if (*wanted == fileSize) *wanted = 0;
+    const auto fileIndex = static_cast<int>(sizeIndex(fileSize));
+    int index = *wanted == 0 ? fileIndex : static_cast<int>(sizeIndex(*wanted));
+    if (choiceIndex("Chunk size", index, fileIndex,
+                    "17 x 17\0"
+                    "33 x 33\0"
+                    "65 x 65\0"
+                    "129 x 129\0",
+                    "Vertices of a chunk, the same at every level; in the file, so another one needs a bake. "
+                    "Larger: fewer, larger draws and reads, but more triangles than the tolerance asks for. "
+                    "Smaller: a finer choice, but more chunks to select, queue and draw.")) {
+        *wanted = index == fileIndex ? 0 : chunkSizes[static_cast<std::size_t>(index)];
+    }
+    if (*wanted != 0) bakeOffer(view, *wanted, commands);
+}
+
+void formulas(const EditorView& view, double tauPx) {
+    const double screenScale = planet::screenScalePx(view.lodView);
+    const std::string formula = fmt::format("{} = delta_c K' / D     d_m = delta_c K", epsSymbol());
+    ImGui::TextDisabled("%s", formula.c_str());
+    tooltip(
+        "Error on screen, pixels, of a chunk that lies D metres away; and the distance d_m, metres, nearer "
+        "than which it must be replaced by its children. delta_c, metres: the chunk's error, from the bake.");
+    if (!beginValues("formulas")) return;
+    valueRow(
+        "K' = W / (2 tan(Hfov/2))", fmt::format("{:.1f} px", screenScale),
+        "W: the viewport's width in pixels; Hfov: the horizontal angle of view. A metre of error a metre "
+        "away covers K' pixels.");
+    valueRow(fmt::format("K = K' / {}", tauSymbol()).c_str(), fmt::format("{:.1f}", screenScale / tauPx),
+             fmt::format("W / (2 {} tan(Hfov/2)): d_m = delta_c K.", tauSymbol()).c_str());
+    valueRow("d_m of delta_c = 1 m", distanceText(screenScale / tauPx),
+             "Within this distance a chunk whose error is one metre is split.");
+    endValues();
+}
+
+void drawnValues(const EditorView& view, double tauPx) {
+    const planet::SelectionCounters& s = view.stats.selection;
     if (!beginValues("drawn")) return;
     valueRow("Visited", countText(s.visited), "Nodes of the quadtrees that selection looked at.");
     valueRow("Culled", fmt::format("{} + {}", countText(s.culledFrustum), countText(s.culledHorizon)),
@@ -98,85 +155,104 @@ void drawnValues(const FrameStats& stats, double tauPx) {
     valueRow("Waiting", countText(s.waiting),
              "Chunks drawn though over the tolerance: their children are not loaded.",
              s.waiting > 0 ? &palette().warning : nullptr);
-    valueRow("Triangles", countText(static_cast<double>(stats.render.triangles)),
+    valueRow("Triangles", countText(static_cast<double>(view.stats.render.triangles)),
              "Triangles drawn, skirts included.");
     valueRow("Deepest level", fmt::format("{}", s.deepestLevel), "Of what is drawn; 0 is a whole cube face.");
     const bool over = static_cast<double>(s.worstEpsPx) > tauPx;
-    valueRow(fmt::format("Worst {}", epsSymbol()).c_str(), fmt::format("{:.2f} px", s.worstEpsPx),
+    valueRow(fmt::format("Worst {}", epsSymbol()).c_str(),
+             s.worstEpsPx < 1000 ? fmt::format("{:.2f} px", s.worstEpsPx)
+                                 : pixelsText(static_cast<double>(s.worstEpsPx)),
              "Largest predicted error on screen of what is drawn, pixels.",
              over ? &palette().warning : nullptr);
     endValues();
 }
 
-void memoryValues(const LodPanelInput& input, LodPanelCommands& commands, ViewSettings& settings) {
-    const planet::PagingCounters& p = input.stats.paging;
-    slider("Budget", settings.budgetMB, 16, 8192, "%d MiB",
-           "Memory for resident chunks, CPU and GPU together. Smaller: coarser when it is full.",
-           ImGuiSliderFlags_Logarithmic);
-    if (ImGui::IsItemDeactivatedAfterEdit()) commands.applyPaging = true;
-    const double used = static_cast<double>(p.residentBytesCpu + p.residentBytesGpu);
-    const double budget = input.openBudgetMB * 1048576.0;
-    usageBar(used / budget, fmt::format("{} of {}", bytesText(used), bytesText(budget)));
-    tooltip("Resident chunks against the budget.");
-    if (!beginValues("memory")) return;
-    valueRow("On the CPU", bytesText(static_cast<double>(p.residentBytesCpu)),
-             "Heights and nodes of resident chunks.");
-    valueRow("On the GPU", bytesText(static_cast<double>(p.residentBytesGpu)),
-             "Heights in the pool that hold a resident chunk.");
-    valueRow("Resident chunks", countText(static_cast<double>(p.residentChunks)), "Loaded and drawable.");
-    valueRow("Queue", fmt::format("{} + {}", p.queued, p.loading), "Blocks queued + being read or uploaded.");
-    valueRow("Read", bytesText(static_cast<double>(p.bytesRead)), "From the file, since it was opened.");
-    if (p.failed > 0)
-        valueRow("Failed", countText(static_cast<double>(p.failed)),
-                 "Blocks that could not be read; see the log.", &palette().bad);
-    endValues();
+void levelBars(const planet::Planet& planet) {
+    std::array<int, planet::maxLevel + 1> chunks{};
+    for (const planet::DrawItem& item : planet.selection().draw) ++chunks[item.id.level];
+    const double cells = planet::chunkCells(planet.shape());
+    std::vector<Bar> bars;
+    for (std::size_t level = 0; level < chunks.size(); ++level) {
+        if (chunks[level] == 0) continue;
+        const glm::vec3 c = levelColour(static_cast<int>(level));
+        bars.push_back(
+            {fmt::format("{}", level),
+             static_cast<double>(chunks[level]),
+             {c.r, c.g, c.b, 1},
+             fmt::format("{}   {} tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
+    }
+    barList("levels", bars);
+    tooltip("Chunks drawn by level, and their triangles without skirts. Level 0 is a whole cube face.");
 }
 
-void timeValues(const FrameStats& stats) {
-    if (!beginValues("times")) return;
-    valueRow("Upload", millisecondsText(stats.stages.uploadMs), "Making loaded chunks drawable.");
-    valueRow("Select", millisecondsText(stats.stages.selectMs), "Choosing what to draw.");
-    valueRow("Paging", millisecondsText(stats.stages.pagingMs), "Dropping chunks and asking for new ones.");
-    valueRow("Draw, GPU", millisecondsText(stats.render.drawMs), "The planet on the GPU, by a timer query.");
-    valueRow("Draw, CPU", millisecondsText(stats.drawCpuMs), "Making the planet's draw calls.");
-    valueRow("Panels", millisecondsText(stats.panelsMs), "These panels.");
-    const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
-    valueRow("Frame", fmt::format("{} ({:.0f}/s)", millisecondsText(stats.frameMs), perSecond),
-             "From one frame to the next, waiting for the monitor included.");
-    endValues();
+void drawnPlots(const EditorView& view, double tauPx) {
+    const std::vector<float> times = historyTimes(view.history);
+    const std::array counts = {
+        Series{"drawn", seriesColour(0),
+               historyValues(view.history, [](const FrameStats& s) { return s.selection.drawn; })},
+        Series{"visited", seriesColour(1),
+               historyValues(view.history, [](const FrameStats& s) { return s.selection.visited; })}};
+    linePlot("counts", times, counts, "");
+    // A chunk that holds the eye has any error at all; the plot is about what comes near the tolerance.
+    const auto top = static_cast<float>(16 * tauPx);
+    const std::string name = fmt::format("worst {}, at most 16 {}", epsSymbol(), tauSymbol());
+    const std::array errors = {
+        Series{name.c_str(), seriesColour(3), historyValues(view.history, [top](const FrameStats& s) {
+                   return std::min(s.selection.worstEpsPx, top);
+               })}};
+    linePlot("errors", times, errors, "px", 0, 3, false, tauPx);
 }
 
-void cameraValues(const LodPanelInput& input, LodPanelCommands& commands) {
-    if (!beginValues("camera")) return;
-    valueRow("Place", placeText(input.camera.latitudeDeg, input.camera.longitudeDeg),
-             "Latitude and longitude, degrees.");
-    valueRow("Altitude", distanceText(input.camera.altitudeM), "Above the planet's radius.");
-    valueRow("Above ground", distanceText(input.heightAboveGroundM), "Above the surface that is loaded.");
-    valueRow("Heading, pitch",
-             fmt::format("{:.0f}, {:.0f} deg", std::fmod(std::round(input.camera.headingDeg), 360.0),
-                         input.camera.pitchDeg),
-             "0 is north, 90 east; -90 looks straight down.");
-    valueRow("Speed", fmt::format("x {:.3g}", input.speedFactor), "Of the keys W A S D; + and - change it.");
-    endValues();
-    if (ImGui::Button("Reset (F3)")) commands.resetCamera = true;
-    tooltip("Back to where the session started.");
-    ImGui::SameLine();
-    if (ImGui::Button("Start here")) commands.keepCameraAsStart = true;
-    tooltip("Sessions start at this place from now on.");
+// The chunks that flipped back last, newest first, each once.
+std::vector<planet::ChunkId> lastThrashing(const planet::LodChanges& changes) {
+    std::vector<planet::ChunkId> chunks;
+    if (changes.thrashRecent() == 0) return chunks;
+    const auto& recent = changes.recent();
+    for (auto change = recent.rbegin(); change != recent.rend() && chunks.size() < thrashingShown; ++change) {
+        if (change->thrash && std::find(chunks.begin(), chunks.end(), change->chunk) == chunks.end())
+            chunks.push_back(change->chunk);
+    }
+    return chunks;
+}
+
+void changes(const EditorView& view, Commands& commands) {
+    const planet::LodChanges& c = view.changes;
+    const std::size_t thrashing = c.thrashRecent();
+    if (beginValues("changes")) {
+        valueRow("Splits", fmt::format("{:.0f} /s", c.splitsPerS()),
+                 "Chunks replaced by their children, over the last second.");
+        valueRow("Merges", fmt::format("{:.0f} /s", c.mergesPerS()),
+                 "Chunks that took their children's place, over the last second.");
+        valueRow(
+            "Thrash, last 10 s", countText(static_cast<double>(thrashing)),
+            "Chunks that flipped back within a second: work for nothing, and flicker. More hysteresis or "
+            "a larger memory budget helps.",
+            thrashing > 0 ? &palette().warning : nullptr);
+        valueRow("Thrash, in all", countText(static_cast<double>(c.thrashTotal())),
+                 "Since this planet was opened.");
+        endValues();
+    }
+    const std::vector<planet::ChunkId> chunks = lastThrashing(c);
+    if (chunks.empty()) return;
+    ImGui::TextDisabled("Flipped back last:");
+    for (const planet::ChunkId& id : chunks) chunkLink(id, view, commands);
 }
 
 }  // namespace
 
-LodPanelCommands lodPanel(const LodPanelInput& input, bool lodFrozen, ViewSettings& settings) {
-    LodPanelCommands commands;
-    if (section("Level of detail")) detailControls(commands, lodFrozen, settings);
-    if (section("View")) viewControls(input, settings);
-    if (!input.open) return commands;
-    if (section("Drawn")) drawnValues(input.stats, settings.tauPx);
-    if (section("Memory")) memoryValues(input, commands, settings);
-    if (section("Times")) timeValues(input.stats);
-    if (section("Camera")) cameraValues(input, commands);
-    return commands;
+void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    LodKnobs& lod = settings.lod;
+    if (section("Level of detail")) {
+        toleranceKnobs(lod);
+        cullingKnobs(view, lod, commands);
+        if (view.planet) chunkSizeKnob(view, commands);
+        formulas(view, lod.tauPx);
+    }
+    if (!view.planet) return emptyState("What is drawn shows here once a planet is open.");
+    if (section("Drawn")) drawnValues(view, lod.tauPx);
+    if (section("By level")) levelBars(*view.planet);
+    if (section("Last 10 seconds")) drawnPlots(view, lod.tauPx);
+    if (section("Changes of level")) changes(view, commands);
 }
 
 }  // namespace ui

@@ -1,31 +1,11 @@
-// Level of detail: the settings to tune, and what they cost.
+// Level of detail: tau and its companions, what is drawn by level, and how it changes.
 #pragma once
 
-#include "planet/view.h"
-#include "ui/frame_stats.h"
-#include "ui/view_settings.h"
+#include "ui/editor_view.h"
 
 namespace ui {
 
-struct LodPanelInput {
-    const FrameStats& stats;
-    bool open = false;  // a planet is there to be measured
-    planet::CameraPose camera{};
-    double heightAboveGroundM = 0;
-    double speedFactor = 1;
-    bool hasColourImage = false;
-    int openBudgetMB = 0;  // the budget that the open planet runs with
-};
-
-// What the panel asks the application to do.
-struct LodPanelCommands {
-    bool toggleFreeze = false;
-    bool resetCamera = false;
-    bool keepCameraAsStart = false;
-    bool applyPaging = false;  // budget or threads have changed
-};
-
 // Fills the current window.
-LodPanelCommands lodPanel(const LodPanelInput& input, bool lodFrozen, ViewSettings& settings);
+void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands);
 
 }  // namespace ui

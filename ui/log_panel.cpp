@@ -1,12 +1,15 @@
 #include "ui/log_panel.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <string_view>
-#include <vector>
 
+#include "ui/item_map.h"
+#include "ui/log_filter.h"
+#include "ui/log_links.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -28,54 +31,135 @@ const ImVec4& colourOf(LogLevel level) {
     return palette().text;
 }
 
-bool holds(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
-}
-
-std::vector<const LogLine*> shownLines(const std::deque<LogLine>& lines, std::string_view filter) {
-    std::vector<const LogLine*> shown;
-    for (const LogLine& line : lines) {
-        if (holds(line.text, filter)) shown.push_back(&line);
+void refresh(const std::deque<LogLine>& lines, LogPanelState& state) {
+    LogPanelState::Shown& shown = state.shown;
+    const LogLine* oldest = lines.empty() ? nullptr : &lines.front();
+    const LogLine* newest = lines.empty() ? nullptr : &lines.back();
+    if (shown.count == lines.size() && shown.oldest == oldest && shown.newest == newest &&
+        (!newest || shown.newestText == newest->text) && shown.levels == state.levels &&
+        std::string_view(shown.filter.data()) == state.filter.data()) {
+        return;
     }
-    return shown;
+    shown.lines = filteredLines(lines, state.filter.data(), state.levels);
+    shown.filter = state.filter;
+    shown.levels = state.levels;
+    shown.count = lines.size();
+    shown.oldest = oldest;
+    shown.newest = newest;
+    shown.newestText = newest ? newest->text : std::string();
 }
 
-void drawLine(const LogLine& line) {
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-    ImGui::TextUnformatted(line.time.c_str());
-    ImGui::PopStyleColor();
+// Goes on in the same line while there is room.
+void sameLineIfRoom(float width) {
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width < right) ImGui::SameLine();
+}
+
+void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(std::min(font * 16, ImGui::GetContentRegionAvail().x));
+    ImGui::InputTextWithHint("##filter", "Filter", state.filter.data(), state.filter.size());
+    noteItem("Filter");
+    tooltip("Shows only the lines that hold this text; case does not matter.");
+    for (std::size_t i = 0; i < state.levels.size(); ++i) {
+        const auto level = static_cast<LogLevel>(i);
+        sameLineIfRoom(ImGui::GetFrameHeight() + ImGui::CalcTextSize(levelName(level)).x + font * 0.5f);
+        ImGui::PushStyleColor(ImGuiCol_Text, colourOf(level));
+        ImGui::Checkbox(levelName(level), &state.levels[i]);
+        noteItem(levelName(level));
+        ImGui::PopStyleColor();
+        tooltip("Shows lines of this level.");
+    }
+    sameLineIfRoom(ImGui::GetFrameHeight() + font * 3.5f);
+    ImGui::Checkbox("Follow", &state.autoScroll);
+    tooltip("Keeps the newest line in view. Scrolling up turns it off.");
+    sameLineIfRoom(font * 3.5f);
+    ImGui::BeginDisabled(state.shown.lines.empty());
+    const std::string explanation = fmt::format(
+        "Copies the {} lines shown. A right click on a line copies it alone.", state.shown.lines.size());
+    if (button("Copy", explanation.c_str()))
+        commands.push_back(CopyText{linesText(lines, state.shown.lines)});
+    ImGui::EndDisabled();
+}
+
+// Selects the chunk that a line names, or else copies the path of the file.
+void follow(const LogLine& line, Commands& commands) {
+    if (const auto chunk = chunkNamedIn(line.text)) {
+        commands.push_back(SelectChunk{chunk});
+    } else if (const auto file = fileNamedIn(line.text)) {
+        commands.push_back(CopyText{file->string()});
+    }
+}
+
+void lineMenu(const LogLine& line, Commands& commands) {
+    if (!ImGui::BeginPopupContextItem()) return;
+    if (ImGui::MenuItem("Copy line")) commands.push_back(CopyText{lineText(line)});
+    if (const auto chunk = chunkNamedIn(line.text)) {
+        const std::string name = planet::toString(*chunk);
+        if (ImGui::MenuItem(("Select " + name).c_str())) commands.push_back(SelectChunk{chunk});
+        if (ImGui::MenuItem(("Look at " + name).c_str())) commands.push_back(LookAtChunk{*chunk});
+    }
+    if (const auto file = fileNamedIn(line.text)) {
+        if (ImGui::MenuItem("Copy path")) commands.push_back(CopyText{file->string()});
+    }
+    ImGui::EndPopup();
+}
+
+void lineTooltip(const LogLine& line, Commands& commands) {
+    if (!ImGui::IsItemHovered()) return;
+    if (const auto chunk = chunkNamedIn(line.text)) {
+        commands.push_back(HoverChunk{*chunk});
+        tooltip(fmt::format("Click: selects {}.", planet::toString(*chunk)).c_str());
+    } else if (const auto file = fileNamedIn(line.text)) {
+        tooltip(fmt::format("Click: copies {}.", file->string()).c_str());
+    }
+}
+
+void drawLine(const LogLine& line, std::size_t index, Commands& commands) {
+    ImGui::PushID(static_cast<int>(index));
+    const ImVec2 start = ImGui::GetCursorPos();
+    const float timeWidth = ImGui::CalcTextSize(line.time.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
+    const float textWidth = ImGui::CalcTextSize(line.text.c_str()).x;
+    // The whole line takes the click; its words are drawn over it.
+    if (ImGui::Selectable("##line", false, 0,
+                          {std::max(timeWidth + textWidth, ImGui::GetContentRegionAvail().x), 0}))
+        follow(line, commands);
+    noteItem(fmt::format("line {}", index));
+    lineTooltip(line, commands);
+    lineMenu(line, commands);
+    const ImVec2 next = ImGui::GetCursorPos();
+    ImGui::SetCursorPos(start);
+    ImGui::TextColored(palette().dim, "%s", line.time.c_str());
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, colourOf(line.level));
     ImGui::TextUnformatted(line.text.c_str());
     ImGui::PopStyleColor();
+    ImGui::SetCursorPos(next);
+    ImGui::PopID();
 }
 
 }  // namespace
 
-void logPanel(const std::deque<LogLine>& lines, LogPanelState& state) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Log");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(std::min(ImGui::GetFontSize() * 16, ImGui::GetContentRegionAvail().x * 0.4f));
-    ImGui::InputTextWithHint("##filter", "Filter", state.filter.data(), state.filter.size());
-    tooltip("Shows only the lines that hold this text.");
-    ImGui::SameLine();
-    ImGui::Checkbox("Follow", &state.autoScroll);
-    tooltip("Keeps the newest line in view.");
+void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
+    refresh(lines, state);
+    toolbar(lines, state, commands);
+    refresh(lines, state);
 
     ImGui::BeginChild("lines", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
-    const std::vector<const LogLine*> shown = shownLines(lines, state.filter.data());
+    if (ImGui::IsWindowHovered() && ImGui::GetIO().MouseWheel > 0 && ImGui::GetScrollMaxY() > 0)
+        state.autoScroll = false;
+    const std::vector<std::size_t>& shown = state.shown.lines;
     if (shown.empty())
-        ImGui::TextDisabled(lines.empty() ? "Nothing has happened yet." : "No line holds this text.");
+        emptyState(lines.empty() ? "Nothing has happened yet." : "No line passes the filters.");
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(shown.size()));
     while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            drawLine(*shown[static_cast<std::size_t>(i)]);
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const std::size_t index = shown[static_cast<std::size_t>(i)];
+            drawLine(lines[index], index, commands);
+        }
     }
+    clipper.End();
     if (state.autoScroll) ImGui::SetScrollHereY(1);
     ImGui::EndChild();
 }

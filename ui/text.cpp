@@ -65,4 +65,12 @@ std::string millisecondsText(double milliseconds) {
     return fmt::format("{:.2f} ms", milliseconds);
 }
 
+std::string pixelsText(double pixels, const char* unit) {
+    // The eye is inside the bounds, where the distance is only kept from being 0.
+    if (pixels >= 1e6) return std::string("> 1 M") + unit;
+    if (pixels >= 10'000) return countText(pixels) + unit;
+    const int digits = pixels >= 9.95 || pixels == 0 ? 0 : pixels >= 0.095 ? 1 : 2;
+    return fmt::format("{:.{}f}{}", pixels, digits, unit);
+}
+
 }  // namespace ui

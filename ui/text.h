@@ -12,5 +12,6 @@ std::string durationText(double seconds);                        // "0.4 s", "12
 std::string distanceText(double metres);                         // "4.2 m", "950 m", "12.3 km", "14000 km"
 std::string placeText(double latitudeDeg, double longitudeDeg);  // "27.988 N  86.925 E"
 std::string millisecondsText(double milliseconds);               // "0.42 ms"
+std::string pixelsText(double pixels, const char* unit = " px");  // "0.04 px", "1.3 px", "29 px"
 
 }  // namespace ui

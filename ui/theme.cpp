@@ -1,13 +1,29 @@
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 namespace ui {
 
 namespace {
 
 const ImFont* greekFont = nullptr;  // owned by ImGui's atlas
+Palette currentPalette;             // as ImGui's style, one a process
+
+Palette paletteOf(Theme theme) {
+    Palette colours;
+    if (theme == Theme::Dark) return colours;
+    colours.text = {0.10f, 0.12f, 0.14f, 1};
+    colours.dim = {0.38f, 0.42f, 0.46f, 1};
+    colours.accent = {0.04f, 0.40f, 0.78f, 1};
+    colours.good = {0.10f, 0.50f, 0.16f, 1};
+    colours.warning = {0.66f, 0.40f, 0.00f, 1};
+    colours.bad = {0.78f, 0.14f, 0.12f, 1};
+    colours.box = {0.97f, 0.98f, 0.99f, 0.82f};
+    return colours;
+}
 
 ImFont* loadFont(float sizePx) {
     constexpr const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -19,9 +35,12 @@ ImFont* loadFont(float sizePx) {
     return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, sizePx, nullptr, ranges.data());
 }
 
-void setColours(ImGuiStyle& style) {
-    const auto grey = [](float level, float alpha = 1) {
-        return ImVec4(level, level * 1.04f, level * 1.10f, alpha);
+// Greys are given for the dark theme; the light one turns them round.
+void setColours(ImGuiStyle& style, Theme theme) {
+    const auto grey = [theme](float level, float alpha = 1) {
+        if (theme == Theme::Dark) return ImVec4(level, level * 1.04f, level * 1.10f, alpha);
+        const float light = 1.04f - 1.05f * level;
+        return ImVec4(light * 0.985f, light * 0.99f, std::min(light, 1.0f), alpha);
     };
     const ImVec4 accent = palette().accent;
     const auto tinted = [&](float alpha) { return ImVec4(accent.x, accent.y, accent.z, alpha); };
@@ -50,6 +69,20 @@ void setColours(ImGuiStyle& style) {
     c[ImGuiCol_ScrollbarGrabHovered] = grey(0.32f);
     c[ImGuiCol_ScrollbarGrabActive] = grey(0.38f);
     c[ImGuiCol_Separator] = grey(0.20f);
+    c[ImGuiCol_MenuBarBg] = grey(0.135f);
+    c[ImGuiCol_Tab] = grey(0.135f);
+    c[ImGuiCol_TabHovered] = tinted(0.35f);
+    c[ImGuiCol_TabActive] = grey(0.21f);
+    c[ImGuiCol_TabUnfocused] = grey(0.135f);
+    c[ImGuiCol_TabUnfocusedActive] = grey(0.21f);
+    c[ImGuiCol_TableHeaderBg] = grey(0.155f);
+    c[ImGuiCol_TableBorderStrong] = grey(0.24f);
+    c[ImGuiCol_TableBorderLight] = grey(0.19f);
+    c[ImGuiCol_TableRowBg] = grey(0, 0);
+    c[ImGuiCol_TableRowBgAlt] = theme == Theme::Dark ? ImVec4(1, 1, 1, 0.025f) : ImVec4(0, 0, 0, 0.03f);
+    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = c[ImGuiCol_TitleBgCollapsed] = grey(0.16f);
+    c[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.35f);
+    c[ImGuiCol_PlotLines] = palette().dim;
     c[ImGuiCol_TextSelectedBg] = tinted(0.35f);
 }
 
@@ -73,12 +106,13 @@ void setSizes(ImGuiStyle& style, float scale) {
 }  // namespace
 
 const Palette& palette() {
-    static const Palette colours;
-    return colours;
+    return currentPalette;
 }
 
-void applyTheme(float contentScale) {
+void applyTheme(Theme theme, float contentScale) {
+    currentPalette = paletteOf(theme);
     const float sizePx = std::round(baseFontPx * contentScale);
+    ImGui::GetIO().Fonts->Clear();
     greekFont = loadFont(sizePx);
     if (!greekFont) {
         ImFontConfig config;
@@ -86,8 +120,9 @@ void applyTheme(float contentScale) {
         ImGui::GetIO().Fonts->AddFontDefault(&config);
     }
     ImGuiStyle& style = ImGui::GetStyle();
-    ImGui::StyleColorsDark(&style);
-    setColours(style);
+    style = ImGuiStyle();
+    theme == Theme::Dark ? ImGui::StyleColorsDark(&style) : ImGui::StyleColorsLight(&style);
+    setColours(style, theme);
     setSizes(style, contentScale);
 }
 

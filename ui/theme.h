@@ -3,7 +3,7 @@
 
 #include <imgui.h>
 
-#include <filesystem>
+#include "ui/layout.h"
 
 namespace ui {
 
@@ -15,14 +15,16 @@ struct Palette {
     ImVec4 good{0.45f, 0.80f, 0.48f, 1};
     ImVec4 warning{0.96f, 0.75f, 0.30f, 1};
     ImVec4 bad{0.96f, 0.42f, 0.38f, 1};
+    ImVec4 box{0.07f, 0.08f, 0.10f, 0.78f};  // behind what is written over a picture
 };
 inline constexpr float baseFontPx = 15;  // on a monitor of scale 1
 
+// Of the theme applied last.
 const Palette& palette();
 
-// Call once, with a current ImGui context, before the first frame. Loads DejaVu Sans with Greek, or the
-// built-in font where there is none.
-void applyTheme(float contentScale);
+// Between two frames, with a current ImGui context. Loads DejaVu Sans with Greek, or the built-in font where
+// there is none; the font's texture has to be made anew after it.
+void applyTheme(Theme theme, float contentScale);
 
 // "τ" and "ε", or "tau" and "eps" where the font has no Greek. Valid after applyTheme.
 const char* tauSymbol();

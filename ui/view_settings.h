@@ -1,30 +1,110 @@
-// What the panels edit about the view, in the user's units. Kept in the settings file.
+// What the panels edit, in the user's units. Plain values: presets, undo and the settings file copy them
+// whole. Ranges are those of the table in app/settings.cpp.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "planet/bad_disk.h"
 #include "planet/gl/chunk_renderer.h"
+#include "planet/lod_select.h"
 
 namespace ui {
 
-struct ViewSettings {
+struct LodKnobs {
     double tauPx = 2;            // tolerance on screen, pixels, [0.1, 64]
-    double skirtFactor = 1;      // skirt depth in units of the errors it has to hide, [0, 10]
+    double hysteresis = 0.1;     // share of tau by which a merge comes later than the split, [0, 0.9]
+    int maxLevel = 20;           // deepest level drawn, [0, 20]
+    bool morph = true;           // slides chunks onto their parents before they merge
+    double morphRange = 0.3;     // share of tau over which they do, [0.01, 4]
     bool frustumCulling = true;  // leaves out what lies beside and behind the view
     bool horizonCulling = true;  // leaves out what the planet itself hides
-    bool skirts = true;          // draws the curtains that hide cracks
-    bool wireframe = false;      // draws edges only; not kept between sessions
-    bool cube = false;           // draws the cube before it is blown up; not kept between sessions
-    bool atmosphere = true;
-    bool detail = true;    // roughens the ground between the samples; invented, only for the eye
-    bool lighting = true;  // off: flat colour
-    planet::gl::ColourBy colourBy = planet::gl::ColourBy::None;
+
+    bool operator==(const LodKnobs&) const = default;
+};
+
+struct SeamKnobs {
+    planet::SeamMode mode = planet::SeamMode::Skirts;
+    planet::SkirtDepth depth = planet::SkirtDepth::Automatic;
+    double skirtFactor = 1;     // of Automatic: depth in units of the errors it has to hide, [0, 10]
+    double skirtDepthM = 1000;  // of Fixed, metres, [0, 100000]
+    bool showPairs = false;     // marks the edges between chunks of different levels in the viewport
+
+    bool operator==(const SeamKnobs&) const = default;
+};
+
+struct PagingKnobs {
+    int budgetMB = 256;        // memory for resident chunks, CPU and GPU together, MiB, [16, 65536]
+    int loaderThreads = 1;     // threads that read chunks, [1, 64]
+    double uploadLimitMs = 4;  // time a frame spent on loaded chunks, ms, [0.1, 100]
+    planet::BadDiskSettings badDisk;
+
+    bool operator==(const PagingKnobs&) const = default;
+};
+
+enum class ColourBy : std::uint8_t { None, Level, Error, DeltaC, Morph, Age, LoadOrder };
+enum class ChunkLabels : std::uint8_t { None, Level, Error, LevelAndError };
+
+// Over the planet's picture.
+struct OverlaySettings {
+    ColourBy colourBy = ColourBy::None;
+    double opacity = 0.85;    // of the tint, [0, 1]
+    double errorScale = 1;    // eps / tau that is drawn yellow, [0.01, 100]
+    double deltaTopM = 1000;  // the scale's top for delta_c, metres, [0.01, 100000]; logarithmic
+    double ageTopS = 10;      // for the age, seconds, [0.1, 3600]
+    bool outlines = false;    // of the chunks
+    bool bounds = false;      // bounding volumes
+    bool wireframe = false;   // the mesh
+    planet::gl::SkirtPaint skirtPaint = planet::gl::SkirtPaint::AsGround;
+    ChunkLabels labels = ChunkLabels::None;
+    bool cube = false;  // draws the cube before it is blown up
+
+    bool operator==(const OverlaySettings&) const = default;
+};
+
+struct SurfaceSettings {
     planet::gl::SurfaceColour surface = planet::gl::SurfaceColour::Image;
-    double fovDeg = 60;           // horizontal field of view, degrees, [5, 150]
+    double imageOpacity = 1;                 // of the colour image over the ramp, [0, 1]
+    std::vector<planet::gl::RampStop> ramp;  // lowest first; empty: the built-in ramp
+    bool sea = true;
+    double seaLevelM = 0;     // [-20000, 20000]
+    double exaggeration = 1;  // heights are drawn this many times as high, [0.1, 100]
+    bool lighting = true;     // off: flat colour
+    bool atmosphere = true;
+    bool detail = true;           // roughens the ground between the samples; invented, only for the eye
     bool sunFollows = true;       // the sun keeps to the camera's east, so that it is always day there
     double sunLatitudeDeg = 29;   // else: where the sun stands in the zenith, [-90, 90]
     double sunLongitudeDeg = 31;  // [-180, 180]
-    int budgetMB = 256;           // memory for resident chunks, CPU and GPU together, MiB, [16, 65536]
-    int loaderThreads = 1;        // threads that read chunks, [1, 64]
-    double uploadLimitMs = 4;     // time a frame spent on loaded chunks, ms, [0.1, 100]
+
+    bool operator==(const SurfaceSettings&) const = default;
+};
+
+enum class CameraMode : std::uint8_t { Fly, Orbit, FollowFlight };
+// How the viewport is shared between the lod view and the observer, who looks at it from outside.
+enum class ObserverMode : std::uint8_t { Off, Split, Alone };
+
+struct CameraSettings {
+    double fovDeg = 60;  // horizontal field of view, degrees, [5, 150]
+    CameraMode mode = CameraMode::Fly;
+    ObserverMode observer = ObserverMode::Off;
+    bool observerOwnLod = false;       // the observer draws what it would choose itself, as a second view
+    bool showFrustum = true;           // in the observer's picture: the lod view's frustum,
+    bool showHorizon = true;           // its horizon,
+    bool showSwitchDistances = false;  // and how far d_m of the chunk that is selected reaches
+    std::string flight;                // of FollowFlight: a flight's file
+
+    bool operator==(const CameraSettings&) const = default;
+};
+
+struct ViewSettings {
+    LodKnobs lod;
+    SeamKnobs seams;
+    PagingKnobs paging;
+    OverlaySettings overlay;
+    SurfaceSettings surface;
+    CameraSettings camera;
+
+    bool operator==(const ViewSettings&) const = default;
 };
 
 }  // namespace ui

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <glm/vec3.hpp>
-#include <vector>
 
+#include "ui/chunk_labels.h"
+#include "ui/overlay_colours.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -14,8 +15,10 @@ namespace ui {
 
 namespace {
 
-constexpr const char* mouseHelp = "Left drag: move   Right drag: look   Wheel: nearer";
-constexpr const char* keyHelp = "W A S D E Q: fly   I J K L: turn   + -: speed   F3: reset";
+// The longest that fits is shown.
+constexpr std::array helpLines = {
+    "Left drag: move   Right drag: look   Wheel: nearer   Click: select   W A S D E Q: fly   F10: all keys",
+    "Drag: move, look   Wheel: nearer   W A S D E Q: fly   F10: keys", "F10: keys and mouse"};
 
 // As much of a text's end as fits, after an ellipsis.
 std::string endThatFits(const std::string& text, float widthPx) {
@@ -29,56 +32,175 @@ std::string endThatFits(const std::string& text, float widthPx) {
     return shown;
 }
 
-ImU32 colourOf(const glm::vec3& colour) {
+ImU32 packed(const glm::vec3& colour) {
     return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, 1));
 }
 
-struct Swatch {
-    ImU32 colour = 0;
-    std::string label;
+bool isOn(const planet::BadDiskSettings& disk) {
+    return disk.latencyMs > 0 || disk.bandwidthMBs > 0 || disk.failureRate > 0 || disk.shuffledOrder;
+}
+
+float marginPx() {
+    return std::round(ImGui::GetFontSize() * 0.7f);
+}
+
+float badgeStepPx() {
+    return std::round(ImGui::GetFontSize() * 1.8f);
+}
+
+struct LegendLayout {
+    int rows = 0;
+    int columns = 1;
+    float rowPx = 0;
+    float columnPx = 0;
+    float padPx = 0;
+    ImVec2 size{0, 0};
 };
 
-std::vector<Swatch> legendOf(const ViewportOverlayInput& input) {
-    std::vector<Swatch> swatches;
-    if (input.settings.colourBy == planet::gl::ColourBy::Level) {
-        for (std::uint32_t level = 0; level <= input.deepestLevel; ++level) {
-            swatches.push_back(
-                {colourOf(planet::gl::levelColour(static_cast<int>(level))), fmt::format("{}", level)});
-        }
+// As many columns as the height asks for.
+LegendLayout layoutOf(const Legend& legend, float heightPx) {
+    LegendLayout layout;
+    if (legend.entries.empty()) return layout;
+    const int count = static_cast<int>(legend.entries.size());
+    layout.rowPx = std::round(ImGui::GetFontSize() * 1.25f);
+    layout.padPx = std::round(ImGui::GetFontSize() * 0.5f);
+    const int most = std::max(1, static_cast<int>((heightPx - 2 * layout.padPx) / layout.rowPx) - 1);
+    layout.columns = (count + most - 1) / most;
+    layout.rows = (count + layout.columns - 1) / layout.columns;
+    float label = 0;
+    for (const LegendEntry& entry : legend.entries) {
+        label = std::max(label, ImGui::CalcTextSize(entry.label.c_str()).x);
     }
-    if (input.settings.colourBy == planet::gl::ColourBy::Error) {
-        for (const double share : {0.0, 0.5, 1.0, 1.5, 2.0}) {
-            swatches.push_back({colourOf(planet::gl::errorColour(share)),
-                                fmt::format("{:.2g} px", share * input.settings.tauPx)});
-        }
-    }
-    return swatches;
+    layout.columnPx = 1.6f * layout.rowPx + label + layout.padPx;
+    const float title = ImGui::CalcTextSize(legend.title.c_str()).x + layout.padPx;
+    layout.size = {std::max(layout.columnPx * static_cast<float>(layout.columns), title) + layout.padPx,
+                   layout.rowPx * static_cast<float>(layout.rows + 1) + 2 * layout.padPx};
+    return layout;
 }
 
 // In the top right corner, one row a colour.
-void drawLegend(ImDrawList& drawList, const std::vector<Swatch>& swatches, const char* title,
-                const Rect& viewport, float margin) {
-    if (swatches.empty()) return;
-    const float row = std::round(ImGui::GetFontSize() * 1.25f);
-    const float pad = std::round(ImGui::GetFontSize() * 0.5f);
-    float width = ImGui::CalcTextSize(title).x;
-    for (const Swatch& swatch : swatches) {
-        width = std::max(width, 1.6f * row + ImGui::CalcTextSize(swatch.label.c_str()).x);
-    }
-    const ImVec2 end(viewport.x + viewport.width - margin,
-                     viewport.y + margin + 2 * pad + row * static_cast<float>(swatches.size() + 1));
-    const ImVec2 start(end.x - width - 2 * pad, viewport.y + margin);
-    drawList.AddRectFilled(start, end, boxColour(), pad * 0.6f);
-    ImVec2 at(start.x + pad, start.y + pad);
-    drawList.AddText(at, ImGui::GetColorU32(palette().dim), title);
-    for (const Swatch& swatch : swatches) {
-        at.y += row;
-        drawList.AddRectFilled({at.x, at.y + 2}, {at.x + 1.2f * row, at.y + row - 3}, swatch.colour, 2);
-        drawList.AddText({at.x + 1.6f * row, at.y}, ImGui::GetColorU32(palette().text), swatch.label.c_str());
+void drawLegend(ImDrawList& drawList, const Legend& legend, const LegendLayout& layout, const Rect& rect) {
+    if (legend.entries.empty()) return;
+    const ImVec2 start(rect.x, rect.y);
+    drawList.AddRectFilled(start, {start.x + layout.size.x, start.y + layout.size.y}, boxColour(),
+                           layout.padPx * 0.6f);
+    drawList.AddText({start.x + layout.padPx, start.y + layout.padPx}, ImGui::GetColorU32(palette().dim),
+                     legend.title.c_str());
+    for (std::size_t i = 0; i < legend.entries.size(); ++i) {
+        const int column = static_cast<int>(i) / layout.rows;
+        const int row = static_cast<int>(i) % layout.rows;
+        const ImVec2 at(start.x + layout.padPx + layout.columnPx * static_cast<float>(column),
+                        start.y + layout.padPx + layout.rowPx * static_cast<float>(row + 1));
+        drawList.AddRectFilled({at.x, at.y + 2}, {at.x + 1.2f * layout.rowPx, at.y + layout.rowPx - 3},
+                               packed(legend.entries[i].colour), 2);
+        drawList.AddText({at.x + 1.6f * layout.rowPx, at.y}, ImGui::GetColorU32(palette().text),
+                         legend.entries[i].label.c_str());
     }
 }
 
+std::vector<Rect> fromCorner(std::vector<Rect> rects, const Rect& viewport) {
+    for (Rect& rect : rects) {
+        rect.x -= viewport.x;
+        rect.y -= viewport.y;
+    }
+    return rects;
+}
+
+// A picture of the planet, in which labels have to find their room.
+struct Picture {
+    const planet::View& through;
+    std::size_t selection = 0;  // which of the planet's views chose what is drawn
+    Rect rect;
+    std::vector<Rect> taken;  // in the window
+};
+
+void drawLabels(ImDrawList& drawList, const EditorView& view, const OverlaySettings& overlay,
+                const Picture& picture) {
+    if (!view.planet || overlay.labels == ChunkLabels::None) return;
+    const float pad = std::round(ImGui::GetFontSize() * 0.2f);
+    const auto textSize = [&](std::string_view text) {
+        const ImVec2 size = ImGui::CalcTextSize(text.data(), text.data() + text.size());
+        return glm::vec2(size.x + 2 * pad, size.y);
+    };
+    const ChunkLabelSettings wanted{.show = overlay.labels,
+                                    .areaPx = {picture.rect.width, picture.rect.height},
+                                    .gapPx = std::round(ImGui::GetFontSize() * 0.25f),
+                                    .cube = overlay.cube,
+                                    .taken = fromCorner(picture.taken, picture.rect)};
+    const planet::Selection& drawn = view.planet->selection(picture.selection);
+    for (const ChunkLabel& label :
+         chunkLabels(picture.through, view.planet->tree(), drawn.draw, wanted, textSize)) {
+        const ImVec2 at(picture.rect.x + label.topLeft.x, picture.rect.y + label.topLeft.y);
+        drawList.AddRectFilled(at, {at.x + label.size.x, at.y + label.size.y}, boxColour(), pad);
+        drawList.AddText({at.x + pad, at.y}, ImGui::GetColorU32(palette().text), label.text.c_str());
+    }
+}
+
+struct PlacedBadge {
+    ViewportBadge badge;
+    Rect rect;
+};
+
+PlacedBadge placed(ViewportBadge badge, float x, float y) {
+    const ImVec2 size = ImGui::CalcTextSize(badge.text.c_str());
+    return {std::move(badge), {x, y, size.x + ImGui::GetFontSize(), badgeStepPx()}};
+}
+
+// At the bottom; nothing where even the shortest has no room.
+void placeHelp(const Rect& viewport, std::vector<PlacedBadge>& badges) {
+    const float room = viewport.width - 2 * marginPx() - ImGui::GetFontSize();
+    for (const char* text : helpLines) {
+        if (ImGui::CalcTextSize(text).x > room) continue;
+        const float y = viewport.y + viewport.height - badgeStepPx() - marginPx() / 2;
+        badges.push_back(placed({text, palette().dim}, viewport.x + marginPx(), y));
+        return;
+    }
+}
+
+// In a column on the left, as many as there is room for.
+std::vector<PlacedBadge> placeBadges(const EditorView& view, const ViewSettings& settings,
+                                     const Rect& viewport, float widthPx, float bottomPx) {
+    std::vector<PlacedBadge> column;
+    float y = viewport.y + marginPx();
+    const auto add = [&](const ViewportBadge& one) {
+        if (y + badgeStepPx() > bottomPx) return;
+        column.push_back(placed({endThatFits(one.text, widthPx), one.colour}, viewport.x + marginPx(), y));
+        y += badgeStepPx();
+    };
+    if (!view.data.name.empty()) add({view.data.name, palette().text});
+    for (const ViewportBadge& one : viewportBadges(view, settings)) add(one);
+    return column;
+}
+
+void addPagingBadges(const EditorView& view, const ViewSettings& settings,
+                     std::vector<ViewportBadge>& badges) {
+    const planet::PagingCounters& paging = view.planet->paging();
+    const std::uint32_t waiting = paging.queued + paging.loading;
+    if (view.pagingPaused) {
+        badges.push_back({waiting > 0 ? fmt::format("Paging paused, {} waiting", waiting) : "Paging paused",
+                          palette().warning});
+    }
+    if (isOn(settings.paging.badDisk)) badges.push_back({"Bad disk on", palette().warning});
+    if (paging.budgetWaits > 0)
+        badges.push_back({fmt::format("Memory full, {} waiting", paging.budgetWaits), palette().bad});
+    if (!view.pagingPaused && waiting > 0)
+        badges.push_back({fmt::format("Loading {}", waiting), palette().good});
+}
+
 }  // namespace
+
+std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
+    std::vector<ViewportBadge> badges;
+    if (view.framesPaused) badges.push_back({"Paused, F6 steps (F5)", palette().warning});
+    if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
+    if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
+    if (view.planet) addPagingBadges(view, settings, badges);
+    if (settings.overlay.wireframe) badges.push_back({"Wireframe (F1)", palette().accent});
+    if (settings.overlay.cube) badges.push_back({"Cube (F4)", palette().accent});
+    if (settings.surface.exaggeration != 1)
+        badges.push_back({fmt::format("Heights x {:.3g}", settings.surface.exaggeration), palette().accent});
+    return badges;
+}
 
 void viewportPicture(ImTextureID picture, const Rect& viewport) {
     ImGui::InvisibleButton("picture", {viewport.width, viewport.height},
@@ -87,27 +209,47 @@ void viewportPicture(ImTextureID picture, const Rect& viewport) {
     ImGui::GetWindowDrawList()->AddImage(picture, {viewport.x, viewport.y}, end, {0, 1}, {1, 0});
 }
 
-void viewportOverlay(const ViewportOverlayInput& input, const Rect& viewport) {
+void viewportOverlay(const EditorView& view, const ViewSettings& settings, const Rect& viewport) {
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
-    const float margin = std::round(ImGui::GetFontSize() * 0.7f);
-    const float line = std::round(ImGui::GetFontSize() * 1.9f);
-    const float widthPx = viewport.width - 4 * margin;
-    float y = viewport.y + margin;
-    const auto add = [&](const char* text, const ImVec4& colour) {
-        badge(drawList, {viewport.x + margin, y}, text, colour);
-        y += line;
-    };
-    // The legend stands on the right.
-    add(endThatFits(input.title, 0.7f * widthPx).c_str(), palette().text);
-    if (input.lodFrozen) add("LOD frozen (F2)", palette().warning);
-    if (input.settings.wireframe) add("Wireframe (F1)", palette().accent);
-    if (input.settings.cube) add("Cube (F4)", palette().accent);
-    if (!input.settled) add("Loading", palette().good);
-    const bool byLevel = input.settings.colourBy == planet::gl::ColourBy::Level;
-    drawLegend(drawList, legendOf(input), byLevel ? "Level" : "Error", viewport, margin);
-    y = viewport.y + viewport.height - margin - 2 * line;
-    add(mouseHelp, palette().dim);
-    add(keyHelp, palette().dim);
+    ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
+                        true);
+    Legend legend;
+    if (view.planet) {
+        const planet::Planet& planet = *view.planet;
+        legend =
+            legendOf(settings.overlay, planet.lodSettings().tauPx, planet.selection().counters.deepestLevel);
+    }
+    const bool hasHelp = viewport.height > 9 * badgeStepPx();
+    const float bottom = viewport.y + viewport.height - (hasHelp ? badgeStepPx() + marginPx() : marginPx());
+    const LegendLayout layout = layoutOf(legend, bottom - viewport.y - marginPx());
+    const float besideLegend = viewport.width - layout.size.x - 3 * marginPx() - ImGui::GetFontSize();
+    std::vector<PlacedBadge> badges = placeBadges(view, settings, viewport, besideLegend, bottom);
+    if (hasHelp) placeHelp(viewport, badges);
+    std::vector<Rect> taken = {{viewport.x + viewport.width - marginPx() - layout.size.x,
+                                viewport.y + marginPx(), layout.size.x, layout.size.y}};
+    for (const PlacedBadge& one : badges) taken.push_back(one.rect);
+    drawLabels(drawList, view, settings.overlay, {view.renderView, 0, viewport, taken});
+    drawLegend(drawList, legend, layout, taken.front());
+    for (const PlacedBadge& one : badges) {
+        badge(drawList, {one.rect.x, one.rect.y}, one.badge.text.c_str(), one.badge.colour);
+    }
+    ImGui::PopClipRect();
+}
+
+void observerOverlay(const EditorView& view, const ViewSettings& settings, const planet::View& observer,
+                     const Rect& viewport) {
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
+                        true);
+    const PlacedBadge name =
+        placed({settings.camera.observerOwnLod ? "Observer, chunks of its own" : "Observer of the lod view",
+                palette().accent},
+               viewport.x + marginPx(), viewport.y + marginPx());
+    const bool ownSelection = settings.camera.observerOwnLod && view.planet && view.planet->viewCount() > 1;
+    drawLabels(drawList, view, settings.overlay,
+               {observer, ownSelection ? std::size_t{1} : std::size_t{0}, viewport, {name.rect}});
+    badge(drawList, {name.rect.x, name.rect.y}, name.badge.text.c_str(), name.badge.colour);
+    ImGui::PopClipRect();
 }
 
 }  // namespace ui

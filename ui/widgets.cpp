@@ -1,8 +1,13 @@
 #include "ui/widgets.h"
 
-#include <algorithm>
-#include <cmath>
+#include <imgui_internal.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "ui/item_map.h"
 #include "ui/theme.h"
 
 namespace ui {
@@ -11,6 +16,51 @@ namespace {
 
 // Share of the panel's width that labels take.
 constexpr float labelShare = 0.40f;
+
+// The label of a knob that does not have its default is lit.
+void knobLabel(const char* label, bool isDefault, const char* explanation) {
+    if (!isDefault) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    labelledControl(label, explanation);
+    if (!isDefault) ImGui::PopStyleColor();
+}
+
+// After the control. True where the user asks for the default.
+bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
+    bool reset = false;
+    if (ImGui::BeginPopupContextItem(label)) {
+        reset = ImGui::MenuItem(("Reset to " + defaultText).c_str(), nullptr, false, !isDefault);
+        noteItem("reset");
+        ImGui::EndPopup();
+    }
+    return reset;
+}
+
+template <class T>
+std::string formatted(const char* format, T value) {
+    std::array<char, 64> text{};
+    ImGui::DataTypeFormatString(text.data(), text.size(),
+                                std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32, &value,
+                                format);
+    return text.data();
+}
+
+template <class T>
+bool sliderOf(const char* label, T& value, T defaultValue, T min, T max, const char* format,
+              const char* explanation, ImGuiSliderFlags flags) {
+    ImGui::PushID(label);
+    knobLabel(label, value == defaultValue, explanation);
+    bool changed =
+        ImGui::SliderScalar("##value", std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32,
+                            &value, &min, &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
+    noteItem(label);
+    tooltip(explanation);
+    if (offerDefault("default", value == defaultValue, formatted(format, defaultValue))) {
+        value = defaultValue;
+        changed = true;
+    }
+    ImGui::PopID();
+    return changed;
+}
 
 }  // namespace
 
@@ -71,6 +121,94 @@ void labelledControl(const char* label, const char* explanation) {
     ImGui::SetNextItemWidth(-1);
 }
 
+bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
+            const char* explanation, ImGuiSliderFlags flags) {
+    return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
+}
+
+bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format,
+            const char* explanation, ImGuiSliderFlags flags) {
+    return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
+}
+
+bool checkbox(const char* label, bool& value, bool defaultValue, const char* explanation) {
+    const bool isDefault = value == defaultValue;
+    if (!isDefault) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    bool changed = ImGui::Checkbox(label, &value);
+    noteItem(label);
+    if (!isDefault) ImGui::PopStyleColor();
+    tooltip(explanation);
+    if (offerDefault(label, value == defaultValue, defaultValue ? "on" : "off")) {
+        value = defaultValue;
+        changed = true;
+    }
+    return changed;
+}
+
+bool combo(const char* name, int& index, const char* items) {
+    const auto next = [](const char* item) { return item + std::char_traits<char>::length(item) + 1; };
+    const char* shown = items;
+    for (int i = 0; i < index && *shown; ++i) shown = next(shown);
+    bool changed = false;
+    ImGui::PushID(name);
+    if (ImGui::BeginCombo("##value", shown)) {
+        int i = 0;
+        for (const char* item = items; *item; item = next(item), ++i) {
+            if (ImGui::Selectable(item, i == index)) {
+                changed = i != index;
+                index = i;
+            }
+            noteItem(std::string(name) + ": " + item);
+            if (i == index) ImGui::SetItemDefaultFocus();
+        }
+        ImGui::EndCombo();
+    }
+    noteItem(name);
+    ImGui::PopID();
+    return changed;
+}
+
+bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items,
+                 const char* explanation) {
+    ImGui::PushID(label);
+    knobLabel(label, index == defaultIndex, explanation);
+    bool changed = combo(label, index, items);
+    tooltip(explanation);
+    const char* defaultItem = items;
+    for (int i = 0; i < defaultIndex; ++i) defaultItem += std::char_traits<char>::length(defaultItem) + 1;
+    if (offerDefault("default", index == defaultIndex, defaultItem)) {
+        index = defaultIndex;
+        changed = true;
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+bool button(const char* label, const char* explanation) {
+    const bool pressed = ImGui::Button(label);
+    noteItem(label);
+    tooltip(explanation);
+    return pressed;
+}
+
+void secondColumn() {
+    ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionMax().x * 0.5f);
+}
+
+void emptyState(const char* text) {
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float wrap = std::min(room.x * 0.9f, ImGui::GetFontSize() * 22);
+    const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, wrap);
+    const ImVec2 start = ImGui::GetCursorPos();
+    ImGui::SetCursorPos({start.x + std::max((room.x - size.x) / 2, 0.0f),
+                         start.y + std::max((room.y - size.y) * 0.4f, 0.0f)});
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+}
+
 bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
@@ -98,7 +236,7 @@ void usageBar(double share, const std::string& text) {
 }
 
 ImU32 boxColour() {
-    return ImGui::GetColorU32(ImVec4(0.07f, 0.08f, 0.10f, 0.78f));
+    return ImGui::GetColorU32(palette().box);
 }
 
 void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4& colour) {

@@ -27,6 +27,32 @@ void endValues();
 // A label in the left column and room for a control in the right one; call the control right after.
 void labelledControl(const char* label, const char* explanation);
 
+// Knobs: a label, a control, and a tooltip that says unit, meaning, formula, and what gets worse. A value
+// that is not its default has a lit label; a right click on the label or the control offers the default.
+// Ctrl+click types a number. All return whether the value has changed this frame.
+bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
+            const char* explanation, ImGuiSliderFlags flags = 0);
+bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format,
+            const char* explanation, ImGuiSliderFlags flags = 0);
+bool checkbox(const char* label, bool& value, bool defaultValue, const char* explanation);
+// As ImGui::Combo, items: "one\0two\0". The item map has the items too while it is open: "name: one".
+bool combo(const char* name, int& index, const char* items);
+// items as for combo.
+bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items, const char* explanation);
+template <class Enum>
+bool choice(const char* label, Enum& value, Enum defaultValue, const char* items, const char* explanation) {
+    int index = static_cast<int>(value);
+    const bool changed = choiceIndex(label, index, static_cast<int>(defaultValue), items, explanation);
+    value = static_cast<Enum>(index);
+    return changed;
+}
+bool button(const char* label, const char* explanation);
+// Starts the right-hand column of a pair of check boxes.
+void secondColumn();
+
+// A line in the middle of an empty panel that says why it is empty.
+void emptyState(const char* text);
+
 // A bar that a mouse drags to change a panel's size. Adds the move, in pixels, to where it is dragged.
 // True while it moves.
 bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx);

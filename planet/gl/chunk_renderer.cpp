@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "planet/gl/chunk_grid.h"
@@ -40,7 +41,6 @@ constexpr GLuint frameBinding = 0;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
-constexpr std::uint8_t tintStrength = 225;  // of ColourBy over a lit surface, out of 255
 
 // One drawn chunk, as shaders/chunk.vert reads it.
 struct Instance {
@@ -50,9 +50,12 @@ struct Instance {
     std::uint32_t slot = 0;                         // packedPlace
     std::array<std::uint32_t, edgeCount> beside{};  // packedPlace of the neighbours, west to north, or noSlot
     float skirtDepthM = 0;
+    float morph = 0;
     std::array<std::uint8_t, 4> tint{};  // sRGB and strength
+    std::array<std::uint8_t, edgeCount> coarserBy{};
+    std::array<float, edgeCount> edgeMorph{};
 };
-static_assert(sizeof(Instance) == 40);
+static_assert(sizeof(Instance) == 64);
 constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 
 struct Programs {
@@ -136,16 +139,6 @@ bool boundDepthIsFloat() {
     return type == GL_FLOAT;
 }
 
-std::array<std::uint8_t, 4> tintOf(const DrawItem& item, const RenderSettings& settings) {
-    if (settings.colourBy == ColourBy::None) return {};
-    const glm::vec3 colour = settings.colourBy == ColourBy::Level
-                                 ? levelColour(item.id.level)
-                                 : errorColour(static_cast<double>(item.epsPx) / settings.tauPx);
-    const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(value * 255)); };
-    return {byte(colour.x), byte(colour.y), byte(colour.z),
-            settings.lighting ? tintStrength : std::uint8_t{255}};
-}
-
 // Slots of drawn chunks, to find those beside a chunk.
 using DrawnSlots = std::unordered_map<std::uint64_t, std::uint32_t>;
 
@@ -159,6 +152,36 @@ std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const 
     };
     return {slotAt(id.x > 0, id.x - 1, id.y), slotAt(id.x < last, id.x + 1, id.y),
             slotAt(id.y > 0, id.x, id.y - 1), slotAt(id.y < last, id.x, id.y + 1)};
+}
+
+// Without the slots and the tint.
+Instance instanceOf(const DrawItem& item, bool stitched) {
+    Instance instance;
+    instance.faceAndLevel = static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level;
+    instance.x = item.id.x;
+    instance.y = item.id.y;
+    instance.skirtDepthM = item.skirtDepthM;
+    instance.morph = item.morph;
+    instance.edgeMorph = item.edgeMorph;
+    if (stitched) {
+        instance.coarserBy = item.coarserBy;
+        return instance;
+    }
+    // Where edges are not moved onto a coarser chunk's, its morph says nothing of these vertices.
+    for (std::size_t edge = 0; edge < edgeCount; ++edge)
+        if (item.coarserBy[edge] > 0) instance.edgeMorph[edge] = item.morph;
+    return instance;
+}
+
+// The switches for what vertices do beside standing where their heights say.
+int slidingSwitches(std::span<const DrawItem> items, bool stitched) {
+    const auto anyOver0 = [](const auto& values) {
+        return std::any_of(values.begin(), values.end(), [](auto value) { return value > 0; });
+    };
+    const auto morphs = [&](const DrawItem& item) { return item.morph > 0 || anyOver0(item.edgeMorph); };
+    if (std::any_of(items.begin(), items.end(), morphs)) return switchSlide | switchMorph;
+    const auto moves = [&](const DrawItem& item) { return anyOver0(item.coarserBy); };
+    return stitched && std::any_of(items.begin(), items.end(), moves) ? switchSlide : 0;
 }
 
 // Light and air are worked out at vertices where cells are small beside their distance, so that air is all
@@ -208,22 +231,23 @@ struct ChunkRenderer::State {
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
-    GpuTimer timer;
+    GpuTimer chunksTimer, skyTimer;
+    std::uint32_t uploads = 0;  // since the last draw
 
     State(const RendererConfig& from, HeightPool heightPool, Programs built);
     void makeGrid();
     void describeVertices();
     double highestRadiusM(std::span<const DrawItem> items) const;
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
-    int chooseVariant(const View& view, std::span<const DrawItem> items,
-                      const RenderSettings& settings) const;
+    int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                      bool tinted) const;
     const Program& chunkProgram(int variant);
-    void fillInstances(std::span<const DrawItem> items, const RenderSettings& settings);
+    void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched);
     void fillFrame(const View& view, const RenderSettings& settings);
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
-    void drawChunks(const RenderSettings& settings, const Program& program);
+    void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program& program);
     void drawSky() const;
 };
 
@@ -270,10 +294,12 @@ void ChunkRenderer::State::describeVertices() {
     glBindBuffer(GL_ARRAY_BUFFER, instances.name());
     glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, faceAndLevel)));
     glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, beside)));
-    glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, skirtDepthM)));
+    glVertexAttribPointer(3, 2, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, skirtDepthM)));
     glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(Instance, tint)));
-    for (GLuint attribute = 0; attribute <= 4; ++attribute) glEnableVertexAttribArray(attribute);
-    for (GLuint attribute = 1; attribute <= 4; ++attribute) glVertexAttribDivisor(attribute, 1);
+    glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, edgeMorph)));
+    glVertexAttribIPointer(6, 4, GL_UNSIGNED_BYTE, stride, byteOffset(offsetof(Instance, coarserBy)));
+    for (GLuint attribute = 0; attribute <= 6; ++attribute) glEnableVertexAttribArray(attribute);
+    for (GLuint attribute = 1; attribute <= 6; ++attribute) glVertexAttribDivisor(attribute, 1);
 }
 
 // Of the highest ground drawn, metres from the planet's centre.
@@ -293,13 +319,13 @@ Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<co
 }
 
 int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawItem> items,
-                                        const RenderSettings& settings) const {
+                                        const RenderSettings& settings, bool tinted) const {
     const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
     const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
-    const int variant = switchesFor(config.shape, view, settings, image, nearestGroundM);
+    const int variant = switchesFor(config.shape, view, settings, image, tinted, nearestGroundM);
     const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
-    return variant | (byVertex ? switchLightByVertex : 0);
+    return variant | (byVertex ? switchLightByVertex : 0) | slidingSwitches(items, settings.stitched);
 }
 
 // Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
@@ -313,17 +339,21 @@ const Program& ChunkRenderer::State::chunkProgram(int variant) {
     return programs.chunk.emplace(variant, std::move(*program)).first->second;
 }
 
-void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, const RenderSettings& settings) {
+void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints,
+                                         bool stitched) {
+    assert(tints.empty() || tints.size() == items.size());
     drawnSlots.clear();
     for (const DrawItem& item : items) {
         assert(item.slot < pool.slotCapacity());
         drawnSlots[keyOf(item.id)] = packedPlace(pool.layout(), item.slot);
     }
     instanceData.clear();
-    for (const DrawItem& item : items) {
-        instanceData.push_back({static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level, item.id.x,
-                                item.id.y, packedPlace(pool.layout(), item.slot),
-                                slotsBeside(drawnSlots, item.id), item.skirtDepthM, tintOf(item, settings)});
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        instanceData.push_back(instanceOf(items[i], stitched));
+        Instance& instance = instanceData.back();
+        instance.slot = packedPlace(pool.layout(), items[i].slot);
+        instance.beside = slotsBeside(drawnSlots, items[i].id);
+        if (!tints.empty()) instance.tint = tints[i].rgba;
     }
     // A new store each frame, so that the GPU may still read the last one's.
     const std::size_t needed = instanceData.size() * sizeof(Instance);
@@ -364,13 +394,20 @@ void ChunkRenderer::State::endDepth() const {
     glDisable(GL_DEPTH_TEST);
 }
 
-void ChunkRenderer::State::drawChunks(const RenderSettings& settings, const Program& program) {
-    const GLsizei indexCount = settings.skirts ? allIndexCount : gridIndexCount;
+void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const RenderSettings& settings,
+                                      const Program& program) {
+    const bool skirts =
+        std::any_of(items.begin(), items.end(), [](const DrawItem& item) { return item.skirtDepthM > 0; });
+    const GLsizei first = settings.skirtPaint == SkirtPaint::LoudAlone ? gridIndexCount : 0;
+    const GLsizei indexCount = (skirts ? allIndexCount : gridIndexCount) - first;
     const auto chunks = static_cast<GLsizei>(instanceData.size());
     glEnable(GL_CULL_FACE);
     glUseProgram(program.name());
     glBindVertexArray(chunkArray.name());
-    if (chunks > 0) glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT, nullptr, chunks);
+    if (chunks > 0 && indexCount > 0) {
+        glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT,
+                                byteOffset(static_cast<std::size_t>(first) * sizeof(std::uint16_t)), chunks);
+    }
     glDisable(GL_CULL_FACE);
     counters.chunks = static_cast<std::uint32_t>(chunks);
     counters.triangles = static_cast<std::uint64_t>(indexCount / 3) * static_cast<std::uint64_t>(chunks);
@@ -402,6 +439,21 @@ ChunkRenderer::~ChunkRenderer() = default;
 void ChunkRenderer::upload(std::uint32_t slot, std::span<const std::int16_t> heights) {
     state_->pool.upload(slot, heights);
     state_->highestSteps[slot] = *std::max_element(heights.begin(), heights.end());
+    ++state_->uploads;
+}
+
+Result<void> ChunkRenderer::setSlotCapacity(std::uint32_t slotCapacity) {
+    Result<HeightPool> pool = HeightPool::create(slotCapacity, chunkSize(state_->config.shape));
+    if (!pool) return tl::unexpected(pool.error());
+    state_->pool = std::move(*pool);
+    state_->config.slotCapacity = slotCapacity;
+    state_->highestSteps.assign(slotCapacity, std::numeric_limits<std::int16_t>::min());
+    return {};
+}
+
+void ChunkRenderer::setShape(const PlanetShape& shape) {
+    assert(shape.chunkCellsLog2 == state_->config.shape.chunkCellsLog2);
+    state_->config.shape = shape;
 }
 
 void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
@@ -418,11 +470,12 @@ Result<void> ChunkRenderer::reloadShaders() {
     return {};
 }
 
-void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings) {
+void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                         std::span<const ChunkTint> tints) {
     State& state = *state_;
-    state.timer.begin();
+    state.chunksTimer.begin();
     state.projection = state.chooseProjection(view, items);
-    state.fillInstances(items, settings);
+    state.fillInstances(items, tints, settings.stitched);
     state.fillFrame(view, settings);
     state.bindInputs();
 
@@ -433,21 +486,26 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     glClearColor(0, 0, 0, 1);
     state.beginDepth();
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    state.drawChunks(settings, state.chunkProgram(state.chooseVariant(view, items, settings)));
+    const int variant = state.chooseVariant(view, items, settings, !tints.empty());
+    state.drawChunks(items, settings, state.chunkProgram(variant));
+    state.chunksTimer.end();
+    state.skyTimer.begin();
     state.drawSky();
+    state.skyTimer.end();
     state.endDepth();
     glBindVertexArray(0);
     glUseProgram(0);
 
-    state.timer.end();
-    state.counters.drawMs = state.timer.lastMs();
+    state.counters.chunksMs = state.chunksTimer.lastMs();
+    state.counters.skyMs = state.skyTimer.lastMs();
+    state.counters.uploads = std::exchange(state.uploads, 0);
 }
 
 Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& view,
                                                                   std::span<const DrawItem> items,
                                                                   const RenderSettings& settings) {
     State& state = *state_;
-    const int variant = state.chooseVariant(view, items, settings);
+    const int variant = state.chooseVariant(view, items, settings, false);
     if (state.capture.name() == 0 || state.captureVariant != variant) {
         const std::array<const char*, 1> captured = {"surface"};
         Result<Program> program =
@@ -457,7 +515,7 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
         state.capture = std::move(*program);
         state.captureVariant = variant;
     }
-    state.fillInstances(items, settings);
+    state.fillInstances(items, {}, settings.stitched);
     state.fillFrame(view, settings);
     state.bindInputs();
 
@@ -493,9 +551,9 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
     return state_->capabilities;
 }
 
-std::size_t ChunkRenderer::gpuBytes() const {
-    return state_->pool.layout().bytes() + state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) +
-           state_->image.bytes() + detailNoiseBytes;
+GpuMemory ChunkRenderer::gpuMemory() const {
+    return {state_->pool.layout().bytes(), state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms),
+            state_->image.bytes() + detailNoiseBytes};
 }
 
 }  // namespace planet::gl

@@ -3,6 +3,7 @@
 // thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -18,26 +19,45 @@
 
 namespace planet::gl {
 
-enum class ColourBy : std::uint8_t {
-    None,
-    Level,
-    Error
-};  // Error: eps / tau, green 0, yellow 1, red 2 and over
+// Laid over a chunk: sRGB and strength, [0, 255]; strength 0 leaves it as it is.
+struct ChunkTint {
+    std::array<std::uint8_t, 4> rgba{};
+};
+
+// A colour of the height ramp. Between stops colours mix; beyond the first and last they stay.
+struct RampStop {
+    double heightM = 0;         // above the sea level
+    glm::vec3 colour{0, 0, 0};  // sRGB, [0, 1]
+
+    bool operator==(const RampStop&) const = default;
+};
+
+enum class SkirtPaint : std::uint8_t { AsGround, Loud, LoudAlone };  // loud: one glaring colour
+
 enum class SurfaceColour : std::uint8_t { Image, HeightRamp };
+
+inline constexpr std::size_t maxRampStops = 32;
 
 struct RenderSettings {
     SurfaceColour surface = SurfaceColour::Image;  // Image falls back to HeightRamp where none is loaded
-    ColourBy colourBy = ColourBy::None;
-    double tauPx = 2;        // scale of ColourBy::Error, pixels, > 0
+    double imageOpacity = 1;                       // of the image over the ramp, [0, 1]
     double rampTopM = 6000;  // the height ramp's highest band, > 0; the sea is darkest as far below 0
-    bool sea = true;         // what lies below height 0 is sea; off: dry land, as on the Moon
+    // Drawn instead of the built-in ramp where there are any, lowest first; at most maxRampStops. The
+    // built-in sea keeps its colours unless a stop lies below the sea level.
+    std::vector<RampStop> ramp;
+    bool sea = true;         // what lies below the sea level is sea; off: dry land, as on the Moon
+    double seaLevelM = 0;    // metres above the planet's radius
     bool wireframe = false;  // the mesh's lines over a dimmed surface
-    bool skirts = true;
+    bool outlines = false;   // the chunks' borders
+    SkirtPaint skirtPaint = SkirtPaint::AsGround;
+    // Edge vertices move onto a coarser neighbour's (DrawItem::coarserBy), so that no skirt is needed. Off:
+    // coarserBy is not looked at, and beside a coarser neighbour an edge morphs as the chunk's inside does.
+    bool stitched = false;
     bool cube = false;  // draws the cube before it is blown up to the sphere, without atmosphere
     bool atmosphere = true;
     bool lighting = true;  // off: flat colour, no air before it
     // Roughens near ground between the samples of the heights and the image. What it adds is invented and
-    // purely for the eye: light and colour only, no vertex moves. Never seen with ColourBy or without
+    // purely for the eye: light and colour only, no vertex moves. Never seen with tints or without
     // lighting, nor where the samples are finer than two pixels.
     bool detail = true;
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
@@ -45,8 +65,11 @@ struct RenderSettings {
 
 struct RenderCounters {
     std::uint32_t chunks = 0;
-    std::uint64_t triangles = 0;  // skirts included
-    double drawMs = 0;            // GPU time of the last frame whose timer query has come back
+    std::uint64_t triangles = 0;  // skirts included where they are drawn
+    // GPU times of the last frame whose timer queries have come back.
+    double chunksMs = 0;  // clearing included
+    double skyMs = 0;
+    std::uint32_t uploads = 0;  // chunks uploaded since the draw before
 };
 
 // What the context offers, and what was chosen.
@@ -57,9 +80,14 @@ struct RenderCapabilities {
     int samples = 1;  // the most that a RenderTarget can have
 };
 
-// What ColourBy draws, sRGB in [0, 1]: for legends. Exactly this colour with lighting off.
-glm::vec3 levelColour(int level);
-glm::vec3 errorColour(double epsOverTau);
+// What the renderer holds on the GPU, bytes.
+struct GpuMemory {
+    std::size_t heightPool = 0;
+    std::size_t meshes = 0;  // grid and instances
+    std::size_t textures = 0;
+
+    std::size_t total() const { return heightPool + meshes + textures; }
+};
 
 struct RendererConfig {
     PlanetShape shape;
@@ -82,26 +110,33 @@ public:
     // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off.
     void setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
+    // A pool of another size; what it held is gone. On an Error the old one stays.
+    Result<void> setSlotCapacity(std::uint32_t slotCapacity);
+    // The same planet with other heights: exaggeration has changed.
+    void setShape(const PlanetShape& shape);
+
     // Compiles the shaders again, from the folder where one was given; on an Error the last good ones go on.
     Result<void> reloadShaders();
 
     // Clears the bound framebuffer and fills its lower left view.widthPx x view.heightPx pixels, sky
     // included. It needs a depth buffer; with reversedZ a float one pays. Leaves depth, culling and clip
-    // control as a new context has them.
-    void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings);
+    // control as a new context has them. Skirts are drawn where an item's skirt has a depth. Tints: one an
+    // item, or none.
+    void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+              std::span<const ChunkTint> tints = {});
 
     // How the last draw's depths come to be, for turning them into metres.
     const Projection& projection() const;
 
-    // The positions that the vertex shader makes of the items' grids, skirts left out, read back: metres from
-    // the eye in world axes, chunkVertexCount for each item. Waits for the GPU; for tests and measuring.
-    // Draws nothing, but OpenGL wants a complete framebuffer bound.
+    // The positions that the vertex shader makes of the items' grids, morph and stitched edges included,
+    // skirts left out, read back: metres from the eye in world axes, chunkVertexCount for each item. Waits
+    // for the GPU; for tests and measuring. Draws nothing, but OpenGL wants a complete framebuffer bound.
     Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
                                                        const RenderSettings& settings);
 
     const RenderCounters& counters() const;
     const RenderCapabilities& capabilities() const;
-    std::size_t gpuBytes() const;  // pool, grid, instances and textures
+    GpuMemory gpuMemory() const;
 
 private:
     struct State;

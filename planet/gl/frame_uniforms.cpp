@@ -94,21 +94,49 @@ void setDetail(const PlanetShape& shape, const View& view, const ColourImage& im
                                        1.5 * shape.radiusM * imageStep * screenScalePx(view), imageStep, 0);
 }
 
+double linearFromSrgb(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+// Colours mix as the roots of their light, which is near to how sRGB mixes and cheap to undo.
+void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
+    const std::vector<RampStop>& ramp = settings.ramp;
+    assert(ramp.size() <= maxRampStops);
+    const bool coloursSea = !ramp.empty() && ramp.front().heightM < 0;
+    uniforms.surfacing = glm::dvec4(std::clamp(settings.imageOpacity, 0.0, 1.0), coloursSea, 0, 0);
+    const std::size_t count = std::min(ramp.size(), maxRampStops);
+    uniforms.grid.z = static_cast<int>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double startM = ramp[i > 0 ? i - 1 : 0].heightM;
+        assert(startM <= ramp[i].heightM);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double value = std::clamp(static_cast<double>(ramp[i].colour[channel]), 0.0, 1.0);
+            uniforms.rampColours[i][channel] = static_cast<float>(std::sqrt(linearFromSrgb(value)));
+        }
+        // Two stops at one height are a sharp step.
+        uniforms.rampRises[i] = glm::dvec4(startM, 1 / std::max(ramp[i].heightM - startM, 1e-3), 0, 0);
+    }
+}
+
 }  // namespace
 
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColourImage& image, double nearestGroundM) {
-    const bool withImage = image.exists() && settings.surface == SurfaceColour::Image;
+                const ColourImage& image, bool tinted, double nearestGroundM) {
+    const bool withImage =
+        image.exists() && settings.surface == SurfaceColour::Image && settings.imageOpacity > 0;
+    const bool rampSeen = !withImage || settings.imageOpacity < 1;
     const double coarsestM =
         std::max(samplesApartM(shape), withImage ? 1.5 * shape.radiusM / image.faceSizePx() : 0.0);
     const double stepPx = coarsestM * screenScalePx(view) / nearestGroundM;
-    const bool detail = settings.detail && settings.lighting && !settings.cube &&
-                        settings.colourBy == ColourBy::None && stepPx > 2;
+    const bool detail = settings.detail && settings.lighting && !settings.cube && !tinted && stepPx > 2;
     const bool fineDetail = detail && stepPx > 200;
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
     return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
            (settings.cube ? switchCube : 0) | (withImage ? switchImage : 0) | (settings.sea ? switchSea : 0) |
-           (air ? switchAir : 0) | (settings.colourBy != ColourBy::None ? switchTint : 0) |
+           (air ? switchAir : 0) | (tinted ? switchTint : 0) |
+           (rampSeen && !settings.ramp.empty() ? switchRamp : 0) |
+           (withImage && rampSeen ? switchImageOverRamp : 0) | (settings.outlines ? switchOutlines : 0) |
+           (settings.skirtPaint != SkirtPaint::AsGround ? switchLoudSkirts : 0) |
            (detail ? switchDetail : 0) | (fineDetail ? switchFineDetail : 0);
 }
 
@@ -130,7 +158,8 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.rayRight = padded(tanX * view.right);
     uniforms.rayUp = padded(tanY * view.up);
     uniforms.planet = glm::dvec4(shape.radiusM, shape.quantumM, frame.referenceRadiusM, cubeHalfM);
-    uniforms.heights = glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view), 0);
+    uniforms.heights =
+        glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view), settings.seaLevelM);
     const double eyeRadiusM = glm::length(view.eyeM);
     uniforms.atmosphere = glm::dvec4(radiusInScaleHeights, radiusInScaleHeights / shape.radiusM, atmosphere,
                                      nearness(shape, eyeRadiusM));
@@ -139,6 +168,7 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.screen = glm::dvec4(2 * tanX / view.widthPx, projection.reversedZ ? 0 : 1, 0, 0);
     uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
     setDetail(shape, view, image, uniforms);
+    setRamp(settings, uniforms);
     return uniforms;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "planet/gl/chunk_renderer.h"
 #include "planet/gl/projection.h"
 #include "planet/planet_shape.h"
 #include "planet/view.h"
@@ -14,7 +15,6 @@
 namespace planet::gl {
 
 class ColourImage;
-struct RenderSettings;
 
 // What a program is compiled for, as in shaders/frame.glsl.
 enum Switch : int {
@@ -27,7 +27,13 @@ enum Switch : int {
     switchTint = 64,
     switchLightByVertex = 128,
     switchDetail = 256,
-    switchFineDetail = 512
+    switchFineDetail = 512,
+    switchRamp = 1024,
+    switchImageOverRamp = 2048,
+    switchOutlines = 4096,
+    switchLoudSkirts = 8192,
+    switchSlide = 16384,
+    switchMorph = 32768
 };
 
 // std140: only members of 16 bytes, so that C++ and GLSL agree without padding.
@@ -43,13 +49,16 @@ struct FrameUniforms {
     std::array<glm::vec4, 9> detailRows;
     glm::vec4 detailSizes, detailPixels;
     glm::ivec4 grid;
+    glm::vec4 surfacing;
+    std::array<glm::vec4, maxRampStops> rampColours, rampRises;
 };
-static_assert(sizeof(FaceUniforms) == 9 * 16 && sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1) * 16);
+static_assert(sizeof(FaceUniforms) == 9 * 16 &&
+              sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1 + 1 + 64) * 16);
 
-// The switches that follow from the settings and how near the ground is, metres. LightByVertex follows from
-// the triangles, and is left off.
+// The switches that follow from the settings and how near the ground is, metres. LightByVertex, Slide
+// and Morph follow from the chunks, and are left off.
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColourImage& image, double nearestGroundM);
+                const ColourImage& image, bool tinted, double nearestGroundM);
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
                             const RenderSettings& settings, const ColourImage& image);

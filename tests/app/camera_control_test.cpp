@@ -28,6 +28,18 @@ void expectLevelAndOrthonormal(const Camera& camera) {
     EXPECT_NEAR(glm::length(camera.back), 1, 1e-12);
 }
 
+TEST(CameraControl, NorthIsNoHeadingOf360Degrees) {
+    for (const double longitudeDeg : {-170.0, -86.5, 0.0, 10.0, 45.0, 86.5}) {
+        for (const double latitudeDeg : {-60.0, 0.0, 20.0, 28.0}) {
+            const planet::CameraPose north{
+                .latitudeDeg = latitudeDeg, .longitudeDeg = longitudeDeg, .altitudeM = 1e6, .headingDeg = 0};
+            const planet::CameraPose back = poseOf(cameraFromPose(north, radiusM));
+            EXPECT_GE(back.headingDeg, 0);
+            EXPECT_LT(back.headingDeg, 1e-6);
+        }
+    }
+}
+
 TEST(CameraControl, PoseRoundTrips) {
     const planet::CameraPose pose = poseOf(cameraAt(-33, 151, 5000, 300, -20));
     EXPECT_NEAR(pose.latitudeDeg, -33, 1e-9);

@@ -67,6 +67,15 @@ TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
     EXPECT_EQ(cachedBakeOf(image, {}), first);
     EXPECT_NE(cachedBakeOf(image, {.chunkSize = 65}), first);
     EXPECT_NE(cachedBakeOf(image, {.radiusM = 1'737'400}), first);
+    EXPECT_NE(cachedBakeOf(image, {.compressionLevel = 3}), first);
+    planet::HeightSourceSettings source;
+    source.cacheBytes = 1 << 20;
+    EXPECT_EQ(cachedBakeOf(image, {.threads = 3}, source), first);
+    source.metresPerUnit = 10;
+    EXPECT_NE(cachedBakeOf(image, {}, source), first);
+    source = {};
+    source.noDataValue = 0;
+    EXPECT_NE(cachedBakeOf(image, {}, source), first);
     fs::last_write_time(image, fs::last_write_time(image) + std::chrono::seconds(2));
     const fs::path touched = cachedBakeOf(image, {});
     EXPECT_NE(touched, first);

@@ -42,5 +42,15 @@ TEST(Text, PlacesSayTheirHemisphere) {
     EXPECT_EQ(placeText(0, 190), "0.0000 N  170.0000 W");
 }
 
+TEST(Text, PixelsHaveNoMoreDigitsThanCanBeSeen) {
+    EXPECT_EQ(pixelsText(0), "0 px");
+    EXPECT_EQ(pixelsText(0.042), "0.04 px");
+    EXPECT_EQ(pixelsText(1.26), "1.3 px");
+    EXPECT_EQ(pixelsText(29.3), "29 px");
+    EXPECT_EQ(pixelsText(1234), "1234 px");
+    EXPECT_EQ(pixelsText(110'347), "110 k px");
+    EXPECT_EQ(pixelsText(1.6e10), "> 1 M px");
+}
+
 }  // namespace
 }  // namespace ui

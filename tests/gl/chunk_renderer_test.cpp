@@ -15,6 +15,8 @@ namespace {
 
 constexpr double radiusM = 6'371'000;
 
+constexpr std::array<std::uint8_t, 4> green = {40, 168, 66, 225};
+
 double hills(const glm::dvec3& d) {
     return 3000 * std::sin(40 * d.x + 3 * d.z) * std::cos(37 * d.y) + 1500 * std::sin(90 * d.z + 20 * d.x);
 }
@@ -98,7 +100,7 @@ TEST_F(ChunkRendererTest, SkirtsFillACrackThatShowsWithoutThem) {
     RenderSettings settings = plainSettings();
     EXPECT_EQ(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, radiusM), 0);
     const std::uint64_t withSkirts = planet.renderer().counters().triangles;
-    settings.skirts = false;
+    for (DrawItem& item : planet.items()) item.skirtDepthM = 0;
     EXPECT_GT(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, radiusM), 50);
     EXPECT_EQ(planet.renderer().counters().triangles, 96u * 2 * 32 * 32);
     EXPECT_EQ(withSkirts, 96u * (2 * 32 * 32 + 2 * 4 * 32));
@@ -110,12 +112,12 @@ TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
     planet.addLevel(2, flat);
     RenderSettings settings;
     settings.atmosphere = false;
-    settings.colourBy = ColourBy::Error;  // one colour all over
+    const std::vector<ChunkTint> tints = oneTint(planet.items().size(), green);
     const View view = viewFrom({}, 0, 0, 2 * radiusM, -90, 0, 401, 401);
     const double sunLatitude = glm::radians(20.0);
     const double sunLongitude = glm::radians(35.0);
     settings.sunDirection = 5.0 * directionFromGeographic({sunLatitude, sunLongitude});
-    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings);
+    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
 
     const auto planetBrightness = [&](int pixel) {
         const int x = pixel % 401;
@@ -140,7 +142,7 @@ TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
     EXPECT_NEAR(y / count, 200 - under.z * scale, 6);
 
     settings.sunDirection = {0, 1, 0};
-    const Picture half = drawPicture(planet.renderer(), view, planet.items(), settings);
+    const Picture half = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
     EXPECT_GT(half.brightness(260, 200), 8 * half.brightness(140, 200));
 }
 
@@ -154,10 +156,10 @@ TEST_F(ChunkRendererTest, SlopesTowardsTheSunAreBrighter) {
     });
     RenderSettings settings;
     settings.atmosphere = false;
-    settings.colourBy = ColourBy::Error;
     settings.sunDirection = {1, 0.7, 0};
     const View view = viewFrom({}, 0, 5, radiusM, -90, 0, 400, 400);
-    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings);
+    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings, 1,
+                                        oneTint(planet.items().size(), green));
     const auto at = [&](double longitudeDeg) {
         const double turn = glm::radians(longitudeDeg - 5);
         const double px = screenScalePx(view) * std::sin(turn) / (2 - std::cos(turn));
@@ -252,29 +254,31 @@ TEST_F(ChunkRendererTest, APlainDepthBufferGetsAClassicProjection) {
     EXPECT_LT(different, 200 * 200 / 500);
 }
 
-TEST_F(ChunkRendererTest, FlatColoursAreExactlyTheLegends) {
+bool areNear(const glm::ivec3& a, const glm::ivec3& b) {
+    const glm::ivec3 d = glm::abs(a - b);
+    return std::max({d.x, d.y, d.z}) <= 1;
+}
+
+TEST_F(ChunkRendererTest, WithoutLightATintIsExactlyItsColour) {
     TestPlanet planet({}, 32);
     planet.addLevel(1, flat);
-    planet.addLevel(0, flat);
     const View view = viewFrom({}, 15, 15, 1e5, -90, 0, 32, 32);
-    RenderSettings settings = plainSettings();
-    const auto expected = [](const glm::vec3& colour) { return glm::ivec3(glm::round(colour * 255.0f)); };
-    std::vector<DrawItem>& items = planet.items();
-    const auto middle = [&](std::size_t first, std::size_t count) {
-        return drawPicture(planet.renderer(), view, std::span(items).subspan(first, count), settings)
-            .at(16, 16);
+    const auto middle = [&](std::span<const ChunkTint> tints) {
+        return drawPicture(planet.renderer(), view, planet.items(), plainSettings(), 1, tints).at(16, 16);
     };
-    const auto isNear = [](const glm::ivec3& a, const glm::ivec3& b) {
-        const glm::ivec3 d = glm::abs(a - b);
-        return std::max({d.x, d.y, d.z}) <= 1;
-    };
-    EXPECT_TRUE(isNear(middle(0, 24), expected(levelColour(1))));
-    EXPECT_TRUE(isNear(middle(24, 6), expected(levelColour(0))));
-    settings.colourBy = ColourBy::Error;
-    settings.tauPx = 4;
-    for (const float epsPx : {0.0f, 2.0f, 4.0f, 6.0f, 8.0f, 100.0f}) {
-        for (DrawItem& item : items) item.epsPx = epsPx;
-        EXPECT_TRUE(isNear(middle(0, 24), expected(errorColour(static_cast<double>(epsPx) / 4)))) << epsPx;
+    for (const auto& [red, g, blue] : {std::array{255, 0, 0}, {13, 200, 90}, {0, 0, 0}, {255, 255, 255}}) {
+        const std::array<std::uint8_t, 4> rgba = {static_cast<std::uint8_t>(red),
+                                                  static_cast<std::uint8_t>(g),
+                                                  static_cast<std::uint8_t>(blue), 255};
+        EXPECT_TRUE(areNear(middle(oneTint(planet.items().size(), rgba)), {red, g, blue}));
+    }
+    EXPECT_EQ(middle(oneTint(planet.items().size(), {255, 0, 0, 0})), middle({})) << "no strength";
+    // Each item has its own: the one that is looked at is z_pos, x_pos or another's; all but it are blue.
+    for (std::size_t i = 0; i < planet.items().size(); ++i) {
+        std::vector<ChunkTint> tints = oneTint(planet.items().size(), {0, 0, 255, 255});
+        tints[i].rgba = {255, 0, 0, 255};
+        const ChunkId under = chunkAt(facePointFromDirection(view.eyeM), 1);
+        EXPECT_EQ(middle(tints).x > 200, planet.items()[i].id == under);
     }
 }
 
@@ -417,18 +421,17 @@ TEST_F(ChunkRendererTest, DetailShowsNearTheGroundAndMovesNothing) {
     with.sunDirection = {1, 0.9, 0.2};
     const View near = viewFrom({}, 10, 10, 60000, -40, 0, 240, 160);
     const View far = viewFrom({}, 10, 10, 2e7, -90, 0, 240, 160);
-    const auto drawBoth = [&](const View& view, RenderSettings settings) {
-        const Picture on = drawPicture(planet.renderer(), view, planet.items(), settings);
+    const auto drawBoth = [&](const View& view, RenderSettings settings,
+                              std::span<const ChunkTint> tints = {}) {
+        const Picture on = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
         settings.detail = false;
-        const Picture off = drawPicture(planet.renderer(), view, planet.items(), settings);
+        const Picture off = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
         EXPECT_EQ(on.depth, off.depth);
         return largestDifference(on, off);
     };
     EXPECT_GT(drawBoth(near, with), 15);
     EXPECT_EQ(drawBoth(far, with), 0) << "the samples are finer than pixels";
-    RenderSettings coloured = with;
-    coloured.colourBy = ColourBy::Level;
-    EXPECT_EQ(drawBoth(near, coloured), 0);
+    EXPECT_EQ(drawBoth(near, with, oneTint(planet.items().size(), green)), 0);
     RenderSettings unlit = with;
     unlit.lighting = false;
     EXPECT_EQ(drawBoth(near, unlit), 0);
@@ -511,19 +514,23 @@ TEST_F(ChunkRendererTest, NothingToDrawIsASkyAndNoError) {
     EXPECT_EQ(*std::max_element(picture.depth.begin(), picture.depth.end()), 0.0f);
 }
 
-TEST_F(ChunkRendererTest, GpuBytesAreWhatWasAllocated) {
+TEST_F(ChunkRendererTest, GpuMemoryIsWhatWasAllocated) {
     PlanetShape shape;
     shape.chunkCellsLog2 = 4;
     TestPlanet planet(shape, 100);
-    const std::size_t before = planet.renderer().gpuBytes();
-    const std::size_t pool = 170u * 170 * 2;  // ten slots of 17 a side, squared
+    const GpuMemory before = planet.renderer().gpuMemory();
     const std::size_t grid = (17u * 17 + 64) * 4 + (16u * 16 * 6 + 64 * 6) * 2;
-    const std::size_t noise = (64u * 64 * 64 * 8 - 1) / 7 * 4;  // and its mipmaps
-    EXPECT_GE(before, pool + grid + noise);
-    EXPECT_LE(before, pool + grid + noise + 4096);
+    EXPECT_EQ(before.heightPool, 170u * 170 * 2);  // ten slots of 17 a side, squared
+    EXPECT_GE(before.meshes, grid);
+    EXPECT_LE(before.meshes, grid + 8192);
+    EXPECT_EQ(before.textures, (64u * 64 * 64 * 8 - 1) / 7 * 4);  // noise and its mipmaps
+    EXPECT_EQ(before.total(), before.heightPool + before.meshes + before.textures);
     const std::vector<std::uint8_t> rgb(16 * 8 * 3, 128);
     planet.renderer().setColourImage(rgb, 16, 8);
-    EXPECT_EQ(planet.renderer().gpuBytes() - before, 6u * 4u * (5 * 5 + 2 * 2 + 1));  // six faces
+    EXPECT_EQ(planet.renderer().gpuMemory().textures - before.textures,
+              6u * 4u * (5 * 5 + 2 * 2 + 1));  // six faces
+    ASSERT_TRUE(planet.renderer().setSlotCapacity(25));
+    EXPECT_EQ(planet.renderer().gpuMemory().heightPool, 85u * 85 * 2);
 }
 
 TEST_F(ChunkRendererTest, TimesArriveSomeFramesLater) {
@@ -531,7 +538,50 @@ TEST_F(ChunkRendererTest, TimesArriveSomeFramesLater) {
     planet.addLevel(1, flat);
     for (int i = 0; i < 6; ++i)
         drawPicture(planet.renderer(), viewFrom({}, 0, 0, 1e7), planet.items(), RenderSettings{});
-    EXPECT_GT(planet.renderer().counters().drawMs, 0);
+    EXPECT_GT(planet.renderer().counters().chunksMs, 0);
+    EXPECT_GT(planet.renderer().counters().skyMs, 0);
+}
+
+TEST_F(ChunkRendererTest, UploadsAreCountedFromDrawToDraw) {
+    TestPlanet planet({}, 24);
+    planet.addLevel(1, flat);
+    const View view = viewFrom({}, 0, 0, 1e7, -90, 0, 16, 16);
+    drawPicture(planet.renderer(), view, planet.items(), plainSettings());
+    EXPECT_EQ(planet.renderer().counters().uploads, 24u);
+    drawPicture(planet.renderer(), view, planet.items(), plainSettings());
+    EXPECT_EQ(planet.renderer().counters().uploads, 0u);
+}
+
+TEST_F(ChunkRendererTest, AnotherSlotCapacityHoldsTheChunksUploadedAfterwards) {
+    TestPlanet planet({}, 6);
+    planet.addLevel(0, flat);
+    const View view = viewFrom({}, 10, 20, 1e7, -90, 0, 64, 64);
+    const Picture before = drawPicture(planet.renderer(), view, planet.items(), plainSettings());
+    EXPECT_FALSE(planet.renderer().setSlotCapacity(0));
+    EXPECT_FALSE(planet.renderer().setSlotCapacity(4'000'000'000u));
+    EXPECT_EQ(drawPicture(planet.renderer(), view, planet.items(), plainSettings()).rgb, before.rgb)
+        << "the old pool stays";
+    ASSERT_TRUE(planet.renderer().setSlotCapacity(900));
+    for (DrawItem& item : planet.items()) {
+        item.slot += 890;
+        planet.renderer().upload(item.slot, chunkSteps({}, item.id, flat));
+    }
+    EXPECT_EQ(drawPicture(planet.renderer(), view, planet.items(), plainSettings()).rgb, before.rgb);
+}
+
+TEST_F(ChunkRendererTest, AnotherShapeDrawsTheSameStepsAtItsOwnHeights) {
+    PlanetShape shape;
+    TestPlanet planet(shape, 24);
+    planet.addLevel(1, [](const glm::dvec3&) { return 8000.0; });
+    const View view = viewFrom({}, 30, 40, 1e6, -90, 0, 33, 33);
+    const auto distance = [&] {
+        const Picture picture = drawPicture(planet.renderer(), view, planet.items(), plainSettings());
+        return viewDistanceM(planet.renderer().projection(), picture.depthAt(16, 16));
+    };
+    const double once = distance();
+    shape.quantumM = 3;
+    planet.renderer().setShape(shape);
+    EXPECT_NEAR(once - distance(), 16000, 40);
 }
 
 TEST_F(ChunkRendererTest, StateIsLeftAsANewContextHasIt) {

@@ -159,7 +159,7 @@ TEST_F(EarthPicture, AreDrawnForPeopleToLookAt) {
     RenderSettings wire;
     wire.wireframe = true;
     RenderSettings levels;
-    levels.colourBy = ColourBy::Level;
+    levels.outlines = true;
     RenderSettings levelsWire = levels;
     levelsWire.wireframe = true;
     RenderSettings cube;

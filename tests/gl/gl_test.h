@@ -75,10 +75,11 @@ struct Picture {
 };
 
 inline Picture drawPicture(ChunkRenderer& renderer, const View& view, std::span<const DrawItem> items,
-                           const RenderSettings& settings, int samples = 1) {
+                           const RenderSettings& settings, int samples = 1,
+                           std::span<const ChunkTint> tints = {}) {
     const RenderTarget target = valueOf(RenderTarget::create(view.widthPx, view.heightPx, samples));
     target.bind();
-    renderer.draw(view, items, settings);
+    renderer.draw(view, items, settings, tints);
     target.resolve();
     Picture picture{view.widthPx, view.heightPx, target.readRgb(), {}};
     if (samples == 1) picture.depth = target.readDepth();
@@ -90,8 +91,13 @@ inline RenderSettings plainSettings() {
     RenderSettings settings;
     settings.lighting = false;
     settings.atmosphere = false;
-    settings.colourBy = ColourBy::Level;
+    settings.surface = SurfaceColour::HeightRamp;
     return settings;
+}
+
+// One colour all over.
+inline std::vector<ChunkTint> oneTint(std::size_t count, const std::array<std::uint8_t, 4>& rgba) {
+    return std::vector<ChunkTint>(count, ChunkTint{rgba});
 }
 
 }  // namespace planet::gl

@@ -146,6 +146,66 @@ TEST(Program, ShotsOfTheSameViewAreTheSameAndOptionsChangeThem) {
          {"--wireframe", "--colour-by level", "--colour-by error", "--cube", "--fov 30"}) {
         EXPECT_NE(shot(option), plain) << option;
     }
+    // Whatever is set as it is anyway changes nothing.
+    EXPECT_EQ(shot("--set lod.tau_px=2 --set surface.exaggeration=1 --set overlay.outlines=false"), plain);
+}
+
+TEST(Program, SettingsOfThePictureChangeAShot) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writePicture({2, 1, {250, 20, 20, 20, 20, 250}}, folder.path() / "colour.png");
+    // Ground, sea and horizon; not all is as fine as it could be, and a chunk is morphing.
+    const auto shot = [&](const std::string& options) {
+        const Ran ran = runWorldy(folder,
+                                  "shot planet.chk -o s.png --size 128x80 --camera 10,20,60000,0,-40 "
+                                  "--samples 1 --set lod.tau_px=1.5 --set surface.sea_level_m=1500 " +
+                                      options);
+        EXPECT_EQ(ran.exitCode, 0) << options << ": " << ran.errors;
+        return readPicture(folder.path() / "s.png").value_or(Picture{}).rgb;
+    };
+    const std::vector<std::uint8_t> plain = shot("");
+    for (const char* setting :
+         {"lod.max_level=0", "lod.morph=false", "overlay.colour_by=delta_c", "overlay.outlines=true",
+          "overlay.bounds=true", "surface.image_opacity=0.5", "surface.sea_level_m=3000",
+          "surface.exaggeration=2", "surface.sun_follows=false"}) {
+        EXPECT_TRUE(shot(std::string("--set ") + setting) != plain) << setting;
+    }
+    const std::string skirts = "--set overlay.skirt_paint=loud_alone ";
+    EXPECT_NE(shot(skirts + "--set seams.mode=none"), shot(skirts));
+    const std::string ramp = "--set 'surface.ramp=[{ height_m = 0, colour = \"#ff00ff\" }]' ";
+    EXPECT_NE(shot("--surface ramp " + ramp), shot("--surface ramp"));
+}
+
+TEST(Program, AShotIsSettingsForTheNextOne) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const std::string common = "--size 96x64 --samples 1 ";
+    const Ran first = runWorldy(folder, "shot planet.chk -o first.png --camera 10,20,30000,40,-60 " + common +
+                                            "--set overlay.outlines=true --set surface.exaggeration=3");
+    ASSERT_EQ(first.exitCode, 0) << first.errors;
+    const Ran second = runWorldy(folder, "shot planet.chk -o second.png --settings first.png " + common);
+    ASSERT_EQ(second.exitCode, 0) << second.errors;
+    const std::vector<std::uint8_t> picture = readPicture(folder / "first.png")->rgb;
+    EXPECT_EQ(readPicture(folder / "second.png")->rgb, picture);
+    // The line that it holds draws it too.
+    std::string line = readPictureText(folder / "first.png", "worldy:shot").value();
+    ASSERT_THAT(line, testing::StartsWith("worldy shot /"));
+    line.replace(0, std::string("worldy").size(), "'" WORLDY_BINARY "'");
+    const Ran third = runShell(folder, line + " --samples 1");
+    ASSERT_EQ(third.exitCode, 0) << third.errors;
+    EXPECT_EQ(readPicture(folder / "shot.png")->rgb, picture);
+    // Settings given beside it win; a picture that holds none is refused.
+    const Ran preset = runWorldy(folder,
+                                 "shot planet.chk -o p.png --settings first.png --set lod.tau_px=9 "
+                                 "--json " +
+                                     common);
+    EXPECT_EQ(json::parse(preset.output)["tau_px"], 9);
+    ASSERT_TRUE(writePicture({1, 1, {0, 0, 0}}, folder / "empty.png"));
+    const Ran empty = runWorldy(folder, "shot planet.chk -o e.png --settings empty.png");
+    EXPECT_EQ(empty.exitCode, 2);
+    EXPECT_THAT(empty.errors, HasSubstr("empty.png: holds no settings"));
 }
 
 TEST(Program, ACameraBelowGroundIsLifted) {

@@ -1,8 +1,9 @@
-// The window under a virtual display, driven like a user would.
+// The window as a whole under a virtual display, driven like a user would.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/picture.h"
+#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
 
 namespace worldy {
@@ -11,129 +12,148 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-bool canOpenWindows() {
-    return std::system("command -v xvfb-run xdotool import convert >/dev/null 2>&1") == 0;
-}
+class WindowTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
+    }
 
-// Starts the window, waits until the middle of the viewport shows something, runs the steps, and quits by
-// Esc. The picture the shell function "shot NAME" takes lands in the folder.
-Ran runInWindow(const TemporaryFolder& folder, const std::string& arguments, const std::string& steps) {
-    std::ofstream(folder.path() / "steps.sh")
-        << "'" WORLDY_BINARY "' " << arguments << " &\nworldy=$!\n"
-        << "shot() { import -window root \"$1\"; }\n"
-           "brightness() { import -window root -crop 160x120+180+140 png:- | convert png:- -format "
-           "'%[fx:mean>0.06]' info:; }\n"
-           "for i in $(seq 200); do [ \"$(brightness)\" = 1 ] && break; sleep 0.1; done\n"
-           "xdotool mousemove 200 200\n"
-        << steps << "\nxdotool key Escape\nwait $worldy\n";
-    // Graphics drivers are unloaded before a leak checker looks, so it takes what they keep for leaks of
-    // ours.
-    return runShell(folder,
-                    "ASAN_OPTIONS=detect_leaks=0 xvfb-run -a -s '-screen 0 800x600x24' bash steps.sh");
-}
-
-void writeSmallWindow(const TemporaryFolder& folder) {
-    const std::filesystem::path file = folder.path() / "config" / "worldy" / "settings.toml";
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file) << "[window]\nwidth_px = 800\nheight_px = 600\n";
-}
-
-std::string settingsOf(const TemporaryFolder& folder) {
-    return contentOf(folder.path() / "config" / "worldy" / "settings.toml");
-}
-
-TEST(Window, ShowsThePlanetAndQuitsOnEscape) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
     const TemporaryFolder folder;
+};
+
+TEST_F(WindowTest, ShowsThePlanetAndQuitsOnCtrlQ) {
     bakePlanet(folder);
-    writeSmallWindow(folder);
-    const Ran ran = runInWindow(folder, "planet.chk", "shot window.png");
+    writeWindowSettings(folder, "[window]\nwidth_px = 1000\nheight_px = 700\n");
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+key Escape
+counts drawn -gt 0 || echo "nothing is drawn"
+place viewport/picture > viewport.txt
+shot window.png
+)sh");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "");
+    EXPECT_THAT(ran.errors, HasSubstr("Open: planet.chk"));
     const planet::Result<Picture> picture = readPicture(folder.path() / "window.png");
     ASSERT_TRUE(picture) << picture.error().message;
-    const std::size_t middle = 3 * (200 * 800 + 250);
+    std::size_t x = 0, y = 0, width = 0, height = 0;
+    std::ifstream(folder.path() / "viewport.txt") >> x >> y >> width >> height;
+    ASSERT_GT(width, 300u);
+    const std::size_t middle =
+        3 * ((y + height / 2) * static_cast<std::size_t>(picture->width) + x + width / 2);
     EXPECT_GT(picture->rgb[middle] + picture->rgb[middle + 1] + picture->rgb[middle + 2], 60);
-    EXPECT_THAT(ran.errors, HasSubstr("Open: planet.chk"));
     // Nothing was changed, so nothing was written.
-    EXPECT_EQ(settingsOf(folder), "[window]\nwidth_px = 800\nheight_px = 600\n");
+    EXPECT_EQ(settingsOf(folder), "[window]\nwidth_px = 1000\nheight_px = 700\n");
 }
 
-TEST(Window, BakesASourceOnceAndShowsIt) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
-    const TemporaryFolder folder;
+TEST_F(WindowTest, BakesASourceOnceAndShowsIt) {
     writeHills(folder);
-    writeSmallWindow(folder);
     const Ran first = runInWindow(folder, "hills.pgm", "");
     EXPECT_EQ(first.exitCode, 0) << first.errors;
+    EXPECT_EQ(first.output, "");
     EXPECT_THAT(first.errors, HasSubstr("Baked:"));
     const Ran second = runInWindow(folder, "hills.pgm", "");
     EXPECT_EQ(second.exitCode, 0) << second.errors;
+    EXPECT_EQ(second.output, "");
     EXPECT_THAT(second.errors, Not(HasSubstr("Baking")));
     EXPECT_THAT(second.errors, HasSubstr("Open:"));
 }
 
-TEST(Window, RemembersADraggedSplitter) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
-    const TemporaryFolder folder;
+TEST_F(WindowTest, RemembersSplittersThemeAndTextSize) {
     bakePlanet(folder);
-    writeSmallWindow(folder);
-    // The LOD panel is 310 units of 15/13 pixels wide; the splitter lies on its left.
-    const Ran ran = runInWindow(folder, "planet.chk",
-                                "xdotool mousemove 439 300; sleep 1; xdotool mousedown 1; sleep 1;"
-                                "xdotool mousemove 500 300; sleep 1; xdotool mouseup 1; sleep 1");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    constexpr const char* bright = R"sh(
+bright() { import -window root -crop 300x8+900+785 png:- | convert png:- -format '%[fx:mean>0.5]' info:; }
+)sh";
+    const Ran first = runInWindow(folder, "planet.chk", std::string(bright) + R"sh(
+set -- $(place viewport/picture)
+xdotool mousemove $(($1 - 3)) $(($2 + 200)); frames
+press; xdotool mousemove $(($1 + 67)) $(($2 + 200)); frames; release
+set -- $1 $(place viewport/picture)
+[ $2 -eq $(($1 + 70)) ] || echo "the splitter went from $1 to $2"
+
+[ "$(bright)" = 0 ] || echo "the dark theme is bright"
+click menu/View && click menu/Theme && click "menu item/Light"
+[ "$(bright)" = 1 ] || echo "the light theme is dark"
+
+set -- $(place tab/LOD)
+key ctrl+shift+equal; key ctrl+shift+equal; frames
+set -- $4 $(place tab/LOD)
+[ $5 -gt $1 ] || echo "the text is no larger: $1, then $5"
+click menu/View && click "menu item/Log"
+place viewport/picture > viewport.txt
+)sh");
+    EXPECT_EQ(first.exitCode, 0) << first.errors;
+    EXPECT_EQ(first.output, "");
     const std::string settings = settingsOf(folder);
-    EXPECT_THAT(settings, HasSubstr("lod_panel_width = 2")) << settings;
+    EXPECT_THAT(settings, HasSubstr("left_width = 3"));
+    EXPECT_THAT(settings, HasSubstr("theme = \"light\""));
+    EXPECT_THAT(settings, HasSubstr("log_shown = false"));
+
+    const Ran second = runInWindow(folder, "planet.chk", std::string(bright) + R"sh(
+[ "$(bright)" = 1 ] || echo "the light theme was forgotten"
+[ "$(place viewport/picture)" = "$(cat viewport.txt)" ] || echo "viewport: $(place viewport/picture), was $(cat viewport.txt)"
+hidden tab/Log || echo "the log is back"
+)sh");
+    EXPECT_EQ(second.exitCode, 0) << second.errors;
+    EXPECT_EQ(second.output, "");
 }
 
-TEST(Window, KeysChangeWhatIsDrawnAndBack) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
-    const TemporaryFolder folder;
+TEST_F(WindowTest, KeysAndWheelChangeWhatIsDrawnAndBack) {
     bakePlanet(folder);
-    writeSmallWindow(folder);
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
-viewport() { import -window root -crop 420x380+0+0 +repage png:- | convert png:- rgb:- | md5sum; }
-becomes() { for i in $(seq 100); do [ "$(viewport)" $1 "$2" ] && return 0; sleep 0.1; done; return 1; }
-plain=; while [ "$plain" != "$(viewport)" ]; do plain=$(viewport); sleep 0.5; done
-for key in F1 F2 F4; do
-    xdotool key $key; becomes != "$plain" || echo "$key changes nothing"
-    xdotool key $key; becomes = "$plain" || echo "$key does not change back"
+plain=$(viewport)
+for key in F1 F4; do
+    key $key; expect differs "$plain"
+    key $key; expect same "$plain"
 done
+for i in 1 2 3 4 5 6; do key F8; done
+expect differs "$plain"; key F8; expect same "$plain"
+
+start=$(counter camera)
+point viewport/picture
+for i in 1 2 3 4 5 6 7 8 9 10; do xdotool click 4; done
+settle; differs "$plain" || echo "the wheel does not come nearer"
+height() { counter camera | cut -d, -f3 | cut -d. -f1; }
+[ "$(height)" -lt 150000 ] || echo "the wheel leads to $(counter camera)"
+key F2; near=$(counter drawn)
+key F3; frames; [ "$(counter camera)" = "$start" ] || echo "F3 leads to $(counter camera)"
+[ "$(counter drawn)" = "$near" ] || echo "frozen, but other chunks are drawn"
+key F2; expect counts drawn -lt $near
+key F7; expect shown observer/picture
+key F7; expect hidden viewport/picture
+key F7; expect hidden observer/picture
 )sh");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "");
 }
 
-TEST(Window, ABrokenShaderLeavesTheLastGoodOneAndAMendedOneIsTaken) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
-    const TemporaryFolder folder;
+TEST_F(WindowTest, ABrokenShaderLeavesTheLastGoodOneAndAMendedOneIsTaken) {
     bakePlanet(folder);
-    writeSmallWindow(folder);
     std::filesystem::copy(WORLDY_SOURCE_DIR "/shaders", folder.path() / "glsl");
     const Ran ran = runInWindow(folder, "planet.chk --shaders glsl", R"sh(
-says() { for i in $(seq 100); do grep -q "$1" .stderr && return 0; sleep 0.1; done; return 1; }
-echo 'this is no GLSL' >> glsl/chunk.frag; says 'error: .*chunk.frag' || echo "nothing is said of the broken shader"
-[ "$(brightness)" = 1 ] || echo "the planet is gone"
-sed -i '$d' glsl/chunk.frag; says 'Shaders of glsl reloaded' || echo "the mended shader is not taken"
+plain=$(viewport)
+echo 'this is no GLSL' >> glsl/chunk.frag; expect says 'error: .*chunk.frag'
+frames; same "$plain" || echo "the picture is another one"
+sed -i '$d' glsl/chunk.frag; expect says 'Shaders of glsl reloaded'
 )sh");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "") << ran.errors;
 }
 
-TEST(Window, TheWheelComesNearerAndResetGoesBack) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs xvfb-run, xdotool and ImageMagick";
-    const TemporaryFolder folder;
+TEST_F(WindowTest, ASmallWindowShowsAllDocksAndAViewport) {
     bakePlanet(folder);
-    writeSmallWindow(folder);
-    // Black corners of space are filled by the planet.
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
-corner() { import -window root -crop 40x40+10+250 png:- | convert png:- -format '%[fx:mean>0.06]' info:; }
-becomes() { for i in $(seq 100); do [ "$(corner)" = $1 ] && return 0; sleep 0.1; done; return 1; }
-becomes 0 || echo "no space to be seen at first"
-for i in 1 2 3 4 5 6 7 8 9 10 11 12; do xdotool click 4; done
-becomes 1 || echo "the wheel does not come nearer"
-xdotool key F3; becomes 0 || echo "F3 does not go back"
-)sh");
+for name in menu/Help tab/LOD tab/Camera lod/Hysteresis tab/Quadtree quadtree/Net tab/Paging paging/Budget; do
+    set -- $(place "$name")
+    [ -n "$1" ] || { echo "there is no $name"; continue; }
+    [ $1 -ge 0 ] && [ $2 -ge 0 ] && [ $(($1 + $3)) -le 1024 ] && [ $(($2 + $4)) -le 640 ] || echo "$name lies at $*"
+done
+set -- $(place viewport/picture)
+[ $3 -ge 340 ] && [ $4 -ge 200 ] || echo "the viewport is small: $*"
+set -- $* $(place tab/LOD); [ $(($1 + $3)) -le $5 ] || echo "the viewport reaches into the right dock"
+key F11; frames; set -- $(place viewport/picture)
+[ $3 -eq 1024 ] || echo "without panels the viewport is $*"
+)sh",
+                                "1024x640");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "");
 }

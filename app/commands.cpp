@@ -1,0 +1,249 @@
+#include "app/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <variant>
+
+#include "app/bookmarks.h"
+#include "app/recent_files.h"
+#include "app/screenshot.h"
+#include "app/shot_line.h"
+#include "ui/text.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+// One function a command, and what commands may change.
+struct CommandHandler {
+    Window& window;
+    Session& session;
+    Editor& editor;
+    Log& log;
+
+    bool succeeded(const Result<void>& result) const {
+        if (!result) log->error("{}", result.error().message);
+        return result.has_value();
+    }
+    void moveCamera(const Camera& camera) const {
+        if (editor.rig) placeRig(*editor.rig, camera, editor.settings.view.camera);
+    }
+    double radiusM() const { return shownScene(session)->planet->shape().radiusM; }
+    planet::CameraPose pose() const {
+        return planet::poseFromView(viewOf(editor.rig->camera, 1, 1, 1), radiusM());
+    }
+
+    void operator()(const ui::HoverChunk& command) const { editor.focus.hovered = command.id; }
+    void operator()(const ui::SelectChunk& command) const { editor.focus.selected = command.id; }
+    void operator()(const ui::LookAtChunk& command) const;
+    void operator()(const ui::FreezeLod& command) const { editor.lodFrozen = command.frozen; }
+    void operator()(const ui::MoveCamera& command) const {
+        if (shownScene(session)) moveCamera(cameraFromPose(command.pose, radiusM()));
+    }
+    void operator()(const ui::ResetCamera&) const { editor.rig.reset(); }
+    void operator()(const ui::KeepCameraAsStart&) const;
+    void operator()(const ui::AddBookmark& command) const;
+    void operator()(const ui::RemoveBookmark& command) const;
+    void operator()(const ui::SetSpeedFactor& command) const {
+        if (editor.rig) {
+            editor.rig->speedFactor = std::clamp(command.factor, minSpeedFactor, maxSpeedFactor);
+        }
+    }
+    void operator()(const ui::StartFlight& command) const {
+        if (editor.rig) succeeded(startFlight(*editor.rig, command.file, editor.settings.view.camera));
+    }
+    void operator()(const ui::MoveFlight& command) const {
+        if (editor.rig) moveFlight(*editor.rig, command.timeS);
+    }
+    void operator()(const ui::PauseFlight& command) const {
+        if (editor.rig) pauseFlight(*editor.rig, command.paused);
+    }
+
+    void operator()(const ui::PausePaging& command) const { editor.pagingPaused = command.paused; }
+    void operator()(const ui::LoadOne&) const {
+        if (Scene* scene = shownScene(session)) scene->planet->loadOne();
+    }
+    void operator()(const ui::DropAll&) const {
+        if (Scene* scene = shownScene(session)) scene->planet->dropAll();
+    }
+    void operator()(const ui::RetryFailed&) const {
+        if (Scene* scene = shownScene(session)) scene->planet->retryFailed();
+    }
+    void operator()(const ui::PauseFrames& command) const { editor.framesPaused = command.paused; }
+    void operator()(const ui::StepFrame&) const { editor.framesPaused = editor.stepOneFrame = true; }
+
+    void operator()(const ui::OpenFile& command) const;
+    void operator()(const ui::AskForFile&) const { editor.openDialog.opening = true; }
+    void operator()(const ui::StartBake& command) const { startBake(session, command.request, log); }
+    void operator()(const ui::BakeAgain&) const { startBake(session, log); }
+    void operator()(const ui::EstimateBake& command) const { requestEstimate(session, command.request); }
+    void operator()(const ui::CancelBake&) const { cancelBake(session); }
+    void operator()(const ui::ShowPreviousBake& command) const { showPreviousBake(session, command.shown); }
+    void operator()(const ui::DismissPreviousBake&) const { dismissPreviousBake(session); }
+
+    void operator()(const ui::Undo&) const {
+        if (const auto settings = editor.undo.undo()) editor.settings.view = *settings;
+    }
+    void operator()(const ui::Redo&) const {
+        if (const auto settings = editor.undo.redo()) editor.settings.view = *settings;
+    }
+    void operator()(const ui::SavePreset& command) const {
+        if (succeeded(editor.presets.save(command.name, editor.settings.view))) {
+            log->info("Preset {} saved", command.name);
+        }
+    }
+    void operator()(const ui::LoadPreset& command) const;
+    void operator()(const ui::DeletePreset& command) const {
+        if (succeeded(editor.presets.remove(command.name))) log->info("Preset {} deleted", command.name);
+    }
+    void operator()(const ui::CopyCommandLine&) const;
+    void operator()(const ui::CopyText& command) const { window.setClipboard(command.text); }
+    void operator()(const ui::TakeScreenshot& command) const;
+    void operator()(const ui::Quit&) const { window.close(); }
+
+    void openPreset(const std::filesystem::path& file) const;
+    bool openScreenshot(const std::filesystem::path& file) const;
+};
+
+// From right above, so far that the chunk fills about half of the picture.
+void CommandHandler::operator()(const ui::LookAtChunk& command) const {
+    const Scene* scene = shownScene(session);
+    if (!scene) return;
+    const planet::FaceSquare square = planet::faceSquareOf(command.id);
+    const double half = square.side / 2;
+    const glm::dvec3 middle =
+        planet::sphereFromCube(planet::cubePoint(command.id.face, square.u + half, square.v + half));
+    const glm::dvec3 corner = planet::sphereFromCube(planet::cubePoint(command.id.face, square.u, square.v));
+    const double radius = scene->planet->shape().radiusM;
+    const double sizeM = 2 * radius * glm::length(corner - middle);
+    const planet::Geographic place = planet::geographicFromDirection(middle);
+    const double groundM = planet::residentHeightM(scene->planet->tree(), middle);
+    moveCamera(cameraFromPose({.latitudeDeg = glm::degrees(place.latitudeRad),
+                               .longitudeDeg = glm::degrees(place.longitudeRad),
+                               .altitudeM = groundM + 1.3 * sizeM,
+                               .headingDeg = 0,
+                               .pitchDeg = -88},
+                              radius));
+}
+
+void CommandHandler::operator()(const ui::KeepCameraAsStart&) const {
+    if (!shownScene(session) || !editor.rig) return;
+    editor.settings.camera = pose();
+    log->info("Sessions start here from now on");
+}
+
+void CommandHandler::operator()(const ui::AddBookmark& command) const {
+    if (!shownScene(session) || !editor.rig) return;
+    if (succeeded(addBookmark(editor.bookmarks, command.name, pose())))
+        log->info("Bookmark {} added", command.name);
+}
+
+void CommandHandler::operator()(const ui::RemoveBookmark& command) const {
+    succeeded(removeBookmark(editor.bookmarks, command.name));
+}
+
+void CommandHandler::openPreset(const std::filesystem::path& file) const {
+    const Result<ui::ViewSettings> loaded = loadViewSettings(file, editor.settings.view);
+    if (!loaded) {
+        log->error("{}", loaded.error().message);
+        return;
+    }
+    editor.undo.add(editor.settings.view, *loaded, "settings of " + file.filename().string());
+    editor.settings.view = *loaded;
+    log->info("Settings of {} taken over", file.string());
+}
+
+// False where the picture carries no settings, so is something else.
+bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
+    const Result<ScreenshotNote> note = readScreenshotNote(file);
+    if (!note) return false;
+    const Result<Settings> settings = settingsFromText(note->settings, file, editor.settings);
+    if (!settings) return false;
+    editor.undo.add(editor.settings.view, settings->view, "settings of " + file.filename().string());
+    editor.settings.view = settings->view;
+    if (shownScene(session)) moveCamera(cameraFromPose(note->camera, radiusM()));
+    log->info("Camera and settings of {} taken over", file.string());
+    return true;
+}
+
+void CommandHandler::operator()(const ui::OpenFile& command) const {
+    if (command.file.extension() == ".toml") return openPreset(command.file);
+    if (command.file.extension() == ".png" && openScreenshot(command.file)) return;
+    if (!openFile(session, command.file, editor.settings.view, log)) {
+        // Why not is told there.
+        ui::showPanel(ui::PanelId::Log, editor.settings.workspace);
+        return;
+    }
+    addRecentFile(editor.recent, command.file);
+    editor.recentShown = shownRecentFiles(editor.recent);
+    succeeded(saveRecentFiles(editor.recent, recentFilesFile()));
+}
+
+void CommandHandler::operator()(const ui::LoadPreset& command) const {
+    const Result<ui::ViewSettings> loaded = editor.presets.load(command.name, editor.settings.view);
+    if (!loaded) {
+        log->error("{}", loaded.error().message);
+        return;
+    }
+    editor.undo.add(editor.settings.view, *loaded, "preset " + command.name);
+    editor.settings.view = *loaded;
+}
+
+std::string lineOf(const Session& session, const Editor& editor) {
+    const PlanetPicture& main = editor.viewport.main;
+    const double radiusM = shownScene(session)->planet->shape().radiusM;
+    return shotLine(session.open->data.chunkFile, planet::poseFromView(main.view, radiusM),
+                    {main.view.widthPx, main.view.heightPx}, editor.settings.view, session.colourFile);
+}
+
+void CommandHandler::operator()(const ui::CopyCommandLine&) const {
+    if (!shownScene(session) || !editor.rig) return;
+    const std::string line = lineOf(session, editor);
+    window.setClipboard(line);
+    log->info("Copied: {}", line);
+}
+
+void CommandHandler::operator()(const ui::TakeScreenshot& command) const {
+    if (command.withPanels) {
+        editor.screenshotPending = true;
+        return;
+    }
+    const PlanetPicture& shown =
+        editor.viewport.main.shown() ? editor.viewport.main : editor.viewport.observer;
+    if (!shown.target) return;
+    const Picture picture{shown.target->widthPx(), shown.target->heightPx(), shown.target->readRgb()};
+    keepScreenshot(picture, session, editor, log);
+}
+
+}  // namespace
+
+void obey(const ui::Commands& commands, Window& window, Session& session, Editor& editor, Log& log) {
+    const CommandHandler handler{window, session, editor, log};
+    // Asked for anew each frame that the pointer is on a chunk.
+    editor.focus.hovered.reset();
+    for (const ui::Command& command : commands) std::visit(handler, command);
+}
+
+void keepScreenshot(const Picture& picture, const Session& session, const Editor& editor, const Log& log) {
+    ScreenshotNote note;
+    note.version = WORLDY_VERSION;
+    note.settings = settingsText(editor.settings);
+    if (shownScene(session) && editor.rig) {
+        const double radiusM = shownScene(session)->planet->shape().radiusM;
+        note.camera = planet::poseFromView(viewOf(editor.rig->camera, 1, 1, 1), radiusM);
+        note.dataSet = session.open->data.source;
+        note.shotLine = lineOf(session, editor);
+    }
+    const Result<std::filesystem::path> file = writeNewScreenshot(picture, note);
+    if (file)
+        log->info("Screenshot: {}", file->string());
+    else
+        log->error("{}", file.error().message);
+}
+
+}  // namespace worldy

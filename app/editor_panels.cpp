@@ -1,0 +1,118 @@
+#include "app/editor_panels.h"
+
+#include <imgui.h>
+
+#include <cstdint>
+
+#include "ui/bake_window.h"
+#include "ui/item_map.h"
+#include "ui/status_bar.h"
+#include "ui/viewport_overlay.h"
+#include "ui/widgets.h"
+
+namespace worldy {
+
+namespace {
+
+void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio) {
+    picture.pointer = {};
+    if (!picture.shown()) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+    ui::beginFixedWindow(name, picture.rect,
+                         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar();
+    if (!picture.target) return;
+    const auto texture = static_cast<std::intptr_t>(picture.target->colourTexture());
+    ui::viewportPicture(reinterpret_cast<ImTextureID>(texture), picture.rect);
+    ui::setItemScope(name);
+    ui::noteItem("picture");
+    picture.pointer = readPointer(pixelRatio);
+}
+
+void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor) {
+    Viewport& viewport = editor.viewport;
+    pictureWindow("viewport", viewport.main, pixelRatio);
+    if (viewport.main.shown()) {
+        if (view.planet) ui::viewportOverlay(view, editor.settings.view, viewport.main.rect);
+        ImGui::End();
+    }
+    pictureWindow("observer", viewport.observer, pixelRatio);
+    if (viewport.observer.shown()) {
+        if (view.planet) {
+            ui::observerOverlay(view, editor.settings.view, viewport.observer.view, viewport.observer.rect);
+        }
+        ImGui::End();
+    }
+}
+
+ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorView& view) {
+    ui::BakeWindowInput input;
+    input.source = session.data.source.filename().string();
+    input.progress = view.bake.progress;
+    input.stopping = view.bake.stopping;
+    if (!view.bake.running) {
+        const bool cancelled = session.problem && session.problem->kind == planet::ErrorKind::Cancelled;
+        input.problem = cancelled ? "The bake was cancelled." : view.data.problem;
+    }
+    input.canBake = session.data.chunkFile != session.data.source;
+    return input;
+}
+
+// While there is no planet: the bake that it needs, or why there is none.
+void emptyViewport(const Session& session, const ui::EditorView& view, const ui::Rect& rect, Editor& editor,
+                   ui::Commands& commands) {
+    editor.viewport.main.pointer = editor.viewport.observer.pointer = {};
+    ui::beginFixedWindow("viewport", rect);
+    ImGui::End();
+    const ui::BakeWindowCommands asked = ui::bakeWindow(bakeWindowInputOf(session, view), rect);
+    if (asked.cancel) commands.push_back(ui::CancelBake{});
+    if (asked.bakeAgain) commands.push_back(ui::BakeAgain{});
+}
+
+}  // namespace
+
+ui::EditorView gatherView(Session& session, Editor& editor) {
+    ui::EditorView view{.planet = nullptr,
+                        .stats = editor.stats,
+                        .history = editor.history,
+                        .changes = editor.changes,
+                        .log = editor.logLines};
+    const Scene* scene = shownScene(session);
+    if (scene && editor.rig) {
+        view.planet = scene->planet.get();
+        view.camera = cameraViewOf(*editor.rig, groundBelow(*scene, editor.rig->camera.eyeM),
+                                   editor.bookmarks.list, editor.flights);
+    }
+    view.lodView = editor.lodView;
+    view.renderView = editor.viewport.main.view;
+    view.lodFrozen = editor.lodFrozen;
+    view.framesPaused = editor.framesPaused;
+    view.pagingPaused = editor.pagingPaused;
+    view.timeS = editor.timeS;
+    view.focus = editor.focus;
+    view.data = dataViewOf(session, editor.recentShown);
+    view.bake = bakeViewOf(session);
+    view.presets = editor.presets.views(editor.settings.view);
+    view.undoName = editor.undo.undoName();
+    view.redoName = editor.undo.redoName();
+    return view;
+}
+
+void drawPanels(const Session& session, const ui::EditorView& view, const ui::Layout& layout,
+                float pixelRatio, Editor& editor, ui::Commands& commands) {
+    ui::Workspace& workspace = editor.settings.workspace;
+    ui::ViewSettings& settings = editor.settings.view;
+    ui::menuBar(view, editor.menu, workspace, settings, commands);
+    if (view.planet)
+        viewportWindows(view, pixelRatio, editor);
+    else
+        emptyViewport(session, view, layout.viewport, editor, commands);
+    for (const ui::Dock dock : {ui::Dock::Left, ui::Dock::Right, ui::Dock::Bottom}) {
+        ui::drawDock(dock, layout, view, editor.panels, workspace, settings, commands);
+    }
+    ui::statusBar(view, layout.statusBar);
+    ui::helpWindows(editor.menu);
+    ui::openDialog(editor.openDialog, commands);
+}
+
+}  // namespace worldy

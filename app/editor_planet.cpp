@@ -1,0 +1,174 @@
+#include "app/editor_planet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <utility>
+#include <vector>
+
+#include "app/observer.h"
+#include "app/overlay_lines.h"
+#include "app/stopwatch.h"
+#include "planet/pick.h"
+#include "ui/overlay_colours.h"
+
+namespace worldy {
+
+namespace {
+
+Camera startCamera(const Settings& settings, double radiusM) {
+    planet::CameraPose pose = settings.camera;
+    if (pose.altitudeM == 0) pose.altitudeM = wholePlanetPose(radiusM).altitudeM;
+    return cameraFromPose(pose, radiusM);
+}
+
+// Another planet has taken the place of the last one: the camera stays where it makes sense, what was counted
+// does not.
+void meetPlanet(const planet::Planet& planet, Editor& editor) {
+    if (&planet == editor.lastPlanet) return;
+    const double radiusM = planet.shape().radiusM;
+    if (radiusM != editor.lastRadiusM && editor.lastPlanet) {
+        editor.rig.reset();
+        editor.observer.reset();
+    }
+    editor.lastPlanet = &planet;
+    editor.lastRadiusM = radiusM;
+    editor.changes.clear();
+    editor.history.clear();
+    editor.stepOneFrame = true;  // something has to be chosen for it
+}
+
+planet::View viewOfPicture(const Camera& camera, const PlanetPicture& picture, const PlanetPicture& other,
+                           float pixelRatio, double fovDeg) {
+    const PixelSize size = pixelSizeOf(picture.shown() ? picture.rect : other.rect, pixelRatio);
+    return viewOf(camera, glm::radians(fovDeg), size.width, size.height);
+}
+
+void moveCameras(Scene& scene, float pixelRatio, Editor& editor, const Log& log, double seconds) {
+    Viewport& viewport = editor.viewport;
+    ui::CameraSettings& settings = editor.settings.view.camera;
+    if (!editor.rig) {
+        editor.rig.emplace();
+        editor.rig->camera = startCamera(editor.settings, scene.planet->shape().radiusM);
+    }
+    const Surroundings around = surroundingsOf(scene);
+    const KeyInput keys = readKeys();
+    editor.rig->speedFactor =
+        std::clamp(editor.rig->speedFactor * std::pow(1.5, keys.speedSteps), minSpeedFactor, maxSpeedFactor);
+    // The keys go to the picture that the pointer is on.
+    const bool observing =
+        viewport.observer.shown() && (viewport.observer.pointer.over || !viewport.main.shown());
+    const planet::View view =
+        viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio, settings.fovDeg);
+    const planet::Result<void> moved = advanceRig(*editor.rig, around, view, viewport.main.pointer,
+                                                  observing ? HeldKeys() : keys.held, seconds, settings);
+    if (!moved) log->error("{}", moved.error().message);
+
+    if (!viewport.observer.shown()) return;
+    if (!editor.observer) {
+        editor.observer.emplace();
+        editor.observer->camera = observerStart(view, groundBelow(scene, editor.rig->camera.eyeM));
+    }
+    editor.observer->speedFactor = editor.rig->speedFactor;
+    const planet::View observerView =
+        viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio, settings.fovDeg);
+    // Cannot fail: it follows no flight.
+    static_cast<void>(advanceRig(*editor.observer, around, observerView, viewport.observer.pointer,
+                                 observing ? keys.held : HeldKeys(), seconds, editor.observerControls));
+}
+
+bool observerChooses(const Editor& editor) {
+    return editor.viewport.observer.shown() && editor.settings.view.camera.observerOwnLod;
+}
+
+void chooseChunks(Scene& scene, float pixelRatio, Editor& editor) {
+    const Viewport& viewport = editor.viewport;
+    const double fovDeg = editor.settings.view.camera.fovDeg;
+    if (!editor.lodFrozen) {
+        editor.lodView =
+            viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio, fovDeg);
+    }
+    if (observerChooses(editor)) {
+        const planet::View observerView =
+            viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio, fovDeg);
+        stepScene(scene, editor.lodView, observerView, editor.settings.view);
+    } else {
+        stepScene(scene, editor.lodView, editor.settings.view);
+    }
+    editor.changes.add(scene.planet->selection(), editor.timeS);
+}
+
+std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, std::size_t selection,
+                                           const ui::ViewSettings& settings) {
+    return ui::chunkTints(*scene.planet, scene.planet->selection(selection), settings.overlay,
+                          settings.lod.tauPx, settings.surface.lighting);
+}
+
+void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
+    Viewport& viewport = editor.viewport;
+    const ui::ViewSettings& settings = editor.settings.view;
+    PictureContent content;
+    content.view = viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio,
+                                 settings.camera.fovDeg);
+    viewport.main.view = content.view;
+    if (!viewport.main.shown()) return;
+    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, 0, settings);
+    content.tints = tints;
+    content.hiddenLines =
+        overlayLines(scene.planet->tree(), scene.planet->selection(), content.view, settings);
+    content.frontLines = focusLines(scene.planet->tree(), editor.focus, content.view);
+    drawPicture(viewport, viewport.main, scene, settings, content, log);
+}
+
+void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
+    Viewport& viewport = editor.viewport;
+    if (!viewport.observer.shown() || !editor.observer) return;
+    const ui::ViewSettings& settings = editor.settings.view;
+    PictureContent content;
+    content.view = viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio,
+                                 settings.camera.fovDeg);
+    content.selection = observerChooses(editor) ? 1 : 0;
+    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, content.selection, settings);
+    content.tints = tints;
+    content.hiddenLines = overlayLines(scene.planet->tree(), scene.planet->selection(content.selection),
+                                       content.view, settings);
+    content.frontLines = observerLines(*scene.planet, editor.lodView, settings.camera, editor.focus.selected);
+    const planet::Lines focus = focusLines(scene.planet->tree(), editor.focus, content.view);
+    content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());
+    drawPicture(viewport, viewport.observer, scene, settings, content, log);
+}
+
+// The chunk under the pointer is lit; a click selects it, or nothing where there is only sky.
+void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selection, ui::Commands& commands) {
+    if (!picture.shown() || !picture.pointer.over) return;
+    const std::optional<planet::SurfaceHit> hit =
+        planet::pickSurface(scene.planet->tree(), scene.planet->selection(selection).draw, picture.view.eyeM,
+                            rayThrough(picture.view, picture.pointer.positionPx));
+    if (hit) commands.push_back(ui::HoverChunk{hit->id});
+    if (!picture.pointer.clicked) return;
+    commands.push_back(ui::SelectChunk{hit ? std::optional(hit->id) : std::nullopt});
+}
+
+}  // namespace
+
+ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
+                         ui::Commands& commands) {
+    meetPlanet(*scene.planet, editor);
+    if (const auto applied = applyLiveSettings(scene, editor.settings.view, editor.pagingPaused); !applied)
+        log->error("{}", applied.error().message);
+    if (!editor.framesPaused || std::exchange(editor.stepOneFrame, false)) {
+        moveCameras(scene, pixelRatio, editor, log, editor.framesPaused ? 1.0 / 60 : seconds);
+        chooseChunks(scene, pixelRatio, editor);
+    }
+    const Stopwatch watch;
+    drawMainPicture(scene, pixelRatio, editor, log);
+    drawObserverPicture(scene, pixelRatio, editor, log);
+    pick(editor.viewport.main, scene, 0, commands);
+    pick(editor.viewport.observer, scene, observerChooses(editor) ? 1 : 0, commands);
+    ui::FrameStats stats = statsOf(scene);
+    stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
+    stats.targetBytes = gpuBytes(editor.viewport);
+    return stats;
+}
+
+}  // namespace worldy

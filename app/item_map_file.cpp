@@ -1,0 +1,58 @@
+#include "app/item_map_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "app/shot_line.h"
+
+namespace worldy {
+
+std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats) {
+    const planet::PagingCounters& paging = stats.paging;
+    const planet::SelectionCounters& selection = stats.selection;
+    std::vector<Counter> counters;
+    const auto add = [&](const char* name, const auto& value) {
+        counters.push_back({name, fmt::format("{}", value)});
+    };
+    add("frame", editor.frames);
+    add("drawn", selection.drawn);
+    add("triangles", stats.render.triangles);
+    add("waiting", selection.waiting);
+    add("deepest", selection.deepestLevel);
+    add("widest_seam", selection.widestSeam);
+    add("resident", paging.residentChunks);
+    add("queued", paging.queued);
+    add("loading", paging.loading);
+    add("requested", paging.requested);
+    add("loaded", paging.loaded);
+    add("evicted", paging.evicted);
+    add("failed", paging.failed);
+    add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
+    if (const Scene* scene = shownScene(session); scene && editor.rig) {
+        const double radiusM = scene->planet->shape().radiusM;
+        add("camera", textOf(planet::poseFromView(viewOf(editor.rig->camera, 1, 1, 1), radiusM)));
+        add("chunk_size", planet::chunkSize(scene->planet->shape()));
+        add("file", scene->planet->file().name());
+    }
+    add("baking", session.bake ? 1 : 0);
+    return counters;
+}
+
+void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPlace> items,
+                  std::span<const Counter> counters) {
+    std::string text;
+    for (const Counter& counter : counters)
+        text += fmt::format("counter/{}\t{}\n", counter.name, counter.value);
+    for (const ui::ItemPlace& item : items) {
+        text += fmt::format("{}\t{:.0f}\t{:.0f}\t{:.0f}\t{:.0f}\n", item.name, item.rect.x, item.rect.y,
+                            item.rect.width, item.rect.height);
+    }
+    const std::filesystem::path unfinished = file.string() + ".part";
+    std::ofstream(unfinished) << text;
+    std::error_code status;
+    std::filesystem::rename(unfinished, file, status);
+}
+
+}  // namespace worldy

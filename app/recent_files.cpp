@@ -1,0 +1,85 @@
+#include "app/recent_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "app/output_file.h"
+#include "app/places.h"
+#include "planet/cube_sphere.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t maxFileBytes = 64u << 10;
+
+// "earth" stands for earth_x_pos.raw and its five siblings.
+bool isStemOfFaces(const fs::path& path) {
+    const std::string start = fmt::format("{}_{}.", path.filename().string(), faceName(planet::Face::PosX));
+    std::error_code status;
+    const fs::directory_iterator folder(path.parent_path(), status);
+    return std::any_of(begin(folder), end(folder), [&](const fs::directory_entry& entry) {
+        return entry.path().filename().string().starts_with(start);
+    });
+}
+
+bool isThere(const fs::path& path) {
+    std::error_code status;
+    return fs::is_regular_file(path, status) || (!fs::exists(path, status) && isStemOfFaces(path));
+}
+
+}  // namespace
+
+fs::path recentFilesFile() {
+    return configFolder() / "recent.txt";
+}
+
+std::vector<fs::path> loadRecentFiles(const fs::path& file) {
+    std::error_code status;
+    std::vector<fs::path> recent;
+    if (!fs::is_regular_file(file, status)) return recent;  // a pipe would never end
+    std::string text(maxFileBytes, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    std::istringstream lines(text);
+    for (std::string line; recent.size() < maxRecentFiles && std::getline(lines, line);) {
+        const fs::path path = line;
+        const bool good = line.find('\0') == std::string::npos && path.is_absolute();
+        if (good && std::find(recent.begin(), recent.end(), path) == recent.end()) recent.push_back(path);
+    }
+    return recent;
+}
+
+void addRecentFile(std::vector<fs::path>& recent, const fs::path& opened) {
+    std::error_code status;
+    const fs::path path = fs::absolute(opened, status).lexically_normal();
+    if (status || path.empty()) return;
+    std::erase(recent, path);
+    recent.insert(recent.begin(), path);
+    if (recent.size() > maxRecentFiles) recent.resize(maxRecentFiles);
+}
+
+std::vector<fs::path> shownRecentFiles(const std::vector<fs::path>& recent) {
+    std::vector<fs::path> shown;
+    std::copy_if(recent.begin(), recent.end(), std::back_inserter(shown), isThere);
+    return shown;
+}
+
+planet::Result<void> saveRecentFiles(const std::vector<fs::path>& recent, const fs::path& file) {
+    std::error_code status;
+    fs::create_directories(fs::absolute(file).parent_path(), status);
+    std::string text;
+    for (const fs::path& path : recent) {
+        if (path.string().find_first_of("\n\r") == std::string::npos) text += path.string() + "\n";
+    }
+    return writeTextFile(file, text);
+}
+
+}  // namespace worldy

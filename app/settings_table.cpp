@@ -1,0 +1,469 @@
+#include "app/settings_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <type_traits>
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+constexpr std::size_t maxRampStops = 32;
+
+// The enumerations are bytes, so one kind of field serves them all.
+template <class Enum>
+std::uint8_t* asByte(Enum& value) {
+    static_assert(sizeof(Enum) == 1);
+    return reinterpret_cast<std::uint8_t*>(&value);
+}
+
+using Fields = std::vector<Field>;
+
+void addData(Fields& fields, Settings& s) {
+    fields.insert(fields.end(),
+                  {{"data", "set", "Chunk file, elevation image or cube faces to open; empty: the Earth.",
+                    Text{&s.dataSet}},
+                   {"data", "colour_image",
+                    "Picture laid over it; empty: colour.jpg or colour.png beside the data set.",
+                    Text{&s.colourImage}}});
+}
+
+void addLod(Fields& fields, ui::LodKnobs& lod) {
+    fields.insert(
+        fields.end(),
+        {{"lod", "tau_px", "Tolerance on screen, pixels; larger: fewer triangles, more visible error.",
+          Number{&lod.tauPx, {0.1, 64, "pixels"}}},
+         {"lod", "hysteresis", "Share of tau by which chunks merge later than they split.",
+          Number{&lod.hysteresis, {0, 0.9, ""}}},
+         {"lod", "max_level", "Deepest level drawn.", Integer{&lod.maxLevel, {0, 20, ""}}},
+         {"lod", "morph", "Slide chunks onto their parents before they merge; false: they pop.",
+          Flag{&lod.morph}},
+         {"lod", "morph_range", "Share of tau over which they slide.",
+          Number{&lod.morphRange, {0.01, 4, ""}}},
+         {"lod", "frustum_culling", "Leave out what lies beside and behind the view.",
+          Flag{&lod.frustumCulling}},
+         {"lod", "horizon_culling", "Leave out what the planet itself hides.", Flag{&lod.horizonCulling}}});
+}
+
+void addSeams(Fields& fields, ui::SeamKnobs& seams) {
+    fields.insert(fields.end(),
+                  {{"seams", "mode", "What hides cracks between chunks: none, skirts or stitched.",
+                    Choice{asByte(seams.mode), seamModeNames}},
+                   {"seams", "depth", "Depth of the skirts: automatic, or fixed.",
+                    Choice{asByte(seams.depth), skirtDepthNames}},
+                   {"seams", "skirt_factor", "Automatic depth in units of the errors it has to hide.",
+                    Number{&seams.skirtFactor, {0, 10, ""}}},
+                   {"seams", "skirt_depth_m", "Fixed depth, metres.",
+                    Number{&seams.skirtDepthM, {0, 100000, "metres"}}},
+                   {"seams", "show_pairs", "Mark the edges between chunks of different levels.",
+                    Flag{&seams.showPairs}}});
+}
+
+void addPaging(Fields& fields, ui::PagingKnobs& paging) {
+    planet::BadDiskSettings& disk = paging.badDisk;
+    fields.insert(
+        fields.end(),
+        {{"paging", "budget_mb", "Memory for resident chunks, CPU and GPU together, MiB.",
+          Integer{&paging.budgetMB, {16, 65536, "MiB"}}},
+         {"paging", "loader_threads", "Threads that read chunks.",
+          Integer{&paging.loaderThreads, {1, 64, "threads"}}},
+         {"paging", "upload_limit_ms", "Time a frame spent on chunks that have been loaded, milliseconds.",
+          Number{&paging.uploadLimitMs, {0.1, 100, "milliseconds"}}},
+         {"bad_disk", "latency_ms", "A disk that is slow or fails, on purpose: added to each read.",
+          Number{&disk.latencyMs, {0, 10000, "milliseconds"}}},
+         {"bad_disk", "bandwidth_mb_s", "10^6 bytes a second and loader thread; 0: unlimited.",
+          Number{&disk.bandwidthMBs, {0, 100000, "MB a second"}}},
+         {"bad_disk", "failure_rate", "Share of the reads that fail.", Number{&disk.failureRate, {0, 1, ""}}},
+         {"bad_disk", "shuffled_order", "Serve reads in an order of the seed's, not the most urgent first.",
+          Flag{&disk.shuffledOrder}},
+         {"bad_disk", "seed", "The same seed gives the same trouble.", Seed{&disk.seed}}});
+}
+
+void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
+    fields.insert(
+        fields.end(),
+        {{"overlay", "colour_by",
+          "What the tint of a chunk shows: none, level, error, delta_c, morph, age or load_order.",
+          Choice{asByte(overlay.colourBy), colourByNames}},
+         {"overlay", "opacity", "Of the tint.", Number{&overlay.opacity, {0, 1, ""}}},
+         {"overlay", "error_scale", "Error on screen in units of tau that is tinted yellow.",
+          Number{&overlay.errorScale, {0.01, 100, ""}}},
+         {"overlay", "delta_top_m", "The scale's top for delta_c, metres.",
+          Number{&overlay.deltaTopM, {0.01, 100000, "metres"}}},
+         {"overlay", "age_top_s", "The scale's top for the age, seconds.",
+          Number{&overlay.ageTopS, {0.1, 3600, "seconds"}}},
+         {"overlay", "outlines", "Draw the chunks' borders.", Flag{&overlay.outlines}},
+         {"overlay", "bounds", "Draw bounding volumes.", Flag{&overlay.bounds}},
+         {"overlay", "wireframe", "Draw the triangles' edges.", Flag{&overlay.wireframe}},
+         {"overlay", "skirt_paint", "Skirts look as_ground, loud, or loud_alone with nothing else drawn.",
+          Choice{asByte(overlay.skirtPaint), skirtPaintNames}},
+         {"overlay", "labels", "On chunks: none, level, error or level_and_error.",
+          Choice{asByte(overlay.labels), chunkLabelsNames}},
+         {"overlay", "cube", "Draw the cube before it is blown up to the sphere.", Flag{&overlay.cube}}});
+}
+
+void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
+    fields.insert(
+        fields.end(),
+        {{"surface", "colour", "Colour of the ground: image, or ramp by height.",
+          Choice{asByte(surface.surface), surfaceNames}},
+         {"surface", "image_opacity", "Of the image over the ramp.",
+          Number{&surface.imageOpacity, {0, 1, ""}}},
+         {"surface", "ramp", "Colours by height above the sea, lowest first; empty: the built-in ramp.",
+          Ramp{&surface.ramp}},
+         {"surface", "sea", "What lies below the sea level is sea; false: dry land.", Flag{&surface.sea}},
+         {"surface", "sea_level_m", "Metres above the planet's radius.",
+          Number{&surface.seaLevelM, {-20000, 20000, "metres"}}},
+         {"surface", "exaggeration", "Heights are drawn this many times as high.",
+          Number{&surface.exaggeration, {0.1, 100, ""}}},
+         {"surface", "lighting", "Light the ground by the sun; false: flat colour.", Flag{&surface.lighting}},
+         {"surface", "atmosphere", "Draw the atmosphere.", Flag{&surface.atmosphere}},
+         {"surface", "detail", "Roughen the ground between the samples: invented, only for the eye.",
+          Flag{&surface.detail}},
+         {"surface", "sun_follows", "Keep the sun to the camera's east, so that it is always day there.",
+          Flag{&surface.sunFollows}},
+         {"surface", "sun_latitude_deg", "Else: where the sun stands in the zenith, degrees north.",
+          Number{&surface.sunLatitudeDeg, {-90, 90, "degrees"}}},
+         {"surface", "sun_longitude_deg", "Where the sun stands in the zenith, degrees east.",
+          Number{&surface.sunLongitudeDeg, {-180, 180, "degrees"}}}});
+}
+
+void addView(Fields& fields, ui::CameraSettings& camera) {
+    fields.insert(
+        fields.end(),
+        {{"view", "fov_deg", "Horizontal field of view, degrees.",
+          Number{&camera.fovDeg, {5, 150, "degrees"}}},
+         {"view", "mode", "How the camera moves: fly, orbit or follow_flight.",
+          Choice{asByte(camera.mode), cameraModeNames}},
+         {"view", "observer", "A second camera that looks at the view from outside: off, split or alone.",
+          Choice{asByte(camera.observer), observerModeNames}},
+         {"view", "observer_own_lod", "The observer draws what it would choose itself.",
+          Flag{&camera.observerOwnLod}},
+         {"view", "show_frustum", "In the observer's picture: the view's frustum,",
+          Flag{&camera.showFrustum}},
+         {"view", "show_horizon", "its horizon,", Flag{&camera.showHorizon}},
+         {"view", "show_switch_distances", "and how far the selected chunk's distance d_m reaches.",
+          Flag{&camera.showSwitchDistances}},
+         {"view", "flight", "The flight's file that is followed.", Text{&camera.flight}}});
+}
+
+void addCamera(Fields& fields, planet::CameraPose& pose) {
+    fields.insert(
+        fields.end(),
+        {{"camera", "latitude_deg", "Where a session starts, degrees north.",
+          Number{&pose.latitudeDeg, {-90, 90, "degrees"}}},
+         {"camera", "longitude_deg", "Degrees east.", Number{&pose.longitudeDeg, {-360, 360, "degrees"}}},
+         {"camera", "altitude_m", "Metres above the planet's radius; 0: the whole planet in view.",
+          Number{&pose.altitudeM, {-1e6, 2e10, "metres"}}},
+         {"camera", "heading_deg", "0 north, 90 east.", Number{&pose.headingDeg, {-360, 360, "degrees"}}},
+         {"camera", "pitch_deg", "-90 straight down, 0 level.",
+          Number{&pose.pitchDeg, {-90, 90, "degrees"}}}});
+}
+
+void addWindow(Fields& fields, Settings& s) {
+    ui::Workspace& workspace = s.workspace;
+    fields.insert(fields.end(),
+                  {{"window", "width_px", "Size of the window, pixels.",
+                    Integer{&s.windowWidthPx, {640, 16384, "pixels"}}},
+                   {"window", "height_px", "", Integer{&s.windowHeightPx, {400, 16384, "pixels"}}},
+                   {"window", "left_width", "Sizes of the docks, in units that follow the font.",
+                    Number{&workspace.leftWidth, {160, 1000, ""}}},
+                   {"window", "right_width", "", Number{&workspace.rightWidth, {160, 1000, ""}}},
+                   {"window", "bottom_height", "", Number{&workspace.bottomHeight, {60, 1000, ""}}},
+                   {"window", "theme", "dark or light.", Choice{asByte(workspace.theme), themeNames}},
+                   {"window", "scale", "Size of text and controls, of the monitor's own.",
+                    Number{&workspace.scale, {0.5, 3, ""}}}});
+}
+
+// In the order of ui::PanelId, as ui::panelInfos is.
+constexpr std::array<std::string_view, ui::panelCount> panelKeys = [] {
+    std::array<std::string_view, ui::panelCount> keys;
+    for (const ui::PanelInfo& info : ui::panelInfos) keys[static_cast<std::size_t>(info.id)] = info.key;
+    return keys;
+}();
+
+void addPanels(Fields& fields, ui::Workspace& workspace) {
+    std::string_view meaning = "The dock of each panel, left, right or bottom, and whether it is shown.";
+    for (std::size_t dock = 0; dock < ui::dockCount; ++dock) {
+        fields.push_back({"panels", fmt::format("{}_front", dockNames[dock]),
+                          dock == 0 ? "The panel in front in each dock." : "",
+                          Choice{asByte(workspace.inFront[dock]), panelKeys}});
+    }
+    for (const ui::PanelInfo& info : ui::panelInfos) {
+        ui::PanelPlace& place = workspace.panels[static_cast<std::size_t>(info.id)];
+        fields.push_back({"panels", std::string(info.key), meaning, Choice{asByte(place.dock), dockNames}});
+        fields.push_back({"panels", fmt::format("{}_shown", info.key), "", Flag{&place.shown}});
+        meaning = {};
+    }
+}
+
+// What a setting was called before version 0.2. Files that hold these names go on to be read, without a
+// word: they mean the same, and the next save writes the present ones.
+struct FormerName {
+    std::string_view before;
+    std::string_view now;
+};
+constexpr std::string_view formerSkirts = "view.skirts";  // true or false, now one of three words
+constexpr std::array<FormerName, 12> formerNames = {{
+    {"lod.skirt_factor", "seams.skirt_factor"},
+    {formerSkirts, "seams.mode"},
+    {"view.colour_by", "overlay.colour_by"},
+    {"view.surface", "surface.colour"},
+    {"view.atmosphere", "surface.atmosphere"},
+    {"view.detail", "surface.detail"},
+    {"view.lighting", "surface.lighting"},
+    {"view.sun_follows", "surface.sun_follows"},
+    {"view.sun_latitude_deg", "surface.sun_latitude_deg"},
+    {"view.sun_longitude_deg", "surface.sun_longitude_deg"},
+    {"window.lod_panel_width", "window.right_width"},
+    {"window.log_panel_height", "window.bottom_height"},
+}};
+
+const FormerName* findFormer(std::string_view name) {
+    const auto found = std::find_if(formerNames.begin(), formerNames.end(),
+                                    [&](const FormerName& former) { return former.before == name; });
+    return found == formerNames.end() ? nullptr : &*found;
+}
+
+std::string joined(std::span<const std::string_view> names) {
+    std::string text;
+    for (const std::string_view name : names)
+        text += (text.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+    return text;
+}
+
+std::optional<glm::vec3> colourFromText(std::string_view text) {
+    std::uint32_t hex = 0;
+    if (text.size() != 7 || text[0] != '#') return std::nullopt;
+    const auto [end, problem] = std::from_chars(text.data() + 1, text.data() + text.size(), hex, 16);
+    if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    const auto channel = [&](int shift) { return static_cast<float>((hex >> shift) & 0xFFu) / 255.0f; };
+    return glm::vec3(channel(16), channel(8), channel(0));
+}
+
+std::string textOf(const glm::vec3& colour) {
+    const auto byte = [](float channel) {
+        return static_cast<int>(std::lround(255 * glm::clamp(channel, 0.0f, 1.0f)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
+}
+
+struct ReadField {
+    const fs::path& file;
+    const std::string name;
+    const toml::node& node;
+
+    tl::unexpected<planet::Error> wrong(const toml::node& where, const std::string& message) const {
+        return planet::badInput(fmt::format("{}: {}", placeOf(file, where), message));
+    }
+
+    Result<void> operator()(const Number& number) const {
+        return readNumber(file, name, node, number.range).map([&](double v) { *number.value = v; });
+    }
+    Result<void> operator()(const Integer& integer) const {
+        return readInteger(file, name, node, integer.range).map([&](std::int64_t v) {
+            *integer.value = static_cast<int>(v);
+        });
+    }
+    Result<void> operator()(const Seed& seed) const {
+        return readInteger(file, name, node, {0, 4294967295.0, ""}).map([&](std::int64_t v) {
+            *seed.value = static_cast<std::uint32_t>(v);
+        });
+    }
+    Result<void> operator()(const Flag& flag) const {
+        return readBool(file, name, node).map([&](bool v) { *flag.value = v; });
+    }
+    Result<void> operator()(const Text& text) const {
+        return readText(file, name, node).map([&](const std::string& v) { *text.value = v; });
+    }
+    Result<void> operator()(const Choice& choice) const {
+        const std::string text = node.value_or(std::string());
+        const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+        if (found == choice.names.end()) {
+            return wrong(node, fmt::format("{} is {}, not one of its words; one of {} would be right", name,
+                                           shownValue(node), joined(choice.names)));
+        }
+        *choice.value = static_cast<std::uint8_t>(found - choice.names.begin());
+        return {};
+    }
+    Result<void> operator()(const Ramp& ramp) const {
+        const toml::array* array = node.as_array();
+        if (!array) {
+            return wrong(node, fmt::format("{} is {}; an array of stops would be right, as "
+                                           "[{{ height_m = 0, colour = \"#40a060\" }}]",
+                                           name, shownValue(node)));
+        }
+        if (array->size() > maxRampStops) {
+            return wrong(node, fmt::format("{} has {} stops; at most {} would be right", name, array->size(),
+                                           maxRampStops));
+        }
+        std::vector<planet::gl::RampStop> stops;
+        for (const toml::node& stop : *array) {
+            if (Result<void> read = readStop(stop, stops); !read) return read;
+        }
+        *ramp.value = std::move(stops);
+        return {};
+    }
+
+    Result<void> readStop(const toml::node& stop, std::vector<planet::gl::RampStop>& stops) const {
+        const std::string stopName = fmt::format("{}: stop {}", name, stops.size() + 1);
+        const toml::table* table = stop.as_table();
+        const toml::node* height = table ? table->get("height_m") : nullptr;
+        const toml::node* colour = table ? table->get("colour") : nullptr;
+        if (!height || !colour || table->size() != 2) {
+            return wrong(stop, fmt::format("{} is no stop; {{ height_m = 0, colour = \"#40a060\" }} "
+                                           "would be right, with these two and no others",
+                                           stopName));
+        }
+        const Result<double> heightM =
+            readNumber(file, stopName + ": height_m", *height, {-100000, 100000, "metres"});
+        if (!heightM) return tl::unexpected(heightM.error());
+        if (!stops.empty() && *heightM <= stops.back().heightM) {
+            return wrong(*height, fmt::format("{}: height_m is {}; more than the {} of the stop before would "
+                                              "be right: lowest first",
+                                              stopName, *heightM, stops.back().heightM));
+        }
+        const std::optional<glm::vec3> rgb = colourFromText(colour->value_or(std::string()));
+        if (!rgb) {
+            return wrong(*colour, fmt::format("{}: colour is {}; red, green and blue as \"#rrggbb\" would be "
+                                              "right",
+                                              stopName, shownValue(*colour)));
+        }
+        stops.push_back({*heightM, *rgb});
+        return {};
+    }
+};
+
+struct FieldText {
+    std::string_view lineBreak;  // between the stops of a ramp
+    std::string_view lineEnd;    // after them
+
+    // The shortest digits that read back as the same number.
+    std::string operator()(const Number& number) const { return fmt::format("{}", *number.value); }
+    std::string operator()(const Integer& integer) const { return fmt::format("{}", *integer.value); }
+    std::string operator()(const Seed& seed) const { return fmt::format("{}", *seed.value); }
+    std::string operator()(const Flag& flag) const { return *flag.value ? "true" : "false"; }
+    std::string operator()(const Text& text) const {
+        // TOML is UTF-8, and file names need not be: better a default than a file that cannot be read.
+        if (!isUtf8(*text.value)) return "\"\"";
+        std::ostringstream stream;
+        stream << toml::value<std::string>(*text.value);
+        return stream.str();
+    }
+    std::string operator()(const Ramp& ramp) const {
+        std::string text;
+        for (const planet::gl::RampStop& stop : *ramp.value) {
+            text += fmt::format("{}{}{{ height_m = {}, colour = \"{}\" }}", text.empty() ? "" : ",",
+                                lineBreak, stop.heightM, textOf(stop.colour));
+        }
+        return ramp.value->empty() ? "[]" : fmt::format("[{}{}]", text, lineEnd);
+    }
+    std::string operator()(const Choice& choice) const {
+        return fmt::format("\"{}\"", choice.names[*choice.value]);
+    }
+};
+
+// Levenshtein's distance: how many letters differ.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t above = row[j + 1];
+            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string Field::name() const {
+    return fmt::format("{}.{}", table, key);
+}
+
+std::vector<Field> fieldsOf(Settings& settings) {
+    Fields fields;
+    fields.reserve(90);
+    addData(fields, settings);
+    addLod(fields, settings.view.lod);
+    addSeams(fields, settings.view.seams);
+    addPaging(fields, settings.view.paging);
+    addOverlay(fields, settings.view.overlay);
+    addSurface(fields, settings.view.surface);
+    addView(fields, settings.view.camera);
+    addCamera(fields, settings.camera);
+    addWindow(fields, settings);
+    addPanels(fields, settings.workspace);
+    return fields;
+}
+
+bool isViewTable(std::string_view table) {
+    return table != "data" && table != "camera" && table != "window" && table != "panels";
+}
+
+const Field* findField(std::span<const Field> fields, std::string_view name) {
+    const FormerName* former = findFormer(name);
+    const std::string_view wanted = former ? former->now : name;
+    const auto found = std::find_if(fields.begin(), fields.end(),
+                                    [&](const Field& field) { return field.name() == wanted; });
+    return found == fields.end() ? nullptr : &*found;
+}
+
+bool isFormerName(std::string_view name) {
+    return findFormer(name) != nullptr;
+}
+
+Result<void> readField(const fs::path& file, const Field& field, std::string_view name,
+                       const toml::node& node) {
+    if (name == formerSkirts) {
+        const planet::SeamMode mode[] = {planet::SeamMode::None, planet::SeamMode::Skirts};
+        return readBool(file, name, node).map([&](bool skirts) {
+            *std::get<Choice>(field.value).value = static_cast<std::uint8_t>(mode[skirts ? 1 : 0]);
+        });
+    }
+    return std::visit(ReadField{file, std::string(name), node}, field.value);
+}
+
+tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::string_view name,
+                                             std::span<const Field> fields) {
+    const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const Field& a, const Field& b) {
+        return editDistance(a.name(), name) < editDistance(b.name(), name);
+    });
+    return planet::badInput(
+        fmt::format("{}: {} is not a setting; the nearest one is {}", place, name, nearest->name()));
+}
+
+std::string tomlText(const Field& field) {
+    return std::visit(FieldText{"\n    ", "\n"}, field.value);
+}
+
+std::string plainText(const Field& field) {
+    if (const Choice* choice = std::get_if<Choice>(&field.value))
+        return std::string(choice->names[*choice->value]);
+    return std::visit(FieldText{" ", " "}, field.value);
+}
+
+void copyValue(const Field& from, const Field& to) {
+    std::visit(
+        [&](const auto& target) {
+            *target.value = *std::get<std::decay_t<decltype(target)>>(from.value).value;
+        },
+        to.value);
+}
+
+}  // namespace worldy

@@ -1,0 +1,25 @@
+// The keys that do what menus do.
+#pragma once
+
+#include <span>
+
+#include "app/window.h"
+#include "ui/docks.h"
+#include "ui/editor_view.h"
+#include "ui/menu_bar.h"
+
+namespace worldy {
+
+// What a key may change at once; the rest it asks for by commands.
+struct ShortcutTargets {
+    const ui::EditorView& view;
+    ui::ViewSettings& settings;
+    ui::Workspace& workspace;
+    ui::MenuState& menu;
+    ui::Commands& commands;
+};
+
+// Nothing while a text field has the keys.
+void obeyShortcuts(std::span<const KeyPress> pressed, const ShortcutTargets& targets);
+
+}  // namespace worldy

@@ -1,0 +1,27 @@
+// The command line that draws what the window shows. Pure functions, any thread.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "app/view_options.h"
+#include "planet/view.h"
+#include "ui/view_settings.h"
+
+namespace worldy {
+
+// One word of a POSIX shell, quoted where it must be.
+std::string shellWord(std::string_view text);
+
+// "LAT,LON,ALT,HEADING,PITCH" as --camera takes it, with the digits that read back as the same numbers.
+std::string textOf(const planet::CameraPose& pose);
+
+// The `worldy shot` line for a view: the camera, and of the settings only those that are not as shot has
+// them. Paths go in as they are given: absolute ones work from any folder. colourImage empty: the one beside
+// the chunk file.
+std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
+                     const PictureSize& size, const ui::ViewSettings& view,
+                     const std::filesystem::path& colourImage);
+
+}  // namespace worldy

@@ -1,0 +1,58 @@
+// The pictures of the planet in the window: what the lod view shows, and what the observer sees of it, side
+// by side or alone. Wants a current GL context; one thread.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "app/input.h"
+#include "app/log.h"
+#include "app/scene.h"
+#include "planet/debug_shapes.h"
+#include "planet/gl/debug_lines.h"
+#include "planet/gl/render_target.h"
+#include "ui/layout.h"
+
+namespace worldy {
+
+struct PixelSize {
+    int width = 1;
+    int height = 1;
+};
+
+struct PlanetPicture {
+    ui::Rect rect{};                                   // in the window; empty: not shown
+    PointerInput pointer;                              // over it, in the last frame
+    planet::View view;                                 // that it was drawn for
+    std::optional<planet::gl::RenderTarget> target{};  // as large as the rectangle, once drawn
+
+    bool shown() const { return rect.width > 0 && rect.height > 0; }
+};
+
+struct Viewport {
+    PlanetPicture main;
+    PlanetPicture observer;
+    std::optional<planet::gl::DebugLines> lines{};
+    bool linesFailed = false;  // told once
+};
+
+void layOut(Viewport& viewport, const ui::Rect& rect, ui::ObserverMode observer);
+
+// Also of a picture that is not shown: the lod view goes on while the observer is alone.
+PixelSize pixelSizeOf(const ui::Rect& rect, float pixelRatio);
+
+struct PictureContent {
+    planet::View view;
+    std::size_t selection = 0;                       // which of the planet's views chose
+    std::span<const planet::gl::ChunkTint> tints{};  // of its chunks
+    planet::Lines hiddenLines{};                     // the ground hides them
+    planet::Lines frontLines{};                      // seen faintly through the ground
+};
+
+// Draws into the picture's target. What fails is told in the log, and the picture stays as it was.
+void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const ui::ViewSettings& settings,
+                 const PictureContent& content, const Log& log);
+
+std::size_t gpuBytes(const Viewport& viewport);
+
+}  // namespace worldy

@@ -1,0 +1,60 @@
+#include "ui/paging_text.h"
+
+#include <gtest/gtest.h>
+
+namespace ui {
+namespace {
+
+TEST(PagingText, aRequestSaysByWhatItIsOverTheTolerance) {
+    EXPECT_EQ(pageInReason(3.1, 2, 0.1, "eps", "tau"), "eps 3.10 > tau 2.00");
+}
+
+TEST(PagingText, aSplitKeptByHysteresisSaysSo) {
+    EXPECT_EQ(pageInReason(1.9, 2, 0.1, "eps", "tau"), "eps 1.90 > 1.80: was split (tau 2.00)");
+}
+
+TEST(PagingText, aRequestThatIsNoLongerNeededSaysSo) {
+    EXPECT_EQ(pageInReason(1.5, 2, 0.1, "eps", "tau"), "eps 1.50: no longer over tau 2.00");
+    EXPECT_EQ(pageInReason(2, 2, 0, "eps", "tau"), "eps 2.00: no longer over tau 2.00");
+}
+
+TEST(PagingText, aPageOutSaysHowLongItIsUnused) {
+    EXPECT_EQ(pageOutReason(12.3), "unused for 12.3 s");
+    EXPECT_EQ(pageOutReason(0.05), "unused for 50 ms");
+}
+
+TEST(PagingText, latenciesKeepThreeDigits) {
+    EXPECT_EQ(latencyText(0), "0 ms");
+    EXPECT_EQ(latencyText(0.00042), "0.42 ms");
+    EXPECT_EQ(latencyText(0.9), "900 ms");
+    EXPECT_EQ(latencyText(0.996), "0.996 s");
+    EXPECT_EQ(latencyText(100), "100 s");
+    EXPECT_EQ(latencyText(250), "4 min 10 s");
+}
+
+TEST(PagingText, aGoodDiskHasNothingToSay) {
+    planet::BadDiskSettings disk;
+    disk.seed = 7;
+    EXPECT_FALSE(isBad(disk));
+    EXPECT_EQ(badDiskText(disk), "");
+}
+
+TEST(PagingText, everyTroubleOfABadDiskIsNamed) {
+    planet::BadDiskSettings disk;
+    disk.latencyMs = 200;
+    EXPECT_TRUE(isBad(disk));
+    EXPECT_EQ(badDiskText(disk), "+200 ms a read");
+    disk.bandwidthMBs = 5;
+    disk.failureRate = 0.1;
+    disk.shuffledOrder = true;
+    EXPECT_EQ(badDiskText(disk), "+200 ms a read, 5 MB/s, 10 % of the reads fail, shuffled order");
+}
+
+TEST(PagingText, eachTroubleAloneMakesADiskBad) {
+    EXPECT_TRUE(isBad({.bandwidthMBs = 1}));
+    EXPECT_TRUE(isBad({.failureRate = 0.01}));
+    EXPECT_TRUE(isBad({.shuffledOrder = true}));
+}
+
+}  // namespace
+}  // namespace ui

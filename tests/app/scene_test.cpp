@@ -1,0 +1,194 @@
+#include "app/scene.h"
+
+#include <gmock/gmock.h>
+
+#include "planet/gl/render_target.h"
+#include "tests/app/session_fixture.h"
+
+namespace worldy {
+namespace {
+
+class SceneTest : public test::SessionTest {
+protected:
+    Scene openSlope(int faceSize = 513) {
+        auto scene =
+            openScene({.chunkFile = bakeTo("slope.chk", {.faceSize = faceSize, .chunkSize = 17})}, settings_);
+        if (!scene) throw std::runtime_error(scene.error().message);
+        return std::move(*scene);
+    }
+    static planet::View viewAt(double altitudeM, double longitudeDeg = 10) {
+        return planet::viewFromPose({.longitudeDeg = longitudeDeg, .altitudeM = altitudeM}, 6'371'000, 1.0,
+                                    160, 120);
+    }
+    std::vector<std::uint8_t> picture(Scene& scene, const planet::View& view, std::size_t selection = 0) {
+        auto target = planet::gl::RenderTarget::create(view.widthPx, view.heightPx);
+        target->bind();
+        drawScene(scene, view, settings_, selection);
+        target->resolve();
+        return target->readRgb();
+    }
+};
+
+TEST_F(SceneTest, everyKnobOfSelectionReachesTheLibrary) {
+    settings_.lod = {.tauPx = 3,
+                     .hysteresis = 0.2,
+                     .maxLevel = 4,
+                     .morph = false,
+                     .morphRange = 0.7,
+                     .frustumCulling = false,
+                     .horizonCulling = false};
+    settings_.seams = {.mode = planet::SeamMode::Stitched,
+                       .depth = planet::SkirtDepth::Fixed,
+                       .skirtFactor = 2,
+                       .skirtDepthM = 77,
+                       .showPairs = false};
+    const planet::LodSettings lod = lodSettingsOf(settings_);
+    EXPECT_EQ(lod.tauPx, 3);
+    EXPECT_EQ(lod.hysteresis, 0.2);
+    EXPECT_EQ(lod.maxLevel, 4);
+    EXPECT_FALSE(lod.morph);
+    EXPECT_EQ(lod.morphRange, 0.7);
+    EXPECT_FALSE(lod.frustumCulling);
+    EXPECT_FALSE(lod.horizonCulling);
+    EXPECT_EQ(lod.seams, planet::SeamMode::Stitched);
+    EXPECT_EQ(lod.skirtDepth, planet::SkirtDepth::Fixed);
+    EXPECT_EQ(lod.skirtFactor, 2);
+    EXPECT_EQ(lod.skirtDepthM, 77);
+    settings_.lod = {};
+    EXPECT_TRUE(lodSettingsOf(settings_).frustumCulling);
+    settings_.overlay.cube = true;
+    EXPECT_FALSE(lodSettingsOf(settings_).frustumCulling);
+    EXPECT_FALSE(lodSettingsOf(settings_).horizonCulling);
+}
+
+TEST_F(SceneTest, everyKnobOfPagingReachesTheLibrary) {
+    settings_.paging = {.budgetMB = 64,
+                        .loaderThreads = 3,
+                        .uploadLimitMs = 1.5,
+                        .badDisk = {.latencyMs = 5, .failureRate = 0.5, .seed = 9}};
+    const planet::PagingSettings paging = pagingSettingsOf(settings_, true);
+    EXPECT_EQ(paging.budgetBytes, 64u << 20);
+    EXPECT_EQ(paging.loaderThreads, 3);
+    EXPECT_EQ(paging.uploadLimitMs, 1.5);
+    EXPECT_TRUE(paging.paused);
+    EXPECT_EQ(paging.badDisk, settings_.paging.badDisk);
+}
+
+TEST_F(SceneTest, everyKnobOfDrawingReachesTheLibraryAndHeightsAreExaggerated) {
+    Scene scene = openSlope();
+    settings_.surface.exaggeration = 3;
+    ASSERT_TRUE(applyLiveSettings(scene, settings_));
+    settings_.surface.surface = planet::gl::SurfaceColour::HeightRamp;
+    settings_.surface.imageOpacity = 0.4;
+    settings_.surface.ramp = {{100, {1, 0, 0}}, {200, {0, 1, 0}}};
+    settings_.surface.sea = false;
+    settings_.surface.seaLevelM = 50;
+    settings_.surface.lighting = false;
+    settings_.surface.detail = false;
+    settings_.surface.sunFollows = false;
+    settings_.surface.sunLatitudeDeg = 90;
+    settings_.overlay.wireframe = true;
+    settings_.overlay.outlines = true;
+    settings_.overlay.skirtPaint = planet::gl::SkirtPaint::LoudAlone;
+    const planet::gl::RenderSettings render = renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree());
+    EXPECT_EQ(render.surface, planet::gl::SurfaceColour::HeightRamp);
+    EXPECT_EQ(render.imageOpacity, 0.4);
+    ASSERT_EQ(render.ramp.size(), 2u);
+    EXPECT_EQ(render.ramp[1].heightM, 600);
+    EXPECT_EQ(render.ramp[1].colour, glm::vec3(0, 1, 0));
+    EXPECT_FALSE(render.sea);
+    EXPECT_EQ(render.seaLevelM, 150);
+    EXPECT_FALSE(render.lighting);
+    EXPECT_FALSE(render.detail);
+    EXPECT_TRUE(render.atmosphere);
+    EXPECT_NEAR(render.sunDirection.z, 1, 1e-9);
+    EXPECT_TRUE(render.wireframe);
+    EXPECT_TRUE(render.outlines);
+    EXPECT_EQ(render.skirtPaint, planet::gl::SkirtPaint::LoudAlone);
+    EXPECT_FALSE(render.stitched);
+    settings_.seams.mode = planet::SeamMode::Stitched;
+    EXPECT_TRUE(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).stitched);
+    settings_.overlay.cube = true;
+    EXPECT_FALSE(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).atmosphere);
+}
+
+TEST_F(SceneTest, aNewBudgetTakesEffectAndThePictureStays) {
+    Scene scene = openSlope(1025);
+    const planet::View view = viewAt(300'000);
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    const std::vector<std::uint8_t> before = picture(scene, view);
+    const std::uint32_t slots = scene.planet->slotCapacity();
+    settings_.paging.budgetMB = 16;
+    ASSERT_TRUE(applyLiveSettings(scene, settings_));
+    EXPECT_LT(scene.planet->slotCapacity(), slots);
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    EXPECT_EQ(picture(scene, view), before);
+}
+
+TEST_F(SceneTest, whatIsRefusedIsToldOnceAndTheOldGoesOn) {
+    Scene scene = openSlope();
+    settings_.paging.loaderThreads = 0;
+    EXPECT_FALSE(applyLiveSettings(scene, settings_));
+    EXPECT_TRUE(applyLiveSettings(scene, settings_));
+    EXPECT_EQ(scene.planet->pagingSettings().loaderThreads, 1);
+    settings_.paging.loaderThreads = 2;
+    EXPECT_TRUE(applyLiveSettings(scene, settings_));
+    EXPECT_EQ(scene.planet->pagingSettings().loaderThreads, 2);
+    settings_.paging.loaderThreads = 0;
+    EXPECT_FALSE(applyLiveSettings(scene, settings_));
+}
+
+TEST_F(SceneTest, pausingReachesThePlanet) {
+    Scene scene = openSlope();
+    ASSERT_TRUE(applyLiveSettings(scene, settings_, true));
+    EXPECT_TRUE(scene.planet->pagingSettings().paused);
+    ASSERT_TRUE(applyLiveSettings(scene, settings_, false));
+    EXPECT_FALSE(scene.planet->pagingSettings().paused);
+}
+
+TEST_F(SceneTest, exaggerationChangesThePictureAndComesBack) {
+    Scene scene = openSlope();
+    const planet::View view = viewAt(2000);
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    const double heightM = groundBelow(scene, view.eyeM).heightM;
+    const double quantumM = scene.planet->shape().quantumM;
+    ASSERT_GT(heightM, 1);
+    settings_.surface.exaggeration = 4;
+    ASSERT_TRUE(applyLiveSettings(scene, settings_));
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    EXPECT_EQ(scene.planet->shape().quantumM, 4 * quantumM);
+    EXPECT_GT(groundBelow(scene, view.eyeM).heightM, 3.9 * heightM);
+    settings_.surface.exaggeration = 1;
+    ASSERT_TRUE(applyLiveSettings(scene, settings_));
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    EXPECT_NEAR(groundBelow(scene, view.eyeM).heightM, heightM, 1e-6);
+}
+
+TEST_F(SceneTest, anObserverHasASelectionOfItsOwn) {
+    Scene scene = openSlope();
+    const planet::View near = viewAt(300'000);
+    const planet::View far = viewAt(2e7, 120);
+    stepScene(scene, near, far, settings_);
+    EXPECT_EQ(scene.planet->viewCount(), 2u);
+    EXPECT_EQ(scene.planet->lodView(1).eyeM, far.eyeM);
+    stepScene(scene, near, settings_);
+    EXPECT_EQ(scene.planet->viewCount(), 1u);
+}
+
+TEST_F(SceneTest, whatASplitViewportDrawsIsCountedTogether) {
+    Scene scene = openSlope();
+    const planet::View view = viewAt(1e6);
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    picture(scene, view);
+    const std::uint32_t once = statsOf(scene).render.chunks;
+    ASSERT_GT(once, 0u);
+    picture(scene, view);
+    EXPECT_EQ(statsOf(scene).render.chunks, 2 * once);
+    stepScene(scene, view, settings_);
+    picture(scene, view);
+    EXPECT_EQ(statsOf(scene).render.chunks, once);
+    EXPECT_GT(statsOf(scene).gpuMemory.total(), 0u);
+}
+
+}  // namespace
+}  // namespace worldy

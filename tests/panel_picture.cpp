@@ -1,0 +1,85 @@
+// Draws one panel into a PNG, without a window: panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light]
+// To look at what a change does to a panel. PANEL is a key of ui/panel_list.h, as "quadtree".
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <cstdio>
+#include <string_view>
+
+#include "app/picture.h"
+#include "planet/gl/offscreen_context.h"
+#include "planet/gl/render_target.h"
+#include "tests/editor_fixture.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace {
+
+using namespace worldy;
+
+const ui::PanelInfo* panelNamed(std::string_view key) {
+    for (const ui::PanelInfo& info : ui::panelInfos) {
+        if (info.key == key) return &info;
+    }
+    return nullptr;
+}
+
+void drawFrames(const ui::EditorView& view, const ui::PanelInfo& panel, int width, int height) {
+    ui::PanelStates states;
+    if (!view.presets.empty()) states.presets.selected = view.presets.front().name;
+    ui::ViewSettings settings;
+    ui::Commands commands;
+    ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+    // Some frames until what sizes itself has done so.
+    for (int frame = 0; frame < 4; ++frame) {
+        ImGui::GetIO().DeltaTime = 1.0f / 60;
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui::NewFrame();
+        ui::beginFixedWindow("panel", {0, 0, static_cast<float>(width), static_cast<float>(height)});
+        ui::drawPanel(panel.id, view, states, settings, commands);
+        ImGui::End();
+        ImGui::Render();
+    }
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+int run(int argumentCount, char** arguments) {
+    const ui::PanelInfo* panel = argumentCount > 4 ? panelNamed(arguments[2]) : nullptr;
+    int width = 0, height = 0;
+    if (!panel || std::sscanf(arguments[3], "%dx%d", &width, &height) != 2) {
+        std::fputs("panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light]\n", stderr);
+        return 2;
+    }
+    auto planet = planet::Planet::open(arguments[1], {});
+    auto context = planet::gl::OffscreenContext::create();
+    auto target = context ? planet::gl::RenderTarget::create(width, height)
+                          : planet::Result<planet::gl::RenderTarget>(tl::unexpected(context.error()));
+    if (!planet || !target) {
+        std::fputs((!planet ? planet.error() : target.error()).message.c_str(), stderr);
+        return 2;
+    }
+    test::EditorFixture fixture(std::move(*planet));
+    fixture.fly({}, 120);
+    fixture.log_.push_back({ui::LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk, 7 levels"});
+    fixture.log_.push_back(
+        {ui::LogLevel::Error, "14:03:25", "earth.chk: block of z_pos/3/1/2: checksum is wrong"});
+
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    const bool light = argumentCount > 5 && std::string_view(arguments[5]) == "light";
+    ui::applyTheme(light ? ui::Theme::Light : ui::Theme::Dark, 1);
+    target->bind();
+    glViewport(0, 0, width, height);
+    drawFrames(fixture.view(), *panel, width, height);
+    const auto written = writePicture({width, height, target->readRgb()}, arguments[4]);
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+    return written ? 0 : 2;
+}
+
+}  // namespace
+
+int main(int argumentCount, char** arguments) {
+    return run(argumentCount, arguments);
+}

@@ -1,0 +1,109 @@
+// Files that are baked, opened and dropped while a planet is shown.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/program/editor_window.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+class BakeWindowTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
+    }
+
+    std::vector<std::filesystem::path> bakes() const {
+        std::vector<std::filesystem::path> files;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "cache" / "worldy"))
+            files.push_back(entry.path());
+        return files;
+    }
+
+    const TemporaryFolder folder;
+};
+
+TEST_F(BakeWindowTest, ABakeFromThePanelTakesThePlanetsPlaceAndACancelledOneChangesNothing) {
+    writeHills(folder);
+    // All of the Bake panel is in sight where nothing is below it.
+    writeWindowSettings(folder, "[panels]\npaging_shown = false\nframe_shown = false\nlog_shown = false\n");
+    const Ran ran = runInWindow(folder, "hills.pgm", R"sh(
+start=$(counter camera); tab Camera; click camera/Andes; tab LOD; slide "lod/Tolerance τ" 0.2; settle
+first=$(counter file); size=$(counter chunk_size); camera=$(counter camera)
+key ctrl+shift+c; expect times_said 'Copied: ' 1
+[ "$camera" != "$start" ] || echo "the camera is where it was at first"
+[ "$size" != 17 ] || echo "the first bake has the second one's chunk size"
+
+tab Bake; choose "bake/Chunk size" "17 vertices"; click bake/Bake
+expect counts chunk_size -eq 17; settle
+[ "$(counter camera)" = "$camera" ] || echo "the camera was at $camera, is at $(counter camera)"
+key ctrl+shift+c; expect times_said 'Copied: ' 2
+second=$(counter file); [ "$second" != "$first" ] || echo "it is the same file"
+cp "$second" second.chk
+
+click "bake/Show it"; expect counts chunk_size -eq $size
+click "bake/Show it"; expect counts chunk_size -eq 17
+click bake/Dismiss; expect hidden "bake/Show it"
+
+# Another size is offered by the LOD panel too.
+choose "lod/Chunk size" "65 x 65"; click lod/Bake; expect counts chunk_size -eq 65; settle
+third=$(counter file); plain=$(viewport)
+click bake/Dismiss; expect hidden bake/Dismiss
+
+# Large enough to be cancelled on its way.
+click "bake/Face size"; reach "bake/Face size: 129 samples" "bake/Face size: 8193 samples"
+click "bake/Face size: 8193 samples"; click bake/Bake; expect counts baking -eq 1 || grep -a bake/ items.txt
+click bake/Cancel; expect counts baking -eq 0; expect says 'The bake was cancelled'
+[ "$(counter file)" = "$third" ] || echo "a cancelled bake leaves $(counter file)"
+[ "$(counter camera)" = "$camera" ] || echo "a cancelled bake leaves the camera at $(counter camera)"
+settle; same "$plain" || echo "a cancelled bake changes the picture"
+hidden "bake/Show it" || echo "a cancelled bake is there to compare"
+
+mv hills.pgm gone.pgm; click bake/Bake; expect says 'hills.pgm: no such source'
+[ "$(counter file)" = "$third" ] || echo "a bake without a source leaves $(counter file)"
+counts drawn -gt 0 || echo "a bake without a source leaves nothing"
+)sh");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+    // The first at the start and two more: neither the cancelled one nor half a file.
+    EXPECT_EQ(bakes().size(), 3u);
+    const Ran told = runWorldy(folder, "info second.chk --json");
+    ASSERT_EQ(told.exitCode, 0) << told.errors;
+    EXPECT_EQ(nlohmann::json::parse(told.output)["chunk_size"], 17);
+
+    const auto cameraAfter = [&](std::size_t from) {
+        const std::size_t at = ran.errors.find("--camera=", ran.errors.find("Copied: ", from));
+        return ran.errors.substr(at, ran.errors.find(' ', at) - at);
+    };
+    EXPECT_EQ(cameraAfter(0), cameraAfter(ran.errors.find("Copied: ") + 1));
+}
+
+TEST_F(BakeWindowTest, ADroppedFileIsOpenedAndABrokenOneLeavesThePlanet) {
+    bakePlanet(folder);
+    ASSERT_EQ(runWorldy(folder, "bake hills.pgm -o other.chk --chunk-size 33 --radius 100000").exitCode, 0);
+    std::ofstream(folder.path() / "broken.chk") << "this is no chunk file";
+    std::ofstream(folder.path() / "broken.png") << "nor is this a picture";
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+plain=$(viewport)
+hidden log/Filter || echo "the log is in front already"
+for file in broken.chk broken.png; do
+    ')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/$file" || echo "the window does not take $file"
+    expect says "error: .*$file"
+    [ "$(counter file)" = planet.chk ] || echo "$file leaves $(counter file)"
+done
+expect shown log/Filter; tab Paging; settle
+same "$plain" || echo "broken files change the picture"
+')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/other.chk" || echo "the window does not take other.chk"
+expect counts chunk_size -eq 33; [ "$(counter file)" = "$PWD/other.chk" ] || echo "open is $(counter file)"
+settle; differs "$plain" || echo "the picture is the old one"
+click menu/File && click "menu/Open recent" && click "menu item/$PWD/other.chk"; frames
+key ctrl+o; frames; xdotool type --delay 20 "$PWD/planet.chk"; frames; hold Return; expect counts chunk_size -eq 17
+)sh");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+}
+
+}  // namespace
+}  // namespace worldy

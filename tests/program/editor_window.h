@@ -1,0 +1,116 @@
+// Worldy in a window under a display of its own, driven like a user would: shell functions to find controls
+// by their names, click, slide, look and count.
+#pragma once
+
+#include "tests/program/run_program.h"
+
+namespace worldy {
+
+inline bool canOpenWindows() {
+    return std::system("command -v Xvfb xdotool import convert compare >/dev/null 2>&1") == 0;
+}
+
+// What the steps may use. Names are those of the item map: "tab/LOD", "lod/Tolerance τ", "viewport/picture".
+inline constexpr const char* windowFunctions = R"sh(
+shot() { import -window root "$1"; }
+# Far longer than it takes: under a sanitizer all is ten times as slow. Once something has not come, what
+# rests on it will not either.
+patience=30
+until_true() {
+    local end=$((SECONDS + patience))
+    while [ $SECONDS -lt $end ]; do
+        "$@" && return 0
+        kill -0 $worldy 2>/dev/null || { echo "worldy has ended: $*"; return 1; }
+        sleep 0.05
+    done
+    patience=2
+    return 1
+}
+expect() { until_true "$@" || { echo "not so: $*"; return 1; }; }
+says() { grep -q -- "$1" .stderr; }
+times_said() { [ "$(grep -c -- "$1" .stderr)" -eq "$2" ]; }
+place() { awk -F'\t' -v n="$1" '$1 == n {print $2, $3, $4, $5; exit}' items.txt 2>/dev/null; }
+shown() { [ -n "$(place "$1")" ]; }
+hidden() { [ -z "$(place "$1")" ]; }
+counter() { awk -F'\t' -v n="counter/$1" '$1 == n {print $2; exit}' items.txt 2>/dev/null; }
+# counts drawn -gt 100
+counts() { [ "$(counter "$1")" "$2" "$3" ]; }
+# Waits until all that was done by now has come to be seen: frames that began after it have ended.
+frames() { set -- $(($(counter frame) + ${1:-3})); until_true counts frame -ge $1; }
+at() { set -- $(place "$1") $2 $3; awk -v x=$1 -v y=$2 -v w=$3 -v h=$4 -v a=$5 -v b=$6 'BEGIN {printf "%d %d", x + a * w, y + b * h}'; }
+# Where it comes to rest: panels may still be making room.
+at_rest() { local was="$(place "$1")"; frames && [ "$was" = "$(place "$1")" ]; }
+point() {
+    until_true shown "$1" || { echo "there is no $1"; return 1; }
+    xdotool mousemove $(at "$1" ${2:-0.5} ${3:-0.5})
+    at_rest "$1" || { until_true at_rest "$1"; xdotool mousemove $(at "$1" ${2:-0.5} ${3:-0.5}); frames; }
+}
+press() { xdotool mousedown ${1:-1}; frames; }
+release() { xdotool mouseup ${1:-1}; frames; }
+click() { point "$1" $2 $3 && press && release; }
+# Sets a slider to a share of its way.
+slide() { point "$1" && press && xdotool mousemove $(at "$1" $2 0.5) && frames && release; }
+# choose lod/Seams none
+choose() { click "$1" && click "$1: $2"; }
+# Shows a panel by its tab.
+tab() { click "tab/$1"; }
+# Turns the wheel over one thing until another is in sight: reach lod/Hysteresis "camera/Picture"
+reach() {
+    point "$1" 0.5 0.5 || return 1
+    for i in $(seq 60); do
+        # Once more than until its first pixels are seen.
+        shown "$2" && { xdotool click ${3:-5}; frames; return 0; }
+        xdotool click ${3:-5}; frames
+    done
+    echo "no way to $2"; return 1
+}
+key() { xdotool key --clearmodifiers "$@"; frames; }
+# ImGui sees only keys that are down when a frame begins.
+hold() { xdotool keydown "$1"; frames; xdotool keyup "$1"; frames; }
+# Types in place of what a field holds, ends with Return.
+type_over() { xdotool keydown ctrl; hold a; xdotool keyup ctrl; xdotool type --delay 20 -- "$1"; frames; hold Return; }
+enter() { click "$1" && type_over "$2"; }
+# A middle part of a picture, without what is written at its borders.
+picture() { set -- $(place "$1"); import -window root -crop "$(($3 * 6 / 10))x$(($4 * 4 / 10))+$(($1 + $3 * 2 / 10))+$(($2 + $4 * 3 / 10))" +repage png:- | convert png:- rgb:- | md5sum; }
+viewport() { picture viewport/picture; }
+differs() { [ "$(viewport)" != "$1" ]; }
+same() { [ "$(viewport)" = "$1" ]; }
+loaded() { counts queued -eq 0 && counts loading -eq 0; }
+still() { set -- "$(viewport)"; frames 4; [ "$1" = "$(viewport)" ]; }
+settled() { loaded && still; }
+settle() { frames 4; until_true settled || echo 'the planet does not settle'; }
+)sh";
+
+// Starts the window, waits until the planet is there, runs the steps, and quits by Ctrl+Q. What the steps
+// print is the output: nothing, where all is well.
+inline Ran runInWindow(const TemporaryFolder& folder, const std::string& arguments, const std::string& steps,
+                       const std::string& screen = "1280x800") {
+    std::ofstream(folder.path() / "steps.sh")
+        << windowFunctions << "'" WORLDY_BINARY "' --item-map items.txt " << arguments << " &\nworldy=$!\n"
+        << "until_true shown viewport/picture || echo 'the planet is not shown'\n"
+        // Off the planet, where it would light a chunk.
+        << "xdotool mousemove 600 5\nsettle\n"
+        << steps << "\nxdotool key --clearmodifiers ctrl+q\nwait $worldy\n";
+    // The server chooses a free display itself: others may be starting at the same time.
+    std::ofstream(folder.path() / "display.sh")
+        << "rm -f items.txt display.txt\n"
+        << "Xvfb -displayfd 3 -screen 0 " << screen
+        << "x24 -nolisten tcp 3>display.txt 2>/dev/null &\nserver=$!\n"
+        << "for i in $(seq 200); do [ -s display.txt ] && break; sleep 0.1; done\n"
+        << "DISPLAY=:$(cat display.txt) bash steps.sh\ncode=$?\nkill $server\nexit $code\n";
+    // Graphics drivers are unloaded before a leak checker looks, so it takes what they keep for leaks of
+    // ours.
+    return runShell(folder, "ASAN_OPTIONS=detect_leaks=0 bash display.sh");
+}
+
+inline void writeWindowSettings(const TemporaryFolder& folder, const std::string& text) {
+    const std::filesystem::path file = folder.path() / "config" / "worldy" / "settings.toml";
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+}
+
+inline std::string settingsOf(const TemporaryFolder& folder) {
+    return contentOf(folder.path() / "config" / "worldy" / "settings.toml");
+}
+
+}  // namespace worldy

@@ -1,0 +1,298 @@
+// Each panel of the window, driven by its own controls: what they change is seen in the picture, in what is
+// counted, or in the settings that are kept.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "app/picture.h"
+#include "app/screenshot.h"
+#include "tests/program/editor_window.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+class PanelsWindowTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
+        bakePlanet(folder);
+    }
+
+    // Steps print what is wrong.
+    Ran drive(const std::string& steps) {
+        Ran ran = runInWindow(folder, "planet.chk", steps);
+        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+        EXPECT_EQ(ran.output, "") << ran.errors;
+        return ran;
+    }
+
+    const TemporaryFolder folder;
+};
+
+TEST_F(PanelsWindowTest, EveryPanelOpensAndHidesByItsKeyAndFromTheViewMenu) {
+    drive(R"sh(
+hidden tab/Presets || echo "Presets is shown at first"
+key ctrl+p; expect shown tab/Presets
+while read -r title keys item; do
+    tab $title; expect shown "$item"
+    key $keys; expect hidden tab/$title; expect hidden "$item"
+    key $keys; expect shown tab/$title; expect shown "$item"
+done <<'END'
+LOD ctrl+1 lod/Hysteresis
+Quadtree ctrl+2 quadtree/Net
+Paging ctrl+3 paging/Budget
+Overlay ctrl+4 overlay/Colour by
+Chunk ctrl+5 chunk/Id
+Seams ctrl+6 seams/Seams
+Surface ctrl+7 surface/Colour
+Bake ctrl+8 bake/Source
+Frame ctrl+9 frame/Pause
+Camera ctrl+0 camera/Mode
+Presets ctrl+p presets/Name
+Log ctrl+l log/Filter
+END
+tab LOD
+key ctrl+6; expect shown seams/Seams
+key ctrl+6; expect hidden tab/Seams
+for title in Seams Frame Chunk; do
+    shown tab/$title && { click menu/View && click "menu item/$title" && expect hidden tab/$title; }
+    click menu/View && click "menu item/$title" && expect shown tab/$title
+done
+expect shown seams/Seams
+click menu/View; expect shown "menu item/Log"; key Escape; expect hidden "menu item/Log"
+key F11; expect hidden tab/LOD; hidden tab/Paging || echo "F11 leaves Paging"
+key F11; expect shown tab/LOD
+)sh");
+}
+
+TEST_F(PanelsWindowTest, LodKnobsChangeWhatIsDrawnAndUndoTakesThemBack) {
+    drive(R"sh(
+tau="lod/Tolerance τ"
+slide "$tau" 0; expect counts triangles -gt 20000; settle
+fine=$(counter triangles); picture=$(viewport)
+slide "$tau" 1; expect counts triangles -lt 5000; expect differs "$picture"
+[ "$(counter deepest)" = 0 ] || echo "at the coarsest, level $(counter deepest) is drawn"
+key ctrl+z; expect counts triangles -eq $fine; expect same "$picture"
+key ctrl+shift+z; expect counts triangles -lt 5000
+key ctrl+z; expect counts triangles -eq $fine
+
+slide "lod/Largest level" 0; expect counts deepest -eq 0
+point "lod/Largest level"; xdotool click 3; frames; click lod/reset; expect counts triangles -eq $fine
+drawn=$(counter drawn)
+click "lod/Horizon culling"; expect counts drawn -gt $drawn; key ctrl+z; expect counts drawn -eq $drawn
+
+click "lod/Freeze (F2)"; near=$(counter camera)
+point viewport/picture; for i in 1 2 3 4 5 6; do xdotool click 4; done; frames 20
+[ "$(counter camera)" != "$near" ] || echo "the wheel does not move the camera"
+counts drawn -eq $drawn || echo "frozen, but $(counter drawn) are drawn"
+click "lod/Freeze (F2)"; settle; [ $(counter drawn) -ne $drawn ] || echo "it stays frozen"
+
+point "$tau"; xdotool keydown ctrl; frames; xdotool click 1; frames; xdotool keyup ctrl; frames
+type_over 5.25
+)sh");
+    EXPECT_THAT(settingsOf(folder), HasSubstr("tau_px = 5.25"));
+}
+
+TEST_F(PanelsWindowTest, SeamsChangeSkirts) {
+    drive(R"sh(
+slide "lod/Tolerance τ" 0.2; settle
+skirts=$(counter triangles)
+tab Seams
+choose seams/Seams none; expect counts triangles -lt $skirts; none=$(counter triangles)
+choose seams/Seams stitched; settle
+counts triangles -lt $skirts || echo "stitched, there are $(counter triangles) triangles, with skirts $skirts"
+choose seams/Seams skirts; expect counts triangles -eq $skirts; settle
+plain=$(viewport)
+click "seams/Mark pairs in the viewport"; expect differs "$plain"
+click "seams/Mark pairs in the viewport"; expect same "$plain"
+tab Overlay; choose overlay/Skirts "Loud alone"; expect differs "$plain"; loud=$(viewport)
+tab Seams; choose "seams/Skirt depth" fixed; slide seams/Depth 1; expect differs "$loud"
+)sh");
+}
+
+TEST_F(PanelsWindowTest, AClickInTheQuadtreeSelectsAndTheChunkPanelTakesAnId) {
+    drive(R"sh(
+[ "$(counter selected)" = none ] || echo "$(counter selected) is selected at first"
+is_selected() { [ "$(counter selected)" = "$1" ]; }
+# The net is four faces wide and three high, as large as fits: the middle of +x is at 3/8, 1/2.
+set -- $(place quadtree/Net)
+share=$(awk -v w=$3 -v h=$4 'BEGIN {side = w / 4 < h / 3 ? w / 4 : h / 3; print 0.5 - side / 2 / w}')
+click quadtree/Net $share 0.5
+case "$(counter selected)" in x_pos/*) ;; *) echo "the net selects $(counter selected)";; esac
+tab Chunk; enter chunk/Id z_pos/1/1/0; expect is_selected z_pos/1/1/0
+enter chunk/Id z_pos/9/1/0; frames; is_selected z_pos/1/1/0 || echo "a wrong id selects $(counter selected)"
+click chunk/Parent; expect is_selected z_pos/0/0/0
+before=$(counter camera); click "chunk/Look at"; frames
+[ "$(counter camera)" != "$before" ] || echo "Look at does not move the camera"
+case "$(counter camera)" in 90,* | 89.*) ;; *) echo "Look at leads to $(counter camera)";; esac
+key Escape; expect is_selected none
+settle; click viewport/picture; expect is_selected z_pos/0/0/0
+)sh");
+}
+
+TEST_F(PanelsWindowTest, PagingDropsHoldsAndFailsAsItIsTold) {
+    // All of the panel is in sight.
+    writeWindowSettings(folder, "[window]\nbottom_height = 400\n");
+    drive(R"sh(
+slide "lod/Tolerance τ" 0; settle
+all=$(counter resident); requested=$(counter requested); triangles=$(counter triangles)
+[ $all -gt 100 ] || echo "$all chunks are resident"
+click "paging/Drop all"; expect counts requested -gt $requested; settle
+counts triangles -eq $triangles || echo "$(counter triangles) triangles come back, not $triangles"
+
+click paging/Pause; click "paging/Drop all"
+expect counts resident -eq 6; expect counts queued -gt 0
+held=$(counter queued); frames 10
+counts resident -eq 6 && counts queued -eq $held || echo "paused, but it loads"
+loaded=$(counter loaded)
+click "paging/Load one"; expect counts loaded -eq $((loaded + 1))
+click paging/Pause; expect counts triangles -eq $triangles
+
+slide paging/Failures 1
+click "paging/Drop all"; expect counts failed -gt 0; settle
+counts resident -eq 6 || echo "on a disk that fails, $(counter resident) chunks are resident"
+expect says 'read failed on purpose'
+click paging/Off; expect hidden paging/Off; click "paging/Retry failed"; expect counts triangles -eq $triangles
+)sh");
+}
+
+TEST_F(PanelsWindowTest, OverlayAndSurfaceChangeThePictureAndBack) {
+    drive(R"sh(
+plain=$(viewport)
+tab Overlay
+choose "overlay/Colour by" Level; expect differs "$plain"; tinted=$(viewport)
+choose overlay/Labels Level; expect differs "$tinted"
+choose overlay/Labels None; expect same "$tinted"
+slide overlay/Opacity 0.3; expect differs "$tinted"; key ctrl+z
+choose "overlay/Colour by" delta_c; expect differs "$tinted"
+choose "overlay/Colour by" Nothing; expect same "$plain"
+for box in Outlines Bounds Wireframe; do
+    click overlay/$box; expect differs "$plain"; click overlay/$box; expect same "$plain"
+done
+
+tab Surface
+slide "surface/Sea level" 0.55; expect differs "$plain"
+point "surface/Sea level"; xdotool click 3; frames; click surface/reset; expect same "$plain"
+click surface/Grey; choose surface/Colour "height ramp"; expect differs "$plain"; grey=$(viewport)
+click surface/Hypsometric; expect differs "$grey"
+click surface/Built-in; choose surface/Colour image; expect same "$plain"
+click surface/Lighting; expect differs "$plain"; click surface/Lighting; expect same "$plain"
+click "surface/Sun follows"; expect differs "$plain"; click "surface/Sun follows"; expect same "$plain"
+slide surface/Exaggeration 0.7; expect differs "$plain"
+)sh");
+    const std::string settings = settingsOf(folder);
+    const std::size_t at = settings.find("exaggeration = ");
+    ASSERT_NE(at, std::string::npos) << settings;
+    EXPECT_GT(std::strtod(settings.c_str() + at + 15, nullptr), 4);
+}
+
+TEST_F(PanelsWindowTest, CameraFrameAndLogDoAsTheyAreTold) {
+    drive(R"sh(
+tab Camera; start=$(counter camera)
+# A pose that was kept comes back but for rounding.
+rounded() { echo "$1" | tr , '\n' | xargs printf '%.3f '; }
+is_at() { [ "$(rounded "$(counter camera)")" = "$(rounded "$1")" ]; }
+click camera/Himalaya; frames; place=$(counter camera)
+[ "$place" != "$start" ] || echo "a bookmark does not move the camera"
+enter camera/Name "A place"; expect shown "camera/A place"
+click camera/Andes; frames; ! is_at "$place" || echo "another bookmark does not move the camera"
+click "camera/A place"; expect is_at "$place"
+click camera/Reset; expect is_at "$start"
+reach camera/Mode camera/Picture
+choose camera/Picture split; expect shown observer/picture; settle
+[ "$(picture observer/picture)" != "$(viewport)" ] || echo "the observer sees the same"
+observed=$(picture observer/picture)
+click camera/Frustum; frames; [ "$(picture observer/picture)" != "$observed" ] || echo "no frustum is drawn"
+choose camera/Picture off; expect hidden observer/picture
+
+# What is typed goes into the field that is active: none now.
+tab Frame; click frame/Pause; before=$(counter camera)
+xdotool keydown w; frames 6
+[ "$(counter camera)" = "$before" ] || echo "paused, the camera moves"
+click frame/Step; stepped=$(counter camera)
+[ "$stepped" != "$before" ] || echo "a step does not move the camera"
+frames 6; [ "$(counter camera)" = "$stepped" ] || echo "after a step it goes on"
+xdotool keyup w; frames; click frame/Pause
+xdotool keydown w; frames 6; xdotool keyup w; [ "$(counter camera)" != "$stepped" ] || echo "it stays paused"
+
+tab Log; expect shown "log/line 1"
+enter log/Filter "no line holds this"; expect hidden "log/line 0"; hidden "log/line 1" || echo "a line passes"
+enter log/Filter planet.chk; expect shown "log/line 1"
+)sh");
+    EXPECT_THAT(contentOf(folder.path() / "config" / "worldy" / "bookmarks.toml"), HasSubstr("A place"));
+}
+
+TEST_F(PanelsWindowTest, APresetBringsSettingsBack) {
+    drive(R"sh(
+slide "lod/Tolerance τ" 0; expect counts triangles -gt 20000; settle; fine=$(counter triangles)
+key ctrl+p; enter presets/Name "My own"; expect shown "presets/My own"; expect says 'Preset My own saved'
+tab LOD; slide "lod/Tolerance τ" 1; expect counts triangles -lt 5000
+tab Presets; click "presets/My own"; click presets/Load; expect counts triangles -eq $fine
+key ctrl+z; expect counts triangles -lt 5000
+click presets/Load; expect counts triangles -eq $fine
+click "presets/Reset everything"; expect counts triangles -lt 10000
+)sh");
+    EXPECT_THAT(contentOf(folder.path() / "config" / "worldy" / "presets" / "My own.toml"),
+                HasSubstr("tau_px = 0.1"));
+}
+
+double meanDifference(const Picture& a, const Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
+    return sum / static_cast<double>(a.rgb.size());
+}
+
+std::vector<std::filesystem::path> screenshotsIn(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().filename().string().starts_with("worldy 2")) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+        return std::filesystem::last_write_time(a) < std::filesystem::last_write_time(b);
+    });
+    return files;
+}
+
+TEST_F(PanelsWindowTest, TheCopiedLineDrawsTheScreenshotsPicture) {
+    const Ran ran = drive(R"sh(
+slide "lod/Tolerance τ" 0; tab Surface; slide surface/Exaggeration 0.6
+tab Camera; click "camera/Grand Canyon"; settle
+key F12; expect times_said 'Screenshot: ' 1
+key shift+F12; expect times_said 'Screenshot: ' 2
+key ctrl+shift+c; expect says 'Copied: worldy shot '
+)sh");
+    const std::vector<std::filesystem::path> files = screenshotsIn(folder.path());
+    ASSERT_EQ(files.size(), 2u) << ran.errors;
+    const planet::Result<Picture> picture = readPicture(files[0]);
+    const planet::Result<Picture> window = readPicture(files[1]);
+    ASSERT_TRUE(picture && window);
+    EXPECT_EQ(window->width, 1280);
+    EXPECT_EQ(window->height, 800);
+    EXPECT_LT(picture->width, 1000);
+
+    const std::size_t at = ran.errors.find("Copied: worldy ") + 15;
+    const std::string line = ran.errors.substr(at, ran.errors.find('\n', at) - at);
+    const planet::Result<ScreenshotNote> note = readScreenshotNote(files[0]);
+    ASSERT_TRUE(note) << note.error().message;
+    EXPECT_EQ(note->shotLine, "worldy " + line);
+    EXPECT_THAT(note->settings, HasSubstr("tau_px = 0.1"));
+    EXPECT_EQ(note->shotLine.find("--camera=20,10,"), std::string::npos);
+
+    const Ran shot = runWorldy(folder, line + " --samples 1");
+    ASSERT_EQ(shot.exitCode, 0) << shot.errors;
+    const planet::Result<Picture> same = readPicture(folder.path() / "shot.png");
+    ASSERT_TRUE(same) << same.error().message;
+    ASSERT_EQ(same->rgb.size(), picture->rgb.size());
+    EXPECT_LT(meanDifference(*picture, *same), 0.2);
+
+    // And other settings draw another one.
+    ASSERT_EQ(runWorldy(folder, line + " --samples 1 --set surface.exaggeration=1").exitCode, 0);
+    EXPECT_GT(meanDifference(*picture, *readPicture(folder.path() / "shot.png")), 1);
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,124 @@
+// What panels, menus and keys ask the application to do. They append; the application obeys after all panels
+// have been drawn (app/commands.cpp has one function a command).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "planet/bake.h"
+#include "planet/chunk_id.h"
+#include "planet/height_source.h"
+#include "planet/view.h"
+#include "ui/view_settings.h"
+
+namespace ui {
+
+// Chunks.
+struct HoverChunk {  // for this frame
+    planet::ChunkId id;
+};
+struct SelectChunk {
+    std::optional<planet::ChunkId> id;  // none: nothing is selected any more
+};
+struct LookAtChunk {  // moves the camera to where the chunk is drawn, selected or not
+    planet::ChunkId id;
+};
+
+// Cameras.
+struct FreezeLod {
+    bool frozen = false;
+};
+struct MoveCamera {
+    planet::CameraPose pose;
+};
+struct ResetCamera {};
+struct KeepCameraAsStart {};
+struct AddBookmark {  // of the camera as it is; replaces one of the same name
+    std::string name;
+};
+struct RemoveBookmark {
+    std::string name;
+};
+struct SetSpeedFactor {
+    double factor = 1;
+};
+struct StartFlight {  // follows it from its beginning
+    std::filesystem::path file;
+};
+struct MoveFlight {  // to a time, seconds
+    double timeS = 0;
+};
+struct PauseFlight {
+    bool paused = false;
+};
+
+// Paging.
+struct PausePaging {
+    bool paused = false;
+};
+struct LoadOne {};
+struct DropAll {};
+struct RetryFailed {};
+
+// Frames.
+struct PauseFrames {  // nothing moves, is chosen or loaded but by StepFrame
+    bool paused = false;
+};
+struct StepFrame {};
+
+// Data.
+struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
+    std::filesystem::path file;
+};
+struct AskForFile {};  // shows the dialog that asks for a file to open
+struct BakeRequest {
+    std::filesystem::path source;
+    planet::HeightSourceSettings sourceSettings;
+    planet::BakeSettings settings;
+};
+struct StartBake {
+    BakeRequest request;
+};
+struct BakeAgain {};  // the last one, of a data set that cannot be shown without it
+struct EstimateBake {
+    BakeRequest request;
+};
+struct CancelBake {};
+struct ShowPreviousBake {
+    bool shown = false;
+};
+struct DismissPreviousBake {};
+
+// Settings.
+struct Undo {};
+struct Redo {};
+struct SavePreset {
+    std::string name;
+};
+struct LoadPreset {
+    std::string name;
+};
+struct DeletePreset {
+    std::string name;
+};
+struct CopyCommandLine {};
+struct CopyText {
+    std::string text;
+};
+struct TakeScreenshot {
+    bool withPanels = false;
+};
+struct Quit {};
+
+using Command =
+    std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
+                 AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
+                 PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile,
+                 StartBake, BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo,
+                 Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit>;
+using Commands = std::vector<Command>;
+
+}  // namespace ui

@@ -1,0 +1,22 @@
+// The menu bar: every command by name, with the key that does the same.
+#pragma once
+
+#include "ui/docks.h"
+
+namespace ui {
+
+float menuBarHeight();
+
+// What the menus open on top of everything.
+struct MenuState {
+    bool showKeys = false;  // the window that lists keys and mouse
+    bool showAbout = false;
+};
+
+void menuBar(const EditorView& view, MenuState& state, Workspace& workspace, ViewSettings& settings,
+             Commands& commands);
+
+// The windows that the Help menu opens.
+void helpWindows(MenuState& state);
+
+}  // namespace ui

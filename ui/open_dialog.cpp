@@ -1,0 +1,146 @@
+#include "ui/open_dialog.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <system_error>
+
+#include "ui/text.h"
+#include "ui/theme.h"
+
+namespace ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* title = "Open a file";
+
+void setPath(OpenDialogState& state, const std::string& path) {
+    const std::size_t length = std::min(path.size(), state.path.size() - 1);
+    std::memcpy(state.path.data(), path.data(), length);
+    state.path[length] = '\0';
+}
+
+// A click picks, a double click goes in or opens. True where the file is to be opened.
+bool entryRows(OpenDialogState& state) {
+    bool chosen = false;
+    fs::path entered;
+    for (const OpenDialogEntry& entry : state.entries) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const std::string name = entry.path.filename().string() + (entry.isFolder ? "/" : "");
+        const bool picked = entry.path.string() == state.path.data();
+        if (entry.isFolder) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+        if (ImGui::Selectable(name.c_str(), picked,
+                              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
+                                  ImGuiSelectableFlags_DontClosePopups)) {
+            setPath(state, entry.path.string());
+            const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            if (twice && entry.isFolder) entered = entry.path;
+            if (twice && !entry.isFolder) chosen = true;
+        }
+        if (entry.isFolder) ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", entry.size.c_str());
+    }
+    if (!entered.empty()) listFolder(entered, state);
+    return chosen;
+}
+
+bool folderList(OpenDialogState& state) {
+    bool chosen = false;
+    const float height = ImGui::GetFontSize() * 18;
+    if (ImGui::BeginTable("files", 2,
+                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,
+                          {ImGui::GetFontSize() * 36, height})) {
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed);
+        chosen = entryRows(state);
+        ImGui::EndTable();
+    }
+    return chosen;
+}
+
+// A folder that was typed is gone into; a file is opened.
+bool accept(OpenDialogState& state, Commands& commands) {
+    const fs::path path(state.path.data());
+    if (path.empty()) return false;
+    std::error_code status;
+    if (fs::is_directory(path, status)) {
+        listFolder(path, state);
+        return false;
+    }
+    commands.push_back(OpenFile{path});
+    return true;
+}
+
+}  // namespace
+
+bool mayBeOpened(const fs::path& file) {
+    static constexpr std::array<std::string_view, 12> endings = {
+        ".chk", ".tif", ".tiff", ".png", ".pgm", ".exr", ".hdr", ".jp2", ".jpg", ".raw", ".toml", ".flt"};
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+void listFolder(const fs::path& folder, OpenDialogState& state) {
+    state.entries.clear();
+    state.problem.clear();
+    std::error_code status;
+    state.folder = fs::absolute(folder, status).lexically_normal();
+    fs::directory_iterator files(state.folder, fs::directory_options::skip_permission_denied, status);
+    if (status) state.problem = state.folder.string() + ": " + status.message();
+    for (; files != fs::directory_iterator(); files.increment(status)) {
+        if (status) break;
+        const fs::path path = files->path();
+        if (path.filename().string().starts_with('.')) continue;
+        const bool isFolder = files->is_directory(status);
+        if (!isFolder && !mayBeOpened(path)) continue;
+        const std::uintmax_t size = isFolder ? 0 : files->file_size(status);
+        state.entries.push_back(
+            {path, isFolder, isFolder || status ? "" : bytesText(static_cast<double>(size))});
+    }
+    std::sort(state.entries.begin(), state.entries.end(), [](const auto& a, const auto& b) {
+        return a.isFolder != b.isFolder ? a.isFolder : a.path < b.path;
+    });
+}
+
+void openDialog(OpenDialogState& state, Commands& commands) {
+    if (state.opening) {
+        std::error_code status;
+        if (state.folder.empty()) state.folder = fs::current_path(status);
+        listFolder(state.folder, state);
+        ImGui::OpenPopup(title);
+        state.opening = false;
+    }
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(title, nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+        return;
+    if (ImGui::Button("Up") && state.folder.has_parent_path()) listFolder(state.folder.parent_path(), state);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(state.folder.string().c_str());
+    bool accepted = folderList(state);
+    if (!state.problem.empty())
+        ImGui::TextColored(palette().warning, "%s", state.problem.c_str());
+    else if (state.entries.empty())
+        ImGui::TextDisabled("Nothing here that Worldy opens.");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    accepted |=
+        ImGui::InputTextWithHint("##path", "Path of a chunk file, an elevation image or a cube face",
+                                 state.path.data(), state.path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    accepted |= ImGui::Button("Open");
+    ImGui::SameLine();
+    const bool cancelled =
+        ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (cancelled || (accepted && accept(state, commands))) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+}  // namespace ui

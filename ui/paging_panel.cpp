@@ -1,0 +1,531 @@
+#include "ui/paging_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "ui/chunk_link.h"
+#include "ui/columns.h"
+#include "ui/history.h"
+#include "ui/item_map.h"
+#include "ui/paging_text.h"
+#include "ui/plot_scale.h"
+#include "ui/plots.h"
+#include "ui/text.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace ui {
+
+namespace {
+
+constexpr double sampledEveryS = 0.1;
+// The latency axis, seconds, logarithmic.
+constexpr double fastestS = 1e-4;
+constexpr double slowestS = 100;
+constexpr std::size_t latencyBuckets = 36;
+
+constexpr ImGuiTableFlags tableFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
+                                       ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
+                                       ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
+
+// A table that fills the room, but scrolls sideways rather than squeeze its columns. Width in heights of the
+// font.
+bool beginTable(const char* id, int columns, float leastWidth) {
+    const float width = std::max(ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
+                                 leastWidth * ImGui::GetFontSize());
+    return ImGui::BeginTable(id, columns, tableFlags, {0, 0}, width);
+}
+
+// Controls.
+
+void knobs(PagingKnobs& paging) {
+    const PagingKnobs defaults;
+    slider("Budget", paging.budgetMB, defaults.budgetMB, 16, 65536, "%d MiB",
+           "Memory for resident chunks, CPU and GPU together, MiB. Smaller: when it is full, what is wanted "
+           "stays coarse, and turning back loads again. Larger: takes it from everything else.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Loaders", paging.loaderThreads, defaults.loaderThreads, 1, 64, "%d",
+           "Threads that read and decode chunks. More: a slow disk keeps more reads in flight, but they take "
+           "cores from the frame.",
+           ImGuiSliderFlags_Logarithmic);
+    slider(
+        "Upload limit", paging.uploadLimitMs, defaults.uploadLimitMs, 0.1, 100, "%.1f ms",
+        "Time a frame spends on making loaded chunks drawable, milliseconds; at least one block is. Larger: "
+        "detail arrives sooner, but frames stutter while it does.",
+        ImGuiSliderFlags_Logarithmic);
+}
+
+void buttons(const EditorView& view, std::size_t failedBlocks, Commands& commands) {
+    bool paused = view.pagingPaused;
+    if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PausePaging{paused});
+    noteItem("Pause");
+    tooltip("Loaders take nothing more from the queue. What is missing stays coarse.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!view.pagingPaused);
+    if (button("Load one", "While paused: lets the most urgent request through."))
+        commands.push_back(LoadOne{});
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (button(
+            "Drop all",
+            "Drops every chunk but the six roots, and every request that no loader has taken: shows how the "
+            "picture comes back."))
+        commands.push_back(DropAll{});
+    if (failedBlocks == 0) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
+    const std::string label = fmt::format("Retry {} failed###retry", failedBlocks);
+    const bool retry = ImGui::Button(label.c_str());
+    noteItem("Retry failed");
+    if (retry) commands.push_back(RetryFailed{});
+    ImGui::PopStyleColor();
+    tooltip(
+        "Blocks that could not be read are drawn as their parents, and are asked for again only by this.");
+}
+
+void memory(const EditorView& view) {
+    const planet::PagingCounters& p = view.stats.paging;
+    const double used = static_cast<double>(p.residentBytesCpu + p.residentBytesGpu);
+    const auto budget = static_cast<double>(view.planet->pagingSettings().budgetBytes);
+    usageBar(budget > 0 ? used / budget : 0, fmt::format("{} of {}", bytesText(used), bytesText(budget)));
+    tooltip(fmt::format("Resident chunks against the budget: {} chunks, {} on the CPU and {} on the GPU.",
+                        countText(static_cast<double>(p.residentChunks)),
+                        bytesText(static_cast<double>(p.residentBytesCpu)),
+                        bytesText(static_cast<double>(p.residentBytesGpu)))
+                .c_str());
+    if (p.budgetWaits > 0) {
+        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+        ImGui::TextWrapped("%s blocks wanted have no room in the budget.", countText(p.budgetWaits).c_str());
+        ImGui::PopStyleColor();
+    }
+}
+
+void totals(const EditorView& view) {
+    const planet::PagingCounters& p = view.stats.paging;
+    if (!beginValues("totals")) return;
+    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
+    valueRow("Requested", count(p.requested), "Page-ins put into the queue, since the file was opened.");
+    valueRow("Merged", count(p.merged), "Asked for again while they were queued.");
+    valueRow("Cancelled", count(p.cancelled), "Taken back by the opposite request, or no longer wanted.");
+    valueRow("Loaded", count(p.loaded), "Blocks read and made resident.");
+    valueRow("Evicted", count(p.evicted), "Blocks paged out, for the budget's sake.");
+    valueRow("Failed", count(p.failed), "Reads that failed; see the log.",
+             p.failed > 0 ? &palette().bad : nullptr);
+    valueRow("Read", bytesText(static_cast<double>(p.bytesRead)), "From the file.");
+    endValues();
+}
+
+void seedKnob(std::uint32_t& seed) {
+    constexpr const char* explanation =
+        "Of all that is random about the bad disk: the same seed gives the same trouble.";
+    labelledControl("Seed", explanation);
+    const std::uint32_t step = 1;
+    ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed, &step);
+    tooltip(explanation);
+}
+
+void badDisk(planet::BadDiskSettings& disk) {
+    const planet::BadDiskSettings defaults;
+    if (isBad(disk)) {
+        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+        ImGui::TextWrapped("The disk is made bad: %s.", badDiskText(disk).c_str());
+        ImGui::PopStyleColor();
+        if (button("Off", "The disk as it is. The seed stays.")) {
+            const std::uint32_t seed = disk.seed;
+            disk = {};
+            disk.seed = seed;
+        }
+    }
+    slider("Latency", disk.latencyMs, defaults.latencyMs, 0, 10000, "%.1f ms",
+           "Added to each read, milliseconds, half as much to half as much again. Larger: detail arrives "
+           "later; more loaders hide some of it.",
+           ImGuiSliderFlags_Logarithmic);
+    slider(
+        "Bandwidth", disk.bandwidthMBs, defaults.bandwidthMBs, 0, 100000,
+        disk.bandwidthMBs > 0 ? "%.2f MB/s" : "unlimited",
+        "Of each loader thread, MB (10^6 bytes) a second; 0: unlimited. Smaller: large blocks take longer.",
+        ImGuiSliderFlags_Logarithmic);
+    slider(
+        "Failures", disk.failureRate, defaults.failureRate, 0, 1, "%.3f",
+        "Share of the reads that fail, 0 to 1. What fails is drawn as its parent until it is tried again.");
+    checkbox("Shuffled order", disk.shuffledOrder, defaults.shuffledOrder,
+             "Reads are served in an order of the seed's instead of the most urgent first: what the "
+             "priorities are good for.");
+    seedKnob(disk.seed);
+}
+
+// What is read from the planet now and then.
+
+void sampleQueue(const planet::Planet& planet, int shownView, std::vector<PagingRow>& queue) {
+    queue.clear();
+    for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
+        const auto requests = shownView < 0
+                                  ? planet.pendingRequests(type)
+                                  : planet.pendingRequests(type, static_cast<std::size_t>(shownView));
+        for (const planet::PagingRequest& request : requests) {
+            PagingRow row{request.parent, type, request.priority, request.askedAtS, request.timesAsked};
+            for (std::size_t v = 0; v < request.viewPriority.size(); ++v)
+                if (request.viewPriority[v] > 0) row.views |= 1u << v;
+            queue.push_back(row);
+        }
+    }
+}
+
+std::size_t countFailed(const planet::Planet& planet) {
+    if (planet.paging().failed == 0) return 0;
+    std::size_t failed = 0;
+    planet::forEachNode(planet.tree(), [&](planet::NodeIndex, const planet::ChunkNode& node) {
+        if (node.childrenState == planet::ChildrenState::Failed) ++failed;
+    });
+    return failed;
+}
+
+void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelState::Sample& sample) {
+    std::vector<float> seconds;
+    std::vector<float> positions;
+    for (const planet::PagingEvent& event : planet.pagingHistory()) {
+        if (event.outcome != planet::PagingOutcome::Loaded) continue;
+        const double s = ofReading ? event.readS : event.waitedS;
+        seconds.push_back(static_cast<float>(s));
+        positions.push_back(static_cast<float>(logarithmicPosition(s, fastestS, slowestS)));
+    }
+    sample.latencies = seconds.size();
+    sample.latencyCounts = bucketCounts(positions, latencyBuckets);
+    sample.medianS = quantile(seconds, 0.5);
+    sample.slowestS = quantile(seconds, 0.99);
+}
+
+void refresh(const EditorView& view, PagingPanelState& state) {
+    if (state.shownView >= static_cast<int>(view.planet->viewCount())) state.shownView = -1;
+    PagingPanelState::Sample& sample = state.sample;
+    const bool current = sample.planet == view.planet && sample.shownView == state.shownView &&
+                         sample.latencyOfReading == state.latencyOfReading && view.timeS >= sample.takenAtS &&
+                         view.timeS < sample.takenAtS + sampledEveryS;
+    if (current) return;
+    sample.takenAtS = view.timeS;
+    sample.planet = view.planet;
+    sample.shownView = state.shownView;
+    sample.latencyOfReading = state.latencyOfReading;
+    sampleQueue(*view.planet, state.shownView, sample.queue);
+    sample.failedBlocks = countFailed(*view.planet);
+    sampleLatency(*view.planet, state.latencyOfReading, sample);
+}
+
+// Tables.
+
+// The first view that wants it, or the first of all.
+std::size_t wantingView(std::uint32_t views, std::size_t viewCount) {
+    for (std::size_t v = 0; v < viewCount; ++v)
+        if (views >> v & 1u) return v;
+    return 0;
+}
+
+std::string reason(const planet::Planet& planet, const PagingRow& row, int shownView, double ageS) {
+    if (row.type == planet::PagingType::PageOut) return pageOutReason(ageS);
+    const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
+    if (index == planet::noNode) return "its parent is gone";
+    const std::size_t v =
+        shownView >= 0 ? static_cast<std::size_t>(shownView) : wantingView(row.views, planet.viewCount());
+    const planet::ChunkNode& node = planet.tree().nodes[index];
+    const planet::View& lodView = planet.lodView(v);
+    const planet::LodSettings& lod = planet.lodSettings(v);
+    const double distanceM = std::max(planet::distanceM(node.bounds.box, lodView.eyeM), planet::nearestM);
+    const double epsPx = static_cast<double>(node.deltaCM) * planet::screenScalePx(lodView) / distanceM;
+    std::string text = pageInReason(epsPx, lod.tauPx, lod.hysteresis, epsSymbol(), tauSymbol());
+    if (planet.viewCount() > 1) text += fmt::format(", view {}", v + 1);
+    return text;
+}
+
+void cell(const std::string& text) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void linkCell(const planet::ChunkId& id, std::size_t row, const EditorView& view, Commands& commands) {
+    ImGui::TableNextColumn();
+    ImGui::PushID(static_cast<int>(row));
+    chunkLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+    ImGui::PopID();
+}
+
+void queueFilter(const EditorView& view, PagingPanelState& state) {
+    ImGui::Checkbox("Page-in", &state.showPageIns);
+    tooltip("Blocks to be loaded, most urgent first.");
+    ImGui::SameLine();
+    ImGui::Checkbox("Page-out", &state.showPageOuts);
+    tooltip("Blocks out of use, the longest unused first. They stay until their room is needed.");
+    if (view.planet->viewCount() < 2) return;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    int index = state.shownView + 1;
+    const std::array<const char*, planet::maxViews + 1> names = {"all views", "view 1", "view 2", "view 3",
+                                                                 "view 4"};
+    if (ImGui::Combo("##view", &index, names.data(), static_cast<int>(view.planet->viewCount()) + 1))
+        state.shownView = index - 1;
+    tooltip("Each view asks for what it wants with its own priorities.");
+}
+
+// The part of the queue that is shown: page-ins stand before page-outs.
+std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
+    const std::span<const PagingRow> queue = state.sample.queue;
+    const auto firstOut = static_cast<std::size_t>(
+        std::partition_point(queue.begin(), queue.end(),
+                             [](const PagingRow& row) { return row.type == planet::PagingType::PageIn; }) -
+        queue.begin());
+    const std::size_t first = state.showPageIns ? 0 : firstOut;
+    return queue.subspan(first, (state.showPageOuts ? queue.size() : firstOut) - first);
+}
+
+const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
+    if (!state.sample.queue.empty()) return "No request of these kinds.";
+    if (state.sample.failedBlocks > 0) return "The queue is empty: what is still missing could not be read.";
+    return view.stats.selection.waiting == 0 ? "The queue is empty: all that is wanted is resident."
+                                             : "The queue is empty.";
+}
+
+void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    queueFilter(view, state);
+    const std::span<const PagingRow> queue = shownQueue(state);
+    if (queue.empty()) return emptyState(emptyQueueText(view, state));
+    if (!beginTable("queue", 5, 26)) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("Type", 0, 0.6f);
+    ImGui::TableSetupColumn("Children of", 0, 1.7f);
+    ImGui::TableSetupColumn("Priority", 0, 0.9f);
+    ImGui::TableSetupColumn("Age", 0, 0.9f);
+    ImGui::TableSetupColumn("Why", 0, 2.4f);
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(queue.size()));
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const PagingRow& row = queue[at];
+            const double ageS = std::max(view.planet->seconds() - row.askedAtS, 0.0);
+            ImGui::TableNextRow();
+            cell(row.type == planet::PagingType::PageIn ? "in" : "out");
+            linkCell(row.parent, at, view, commands);
+            cell(axisText(row.priority));
+            cell(latencyText(ageS));
+            cell(reason(*view.planet, row, state.shownView, ageS));
+        }
+    }
+    ImGui::EndTable();
+}
+
+void loadingTable(const EditorView& view, Commands& commands) {
+    const std::vector<planet::LoadInProgress> loading = view.planet->loadingNow();
+    if (loading.empty())
+        return emptyState(view.pagingPaused ? "Paging is paused." : "Nothing is being read now.");
+    if (!beginTable("loading", 4, 20)) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("Children of", 0, 1.7f);
+    ImGui::TableSetupColumn("Priority");
+    ImGui::TableSetupColumn("Size");
+    ImGui::TableSetupColumn("For");
+    ImGui::TableHeadersRow();
+    for (std::size_t i = 0; i < loading.size(); ++i) {
+        ImGui::TableNextRow();
+        linkCell(loading[i].parent, i, view, commands);
+        cell(axisText(loading[i].priority));
+        cell(bytesText(loading[i].bytes));
+        cell(latencyText(loading[i].seconds));
+    }
+    ImGui::EndTable();
+}
+
+struct OutcomeLook {
+    const char* name;
+    const ImVec4& colour;
+};
+OutcomeLook lookOf(planet::PagingOutcome outcome) {
+    switch (outcome) {
+        case planet::PagingOutcome::Loaded:
+            return {"loaded", palette().good};
+        case planet::PagingOutcome::Failed:
+            return {"failed", palette().bad};
+        case planet::PagingOutcome::Evicted:
+            return {"evicted", palette().warning};
+        case planet::PagingOutcome::Cancelled:
+            return {"cancelled", palette().dim};
+    }
+    return {"", palette().text};
+}
+
+bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
+    if (state.onlyMerged && event.timesAsked < 2) return false;
+    switch (event.outcome) {
+        case planet::PagingOutcome::Loaded:
+            return state.showLoaded;
+        case planet::PagingOutcome::Failed:
+            return state.showFailed;
+        case planet::PagingOutcome::Evicted:
+            return state.showEvicted;
+        case planet::PagingOutcome::Cancelled:
+            return state.showCancelled;
+    }
+    return true;
+}
+
+// Goes on in the same line while there is room for a check box of this name.
+void sameLineIfRoom(const char* label) {
+    const float width = ImGui::GetFrameHeight() + ImGui::CalcTextSize(label).x + ImGui::GetFontSize();
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + width < right) ImGui::SameLine();
+}
+
+void historyFilter(PagingPanelState& state) {
+    ImGui::Checkbox("Loaded", &state.showLoaded);
+    tooltip("Blocks read and made resident.");
+    sameLineIfRoom("Failed");
+    ImGui::Checkbox("Failed", &state.showFailed);
+    tooltip("Blocks that could not be read.");
+    sameLineIfRoom("Cancelled");
+    ImGui::Checkbox("Cancelled", &state.showCancelled);
+    tooltip("Requests taken back before a loader took them.");
+    sameLineIfRoom("Evicted");
+    ImGui::Checkbox("Evicted", &state.showEvicted);
+    tooltip("Blocks dropped, for the budget's sake.");
+    sameLineIfRoom("Merged only");
+    ImGui::Checkbox("Merged only", &state.onlyMerged);
+    tooltip("Only requests that were asked for more than once.");
+}
+
+void historyRow(const EditorView& view, const planet::PagingEvent& event, std::size_t row,
+                Commands& commands) {
+    const OutcomeLook look = lookOf(event.outcome);
+    const bool read = event.outcome == planet::PagingOutcome::Loaded;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(look.colour, "%s", look.name);
+    linkCell(event.parent, row, view, commands);
+    cell(latencyText(event.waitedS));
+    cell(read ? latencyText(event.readS) : "");
+    cell(read ? bytesText(event.bytes) : "");
+    cell(fmt::format("{}x", event.timesAsked));
+    cell(fmt::format("{} ago", latencyText(std::max(view.planet->seconds() - event.atS, 0.0))));
+}
+
+void historyTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    historyFilter(state);
+    const std::deque<planet::PagingEvent>& history = view.planet->pagingHistory();
+    std::vector<const planet::PagingEvent*> shown;
+    shown.reserve(history.size());
+    for (auto event = history.rbegin(); event != history.rend(); ++event)
+        if (isShown(*event, state)) shown.push_back(&*event);
+    if (shown.empty())
+        return emptyState(history.empty() ? "No request has ended yet." : "No request of these kinds.");
+    if (!beginTable("history", 7, 34)) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("Outcome", 0, 1.1f);
+    ImGui::TableSetupColumn("Children of", 0, 1.7f);
+    for (const char* title : {"Waited", "Reading", "Size"}) ImGui::TableSetupColumn(title);
+    ImGui::TableSetupColumn("Asked", 0, 0.7f);
+    ImGui::TableSetupColumn("When", 0, 1.2f);
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(shown.size()));
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+            historyRow(view, *shown[static_cast<std::size_t>(i)], static_cast<std::size_t>(i), commands);
+    }
+    ImGui::EndTable();
+}
+
+// Plots.
+
+void latencyHistogram(PagingPanelState& state, float lines) {
+    const PagingPanelState::Sample& sample = state.sample;
+    int index = state.latencyOfReading ? 1 : 0;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::Combo("##latency", &index, "latency until loaded\0latency of reading\0"))
+        state.latencyOfReading = index == 1;
+    tooltip(
+        "Until loaded: from the first time a block was asked for until it was there. Of reading: "
+        "reading and decoding it, a bad disk's waiting included.");
+    std::vector<HistogramMark> marks;
+    if (sample.latencies > 0) {
+        marks.push_back({logarithmicPosition(static_cast<double>(sample.medianS), fastestS, slowestS),
+                         "median " + latencyText(static_cast<double>(sample.medianS))});
+        marks.push_back({logarithmicPosition(static_cast<double>(sample.slowestS), fastestS, slowestS),
+                         "99 % " + latencyText(static_cast<double>(sample.slowestS))});
+    }
+    histogram("latencies", sample.latencyCounts, latencyText(fastestS), latencyText(slowestS), marks, lines,
+              [](double position) { return latencyText(logarithmicValue(position, fastestS, slowestS)); });
+}
+
+void plots(const EditorView& view, PagingPanelState& state, bool wide) {
+    // The others: two legends, the choice of a latency, and the histogram's axis.
+    const float lines = wide ? linesThatFit(3, 5.6f, 8) : 2.5f;
+    const std::vector<float> times = historyTimes(view.history);
+    const std::array queue = {
+        Series{"queued", seriesColour(0),
+               historyValues(view.history, [](const FrameStats& s) { return s.paging.queued; })},
+        Series{"loading", seriesColour(1),
+               historyValues(view.history, [](const FrameStats& s) { return s.paging.loading; })}};
+    linePlot("queueLength", times, queue, "", 0, lines);
+    constexpr double windowS = 0.5;
+    const auto read = historyValues<double>(
+        view.history, [](const FrameStats& s) { return static_cast<double>(s.paging.bytesRead) / 1e6; });
+    const std::array rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
+    linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
+    latencyHistogram(state, lines);
+}
+
+void controls(const EditorView& view, const PagingPanelState& state, ViewSettings& settings,
+              Commands& commands) {
+    memory(view);
+    knobs(settings.paging);
+    buttons(view, state.sample.failedBlocks, commands);
+}
+
+void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    if (!ImGui::BeginTabBar("tables")) return;
+    const planet::PagingCounters& p = view.stats.paging;
+    if (ImGui::BeginTabItem(fmt::format("Queue {}###queue", p.queued).c_str())) {
+        queueTable(view, state, commands);
+        ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem(fmt::format("Loading {}###loading", p.loading).c_str())) {
+        loadingTable(view, commands);
+        ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("History")) {
+        historyTable(view, state, commands);
+        ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("Totals")) {
+        totals(view);
+        ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+}
+
+}  // namespace
+
+void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& settings,
+                 Commands& commands) {
+    if (!view.planet) {
+        knobs(settings.paging);
+        badDisk(settings.paging.badDisk);
+        return emptyState("Requests show here once a planet is open.");
+    }
+    refresh(view, state);
+    const bool wide = hasWideRoom();
+    constexpr float tableLines = 13;
+    const std::array columns = {Column{"Paging", 1.2f, 0,
+                                       [&] {
+                                           controls(view, state, settings, commands);
+                                           if (wide && section("Bad disk")) badDisk(settings.paging.badDisk);
+                                       }},
+                                Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
+                                Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
+    drawColumns("paging", columns);
+    if (!wide && section("Bad disk")) badDisk(settings.paging.badDisk);
+}
+
+}  // namespace ui

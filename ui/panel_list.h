@@ -1,0 +1,52 @@
+// The panels that there are, and where they stand at first.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace ui {
+
+enum class PanelId : std::uint8_t {
+    Lod,
+    Seams,
+    Overlay,
+    Surface,
+    Camera,
+    Presets,
+    Quadtree,
+    Chunk,
+    Paging,
+    Frame,
+    Bake,
+    Log
+};
+inline constexpr std::size_t panelCount = 12;
+
+enum class Dock : std::uint8_t { Left, Right, Bottom };
+inline constexpr std::size_t dockCount = 3;
+
+struct PanelInfo {
+    PanelId id;
+    const char* title;
+    std::string_view key;  // in the settings file and for --panels
+    const char* shortcut;  // "Ctrl+1"
+    Dock dock;             // where it stands at first
+    bool shown;            // at first
+};
+inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
+    {PanelId::Lod, "LOD", "lod", "Ctrl+1", Dock::Right, true},
+    {PanelId::Seams, "Seams", "seams", "Ctrl+6", Dock::Right, true},
+    {PanelId::Overlay, "Overlay", "overlay", "Ctrl+4", Dock::Right, true},
+    {PanelId::Surface, "Surface", "surface", "Ctrl+7", Dock::Right, true},
+    {PanelId::Camera, "Camera", "camera", "Ctrl+0", Dock::Right, true},
+    {PanelId::Presets, "Presets", "presets", "Ctrl+P", Dock::Right, false},
+    {PanelId::Quadtree, "Quadtree", "quadtree", "Ctrl+2", Dock::Left, true},
+    {PanelId::Chunk, "Chunk", "chunk", "Ctrl+5", Dock::Left, true},
+    {PanelId::Paging, "Paging", "paging", "Ctrl+3", Dock::Bottom, true},
+    {PanelId::Frame, "Frame", "frame", "Ctrl+9", Dock::Bottom, true},
+    {PanelId::Bake, "Bake", "bake", "Ctrl+8", Dock::Left, true},
+    {PanelId::Log, "Log", "log", "Ctrl+L", Dock::Bottom, true},
+}};
+
+}  // namespace ui

@@ -1,0 +1,35 @@
+#include "ui/panels.h"
+
+namespace ui {
+
+void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSettings& settings,
+               Commands& commands) {
+    switch (id) {
+        case PanelId::Lod:
+            return lodPanel(view, settings, commands);
+        case PanelId::Seams:
+            return seamsPanel(view, settings, commands);
+        case PanelId::Overlay:
+            return overlayPanel(view, settings, commands);
+        case PanelId::Surface:
+            return surfacePanel(view, states.surface, settings, commands);
+        case PanelId::Camera:
+            return cameraPanel(view, states.camera, settings, commands);
+        case PanelId::Presets:
+            return presetsPanel(view, states.presets, settings, commands);
+        case PanelId::Quadtree:
+            return quadtreePanel(view, states.quadtree, settings, commands);
+        case PanelId::Chunk:
+            return chunkPanel(view, states.chunk, settings, commands);
+        case PanelId::Paging:
+            return pagingPanel(view, states.paging, settings, commands);
+        case PanelId::Frame:
+            return framePanel(view, settings, commands);
+        case PanelId::Bake:
+            return bakePanel(view, states.bake, settings, commands);
+        case PanelId::Log:
+            return logPanel(view.log, states.log, commands);
+    }
+}
+
+}  // namespace ui

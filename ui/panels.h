@@ -1,0 +1,37 @@
+// All panels, each of which has a file of its own, behind one function.
+#pragma once
+
+#include "ui/bake_panel.h"
+#include "ui/camera_panel.h"
+#include "ui/chunk_panel.h"
+#include "ui/editor_view.h"
+#include "ui/frame_panel.h"
+#include "ui/lod_panel.h"
+#include "ui/log_panel.h"
+#include "ui/overlay_panel.h"
+#include "ui/paging_panel.h"
+#include "ui/panel_list.h"
+#include "ui/presets_panel.h"
+#include "ui/quadtree_panel.h"
+#include "ui/seams_panel.h"
+#include "ui/surface_panel.h"
+
+namespace ui {
+
+// What panels remember from frame to frame that is no setting.
+struct PanelStates {
+    QuadtreePanelState quadtree;
+    ChunkPanelState chunk;
+    PagingPanelState paging;
+    BakePanelState bake;
+    SurfacePanelState surface;
+    CameraPanelState camera;
+    PresetsPanelState presets;
+    LogPanelState log;
+};
+
+// Fills the current window with a panel.
+void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSettings& settings,
+               Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,167 @@
+#include "ui/seams_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <vector>
+
+#include "ui/chunk_link.h"
+#include "ui/plot_scale.h"
+#include "ui/plots.h"
+#include "ui/table_window.h"
+#include "ui/text.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace ui {
+
+namespace {
+
+void depthKnobs(SeamKnobs& seams) {
+    const SeamKnobs defaults;
+    choice("Skirt depth", seams.depth, defaults.depth, "automatic\0fixed\0",
+           "Automatic: as deep as the errors that a skirt has to hide. Fixed: the same for all chunks.");
+    if (seams.depth == planet::SkirtDepth::Automatic) {
+        slider(
+            "Factor", seams.skirtFactor, defaults.skirtFactor, 0, 10, "%.2f",
+            "Depth = factor (delta_c of the chunk + delta_c of the drawn neighbour that differs most from "
+            "the truth). At 1 no crack shows, since neither surface is farther than its delta_c from the "
+            "finest. Less: cracks may show; 0: no skirts. More: pixels drawn for nothing, and longer walls "
+            "where a skirt is seen from the side.");
+    } else {
+        slider("Depth", seams.skirtDepthM, defaults.skirtDepthM, 0, 100000, "%.1f m",
+               "Metres, towards the planet's centre. Less than the gaps: cracks show. More: pixels drawn for "
+               "nothing.",
+               ImGuiSliderFlags_Logarithmic);
+    }
+}
+
+void knobs(SeamKnobs& seams) {
+    const SeamKnobs defaults;
+    choice(
+        "Seams", seams.mode, defaults.mode, "none\0skirts\0stitched\0",
+        "None: cracks show where levels differ. Skirts: curtains along the chunks' edges hide them, for more "
+        "triangles. Stitched: edge vertices are moved onto the coarser neighbour's edge, so there is nothing "
+        "to hide; neighbours may then not differ too much in level, so some are drawn coarser than the "
+        "tolerance asks for.");
+    if (seams.mode == planet::SeamMode::Skirts) depthKnobs(seams);
+    checkbox("Mark pairs in the viewport", seams.showPairs, defaults.showPairs,
+             "Lights up the edges between chunks of different levels.");
+}
+
+// Largest and median of what is drawn, metres.
+struct Depths {
+    float largestM = 0;
+    float medianM = 0;
+};
+Depths drawnDepths(std::span<const planet::DrawItem> items) {
+    std::vector<float> depths;
+    depths.reserve(items.size());
+    for (const planet::DrawItem& item : items) depths.push_back(item.skirtDepthM);
+    if (depths.empty()) return {};
+    return {*std::max_element(depths.begin(), depths.end()), quantile(depths, 0.5)};
+}
+
+int difference(const planet::LevelSeam& seam) {
+    return seam.finer.level - seam.coarser.level;
+}
+
+void values(const planet::Selection& selection) {
+    if (!beginValues("seams")) return;
+    const Depths depths = drawnDepths(selection.draw);
+    valueRow("Deepest skirt", distanceText(static_cast<double>(depths.largestM)),
+             "Of what is drawn, metres.");
+    valueRow("Median skirt", distanceText(static_cast<double>(depths.medianM)), "Of what is drawn, metres.");
+    valueRow("Edges between levels", countText(static_cast<double>(selection.seams.size())),
+             "Pairs of drawn chunks side by side whose levels differ.");
+    valueRow("Largest difference", fmt::format("{}", selection.counters.widestSeam),
+             "Levels that two drawn neighbours differ at most. A finer chunk's edge then has "
+             "2^difference times as many vertices as the coarser one's beside it.");
+    endValues();
+}
+
+void differenceBars(std::span<const planet::LevelSeam> seams) {
+    std::array<int, planet::maxLevel + 1> counts{};
+    for (const planet::LevelSeam& seam : seams) ++counts[static_cast<std::size_t>(difference(seam))];
+    std::vector<Bar> bars;
+    for (std::size_t levels = 1; levels < counts.size(); ++levels) {
+        if (counts[levels] == 0) continue;
+        const ImVec4& colour = levels == 1 ? palette().good : levels == 2 ? palette().warning : palette().bad;
+        bars.push_back({fmt::format("{} level{}", levels, levels == 1 ? "" : "s"),
+                        static_cast<double>(counts[levels]), colour, fmt::format("{}", counts[levels])});
+    }
+    barList("differences", bars);
+    tooltip("Pairs by the number of levels they differ.");
+}
+
+const char* edgeName(planet::Edge edge) {
+    constexpr std::array names = {"west", "east", "south", "north"};
+    return names[static_cast<std::size_t>(edge)];
+}
+
+void seamRow(const planet::LevelSeam& seam, int row, const EditorView& view, Commands& commands) {
+    ImGui::PushID(row);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    chunkLink(seam.finer, view, commands);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(edgeName(seam.edge));
+    ImGui::TableNextColumn();
+    ImGui::PushID("coarser");
+    chunkLink(seam.coarser, view, commands);
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    ImGui::Text("%d", difference(seam));
+    ImGui::PopID();
+}
+
+// Widest first, then by id. Only the rows that are seen are sorted.
+void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
+    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
+    const float lines = static_cast<float>(std::clamp<std::size_t>(seams.size() + 1, 4, 14));
+    if (!ImGui::BeginTable("pairs", 4, flags, {0, lines * ImGui::GetTextLineHeightWithSpacing()})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("Finer", 0, 1.6f);
+    ImGui::TableSetupColumn("Its edge", 0, 0.9f);
+    ImGui::TableSetupColumn("Coarser", 0, 1.6f);
+    ImGui::TableSetupColumn("By", 0, 0.5f);
+    ImGui::TableHeadersRow();
+    std::vector<const planet::LevelSeam*> order;
+    order.reserve(seams.size());
+    for (const planet::LevelSeam& seam : seams) order.push_back(&seam);
+    const auto wider = [](const planet::LevelSeam* a, const planet::LevelSeam* b) {
+        return std::make_tuple(-difference(*a), a->finer, a->edge, a->coarser) <
+               std::make_tuple(-difference(*b), b->finer, b->edge, b->coarser);
+    };
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(order.size()));
+    while (clipper.Step()) {
+        sortWindow(order, static_cast<std::size_t>(clipper.DisplayStart),
+                   static_cast<std::size_t>(clipper.DisplayEnd), wider);
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+            seamRow(*order[static_cast<std::size_t>(i)], i, view, commands);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    if (section("Seams between chunks")) knobs(settings.seams);
+    if (!view.planet) return emptyState("Pairs of chunks show here once a planet is open.");
+    const planet::Selection& selection = view.planet->selection();
+    if (section("Drawn now")) {
+        values(selection);
+        differenceBars(selection.seams);
+    }
+    if (!section("Pairs that differ in level")) return;
+    if (selection.seams.empty())
+        return emptyState("All neighbours that are drawn have the same level: there is no seam to hide.");
+    seamTable(view, selection.seams, commands);
+}
+
+}  // namespace ui

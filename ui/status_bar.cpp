@@ -1,0 +1,119 @@
+#include "ui/status_bar.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/text.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace ui {
+
+namespace {
+
+// Cells stand side by side, each as wide as its text; what does not fit is left out from the right.
+class Cells {
+public:
+    explicit Cells(const Rect& rect) : end_(rect.x + rect.width) {}
+
+    void add(const std::string& text, const char* explanation, const ImVec4& colour) {
+        const float gap = ImGui::GetFontSize() * 1.2f;
+        const float width = ImGui::CalcTextSize(text.c_str()).x;
+        if (!first_) {
+            if (ImGui::GetItemRectMax().x + gap + width > end_) return;
+            ImGui::SameLine(0, gap);
+        }
+        first_ = false;
+        ImGui::PushStyleColor(ImGuiCol_Text, colour);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopStyleColor();
+        tooltip(explanation);
+    }
+
+private:
+    float end_;
+    bool first_ = true;
+};
+
+std::string shortened(const std::string& text, std::size_t most) {
+    if (text.size() <= most) return text;
+    std::size_t start = text.size() - most;
+    while (start < text.size() && (static_cast<unsigned char>(text[start]) & 0xC0u) == 0x80u) ++start;
+    return "..." + text.substr(start);
+}
+
+void planetCells(const EditorView& view, Cells& cells) {
+    const Palette& colours = palette();
+    const planet::PagingCounters& paging = view.stats.paging;
+    const planet::CameraPose& pose = view.camera.pose;
+    cells.add(placeText(pose.latitudeDeg, pose.longitudeDeg), "Where the camera is: latitude, longitude.",
+              colours.text);
+    cells.add(distanceText(view.camera.heightAboveGroundM) + " above ground",
+              "Height of the camera over the surface that is loaded.", colours.text);
+    const double perSecond = view.stats.frameMs > 0 ? 1000 / view.stats.frameMs : 0;
+    cells.add(fmt::format("{:.1f} ms  {:.0f}/s", view.stats.frameMs, perSecond),
+              "From one frame to the next, waiting for the monitor included.", colours.text);
+    cells.add(bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
+              "Resident chunks, CPU and GPU together.", colours.text);
+    const std::uint32_t waiting = paging.queued + paging.loading;
+    cells.add(fmt::format("queue {}", waiting),
+              "Blocks that are queued, being read or waiting for their upload.",
+              waiting > 0 ? colours.good : colours.dim);
+}
+
+std::size_t problemsIn(const std::deque<LogLine>& log) {
+    return static_cast<std::size_t>(std::count_if(log.begin(), log.end(), [](const LogLine& line) {
+        return line.level == LogLevel::Warning || line.level == LogLevel::Error;
+    }));
+}
+
+void warningCells(const EditorView& view, Cells& cells) {
+    const Palette& colours = palette();
+    const planet::PagingCounters& paging = view.stats.paging;
+    if (paging.failed > 0) {
+        cells.add(fmt::format("{} failed", paging.failed),
+                  "Blocks that could not be read: see Paging and Log.", colours.bad);
+    }
+    if (paging.budgetWaits > 0) {
+        cells.add("memory full", "Chunks that this view wants do not fit into the budget: see Paging.",
+                  colours.warning);
+    }
+    if (view.bake.running) {
+        const planet::BakeProgress& progress = view.bake.progress;
+        const double total = std::max(static_cast<double>(progress.samplesTotal), 1.0);
+        cells.add(fmt::format("baking {:.0f} %", 100 * static_cast<double>(progress.samplesDone) / total),
+                  "See the Bake panel.", colours.good);
+    }
+    if (const std::size_t problems = problemsIn(view.log); problems > 0) {
+        cells.add(fmt::format("{} {}", problems, problems == 1 ? "warning" : "warnings"),
+                  "Warnings and errors in the log.", colours.warning);
+    }
+}
+
+}  // namespace
+
+float statusBarHeight() {
+    return std::round(ImGui::GetFontSize() * 1.65f);
+}
+
+void statusBar(const EditorView& view, const Rect& rect) {
+    const float pad = std::round((rect.height - ImGui::GetFontSize()) / 2);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize() * 0.7f, pad});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
+    beginFixedWindow("status bar", rect, ImGuiWindowFlags_NoScrollbar);
+    Cells cells(rect);
+    cells.add(view.data.name.empty() ? "nothing open" : shortened(view.data.name, 32),
+              view.data.chunkFile.string().c_str(), palette().accent);
+    // What is wrong comes before what is merely so: a narrow window leaves out from the right.
+    warningCells(view, cells);
+    if (view.planet) planetCells(view, cells);
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace ui

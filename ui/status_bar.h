@@ -1,0 +1,13 @@
+// The bar at the window's foot: what is open, where the camera is, and how it fares.
+#pragma once
+
+#include "ui/editor_view.h"
+#include "ui/layout.h"
+
+namespace ui {
+
+float statusBarHeight();
+
+void statusBar(const EditorView& view, const Rect& rect);
+
+}  // namespace ui

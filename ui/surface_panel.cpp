@@ -1,0 +1,261 @@
+#include "ui/surface_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+
+#include "ui/ramp_edit.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace ui {
+
+namespace {
+
+using planet::gl::RampStop;
+
+// Heights in metres that presets and the first stop of a ramp span.
+struct HeightRange {
+    double lowestM = -8000;
+    double highestM = 8000;
+};
+
+HeightRange heightsOf(const EditorView& view, double seaLevelM) {
+    if (!view.planet) return {};
+    const planet::ChunkTree& tree = view.planet->tree();
+    return {planet::heightM(tree.shape, tree.minStep) - seaLevelM,
+            planet::heightM(tree.shape, tree.maxStep) - seaLevelM};
+}
+
+ImU32 packed(const glm::vec3& colour) {
+    return ImGui::GetColorU32(ImVec4(colour.r, colour.g, colour.b, 1));
+}
+
+void colourKnobs(const EditorView& view, SurfaceSettings& surface) {
+    const SurfaceSettings defaults;
+    choice("Colour", surface.surface, defaults.surface, "image\0height ramp\0",
+           view.data.hasColourImage ? "The colour image, or a ramp of colours by height."
+                                    : "No colour image is loaded, so the ramp is drawn for both.");
+    const bool image = surface.surface == planet::gl::SurfaceColour::Image && view.data.hasColourImage;
+    ImGui::BeginDisabled(!image);
+    slider("Image opacity", surface.imageOpacity, defaults.imageOpacity, 0, 1, "%.2f",
+           view.data.hasColourImage
+               ? "Of the colour image over the ramp, 0 to 1. Less: more of the ramp, less "
+                 "of the real colours."
+               : "No colour image is loaded.");
+    ImGui::EndDisabled();
+}
+
+// The ramp as a picture, from its first stop to its last, each marked below it. A click gives the height
+// there.
+std::optional<double> previewBar(std::span<const RampStop> ramp, int selected) {
+    const float line = ImGui::GetFrameHeight();
+    const float tick = std::round(line * 0.35f);
+    const ImVec2 start = ImGui::GetCursorScreenPos();
+    const float width = std::max(ImGui::GetContentRegionAvail().x, line);
+    const bool clicked = ImGui::InvisibleButton("preview", {width, line + tick});
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    const double first = ramp.front().heightM;
+    const double span = ramp.back().heightM - first;
+    const auto x = [&](double heightM) {
+        return start.x + (span > 0 ? static_cast<float>((heightM - first) / span) * width : width / 2);
+    };
+    if (span <= 0)
+        drawList.AddRectFilled(start, {start.x + width, start.y + line}, packed(ramp.back().colour));
+    for (std::size_t i = 0; i + 1 < ramp.size() && span > 0; ++i) {
+        const ImU32 left = packed(ramp[i].colour);
+        const ImU32 right = packed(ramp[i + 1].colour);
+        drawList.AddRectFilledMultiColor({x(ramp[i].heightM), start.y},
+                                         {x(ramp[i + 1].heightM), start.y + line}, left, right, right, left);
+    }
+    for (std::size_t i = 0; i < ramp.size(); ++i) {
+        const float at = std::clamp(x(ramp[i].heightM), start.x + tick / 2, start.x + width - tick / 2);
+        const bool isSelected = static_cast<int>(i) == selected;
+        drawList.AddTriangleFilled({at, start.y + line}, {at - tick / 2, start.y + line + tick},
+                                   {at + tick / 2, start.y + line + tick},
+                                   ImGui::GetColorU32(isSelected ? palette().accent : palette().dim));
+    }
+    const auto share = static_cast<double>((ImGui::GetIO().MousePos.x - start.x) / width);
+    const double heightM = first + std::clamp(share, 0.0, 1.0) * span;
+    tooltip(fmt::format("{:.0f} m above the sea level. Click to add a stop here.", heightM).c_str());
+    if (clicked) return heightM;
+    return std::nullopt;
+}
+
+void presetButtons(const HeightRange& heights, Ramp& ramp) {
+    if (button("Built-in",
+               "The ramp that Worldy has of itself, which knows steep slopes, ice and dry belts too."))
+        ramp.clear();
+    ImGui::SameLine();
+    if (button("Grey", "Black at this planet's lowest height, white at its highest."))
+        ramp = greyRamp(heights.lowestM, heights.highestM);
+    ImGui::SameLine();
+    if (button("Hypsometric",
+               "As in atlases: blue below the sea level; green, yellow, brown and white above it, stretched "
+               "over "
+               "this planet's heights."))
+        ramp = hypsometricRamp(heights.lowestM, heights.highestM);
+}
+
+enum class StopAction : std::uint8_t { None, Remove };
+
+StopAction stopRow(Ramp& ramp, std::size_t index, int& selected) {
+    ImGui::PushID(static_cast<int>(index));
+    const bool isSelected = selected == static_cast<int>(index);
+    const float height = ImGui::GetFrameHeight();
+    if (ImGui::RadioButton("##select", isSelected)) selected = static_cast<int>(index);
+    tooltip("Stops are added after the one that is chosen.");
+    ImGui::SameLine();
+    ImGui::ColorEdit3("##colour", &ramp[index].colour.x, ImGuiColorEditFlags_NoInputs);
+    if (ImGui::IsItemActivated()) selected = static_cast<int>(index);
+    tooltip("sRGB. Click to choose another colour.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - height - ImGui::GetStyle().ItemSpacing.x);
+    double heightM = ramp[index].heightM;
+    const auto speed = static_cast<float>(std::max(std::abs(heightM) * 0.005, 1.0));
+    if (ImGui::DragScalar("##height", ImGuiDataType_Double, &heightM, speed, nullptr, nullptr, "%.0f m"))
+        moveStop(ramp, index, heightM);
+    if (ImGui::IsItemActivated()) selected = static_cast<int>(index);
+    tooltip("Metres above the sea level; not past the stops beside it. Drag, or Ctrl+click to type.");
+    ImGui::SameLine();
+    const bool remove = ImGui::Button("x", {height, 0});
+    tooltip("Removes this stop. Without any the built-in ramp is drawn.");
+    ImGui::PopID();
+    return remove ? StopAction::Remove : StopAction::None;
+}
+
+void rampStops(Ramp& ramp, int& selected) {
+    for (std::size_t i = 0; i < ramp.size(); ++i) {
+        if (stopRow(ramp, i, selected) == StopAction::None) continue;
+        ramp.erase(ramp.begin() + static_cast<std::ptrdiff_t>(i));
+        if (selected >= static_cast<int>(i)) --selected;
+        break;
+    }
+}
+
+void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSettings& surface) {
+    Ramp& ramp = surface.ramp;
+    const HeightRange heights = heightsOf(view, surface.seaLevelM);
+    presetButtons(heights, ramp);
+    state.selectedStop = std::min(state.selectedStop, static_cast<int>(ramp.size()) - 1);
+    std::optional<double> addedM;
+    if (ramp.empty()) {
+        ImGui::TextDisabled("The built-in ramp is drawn.");
+    } else {
+        addedM = previewBar(ramp, state.selectedStop);
+        rampStops(ramp, state.selectedStop);
+    }
+    ImGui::BeginDisabled(ramp.size() >= maxRampStops);
+    const std::string explanation = fmt::format(
+        "After the one that is chosen, or above the last; at most {}. It starts with the colour that the "
+        "ramp "
+        "has there.",
+        maxRampStops);
+    if (button("Add a stop", explanation.c_str())) {
+        const std::size_t after =
+            state.selectedStop >= 0 ? static_cast<std::size_t>(state.selectedStop) : ramp.size() - 1;
+        addedM = ramp.empty() ? 0 : heightAfter(ramp, after);
+    }
+    ImGui::EndDisabled();
+    if (!addedM || ramp.size() >= maxRampStops) return;
+    if (ramp.empty()) ramp = greyRamp(heights.lowestM, heights.highestM);
+    state.selectedStop = static_cast<int>(addStop(ramp, *addedM));
+}
+
+void seaKnobs(SurfaceSettings& surface) {
+    const SurfaceSettings defaults;
+    checkbox("Sea", surface.sea, defaults.sea,
+             "What lies below the sea level is sea. Off: dry land, as on the Moon.");
+    slider("Sea level", surface.seaLevelM, defaults.seaLevelM, -20000, 20000, "%.0f m",
+           "Metres above the planet's radius; the ramp's heights count from it. Only colour and light: no "
+           "vertex moves.");
+}
+
+// A map of the world, equirectangular: where the sun stands in the zenith and where the camera is. Dragging
+// moves the sun; true while it does.
+bool sunMap(const EditorView& view, SurfaceSettings& surface) {
+    const float width = std::min(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 18);
+    const ImVec2 size(width, std::round(width / 2));
+    const ImVec2 start = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("sunMap", size);
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    drawList.AddRectFilled(start, {start.x + size.x, start.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const auto at = [&](double latitudeDeg, double longitudeDeg) {
+        const double longitude = std::remainder(longitudeDeg, 360.0);
+        return ImVec2(start.x + static_cast<float>((longitude + 180) / 360) * size.x,
+                      start.y + static_cast<float>((90 - latitudeDeg) / 180) * size.y);
+    };
+    const ImU32 grid = ImGui::GetColorU32(ImGuiCol_Border);
+    for (int degrees = -150; degrees <= 150; degrees += 30)
+        drawList.AddLine(at(90, degrees), at(-90, degrees), grid, degrees == 0 ? 2.0f : 1.0f);
+    for (int degrees = -60; degrees <= 60; degrees += 30) {
+        const float y = at(degrees, 0).y;
+        drawList.AddLine({start.x, y}, {start.x + size.x, y}, grid, degrees == 0 ? 2.0f : 1.0f);
+    }
+    const float dot = ImGui::GetFontSize() * 0.32f;
+    const planet::CameraPose& camera = view.camera.pose;
+    drawList.AddCircle(at(camera.latitudeDeg, camera.longitudeDeg), dot, ImGui::GetColorU32(palette().accent),
+                       0, 2);
+    if (!surface.sunFollows)
+        drawList.AddCircleFilled(at(surface.sunLatitudeDeg, surface.sunLongitudeDeg), dot,
+                                 ImGui::GetColorU32(palette().warning));
+    tooltip("Drag to place the sun: where it stands in the zenith. The ring is the camera. West is left.");
+    if (!ImGui::IsItemActive()) return false;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const auto shareX = static_cast<double>(std::clamp((mouse.x - start.x) / size.x, 0.0f, 1.0f));
+    const auto shareY = static_cast<double>(std::clamp((mouse.y - start.y) / size.y, 0.0f, 1.0f));
+    surface.sunLongitudeDeg = std::round(shareX * 360 - 180);
+    surface.sunLatitudeDeg = std::round(90 - shareY * 180);
+    return true;
+}
+
+void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
+    const SurfaceSettings defaults;
+    checkbox("Sun follows", surface.sunFollows, defaults.sunFollows,
+             "Keeps the sun to the camera's east, so that it is always day. Off: it stands where you put it, "
+             "and half of the planet lies in the dark.");
+    ImGui::BeginDisabled(surface.sunFollows);
+    slider("Sun, north", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f deg",
+           "Latitude where the sun stands in the zenith, degrees north.");
+    slider("Sun, east", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f deg",
+           "Longitude where the sun stands in the zenith, degrees east.");
+    ImGui::EndDisabled();
+    if (sunMap(view, surface)) surface.sunFollows = false;
+}
+
+void lightKnobs(SurfaceSettings& surface) {
+    const SurfaceSettings defaults;
+    checkbox("Lighting", surface.lighting, defaults.lighting,
+             "Off: flat colour, no sun and no air before it.");
+    secondColumn();
+    checkbox("Atmosphere", surface.atmosphere, defaults.atmosphere, "Haze and sky.");
+    checkbox(
+        "Detail", surface.detail, defaults.detail,
+        "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
+}
+
+}  // namespace
+
+void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings& settings, Commands&) {
+    SurfaceSettings& surface = settings.surface;
+    const SurfaceSettings defaults;
+    if (section("Colour")) colourKnobs(view, surface);
+    if (section("Height ramp")) rampEditor(view, state, surface);
+    if (section("Sea")) seaKnobs(surface);
+    if (section("Relief")) {
+        slider("Exaggeration", surface.exaggeration, defaults.exaggeration, 0.1, 100, "x %.2f",
+               "Heights are drawn this many times as high; errors, bounds and skirts grow with them. Larger: "
+               "more chunks for the same tolerance, and shapes that no planet has.",
+               ImGuiSliderFlags_Logarithmic);
+    }
+    if (section("Sun")) sunKnobs(view, surface);
+    if (section("Light and air")) lightKnobs(surface);
+}
+
+}  // namespace ui
