@@ -1,0 +1,205 @@
+#!/bin/bash
+# Takes the README's pictures: opens Worldy on the Earth in windows under an X server of its own, drives it to
+# states worth showing, and crops the program's own screenshots.
+#     tests/readme_pictures.sh [NAME...]          all of them, or those named, into data/pictures/
+# WORLDY is the program, build/worldy by default; OUT another folder for the pictures. Needs Xvfb, xdotool and
+# ImageMagick.
+here=$(cd "$(dirname "$0")/.." && pwd)
+binary=$(realpath "${WORLDY:-$here/build/worldy}")
+out=$(realpath -m "${OUT:-$here/data/pictures}")
+wanted=" $* "
+[ -x "$binary" ] || { echo "there is no $binary; ./run.sh builds it" >&2; exit 2; }
+for tool in Xvfb xdotool import convert; do
+    command -v $tool >/dev/null || { echo "needs $tool" >&2; exit 2; }
+done
+
+work=$(mktemp -d /tmp/worldy.XXXX)
+server= worldy= failures=0
+trap 'kill $server $worldy 2>/dev/null; rm -rf "$work"' EXIT
+mkdir -p "$out" "$work/config" "$work/cache" "$work/shots"
+export HOME=$work XDG_CONFIG_HOME=$work/config XDG_CACHE_HOME=$work/cache XDG_PICTURES_DIR=$work/shots
+cd "$work" || exit 2
+# The shell functions that the window tests use too: click, slide, shown, settled and the like.
+sed -n '/windowFunctions = R/,/)sh";/p' "$here/tests/program/editor_window.h" | sed '1d;$d' >functions.sh
+. ./functions.sh
+# By a short name, since the pictures show it.
+cp -r "$here/data/earth" earth
+
+Xvfb -displayfd 3 -screen 0 1920x1200x24 -nolisten tcp 3>display.txt 2>/dev/null &
+server=$!
+for i in $(seq 100); do [ -s display.txt ] && break; sleep 0.1; done
+DISPLAY=:$(cat display.txt)
+export DISPLAY
+
+# Where the camera starts, as a setting.
+pose() { printf 'camera = {latitude_deg = %s, longitude_deg = %s, altitude_m = %s, heading_deg = %s, pitch_deg = %s}\n' "$@"; }
+# From the Bay of Bengal to Tibet: chunks of several levels.
+above_india() { pose 14 84 1500000 8 -58; }
+# Tibet behind the Himalaya.
+himalaya() { pose 24.5 83 600000 20 -40; }
+window() { printf 'window.width_px = %s\nwindow.height_px = %s\n' "$1" "$2"; }
+slow_disk() { printf 'bad_disk.latency_ms = %s\nbad_disk.failure_rate = %s\n' "$1" "$2"; }
+# A panel alone in a dock of this width.
+only() {
+    echo "window.left_width = $2"
+    for panel in lod seams overlay surface camera presets quadtree chunk paging frame bake log; do
+        [ "$panel" = "$1" ] && echo "panels.$panel = \"left\"" && echo "panels.${panel}_shown = true" && continue
+        echo "panels.${panel}_shown = false"
+    done
+}
+
+# Starts the program on the Earth with the settings of stdin.
+start() {
+    cat >settings.toml
+    rm -f items.txt .stderr
+    timeout 300 "$binary" earth/elevation.tif --settings settings.toml --item-map items.txt 2>.stderr </dev/null &
+    worldy=$!
+    until_true shown viewport/picture || { cat .stderr; failures=$((failures + 1)); }
+}
+stop() {
+    xdotool key --clearmodifiers ctrl+q
+    wait $worldy || { echo "the program ended with $?"; cat .stderr; failures=$((failures + 1)); }
+    worldy=
+}
+aside() { xdotool mousemove "${1:-1900}" "${2:-1190}"; sleep 0.5; }
+# The program's screenshot of the whole window, as taken.png.
+take() {
+    local before
+    before=$(grep -c 'Screenshot:' .stderr)
+    rm -f shots/*
+    xdotool key --clearmodifiers shift+F12
+    until_true times_said 'Screenshot:' $((before + 1)) || { cat .stderr; failures=$((failures + 1)); }
+    mv shots/*.png taken.png
+}
+asked() { [ "$wanted" = "  " ] || [[ $wanted == *" $1 "* ]]; }
+small() { convert "$1" -strip "${@:3}" PNG8:"$2"; }
+# The whole window, and the left dock without its empty end.
+whole() { take && small taken.png "$out/$1.png" -dither FloydSteinberg -colors 256; }
+dock() {
+    take
+    set -- "$1" $(place viewport/picture)
+    convert taken.png -crop "$(($2 - 6))x$5+0+$3" +repage panel.png
+    # Empty rows at the bottom are trimmed away, the width is kept.
+    rows=$(convert panel.png -gravity south -background "$(convert panel.png -format '%[pixel:p{3,3}]' info:)" \
+        -splice 0x1 -format '%@' -fuzz 2% info: | sed 's/.*x\([0-9]*\)+.*+\([0-9]*\)$/\1 \2/' |
+        awk '{print $1 + $2 + 8}')
+    convert panel.png -crop "x$rows+0+0" +repage panel.png
+    small panel.png "$out/$1.png" -dither None -colors 128
+}
+
+# One function a picture, named after it.
+
+picture_lod() {
+    start < <(above_india; window 1400 1080; only lod 300; echo 'lod.tau_px = 0.4')
+    settle
+    # Something to see in the plots: change the tolerance, and fly on.
+    slide "lod/Tolerance τ" 0.5; settle; slide "lod/Tolerance τ" 0.2; settle
+    point viewport/picture; xdotool keydown w; sleep 0.7; xdotool keyup w; frames 8
+    dock lod
+}
+picture_seams() {
+    start < <(above_india; window 1400 800; only seams 320; echo 'lod.tau_px = 0.4'; echo 'seams.show_pairs = true')
+    settle; aside
+    dock seams
+}
+picture_overlay() {
+    start < <(above_india; window 1400 760; only overlay 300; echo 'lod.tau_px = 0.4'
+        echo 'overlay.colour_by = "error"')
+    settle; aside
+    dock overlay
+}
+picture_surface() {
+    start < <(himalaya; window 1400 1080; only surface 300; echo 'surface.colour = "ramp"')
+    settle; click surface/Hypsometric; aside
+    dock surface
+}
+picture_camera() {
+    start < <(himalaya; window 1400 1000; only camera 300; echo 'view.mode = "follow_flight"'
+        echo "view.flight = \"$here/data/flights/andes_low_fast.toml\"")
+    sleep 6
+    dock camera
+}
+picture_presets() {
+    start < <(himalaya; window 1400 600; only presets 360)
+    settle; click "presets/crack hunting"; aside
+    dock presets
+}
+picture_quadtree() {
+    start < <(above_india; window 1400 900; only quadtree 420; echo 'lod.tau_px = 0.4')
+    settle
+    click viewport/picture 0.5 0.75; click quadtree/Selected; aside
+    xdotool mousemove $(at quadtree/Net 0.5 0.5); xdotool click --repeat 5 --delay 100 5; aside
+    dock quadtree
+}
+picture_chunk() {
+    start < <(above_india; window 1400 1180; only chunk 330; echo 'lod.tau_px = 0.4'; slow_disk 600 0)
+    sleep 3
+    click viewport/picture 0.5 0.75; aside
+    dock chunk
+}
+picture_paging() {
+    start < <(above_india; window 1820 440; only paging 1000; echo 'lod.tau_px = 0.4'; slow_disk 900 0.1)
+    settle; click "paging/Drop all"; aside; sleep 4
+    dock paging
+}
+picture_frame() {
+    start < <(above_india; window 1820 440; only frame 1000)
+    settle
+    point viewport/picture
+    xdotool keydown a; sleep 0.5; xdotool keyup a; settle; aside
+    dock frame
+}
+picture_bake() {
+    start < <(himalaya; window 1400 900; only bake 330)
+    settle; choose "bake/Chunk size" "65 vertices"; aside
+    # The estimate is made a moment after the last change.
+    sleep 6
+    dock bake
+}
+picture_log() {
+    start < <(himalaya; window 1820 400; only log 1000; slow_disk 20 0.15)
+    sleep 5; aside
+    dock log
+}
+
+# The whole window.
+picture_editor() {
+    start < <(above_india; window 1440 900; echo 'lod.tau_px = 0.4'; echo 'overlay.outlines = true')
+    settle; click viewport/picture 0.5 0.7; aside
+    whole editor
+}
+picture_errors() {
+    start < <(above_india; window 1440 900; echo 'lod.tau_px = 0.4'; echo 'overlay.colour_by = "error"'
+        echo 'overlay.labels = "level_and_error"'; echo 'overlay.outlines = true'; echo 'panels.right_front = "overlay"')
+    settle; aside
+    whole errors
+}
+picture_observer() {
+    start < <(himalaya; window 1440 900; echo 'lod.tau_px = 0.4'; echo 'overlay.colour_by = "level"'; echo 'overlay.opacity = 0.5'
+        echo 'overlay.outlines = true'; echo 'view.observer = "split"'; echo 'panels.right_front = "camera"')
+    settle
+    # The observer steps back.
+    point observer/picture; xdotool click --repeat 6 --delay 100 5; settle; aside
+    whole observer
+}
+picture_light() {
+    start < <(himalaya; window 1440 900; echo 'window.theme = "light"'; echo 'panels.bottom_front = "frame"')
+    settle; aside
+    whole light
+}
+
+echo "baking the Earth"
+start </dev/null
+until_true says 'Baked' || cat .stderr
+settle
+stop
+
+for name in editor errors observer light \
+    lod seams overlay surface camera presets quadtree chunk paging frame bake log; do
+    asked $name || continue
+    echo "$name"
+    picture_$name
+    stop
+done
+du -sh "$out"
+exit $((failures > 0))
