@@ -71,6 +71,16 @@ planet::CameraPose wholePlanetPose(double radiusM) {
     return pose;
 }
 
+planet::CameraPose startPose(const planet::CameraPose& kept, double radiusM) {
+    planet::CameraPose pose = kept;
+    if (pose.altitudeM == 0) pose.altitudeM = wholePlanetPose(radiusM).altitudeM;
+    return pose;
+}
+
+planet::CameraPose poseOf(const Camera& camera, double radiusM) {
+    return planet::poseFromView(viewOf(camera, 1, 1, 1), radiusM);
+}
+
 double altitudeM(const Camera& camera, const Ground& ground) {
     return glm::length(camera.eyeM) - ground.radiusM;
 }

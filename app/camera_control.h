@@ -27,6 +27,11 @@ planet::View viewOf(const Camera& camera, double horizontalFovRad, int widthPx, 
 // The whole planet in view, for a planet of any size.
 planet::CameraPose wholePlanetPose(double radiusM);
 
+// A pose as settings keep it: altitude 0 stands for the whole planet in view.
+planet::CameraPose startPose(const planet::CameraPose& kept, double radiusM);
+
+planet::CameraPose poseOf(const Camera& camera, double radiusM);
+
 // What the moves need to know of the planet below the camera.
 struct Ground {
     double radiusM = 6'371'000;

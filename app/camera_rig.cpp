@@ -272,7 +272,7 @@ std::vector<fs::path> availableFlights() {
 ui::CameraView cameraViewOf(const CameraRig& rig, const Ground& ground,
                             std::span<const ui::Bookmark> bookmarks, std::span<const fs::path> flights) {
     ui::CameraView view;
-    view.pose = planet::poseFromView(viewOf(rig.camera, 1, 1, 1), ground.radiusM);
+    view.pose = poseOf(rig.camera, ground.radiusM);
     view.heightAboveGroundM = heightAboveGroundM(rig.camera, ground);
     view.speedFactor = rig.speedFactor;
     view.bookmarks = bookmarks;

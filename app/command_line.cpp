@@ -66,7 +66,7 @@ void addBake(CLI::App& app, BakeOptions& options) {
     command.add_option("-o,--output", options.output, "Chunk file to write")->required();
     command.add_option("--face-size", settings.faceSize, "Samples a face's side, 2^n + 1 (the source's own)");
     command.add_option("--chunk-size", settings.chunkSize, "Vertices a chunk's side: 17, 33, 65 or 129 (33)")
-        ->check(CLI::IsMember({17, 33, 65, 129}));
+        ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
     command.add_option("--radius", settings.radiusM, "The planet's radius, metres (6371000)")
         ->check(number(1e-3, 1e9));
     command.add_option("--quantum", settings.quantumM, "Metres a stored step (the source's own)")

@@ -34,9 +34,7 @@ struct CommandHandler {
         if (editor.rig) placeRig(*editor.rig, camera, editor.settings.view.camera);
     }
     double radiusM() const { return shownScene(session)->planet->shape().radiusM; }
-    planet::CameraPose pose() const {
-        return planet::poseFromView(viewOf(editor.rig->camera, 1, 1, 1), radiusM());
-    }
+    planet::CameraPose pose() const { return poseOf(editor.rig->camera, radiusM()); }
 
     void operator()(const ui::HoverChunk& command) const { editor.focus.hovered = command.id; }
     void operator()(const ui::SelectChunk& command) const { editor.focus.selected = command.id; }
@@ -45,7 +43,10 @@ struct CommandHandler {
     void operator()(const ui::MoveCamera& command) const {
         if (shownScene(session)) moveCamera(cameraFromPose(command.pose, radiusM()));
     }
-    void operator()(const ui::ResetCamera&) const { editor.rig.reset(); }
+    void operator()(const ui::ResetCamera&) const {
+        if (shownScene(session))
+            moveCamera(cameraFromPose(startPose(editor.settings.camera, radiusM()), radiusM()));
+    }
     void operator()(const ui::KeepCameraAsStart&) const;
     void operator()(const ui::AddBookmark& command) const;
     void operator()(const ui::RemoveBookmark& command) const;
@@ -163,7 +164,10 @@ bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
     const Result<ScreenshotNote> note = readScreenshotNote(file);
     if (!note) return false;
     const Result<Settings> settings = settingsFromText(note->settings, file, editor.settings);
-    if (!settings) return false;
+    if (!settings) {
+        log->error("{}", settings.error().message);
+        return true;
+    }
     editor.undo.add(editor.settings.view, settings->view, "settings of " + file.filename().string());
     editor.settings.view = settings->view;
     if (shownScene(session)) moveCamera(cameraFromPose(note->camera, radiusM()));
@@ -197,7 +201,7 @@ void CommandHandler::operator()(const ui::LoadPreset& command) const {
 std::string lineOf(const Session& session, const Editor& editor) {
     const PlanetPicture& main = editor.viewport.main;
     const double radiusM = shownScene(session)->planet->shape().radiusM;
-    return shotLine(session.open->data.chunkFile, planet::poseFromView(main.view, radiusM),
+    return shotLine(shownPlanet(session)->data.chunkFile, planet::poseFromView(main.view, radiusM),
                     {main.view.widthPx, main.view.heightPx}, editor.settings.view, session.colourFile);
 }
 
@@ -235,8 +239,8 @@ void keepScreenshot(const Picture& picture, const Session& session, const Editor
     note.settings = settingsText(editor.settings);
     if (shownScene(session) && editor.rig) {
         const double radiusM = shownScene(session)->planet->shape().radiusM;
-        note.camera = planet::poseFromView(viewOf(editor.rig->camera, 1, 1, 1), radiusM);
-        note.dataSet = session.open->data.source;
+        note.camera = poseOf(editor.rig->camera, radiusM);
+        note.dataSet = shownPlanet(session)->data.source;
         note.shotLine = lineOf(session, editor);
     }
     const Result<std::filesystem::path> file = writeNewScreenshot(picture, note);

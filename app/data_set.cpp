@@ -8,7 +8,7 @@
 
 #include "app/places.h"
 #include "planet/chunk_file.h"
-#include "planet/cube_sphere.h"
+#include "planet/height_source.h"
 
 namespace worldy {
 
@@ -23,41 +23,12 @@ std::uint64_t hashOf(const std::string& text) {
     return hash;
 }
 
-// "earth4097" of "earth4097_z_pos.raw"; the whole stem where no face is named.
-std::string stemWithoutFace(const fs::path& path) {
-    const std::string stem = path.stem().string();
-    for (const planet::Face face : planet::allFaces) {
-        const std::string ending = fmt::format("_{}", planet::faceName(face));
-        if (stem.ends_with(ending)) return stem.substr(0, stem.size() - ending.size());
-    }
-    return stem;
-}
-
 // A file's name holds 255 bytes, and the source's own may fill them. Cuts no UTF-8 letter in two.
 std::string shortened(const std::string& name) {
     std::size_t length = std::min<std::size_t>(name.size(), 80);
     while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0u) == 0x80u)
         --length;
     return name.substr(0, length);
-}
-
-bool namesAFace(const fs::path& path) {
-    return stemWithoutFace(path) != path.stem().string();
-}
-
-// The source's files: one image, or the faces that share a stem.
-std::vector<fs::path> filesOf(const fs::path& source) {
-    std::error_code status;
-    if (fs::is_regular_file(source, status) && !namesAFace(source)) return {source};
-    const std::string stem = namesAFace(source) ? stemWithoutFace(source) : source.filename().string();
-    std::vector<fs::path> files;
-    const fs::path folder = source.has_parent_path() ? source.parent_path() : fs::path(".");
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
-        const bool face = namesAFace(entry.path()) && stemWithoutFace(entry.path()) == stem;
-        if (face && entry.is_regular_file(status)) files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
 }
 
 fs::path colourImageBeside(const fs::path& source) {
@@ -112,23 +83,19 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
     if (settings.compressionLevel != planet::defaultCompressionLevel)
         identity += fmt::format(" c{}", settings.compressionLevel);
     identity += identityOf(sourceSettings);
-    for (const fs::path& file : filesOf(source)) {
+    const planet::HeightSourceFiles sourceFiles = planet::heightSourceFiles(source);
+    for (const fs::path& file : sourceFiles.files) {
         std::error_code status;
         identity += fmt::format("|{}|{}|{}", fs::absolute(file, status).lexically_normal().string(),
                                 fs::file_size(file, status),
                                 fs::last_write_time(file, status).time_since_epoch().count());
     }
-    return cacheFolder() /
-           fmt::format("{}-{:016x}.chk", shortened(stemWithoutFace(source)), hashOf(identity));
-}
-
-bool sourceExists(const fs::path& source) {
-    return !source.empty() && source.extension() != ".chk" && !filesOf(source).empty();
+    return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem), hashOf(identity));
 }
 
 planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,
                                     const planet::HeightSourceSettings& sourceSettings) {
-    if (filesOf(named).empty()) {
+    if (planet::heightSourceFiles(named).files.empty()) {
         return planet::badInput(
             fmt::format("{}: no such file; a chunk file (.chk), an elevation image or one of six cube faces "
                         "would be right",

@@ -31,7 +31,4 @@ planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const pl
 std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const planet::BakeSettings& settings,
                                    const planet::HeightSourceSettings& sourceSettings = {});
 
-// Whether an elevation image, or a face of a cube, is there.
-bool sourceExists(const std::filesystem::path& source);
-
 }  // namespace worldy

@@ -50,10 +50,7 @@ ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorVi
     input.source = session.data.source.filename().string();
     input.progress = view.bake.progress;
     input.stopping = view.bake.stopping;
-    if (!view.bake.running) {
-        const bool cancelled = session.problem && session.problem->kind == planet::ErrorKind::Cancelled;
-        input.problem = cancelled ? "The bake was cancelled." : view.data.problem;
-    }
+    if (!view.bake.running) input.problem = view.data.problem;
     input.canBake = session.data.chunkFile != session.data.source;
     return input;
 }

@@ -16,12 +16,6 @@ namespace worldy {
 
 namespace {
 
-Camera startCamera(const Settings& settings, double radiusM) {
-    planet::CameraPose pose = settings.camera;
-    if (pose.altitudeM == 0) pose.altitudeM = wholePlanetPose(radiusM).altitudeM;
-    return cameraFromPose(pose, radiusM);
-}
-
 // Another planet has taken the place of the last one: the camera stays where it makes sense, what was counted
 // does not.
 void meetPlanet(const planet::Planet& planet, Editor& editor) {
@@ -38,19 +32,38 @@ void meetPlanet(const planet::Planet& planet, Editor& editor) {
     editor.stepOneFrame = true;  // something has to be chosen for it
 }
 
+// Of a picture that is not shown the size is the other's: the lod view goes on while the observer is alone.
 planet::View viewOfPicture(const Camera& camera, const PlanetPicture& picture, const PlanetPicture& other,
-                           float pixelRatio, double fovDeg) {
+                           float pixelRatio, const Editor& editor) {
     const PixelSize size = pixelSizeOf(picture.shown() ? picture.rect : other.rect, pixelRatio);
-    return viewOf(camera, glm::radians(fovDeg), size.width, size.height);
+    return viewOf(camera, glm::radians(editor.settings.view.camera.fovDeg), size.width, size.height);
+}
+
+planet::View mainView(const Editor& editor, float pixelRatio) {
+    const Viewport& viewport = editor.viewport;
+    return viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio, editor);
+}
+
+planet::View observerView(const Editor& editor, float pixelRatio) {
+    const Viewport& viewport = editor.viewport;
+    return viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio, editor);
+}
+
+// Also while frames are paused: there is always something to look through.
+void placeCameras(const Scene& scene, float pixelRatio, Editor& editor) {
+    const double radiusM = scene.planet->shape().radiusM;
+    if (!editor.rig) {
+        editor.rig.emplace();
+        editor.rig->camera = cameraFromPose(startPose(editor.settings.camera, radiusM), radiusM);
+    }
+    if (editor.observer || !editor.viewport.observer.shown()) return;
+    editor.observer.emplace();
+    editor.observer->camera =
+        observerStart(mainView(editor, pixelRatio), groundBelow(scene, editor.rig->camera.eyeM));
 }
 
 void moveCameras(Scene& scene, float pixelRatio, Editor& editor, const Log& log, double seconds) {
-    Viewport& viewport = editor.viewport;
-    ui::CameraSettings& settings = editor.settings.view.camera;
-    if (!editor.rig) {
-        editor.rig.emplace();
-        editor.rig->camera = startCamera(editor.settings, scene.planet->shape().radiusM);
-    }
+    const Viewport& viewport = editor.viewport;
     const Surroundings around = surroundingsOf(scene);
     const KeyInput keys = readKeys();
     editor.rig->speedFactor =
@@ -58,43 +71,35 @@ void moveCameras(Scene& scene, float pixelRatio, Editor& editor, const Log& log,
     // The keys go to the picture that the pointer is on.
     const bool observing =
         viewport.observer.shown() && (viewport.observer.pointer.over || !viewport.main.shown());
-    const planet::View view =
-        viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio, settings.fovDeg);
-    const planet::Result<void> moved = advanceRig(*editor.rig, around, view, viewport.main.pointer,
-                                                  observing ? HeldKeys() : keys.held, seconds, settings);
+    const planet::Result<void> moved =
+        advanceRig(*editor.rig, around, mainView(editor, pixelRatio), viewport.main.pointer,
+                   observing ? HeldKeys() : keys.held, seconds, editor.settings.view.camera);
     if (!moved) log->error("{}", moved.error().message);
 
     if (!viewport.observer.shown()) return;
-    if (!editor.observer) {
-        editor.observer.emplace();
-        editor.observer->camera = observerStart(view, groundBelow(scene, editor.rig->camera.eyeM));
-    }
     editor.observer->speedFactor = editor.rig->speedFactor;
-    const planet::View observerView =
-        viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio, settings.fovDeg);
     // Cannot fail: it follows no flight.
-    static_cast<void>(advanceRig(*editor.observer, around, observerView, viewport.observer.pointer,
-                                 observing ? keys.held : HeldKeys(), seconds, editor.observerControls));
+    static_cast<void>(advanceRig(*editor.observer, around, observerView(editor, pixelRatio),
+                                 viewport.observer.pointer, observing ? keys.held : HeldKeys(), seconds,
+                                 editor.observerControls));
 }
 
 bool observerChooses(const Editor& editor) {
     return editor.viewport.observer.shown() && editor.settings.view.camera.observerOwnLod;
 }
 
+// What the observer's picture draws. The second selection is there once a frame has chosen it: not at once
+// where frames are paused.
+std::size_t observerSelection(const Scene& scene, const Editor& editor) {
+    return observerChooses(editor) && scene.planet->viewCount() > 1 ? 1 : 0;
+}
+
 void chooseChunks(Scene& scene, float pixelRatio, Editor& editor) {
-    const Viewport& viewport = editor.viewport;
-    const double fovDeg = editor.settings.view.camera.fovDeg;
-    if (!editor.lodFrozen) {
-        editor.lodView =
-            viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio, fovDeg);
-    }
-    if (observerChooses(editor)) {
-        const planet::View observerView =
-            viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio, fovDeg);
-        stepScene(scene, editor.lodView, observerView, editor.settings.view);
-    } else {
+    if (!editor.lodFrozen) editor.lodView = mainView(editor, pixelRatio);
+    if (observerChooses(editor))
+        stepScene(scene, editor.lodView, observerView(editor, pixelRatio), editor.settings.view);
+    else
         stepScene(scene, editor.lodView, editor.settings.view);
-    }
     editor.changes.add(scene.planet->selection(), editor.timeS);
 }
 
@@ -108,8 +113,7 @@ void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& 
     Viewport& viewport = editor.viewport;
     const ui::ViewSettings& settings = editor.settings.view;
     PictureContent content;
-    content.view = viewOfPicture(editor.rig->camera, viewport.main, viewport.observer, pixelRatio,
-                                 settings.camera.fovDeg);
+    content.view = mainView(editor, pixelRatio);
     viewport.main.view = content.view;
     if (!viewport.main.shown()) return;
     const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, 0, settings);
@@ -122,12 +126,11 @@ void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& 
 
 void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
     Viewport& viewport = editor.viewport;
-    if (!viewport.observer.shown() || !editor.observer) return;
+    if (!viewport.observer.shown()) return;
     const ui::ViewSettings& settings = editor.settings.view;
     PictureContent content;
-    content.view = viewOfPicture(editor.observer->camera, viewport.observer, viewport.main, pixelRatio,
-                                 settings.camera.fovDeg);
-    content.selection = observerChooses(editor) ? 1 : 0;
+    content.view = observerView(editor, pixelRatio);
+    content.selection = observerSelection(scene, editor);
     const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, content.selection, settings);
     content.tints = tints;
     content.hiddenLines = overlayLines(scene.planet->tree(), scene.planet->selection(content.selection),
@@ -156,7 +159,9 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     meetPlanet(*scene.planet, editor);
     if (const auto applied = applyLiveSettings(scene, editor.settings.view, editor.pagingPaused); !applied)
         log->error("{}", applied.error().message);
-    if (!editor.framesPaused || std::exchange(editor.stepOneFrame, false)) {
+    placeCameras(scene, pixelRatio, editor);
+    const bool stepOne = std::exchange(editor.stepOneFrame, false);
+    if (!editor.framesPaused || stepOne) {
         moveCameras(scene, pixelRatio, editor, log, editor.framesPaused ? 1.0 / 60 : seconds);
         chooseChunks(scene, pixelRatio, editor);
     }
@@ -164,7 +169,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     drawMainPicture(scene, pixelRatio, editor, log);
     drawObserverPicture(scene, pixelRatio, editor, log);
     pick(editor.viewport.main, scene, 0, commands);
-    pick(editor.viewport.observer, scene, observerChooses(editor) ? 1 : 0, commands);
+    pick(editor.viewport.observer, scene, observerSelection(scene, editor), commands);
     ui::FrameStats stats = statsOf(scene);
     stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
     stats.targetBytes = gpuBytes(editor.viewport);

@@ -9,7 +9,7 @@
 
 #include "app/output_file.h"
 #include "app/places.h"
-#include "planet/cube_sphere.h"
+#include "planet/height_source.h"
 
 namespace worldy {
 
@@ -19,19 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t maxFileBytes = 64u << 10;
 
-// "earth" stands for earth_x_pos.raw and its five siblings.
-bool isStemOfFaces(const fs::path& path) {
-    const std::string start = fmt::format("{}_{}.", path.filename().string(), faceName(planet::Face::PosX));
-    std::error_code status;
-    const fs::directory_iterator folder(path.parent_path(), status);
-    return std::any_of(begin(folder), end(folder), [&](const fs::directory_entry& entry) {
-        return entry.path().filename().string().starts_with(start);
-    });
-}
-
 bool isThere(const fs::path& path) {
-    std::error_code status;
-    return fs::is_regular_file(path, status) || (!fs::exists(path, status) && isStemOfFaces(path));
+    return !planet::heightSourceFiles(path).files.empty();
 }
 
 }  // namespace

@@ -38,11 +38,6 @@ double rampTopM(const planet::ChunkTree& tree) {
     return std::max({0.85 * highestM, 0.3 * (highestM - lowestM), 1.0});
 }
 
-bool samePaging(const planet::PagingSettings& a, const planet::PagingSettings& b) {
-    return a.budgetBytes == b.budgetBytes && a.loaderThreads == b.loaderThreads &&
-           a.uploadLimitMs == b.uploadLimitMs && a.paused == b.paused && a.badDisk == b.badDisk;
-}
-
 // The renderer's pool follows the planet's slots. Where it cannot, the planet goes back to the slots it had.
 planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before) {
     planet::Result<void> fitted = scene.renderer.setSlotCapacity(scene.planet->slotCapacity());
@@ -53,11 +48,11 @@ planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before)
 
 planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wanted) {
     const planet::PagingSettings before = scene.planet->pagingSettings();
-    if (samePaging(wanted, before)) {
+    if (wanted == before) {
         scene.refusedPaging.reset();
         return {};
     }
-    if (scene.refusedPaging && samePaging(*scene.refusedPaging, wanted)) return {};
+    if (scene.refusedPaging == wanted) return {};
     const planet::Result<bool> moved = scene.planet->setPaging(wanted);
     planet::Result<void> applied;
     if (!moved)

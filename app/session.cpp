@@ -47,7 +47,7 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::V
     const planet::ChunkFile& file = scene->planet->file();
     OpenPlanet open{data, requestOf(file.info().shape), false, false, std::move(*scene)};
     if (data.source != data.chunkFile) open.baked.source = data.source;
-    open.sourceIsThere = sourceExists(open.baked.source);
+    open.sourceIsThere = planet::heightSourceExists(open.baked.source);
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
               ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
     log->debug("Depth buffer: {}", open.scene.renderer.capabilities().reversedZ
@@ -126,7 +126,7 @@ void finishBake(Session& session, const ui::ViewSettings& settings, const Log& l
     open->baked.settings.faceSize = planet::faceCells(report.shape) + 1;
     open->baked.settings.quantumM = report.shape.quantumM;
     open->compressionKnown = true;
-    open->sourceIsThere = sourceExists(bake.request.source);
+    open->sourceIsThere = planet::heightSourceExists(bake.request.source);
     show(session, std::move(*open), bake.forComparison);
 }
 
@@ -160,9 +160,8 @@ fs::file_time_type newestIn(const fs::path& folder) {
     return newest;
 }
 
-const OpenPlanet* shownPlanet(const Session& session) {
-    if (session.showsPrevious && session.previous) return &*session.previous;
-    return session.open ? &*session.open : nullptr;
+std::string messageOf(const planet::Error& error) {
+    return error.kind == planet::ErrorKind::Cancelled ? "The bake was cancelled." : error.message;
 }
 
 std::string summaryOf(const OpenPlanet& open) {
@@ -224,7 +223,7 @@ void startBake(Session& session, const ui::BakeRequest& request, const Log& log)
         return;
     }
     const Result<DataSet> found =
-        sourceExists(request.source)
+        planet::heightSourceExists(request.source)
             ? findDataSet(request.source, request.settings, request.sourceSettings)
             : planet::badInput(fmt::format("{}: no such source; an elevation image or one of six cube faces "
                                            "would be right",
@@ -291,6 +290,11 @@ void requestEstimate(Session& session, const ui::BakeRequest& request) {
     if (session.estimate.job) session.estimate.job->cancel();
 }
 
+const OpenPlanet* shownPlanet(const Session& session) {
+    if (session.showsPrevious && session.previous) return &*session.previous;
+    return session.open ? &*session.open : nullptr;
+}
+
 Scene* shownScene(Session& session) {
     return const_cast<Scene*>(shownScene(std::as_const(session)));
 }
@@ -308,17 +312,14 @@ ui::BakeView bakeViewOf(const Session& session) {
         view.canBake = open->sourceIsThere;
     } else {
         view.current.source = session.data.source;
-        view.canBake = sourceExists(view.current.source);
+        view.canBake = planet::heightSourceExists(view.current.source);
     }
     if (session.bake) {
         view.running = session.bake->request;
         view.stopping = session.bake->stopping();
         if (session.bake->job) view.progress = session.bake->job->progress();
     }
-    if (session.bakeProblem) {
-        const bool cancelled = session.bakeProblem->kind == planet::ErrorKind::Cancelled;
-        view.lastProblem = cancelled ? "The bake was cancelled." : session.bakeProblem->message;
-    }
+    if (session.bakeProblem) view.lastProblem = messageOf(*session.bakeProblem);
     view.lastReport = session.bakeReport;
     view.estimating = session.estimate.job || session.estimate.next;
     view.estimate = session.estimate.result;
@@ -337,10 +338,7 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     view.hasPreviousBake = session.previous.has_value();
     view.showsPreviousBake = session.showsPrevious;
     if (session.previous) view.previousName = summaryOf(*session.previous);
-    if (session.problem) {
-        const bool cancelled = session.problem->kind == planet::ErrorKind::Cancelled;
-        view.problem = cancelled ? "The bake was cancelled." : session.problem->message;
-    }
+    if (session.problem) view.problem = messageOf(*session.problem);
     view.recent = recent;
     return view;
 }

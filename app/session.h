@@ -88,7 +88,8 @@ void dismissPreviousBake(Session& session);
 // Replaces what was asked before. What is estimated is in bakeViewOf.
 void requestEstimate(Session& session, const ui::BakeRequest& request);
 
-// What is to be drawn: null while there is nothing.
+// The planet that is to be drawn, the previous bake's where that is shown: null while there is nothing.
+const OpenPlanet* shownPlanet(const Session& session);
 Scene* shownScene(Session& session);
 const Scene* shownScene(const Session& session);
 

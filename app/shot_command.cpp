@@ -32,13 +32,6 @@ Result<std::optional<Picture>> colourPicture(const ShotOptions& options) {
         [](Picture&& picture) { return std::optional<Picture>(std::move(picture)); });
 }
 
-planet::CameraPose wantedPose(const ShotOptions& options, double radiusM) {
-    if (options.camera) return *options.camera;
-    planet::CameraPose pose = options.start;
-    if (pose.altitudeM == 0) pose.altitudeM = wholePlanetPose(radiusM).altitudeM;
-    return pose;
-}
-
 Result<void> writeShot(const Picture& picture, const planet::CameraPose& pose, const ShotOptions& options) {
     if (options.output.extension() != ".png") return writePicture(picture, options.output);
     std::error_code status;
@@ -85,7 +78,8 @@ Result<void> takeShot(const ShotOptions& options) {
     if (!offscreen) return tl::unexpected(offscreen.error());
 
     const double radiusM = offscreen->scene.planet->shape().radiusM;
-    const SettledView view = settleAt(*offscreen, wantedPose(options, radiusM), options.view);
+    const SettledView view =
+        settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), options.view);
     if (view.lifted) {
         fmt::print(stderr, "worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
                    view.pose.altitudeM, minGroundClearanceM);

@@ -8,6 +8,7 @@
 // whole pyramid (de Boer 2000 for delta_g; Ulrich 2002 for chunks).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -19,6 +20,9 @@
 #include "planet/result.h"
 
 namespace planet {
+
+// Vertices along a chunk's side that a bake can be asked for.
+inline constexpr std::array<int, 4> chunkSizes = {17, 33, 65, 129};
 
 struct BakeSettings {
     std::optional<int> faceSize{};     // samples a side, 2^n + 1; the source's natural size where not given

@@ -118,17 +118,6 @@ int bakeThreads(const BakeSettings& settings) {
     return settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
 }
 
-std::uint64_t sampleCountOf(const PlanetShape& shape) {
-    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
-    return faceCount * cells * cells + 2;
-}
-
-std::uint64_t chunkCountOf(const PlanetShape& shape) {
-    std::uint64_t chunks = 0;
-    for (int level = 0; level <= leafLevel(shape); ++level) chunks += std::uint64_t{faceCount} << (2 * level);
-    return chunks;
-}
-
 Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch) {
     const int cells = faceCells(bake.shape) >> root.level;
     const SampleTile tile{root.face,

@@ -50,10 +50,6 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
 // 0 threads: one a core.
 int bakeThreads(const BakeSettings& settings);
 
-// Of a whole planet: distinct finest-level samples, and chunks of all levels.
-std::uint64_t sampleCountOf(const PlanetShape& shape);
-std::uint64_t chunkCountOf(const PlanetShape& shape);
-
 // A tile is the subtree that one task bakes: samples its square and bakes it bottom-up. The Error names the
 // source's file, or a height that 16 bits cannot hold.
 Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch);

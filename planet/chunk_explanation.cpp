@@ -69,10 +69,8 @@ public:
 private:
     const ChunkNode& deepest() const { return facts_.tree.nodes[path_.back().node]; }
 
-    double distanceToM(const ChunkNode& node) const {
-        return std::max(distanceM(node.bounds.box, facts_.lodView.eyeM), nearestM);
-    }
-    double epsPx(const ChunkNode& node) const { return node.deltaCM * scalePx_ / distanceToM(node); }
+    double distanceOf(const ChunkNode& node) const { return distanceToM(node, facts_.lodView.eyeM); }
+    double epsPx(const ChunkNode& node) const { return epsPxOf(node, facts_.lodView.eyeM, scalePx_); }
     // As selection does it, so that both agree to the last bit.
     double switchDistanceM(const ChunkNode& node) const {
         return node.deltaCM * (scalePx_ / facts_.lod.tauPx);
@@ -98,7 +96,7 @@ private:
         const ChunkNode& node = deepest();
         out_.node = path_.back().node;
         out_.deltaCM = node.deltaCM;
-        out_.distanceM = distanceToM(node);
+        out_.distanceM = distanceOf(node);
         out_.epsPx = epsPx(node);
         out_.switchDistanceM = switchDistanceM(node);
         out_.queuePlace = placeInQueue(id_);
@@ -117,7 +115,7 @@ private:
 
     // Of a chunk that is drawn.
     WhyNotSplit whyNotSplit(const ChunkNode& node) const {
-        if (switchDistanceM(node) <= distanceToM(node)) return WhyNotSplit::GoodEnough;
+        if (switchDistanceM(node) <= distanceOf(node)) return WhyNotSplit::GoodEnough;
         if (node.childrenState == ChildrenState::None) return WhyNotSplit::Leaf;
         if (node.id.level >= facts_.lod.maxLevel) return WhyNotSplit::LevelLimit;
         switch (node.childrenState) {

@@ -270,8 +270,7 @@ Result<FileReport> reportFile(const ChunkFile& file) {
     }
     FileReport report;
     report.fileBytes = file.sizeBytes();
-    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
-    report.finestSamples = faceCount * cells * cells + 2;
+    report.finestSamples = sampleCountOf(shape);
     report.bitsPerFinestSample =
         8 * static_cast<double>(report.fileBytes) / static_cast<double>(report.finestSamples);
     for (int level = 0; level <= leafLevel(shape); ++level) {

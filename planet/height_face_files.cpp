@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <system_error>
@@ -108,6 +109,24 @@ std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path) {
             folder / faceFileName(files.stem, face, files.extension);
     }
     return files;
+}
+
+HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
+    std::error_code problem;
+    HeightSourceFiles found;
+    const std::optional<FaceFiles> faces = findFaceFiles(path);
+    found.stem = faces ? faces->stem : path.stem().string();
+    if (!faces) {
+        if (std::filesystem::is_regular_file(path, problem)) found.files.push_back(path);
+        return found;
+    }
+    std::copy_if(faces->paths.begin(), faces->paths.end(), std::back_inserter(found.files),
+                 [&](const auto& file) { return std::filesystem::is_regular_file(file, problem); });
+    return found;
+}
+
+bool heightSourceExists(const std::filesystem::path& path) {
+    return !path.empty() && path.extension() != ".chk" && !heightSourceFiles(path).files.empty();
 }
 
 }  // namespace planet

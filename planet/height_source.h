@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "planet/cube_sphere.h"
 #include "planet/result.h"
@@ -60,6 +61,15 @@ struct HeightSourceSettings {
     // has none, a PNG say, is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;
 };
+
+// The files that a path stands for, taken as openHeightSource takes it.
+struct HeightSourceFiles {
+    std::string stem;                          // "elevation", or "earth4097" of earth4097_z_pos.raw
+    std::vector<std::filesystem::path> files;  // one image, or those of the six faces that are there
+};
+HeightSourceFiles heightSourceFiles(const std::filesystem::path& path);
+// Whether there is something to bake: an image or a face. A chunk file is none.
+bool heightSourceExists(const std::filesystem::path& path);
 
 // Opens an elevation image, or the six cube faces that the path names one of (earth4097_z_pos.raw) or the
 // common stem of (earth4097: .raw, or an image's extension). A face's size is the number that the stem ends

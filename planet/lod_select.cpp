@@ -109,7 +109,7 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
         ++(culled == Culled::ByFrustum ? out.counters.culledFrustum : out.counters.culledHorizon);
         return;
     }
-    const double nodeDistanceM = std::max(distanceM(node.bounds.box, frame.eyeM), nearestM);
+    const double nodeDistanceM = distanceToM(node, frame.eyeM);
     const bool goodEnough = node.deltaCM * frame.reach <= nodeDistanceM;
     const bool mayBeSplit = node.childrenState != ChildrenState::None &&
                             node.id.level < frame.settings.maxLevel &&
@@ -245,6 +245,14 @@ std::optional<ChunkTable> rememberedSplits(const LodSettings& settings, const Se
 }
 
 }  // namespace
+
+double distanceToM(const ChunkNode& node, const glm::dvec3& eyeM) {
+    return std::max(distanceM(node.bounds.box, eyeM), nearestM);
+}
+
+double epsPxOf(const ChunkNode& node, const glm::dvec3& eyeM, double screenScalePx) {
+    return node.deltaCM * screenScalePx / distanceToM(node, eyeM);
+}
 
 void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings, Selection& out) {
     assert(settings.tauPx > 0 && settings.skirtFactor >= 0 && settings.skirtDepthM >= 0);

@@ -89,6 +89,11 @@ struct VisitedNode {
 // Distances stop here, so that the error on screen of a chunk that holds the eye stays a number.
 inline constexpr double nearestM = 1e-3;
 
+// From an eye to a node's bounds, metres; and the node's error on screen from there, pixels: eps = delta_c K'
+// / D, K' as screenScalePx gives it.
+double distanceToM(const ChunkNode& node, const glm::dvec3& eyeM);
+double epsPxOf(const ChunkNode& node, const glm::dvec3& eyeM, double screenScalePx);
+
 // "This node should be drawn as its children."
 struct ChildrenRequest {
     NodeIndex parent = noNode;

@@ -14,10 +14,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double msSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 Result<void> checkSettings(const PagingSettings& settings) {
     if (settings.loaderThreads < 1 || settings.loaderThreads > maxLoaderThreads) {
         return badInput(

@@ -24,14 +24,6 @@ constexpr std::size_t yieldsPerFrame = 8;
 constexpr std::size_t eventsKept = 1000;
 constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any
 
-std::uint64_t chunkCountOf(const PlanetShape& shape) {
-    return faceCount * ((std::uint64_t{1} << (2 * (leafLevel(shape) + 1))) - 1) / 3;
-}
-
-double msSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 Result<std::uint32_t> slotsFor(const PlanetShape& shape, std::size_t budgetBytes) {

@@ -35,6 +35,14 @@ constexpr int chunkVertexCount(const PlanetShape& shape) {
 constexpr int leafLevel(const PlanetShape& shape) {
     return shape.faceCellsLog2 - shape.chunkCellsLog2;
 }
+// Of the whole planet: distinct finest samples, and chunks of all levels.
+constexpr std::uint64_t sampleCountOf(const PlanetShape& shape) {
+    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
+    return faceCount * cells * cells + 2;
+}
+constexpr std::uint64_t chunkCountOf(const PlanetShape& shape) {
+    return faceCount * ((std::uint64_t{1} << (2 * (leafLevel(shape) + 1))) - 1) / 3;
+}
 constexpr double heightM(const PlanetShape& shape, std::int16_t step) {
     return shape.baseHeightM + step * shape.quantumM;
 }

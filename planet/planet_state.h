@@ -96,6 +96,10 @@ private:
     void afterDrops();
 };
 
+inline double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 // The requests or the splits of all views, merged by parent, the largest priority first.
 std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
                                          std::vector<ChildrenRequest> Selection::*list);

@@ -21,20 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double askAfterS = 0.5;  // since the last edit
-constexpr std::array<int, 4> chunkSizes = {17, 33, 65, 129};
 constexpr int smallestFaceLog2 = 4;
 constexpr int largestFaceLog2 = 16;
-
-// An image, one of six faces, or the common stem of six.
-bool isThere(const fs::path& source) {
-    std::error_code status;
-    if (source.empty() || source.extension() == ".chk") return false;
-    if (fs::is_regular_file(source, status)) return true;
-    for (const char* ending : {".raw", ".png", ".tif", ".tiff", ".exr", ".pgm"}) {
-        if (fs::is_regular_file(source.string() + "_x_pos" + ending, status)) return true;
-    }
-    return false;
-}
 
 bool sameFile(const BakeRequest& a, const BakeRequest& b) {
     return a.source == b.source && a.settings.faceSize == b.settings.faceSize &&
@@ -47,7 +35,7 @@ void setSource(const fs::path& source, BakePanelState& state) {
     const std::string text = source.string();
     state.sourceText.fill(0);
     std::copy_n(text.begin(), std::min(text.size(), state.sourceText.size() - 1), state.sourceText.begin());
-    state.sourceIsThere = isThere(source);
+    state.sourceIsThere = planet::heightSourceExists(source);
 }
 
 // Another file is open than the one that was edited: what was chosen for that one is over.
@@ -135,7 +123,7 @@ bool sourceControl(const EditorView& view, BakePanelState& state, BakeRequest& r
     tooltip(explanation);
     if (changed) {
         request.source = state.sourceText.data();
-        state.sourceIsThere = isThere(request.source);
+        state.sourceIsThere = planet::heightSourceExists(request.source);
     }
     if (state.sourceIsThere) return changed;
     ImGui::PushTextWrapPos(0);
@@ -152,13 +140,14 @@ bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
         "Vertices along a chunk's side. Larger: fewer draw items and nodes, better compression, but coarser "
         "steps of detail and more triangles than the tolerance needs. Smaller: the other way round.";
-    int index = static_cast<int>(std::find(chunkSizes.begin(), chunkSizes.end(), request.settings.chunkSize) -
-                                 chunkSizes.begin());
+    int index = static_cast<int>(
+        std::find(planet::chunkSizes.begin(), planet::chunkSizes.end(), request.settings.chunkSize) -
+        planet::chunkSizes.begin());
     bakeControl("Chunk size", request.settings.chunkSize != current.settings.chunkSize, explanation);
     const bool changed =
         combo("Chunk size", index, "17 vertices\00033 vertices\00065 vertices\000129 vertices\0");
     tooltip(explanation);
-    if (changed) request.settings.chunkSize = chunkSizes[static_cast<std::size_t>(index)];
+    if (changed) request.settings.chunkSize = planet::chunkSizes[static_cast<std::size_t>(index)];
     return changed;
 }
 

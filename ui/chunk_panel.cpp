@@ -23,10 +23,6 @@ using planet::ChunkNode;
 
 constexpr int pictureCells = 64;
 
-ImU32 packed(const ImVec4& colour, float alpha = 1) {
-    return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, alpha));
-}
-
 ImVec4 asVector(const glm::vec3& colour) {
     return {colour.x, colour.y, colour.z, 1};
 }

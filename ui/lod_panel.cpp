@@ -21,7 +21,6 @@ namespace ui {
 
 namespace {
 
-constexpr std::array chunkSizes = {17, 33, 65, 129};
 // Of the list of chunks that flip back and forth.
 constexpr std::size_t thrashingShown = 6;
 
@@ -81,8 +80,9 @@ void cullingKnobs(const EditorView& view, LodKnobs& lod, Commands& commands) {
 
 // The index of a chunk size, or the number of sizes where it is none of them.
 std::size_t sizeIndex(int chunkSize) {
-    return static_cast<std::size_t>(std::find(chunkSizes.begin(), chunkSizes.end(), chunkSize) -
-                                    chunkSizes.begin());
+    return static_cast<std::size_t>(
+        std::find(planet::chunkSizes.begin(), planet::chunkSizes.end(), chunkSize) -
+        planet::chunkSizes.begin());
 }
 
 void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
@@ -121,7 +121,7 @@ void chunkSizeKnob(const EditorView& view, Commands& commands) {
                     "Vertices of a chunk, the same at every level; in the file, so another one needs a bake. "
                     "Larger: fewer, larger draws and reads, but more triangles than the tolerance asks for. "
                     "Smaller: a finer choice, but more chunks to select, queue and draw.")) {
-        *wanted = index == fileIndex ? 0 : chunkSizes[static_cast<std::size_t>(index)];
+        *wanted = index == fileIndex ? 0 : planet::chunkSizes[static_cast<std::size_t>(index)];
     }
     if (*wanted != 0) bakeOffer(view, *wanted, commands);
 }

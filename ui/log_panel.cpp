@@ -49,12 +49,6 @@ void refresh(const std::deque<LogLine>& lines, LogPanelState& state) {
     shown.newestText = newest ? newest->text : std::string();
 }
 
-// Goes on in the same line while there is room.
-void sameLineIfRoom(float width) {
-    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width < right) ImGui::SameLine();
-}
-
 void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
     const float font = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(std::min(font * 16, ImGui::GetContentRegionAvail().x));
@@ -63,14 +57,14 @@ void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& c
     tooltip("Shows only the lines that hold this text; case does not matter.");
     for (std::size_t i = 0; i < state.levels.size(); ++i) {
         const auto level = static_cast<LogLevel>(i);
-        sameLineIfRoom(ImGui::GetFrameHeight() + ImGui::CalcTextSize(levelName(level)).x + font * 0.5f);
+        sameLineIfRoom(checkboxWidth(levelName(level)));
         ImGui::PushStyleColor(ImGuiCol_Text, colourOf(level));
         ImGui::Checkbox(levelName(level), &state.levels[i]);
         noteItem(levelName(level));
         ImGui::PopStyleColor();
         tooltip("Shows lines of this level.");
     }
-    sameLineIfRoom(ImGui::GetFrameHeight() + font * 3.5f);
+    sameLineIfRoom(checkboxWidth("Follow"));
     ImGui::Checkbox("Follow", &state.autoScroll);
     tooltip("Keeps the newest line in view. Scrolling up turns it off.");
     sameLineIfRoom(font * 3.5f);

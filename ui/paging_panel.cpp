@@ -233,8 +233,7 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     const planet::ChunkNode& node = planet.tree().nodes[index];
     const planet::View& lodView = planet.lodView(v);
     const planet::LodSettings& lod = planet.lodSettings(v);
-    const double distanceM = std::max(planet::distanceM(node.bounds.box, lodView.eyeM), planet::nearestM);
-    const double epsPx = static_cast<double>(node.deltaCM) * planet::screenScalePx(lodView) / distanceM;
+    const double epsPx = planet::epsPxOf(node, lodView.eyeM, planet::screenScalePx(lodView));
     std::string text = pageInReason(epsPx, lod.tauPx, lod.hysteresis, epsSymbol(), tauSymbol());
     if (planet.viewCount() > 1) text += fmt::format(", view {}", v + 1);
     return text;
@@ -371,26 +370,19 @@ bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
     return true;
 }
 
-// Goes on in the same line while there is room for a check box of this name.
-void sameLineIfRoom(const char* label) {
-    const float width = ImGui::GetFrameHeight() + ImGui::CalcTextSize(label).x + ImGui::GetFontSize();
-    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    if (ImGui::GetItemRectMax().x + width < right) ImGui::SameLine();
-}
-
 void historyFilter(PagingPanelState& state) {
     ImGui::Checkbox("Loaded", &state.showLoaded);
     tooltip("Blocks read and made resident.");
-    sameLineIfRoom("Failed");
+    sameLineIfRoom(checkboxWidth("Failed"));
     ImGui::Checkbox("Failed", &state.showFailed);
     tooltip("Blocks that could not be read.");
-    sameLineIfRoom("Cancelled");
+    sameLineIfRoom(checkboxWidth("Cancelled"));
     ImGui::Checkbox("Cancelled", &state.showCancelled);
     tooltip("Requests taken back before a loader took them.");
-    sameLineIfRoom("Evicted");
+    sameLineIfRoom(checkboxWidth("Evicted"));
     ImGui::Checkbox("Evicted", &state.showEvicted);
     tooltip("Blocks dropped, for the budget's sake.");
-    sameLineIfRoom("Merged only");
+    sameLineIfRoom(checkboxWidth("Merged only"));
     ImGui::Checkbox("Merged only", &state.onlyMerged);
     tooltip("Only requests that were asked for more than once.");
 }

@@ -416,8 +416,7 @@ NetData netDataOf(const planet::Planet& planet) {
 }
 
 double epsPxOf(const NetData& data, const ChunkNode& node) {
-    const double awayM = std::max(planet::distanceM(node.bounds.box, data.eyeM), planet::nearestM);
-    return static_cast<double>(node.deltaCM) * data.screenScalePx / awayM;
+    return planet::epsPxOf(node, data.eyeM, data.screenScalePx);
 }
 
 void fillNetRects(const NetData& data, const NetPlacement& placement, const Rect& area,

@@ -19,14 +19,6 @@ namespace ui {
 
 namespace {
 
-ImU32 packed(const glm::vec3& colour) {
-    return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, 1));
-}
-
-ImU32 packed(const ImVec4& colour, float alpha = 1) {
-    return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, alpha));
-}
-
 NetColouring colouringOf(const QuadtreePanelState& state, const OverlaySettings& overlay) {
     const ImVec4 ground = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
     return {.by = static_cast<NetColour>(state.colourBy),

@@ -29,12 +29,9 @@ struct HeightRange {
 HeightRange heightsOf(const EditorView& view, double seaLevelM) {
     if (!view.planet) return {};
     const planet::ChunkTree& tree = view.planet->tree();
-    return {planet::heightM(tree.shape, tree.minStep) - seaLevelM,
-            planet::heightM(tree.shape, tree.maxStep) - seaLevelM};
-}
-
-ImU32 packed(const glm::vec3& colour) {
-    return ImGui::GetColorU32(ImVec4(colour.r, colour.g, colour.b, 1));
+    // Stops stand at true heights, whatever the exaggeration that they are drawn with.
+    return {planet::heightM(tree.storedShape, tree.minStep) - seaLevelM,
+            planet::heightM(tree.storedShape, tree.maxStep) - seaLevelM};
 }
 
 void colourKnobs(const EditorView& view, SurfaceSettings& surface) {

@@ -109,6 +109,18 @@ const Palette& palette() {
     return currentPalette;
 }
 
+ImU32 packed(const ImVec4& colour, float alpha) {
+    return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, alpha));
+}
+
+ImU32 packed(const ImVec4& colour) {
+    return packed(colour, 1);
+}
+
+ImU32 packed(const glm::vec3& colour) {
+    return packed(ImVec4(colour.x, colour.y, colour.z, 1), 1);
+}
+
 void applyTheme(Theme theme, float contentScale) {
     currentPalette = paletteOf(theme);
     const float sizePx = std::round(baseFontPx * contentScale);

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <glm/vec3.hpp>
+
 #include "ui/layout.h"
 
 namespace ui {
@@ -21,6 +23,11 @@ inline constexpr float baseFontPx = 15;  // on a monitor of scale 1
 
 // Of the theme applied last.
 const Palette& palette();
+
+// As draw lists take it, the style's own opacity counted in.
+ImU32 packed(const ImVec4& colour, float alpha);
+ImU32 packed(const ImVec4& colour);
+ImU32 packed(const glm::vec3& colour);
 
 // Between two frames, with a current ImGui context. Loads DejaVu Sans with Greek, or the built-in font where
 // there is none; the font's texture has to be made anew after it.

@@ -8,6 +8,7 @@
 
 #include "ui/chunk_labels.h"
 #include "ui/overlay_colours.h"
+#include "ui/paging_text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -30,14 +31,6 @@ std::string endThatFits(const std::string& text, float widthPx) {
         shown = "..." + text.substr(start);
     }
     return shown;
-}
-
-ImU32 packed(const glm::vec3& colour) {
-    return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, 1));
-}
-
-bool isOn(const planet::BadDiskSettings& disk) {
-    return disk.latencyMs > 0 || disk.bandwidthMBs > 0 || disk.failureRate > 0 || disk.shuffledOrder;
 }
 
 float marginPx() {
@@ -180,7 +173,7 @@ void addPagingBadges(const EditorView& view, const ViewSettings& settings,
         badges.push_back({waiting > 0 ? fmt::format("Paging paused, {} waiting", waiting) : "Paging paused",
                           palette().warning});
     }
-    if (isOn(settings.paging.badDisk)) badges.push_back({"Bad disk on", palette().warning});
+    if (isBad(settings.paging.badDisk)) badges.push_back({"Bad disk on", palette().warning});
     if (paging.budgetWaits > 0)
         badges.push_back({fmt::format("Memory full, {} waiting", paging.budgetWaits), palette().bad});
     if (!view.pagingPaused && waiting > 0)

@@ -195,6 +195,15 @@ void secondColumn() {
     ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionMax().x * 0.5f);
 }
 
+void sameLineIfRoom(float width) {
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width < right) ImGui::SameLine();
+}
+
+float checkboxWidth(const char* label) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+}
+
 void emptyState(const char* text) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float wrap = std::min(room.x * 0.9f, ImGui::GetFontSize() * 22);

@@ -50,6 +50,10 @@ bool button(const char* label, const char* explanation);
 // Starts the right-hand column of a pair of check boxes.
 void secondColumn();
 
+// Goes on in the same line while there is room for an item so wide.
+void sameLineIfRoom(float width);
+float checkboxWidth(const char* label);
+
 // A line in the middle of an empty panel that says why it is empty.
 void emptyState(const char* text);
 
