@@ -307,6 +307,26 @@ TEST(HeightSourceFaces, FacesOfTheWrongShapeAreRefused) {
     EXPECT_THAT(errorOf(folder / "dot1"), HasSubstr("a face of 1 samples a side"));
 }
 
+TEST(HeightSourceFaces, APathStandsForItsFaces) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "earth9", 9, disagreeing);
+    writeBytes(folder / "earth9_notes.txt", "no face");
+    for (const char* name : {"earth9", "earth9_y_pos.raw"}) {
+        const HeightSourceFiles found = heightSourceFiles(folder / name);
+        EXPECT_EQ(found.stem, "earth9") << name;
+        EXPECT_EQ(found.files.size(), 6u) << name;
+        EXPECT_TRUE(heightSourceExists(folder / name));
+    }
+    std::filesystem::remove(folder / "earth9_z_neg.raw");
+    EXPECT_EQ(heightSourceFiles(folder / "earth9").files.size(), 5u) << "those that are there";
+    writeBytes(folder / "earth.tif", "one image");
+    EXPECT_EQ(heightSourceFiles(folder / "earth.tif").files.size(), 1u);
+    writeBytes(folder / "earth.chk", "baked");
+    EXPECT_FALSE(heightSourceExists(folder / "earth.chk"));
+    EXPECT_FALSE(heightSourceExists(folder / "absent.tif"));
+    EXPECT_FALSE(heightSourceExists(""));
+}
+
 TEST(HeightSourceFaces, ColourFacesAreRefused) {
     const TemporaryFolder folder;
     writeFaceImages<std::uint8_t>(folder, "colour", ".png", 9, disagreeing, {.channels = 3});

@@ -212,6 +212,16 @@ TEST_F(PanelControls, theRampIsMadeOfStopsAndGivenUp) {
     EXPECT_EQ(settings_.surface.ramp.size(), 3u);
 }
 
+TEST_F(PanelControls, aRampSpansTrueHeightsUnderAnyExaggeration) {
+    openPlanet();
+    click(PanelId::Surface, "Grey");
+    const std::vector<planet::gl::RampStop> ramp = settings_.surface.ramp;
+    ASSERT_GT(ramp.back().heightM, ramp.front().heightM);
+    planet_->setExaggeration(3);
+    click(PanelId::Surface, "Grey");
+    EXPECT_EQ(settings_.surface.ramp, ramp);
+}
+
 TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
     log_.push_back({LogLevel::Info, "14:03:22", "opened"});
     log_.push_back({LogLevel::Error, "14:03:23", "broken"});
