@@ -18,6 +18,7 @@ libexpected-dev         errors as values
 libtbb-dev              the bake on all cores
 libfmt-dev              messages
 libxxhash-dev           checksums of the chunk file
+libzstd-dev             what the benchmark compares the file with
 libcli11-dev            command line
 libtomlplusplus-dev     settings
 nlohmann-json3-dev      reports
@@ -32,8 +33,7 @@ xvfb                    a display for the window's tests
 xauth                   the same
 libx11-dev              drops files onto the window in its tests
 xdotool                 presses keys in the window's tests
-imagemagick             takes their screenshots
-libzstd-dev             what the height codec is compared with"
+imagemagick             takes their screenshots"
 
 # install_missing ASSUME_YES PACKAGES...: lines of "package   what for".
 install_missing() {

@@ -32,6 +32,8 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"file_bytes", report.fileBytes},
                                          {"bits_per_sample", bitsPerSample(report)},
                                          {"missing_samples", report.missingSamples},
+                                         {"root_delta_c_m", report.largestDeltaCM},
+                                         {"root_tight_m", report.largestDeltaTightM},
                                          {"seconds", report.seconds}};
     fmt::print("{}\n", json.dump(2));
 }
@@ -46,6 +48,9 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
                ui::bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
                ui::durationText(report.seconds));
+    fmt::print("largest error of a root: delta_c {}, tight {}\n",
+               ui::distanceText(static_cast<double>(report.largestDeltaCM)),
+               ui::distanceText(static_cast<double>(report.largestDeltaTightM)));
 }
 
 void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {

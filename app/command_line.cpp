@@ -3,17 +3,24 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/app.h"
+#include "app/audit_command.h"
 #include "app/bake_command.h"
+#include "app/bench_command.h"
+#include "app/cracks_command.h"
 #include "app/exit_code.h"
 #include "app/file_commands.h"
 #include "app/fly_command.h"
+#include "app/pops_command.h"
 #include "app/shot_command.h"
+#include "app/sweep_command.h"
 #include "planet/chunk_file.h"
 
 namespace worldy {
@@ -139,6 +146,125 @@ void addFly(CLI::App& app, FlyOptions& options, ViewTexts& view) {
     command.add_option("--json", options.jsonOutput, "Write every frame's figures there");
 }
 
+void addBench(CLI::App& app, BenchOptions& options, ViewTexts& view) {
+    CLI::App& command = *app.add_subcommand(
+        "bench", "Measure LOD, streaming and the file's format, each beside a plain way to do the same");
+    command.add_option("SOURCE", options.source, "Elevation image or cube faces (the Earth)");
+    command
+        .add_option("--faces", options.faceSizes,
+                    "Samples a side, 2^n + 1, of the planets to bake (513 4097)")
+        ->check(CLI::Range(33, 32769));
+    command.add_option("--tau", options.tausPx, "Tolerances, pixels (1 2 4)")->check(number(0.1, 64));
+    command.add_option("--rounds", options.rounds, "How often each is measured, in turn (5)")
+        ->check(CLI::Range(1, 1000));
+    command.add_option("--size", view.size, "Picture, WIDTHxHEIGHT (1280x720)");
+    command.add_option("-o,--output", options.jsonOutput, "Write the figures there as JSON");
+    addSourceOptions(command, options.sourceSettings);
+}
+
+// What a sweep's options are before they are understood.
+struct SweepTexts {
+    ViewTexts view;
+    std::string cost = "triangles";
+    std::string goal;
+    std::vector<std::string> metrics;
+};
+constexpr std::array<std::string_view, 3> sweepCostNames = {"triangles", "frame_ms", "memory_mib"};
+
+void addSweep(CLI::App& app, SweepOptions& options, SweepTexts& texts) {
+    CLI::App& command =
+        *app.add_subcommand("sweep", "Fly at many tolerances, and set what each costs beside its true error");
+    command.add_option("FILE", options.file, "Chunk file, or what is baked for each chunk size")->required();
+    command.add_option("--flight", options.flight, "The flight's keys, .toml")->required();
+    command.add_option("--tau", options.tausPx, "Tolerances, pixels (0.5,1,2,4,8)")
+        ->delimiter(',')
+        ->check(number(0.1, 64));
+    command.add_option("--chunk", options.chunkSizes, "Vertices a side of a chunk (33)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
+    command.add_option("--metric", texts.metrics, "Error metrics: additive, tight (both)")
+        ->delimiter(',')
+        ->check(oneOf(errorMetricNames));
+    command.add_option("--frames", options.frames, "Moments of the flight, evenly spread (12)")
+        ->check(CLI::Range(1, 100000));
+    command.add_option("--cost", texts.cost, "What is paid: triangles, frame_ms or memory_mib (triangles)")
+        ->check(oneOf(sweepCostNames));
+    command.add_option("--suggest", texts.goal,
+                       "Instead: the tau for triangles=N, frame_ms=N, memory_mib=N or error_px=N");
+    command.add_option("--size", texts.view.size, "Picture, WIDTHxHEIGHT (1280x720)");
+    command.add_option("--settings", texts.view.settingsFile, "Settings to fly with");
+    command.add_option("--set", texts.view.assignments, "A setting to fly with, as lod.morph=false");
+    command.add_option("--csv", options.csvOutput, "Write the table there");
+    command.add_option("--json", options.jsonOutput, "Write the table there, as JSON");
+    command.add_option("--plot", options.plotOutput, "Draw it there, .png");
+    addSourceOptions(command, options.sourceSettings);
+}
+
+void addCracks(CLI::App& app, CracksOptions& options, ViewTexts& view) {
+    CLI::App& command = *app.add_subcommand(
+        "cracks", "Count crack pixels and what the skirts leave open; ends with 1 if anything leaks");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--camera", view.camera,
+                       "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius (the whole planet)");
+    command.add_option("--flight", options.flight, "Views along a flight: its keys, .toml");
+    command.add_option("--step-s", options.stepS, "Seconds of the flight from view to view (1)")
+        ->check(number(0.001, 86400));
+    command.add_option("--seams", view.seams, "none, skirts or stitched (skirts)")
+        ->check(CLI::IsMember({"none", "skirts", "stitched"}));
+    addViewOptions(command, view);
+    command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
+    command.add_flag(
+        "--find-depth", options.findDepth,
+        "Also find the smallest skirt depth and the smallest automatic factor that leak nothing");
+    command.add_option("-o,--output", options.report, "Report to write, .json");
+    command.add_option("--mark", options.markedPicture,
+                       "Picture to write of the view that leaks most, cracks marked, .png");
+    command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
+}
+
+void addPops(CLI::App& app, PopsOptions& options, ViewTexts& view) {
+    CLI::App& command = *app.add_subcommand(
+        "pops", "Fly a path with all loads on time, and tell how far each change of level jumps");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--flight", options.flight, "The flight's keys, .toml")->required();
+    command.add_option("--step-s", options.stepS, "Seconds of the flight between two frames (1/60)")
+        ->check(number(1e-4, 1e4));
+    addViewOptions(command, view);
+    command.add_option("-o,--output", options.output, "Write a report there, JSON");
+}
+
+// What only an audit is told, as it is written.
+struct AuditTexts {
+    std::vector<std::string> cameras;
+    std::string metric;
+};
+
+void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts, ViewTexts& view) {
+    CLI::App& command = *app.add_subcommand(
+        "audit",
+        "Measure the true error of what is drawn beside what was predicted; ends with 1 where that "
+        "was too little");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    CLI::Option& cameras =
+        *command.add_option("--camera", texts.cameras,
+                            "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius; may be given "
+                            "again and again (the whole planet, and low over its most rugged ground)");
+    cameras.expected(1)->take_all()->allow_extra_args(false);
+    CLI::Option& flight =
+        *command.add_option("--flight", options.flight, "Views along a flight's keys, .toml")
+             ->excludes(&cameras);
+    command.add_option("--step-s", options.stepS, "Seconds of the flight between its views (1)")
+        ->check(number(1e-6, 1e9))
+        ->needs(&flight);
+    addViewOptions(command, view);
+    command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
+    command.add_option("--metric", texts.metric, "Which bound chooses and predicts: additive or tight")
+        ->check(oneOf(errorMetricNames));
+    command.add_option("-o,--output", options.jsonOutput, "Write every chunk of every view there, as JSON");
+    command.add_option("--worst", options.worst, "Chunks that are listed, worst first (10)")
+        ->check(CLI::Range(0, 1000000));
+}
+
 void addFileCommands(CLI::App& app, FileCommandOptions& options) {
     const auto add = [&](const char* name, const char* about) -> CLI::App& {
         CLI::App& command = *app.add_subcommand(name, about);
@@ -190,6 +316,86 @@ Result<void> runFly(FlyOptions options, const ViewTexts& texts) {
     return flyPath(options);
 }
 
+Result<void> withTexts(SweepOptions options, const SweepTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts.view.size);
+    if (!size) return tl::unexpected(size.error());
+    const Result<Settings> settings = settingsFrom(texts.view);
+    if (!settings) return tl::unexpected(settings.error());
+    options.size = *size;
+    options.view = settings->view;
+    options.cost = static_cast<SweepCost>(
+        std::find(sweepCostNames.begin(), sweepCostNames.end(), texts.cost) - sweepCostNames.begin());
+    if (!texts.metrics.empty()) options.metrics.clear();
+    for (const std::string& name : texts.metrics) {
+        options.metrics.push_back(name == errorMetricNames[0] ? planet::ErrorMetric::Additive
+                                                              : planet::ErrorMetric::Tight);
+    }
+    if (!texts.goal.empty()) {
+        const Result<TauGoal> goal = tauGoalFromText(texts.goal);
+        if (!goal) return tl::unexpected(goal.error());
+        options.goal = *goal;
+    }
+    return runSweep(options);
+}
+
+Result<void> withSize(BenchOptions options, const ViewTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts.size);
+    if (!size) return tl::unexpected(size.error());
+    options.size = *size;
+    return runBench(options);
+}
+
+Result<bool> cracksOf(CracksOptions options, const ViewTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts.size);
+    if (!size) return tl::unexpected(size.error());
+    options.size = *size;
+    if (!texts.camera.empty()) {
+        const Result<planet::CameraPose> pose = poseFromText(texts.camera);
+        if (!pose) return tl::unexpected(pose.error());
+        options.camera = *pose;
+    }
+    const Result<Settings> settings = settingsFrom(texts);
+    if (!settings) return tl::unexpected(settings.error());
+    options.view = settings->view;
+    options.start = settings->camera;
+    return runCracks(options);
+}
+
+Result<void> runPopsWith(PopsOptions options, const ViewTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts.size);
+    if (!size) return tl::unexpected(size.error());
+    const Result<Settings> settings = settingsFrom(texts);
+    if (!settings) return tl::unexpected(settings.error());
+    options.size = *size;
+    options.view = settings->view;
+    return runPops(options);
+}
+
+Result<bool> runAuditCommand(AuditOptions options, const AuditTexts& texts, const ViewTexts& viewTexts) {
+    const Result<PictureSize> size = pictureSizeFromText(viewTexts.size);
+    if (!size) return tl::unexpected(size.error());
+    const Result<Settings> settings = settingsFrom(viewTexts);
+    if (!settings) return tl::unexpected(settings.error());
+    for (const std::string& text : texts.cameras) {
+        const Result<planet::CameraPose> pose = poseFromText(text);
+        if (!pose) return tl::unexpected(pose.error());
+        options.cameras.push_back(*pose);
+    }
+    options.size = *size;
+    options.view = settings->view;
+    if (!texts.metric.empty()) {
+        options.metric =
+            texts.metric == errorMetricNames[0] ? planet::ErrorMetric::Additive : planet::ErrorMetric::Tight;
+    }
+    return runAudit(options);
+}
+
+// Of a check: whether all is well.
+int exitCodeOf(const Result<bool>& result) {
+    if (!result) return reportError(result.error());
+    return *result ? exitOk : exitCheckFailed;
+}
+
 int exitCodeOf(const Result<void>& result) {
     return result ? exitOk : reportError(result.error());
 }
@@ -207,6 +413,17 @@ struct CommandLine {
     ViewTexts shotView;
     FlyOptions fly;
     ViewTexts flyView;
+    BenchOptions bench;
+    ViewTexts benchView;
+    SweepOptions sweep;
+    SweepTexts sweepTexts;
+    CracksOptions cracks;
+    ViewTexts cracksView;
+    PopsOptions pops;
+    ViewTexts popsView;
+    AuditOptions audit;
+    AuditTexts auditTexts;
+    ViewTexts auditView;
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
@@ -221,6 +438,11 @@ struct CommandLine {
         addFileCommands(app, file);
         addShot(app, shot, shotView);
         addFly(app, fly, flyView);
+        addBench(app, bench, benchView);
+        addSweep(app, sweep, sweepTexts);
+        addCracks(app, cracks, cracksView);
+        addPops(app, pops, popsView);
+        addAudit(app, audit, auditTexts, auditView);
         app.require_subcommand(0, 1);
     }
     CommandLine(const CommandLine&) = delete;
@@ -260,6 +482,12 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
     if (app.got_subcommand("probe")) return exitCodeOf(runProbe(line.file));
     if (app.got_subcommand("shot")) return exitCodeOf(withView(line.shot, line.shotView).and_then(takeShot));
     if (app.got_subcommand("fly")) return exitCodeOf(runFly(line.fly, line.flyView));
+    if (app.got_subcommand("sweep")) return exitCodeOf(withTexts(line.sweep, line.sweepTexts));
+    if (app.got_subcommand("bench")) return exitCodeOf(withSize(line.bench, line.benchView));
+    if (app.got_subcommand("cracks")) return exitCodeOf(cracksOf(line.cracks, line.cracksView));
+    if (app.got_subcommand("pops")) return exitCodeOf(runPopsWith(line.pops, line.popsView));
+    if (app.got_subcommand("audit"))
+        return exitCodeOf(runAuditCommand(line.audit, line.auditTexts, line.auditView));
     return runApp(line.window);
 }
 

@@ -106,6 +106,26 @@ struct CommandHandler {
     void operator()(const ui::CopyText& command) const { window.setClipboard(command.text); }
     void operator()(const ui::TakeScreenshot& command) const;
     void operator()(const ui::Quit&) const { window.close(); }
+    void operator()(const ui::MeasureCracks&) const {
+        Scene* scene = shownScene(session);
+        if (!scene || !editor.rig) return;
+        succeeded(measureNow(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view));
+    }
+    void operator()(const ui::FindSmallestSkirts&) const {
+        Scene* scene = shownScene(session);
+        if (!scene || !editor.rig) return;
+        succeeded(findSmallestNow(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view));
+    }
+
+    void operator()(const ui::MeasurePops& command) const { editor.pops.measuring = command.on; }
+    void operator()(const ui::ClearPops&) const { forgetPops(editor.pops); }
+    void operator()(const ui::GoBackToPop& command) const;
+    void operator()(const ui::ShowPopSide& command) const { editor.pops.side = command.side; }
+
+    void operator()(const ui::MeasureErrors&) const { editor.errors.wanted = true; }
+    void operator()(const ui::KeepMeasuringErrors& command) const {
+        editor.errors.keepMeasuring = command.on;
+    }
 
     void openPreset(const std::filesystem::path& file) const;
     bool openScreenshot(const std::filesystem::path& file) const;
@@ -222,6 +242,15 @@ void CommandHandler::operator()(const ui::TakeScreenshot& command) const {
     if (!shown.target) return;
     const Picture picture{shown.target->widthPx(), shown.target->heightPx(), shown.target->readRgb()};
     keepScreenshot(picture, session, editor, log);
+}
+
+void CommandHandler::operator()(const ui::GoBackToPop& command) const {
+    const planet::PopEvent* event = findPop(editor.pops, command.frame, command.chunk);
+    if (!event || !shownScene(session)) return;
+    editor.pops.shown = *event;
+    editor.pops.side = ui::PopSide::Live;
+    editor.focus.selected = event->chunk;
+    moveCamera(cameraFromPose(planet::poseFromView(event->view, radiusM()), radiusM()));
 }
 
 }  // namespace

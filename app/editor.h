@@ -9,7 +9,10 @@
 
 #include "app/bookmarks.h"
 #include "app/camera_rig.h"
+#include "app/cracks.h"
+#include "app/error_job.h"
 #include "app/log.h"
+#include "app/pops.h"
 #include "app/presets.h"
 #include "app/session.h"
 #include "app/settings.h"
@@ -45,7 +48,12 @@ struct Editor {
     ui::FrameStats stats;
     std::deque<ui::FrameSample> history;
     planet::LodChanges changes;
+    Pops pops;
+    ui::ProbeView probe;
     std::deque<ui::LogLine> logLines;
+    CrackInstrument cracks;
+
+    ErrorMeter errors;
 
     ui::PanelStates panels;
     ui::MenuState menu;

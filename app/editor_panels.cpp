@@ -77,6 +77,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     const Scene* scene = shownScene(session);
     if (scene && editor.rig) {
         view.planet = scene->planet.get();
+        view.cracks = cracksViewOf(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view);
         view.camera = cameraViewOf(*editor.rig, groundBelow(*scene, editor.rig->camera.eyeM),
                                    editor.bookmarks.list, editor.flights);
     }
@@ -90,6 +91,9 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.data = dataViewOf(session, editor.recentShown);
     view.bake = bakeViewOf(session);
     view.presets = editor.presets.views(editor.settings.view);
+    if (view.planet) view.pops = popsViewOf(editor.pops);
+    view.probe = editor.probe;
+    view.errors = errorsViewOf(editor.errors, editor.frames);
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

@@ -8,6 +8,7 @@
 
 #include "app/observer.h"
 #include "app/overlay_lines.h"
+#include "app/probe.h"
 #include "app/stopwatch.h"
 #include "planet/pick.h"
 #include "ui/overlay_colours.h"
@@ -28,7 +29,11 @@ void meetPlanet(const planet::Planet& planet, Editor& editor) {
     editor.lastPlanet = &planet;
     editor.lastRadiusM = radiusM;
     editor.changes.clear();
+    forgetPops(editor.pops);
+    editor.probe = {};
+    forgetErrors(editor.errors);
     editor.history.clear();
+    editor.cracks = {};
     editor.stepOneFrame = true;  // something has to be chosen for it
 }
 
@@ -101,12 +106,13 @@ void chooseChunks(Scene& scene, float pixelRatio, Editor& editor) {
     else
         stepScene(scene, editor.lodView, editor.settings.view);
     editor.changes.add(scene.planet->selection(), editor.timeS);
+    measurePops(scene, mainView(editor, pixelRatio), editor.timeS, editor.pops);
 }
 
-std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, std::size_t selection,
-                                           const ui::ViewSettings& settings) {
-    return ui::chunkTints(*scene.planet, scene.planet->selection(selection), settings.overlay,
-                          settings.lod.tauPx, settings.surface.lighting);
+std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
+                                           const ui::ViewSettings& settings, const ErrorMeter& errors) {
+    return ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
+                          settings.surface.lighting, errors.last ? &*errors.last : nullptr);
 }
 
 void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
@@ -116,10 +122,12 @@ void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& 
     content.view = mainView(editor, pixelRatio);
     viewport.main.view = content.view;
     if (!viewport.main.shown()) return;
-    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, 0, settings);
+    const std::optional<KeptPicture> kept = keptPicture(scene.planet->tree(), editor.pops);
+    if (kept) content.kept = KeptItems{kept->selection.draw, kept->stitched};
+    const planet::Selection& shown = kept ? kept->selection : scene.planet->selection();
+    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, editor.errors);
     content.tints = tints;
-    content.hiddenLines =
-        overlayLines(scene.planet->tree(), scene.planet->selection(), content.view, settings);
+    content.hiddenLines = overlayLines(scene.planet->tree(), shown, content.view, settings);
     content.frontLines = focusLines(scene.planet->tree(), editor.focus, content.view);
     drawPicture(viewport, viewport.main, scene, settings, content, log);
 }
@@ -131,7 +139,8 @@ void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const L
     PictureContent content;
     content.view = observerView(editor, pixelRatio);
     content.selection = observerSelection(scene, editor);
-    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, content.selection, settings);
+    const std::vector<planet::gl::ChunkTint> tints =
+        tintsOf(scene, scene.planet->selection(content.selection), settings, editor.errors);
     content.tints = tints;
     content.hiddenLines = overlayLines(scene.planet->tree(), scene.planet->selection(content.selection),
                                        content.view, settings);
@@ -139,6 +148,29 @@ void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const L
     const planet::Lines focus = focusLines(scene.planet->tree(), editor.focus, content.view);
     content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());
     drawPicture(viewport, viewport.observer, scene, settings, content, log);
+}
+
+bool isShown(const Editor& editor, ui::PanelId panel) {
+    return editor.settings.workspace.panels[static_cast<std::size_t>(panel)].shown;
+}
+
+// Follows the pointer in the main picture, and stays where it was last over the ground.
+void probe(const Scene& scene, Editor& editor) {
+    if (!isShown(editor, ui::PanelId::Probe)) return;
+    const PlanetPicture& picture = editor.viewport.main;
+    const planet::Planet& planet = *scene.planet;
+    const ProbeInput input{planet.tree(), planet.selection(), picture.view, scene.renderer.projection(),
+                           editor.settings.view.seams.mode == planet::SeamMode::Stitched};
+    editor.probe.overGround = false;
+    if (picture.shown() && picture.pointer.over) {
+        const std::optional<planet::SurfaceHit> hit =
+            planet::pickSurface(planet.tree(), planet.selection().draw, picture.view.eyeM,
+                                rayThrough(picture.view, picture.pointer.positionPx));
+        editor.probe.overGround = hit.has_value();
+        if (hit) editor.probe.vertex = probeHit(input, *hit);
+    }
+    editor.probe.selected.reset();
+    if (editor.focus.selected) editor.probe.selected = probeWorst(input, *editor.focus.selected);
 }
 
 // The chunk under the pointer is lit; a click selects it, or nothing where there is only sky.
@@ -165,9 +197,14 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
         moveCameras(scene, pixelRatio, editor, log, editor.framesPaused ? 1.0 / 60 : seconds);
         chooseChunks(scene, pixelRatio, editor);
     }
+    advanceErrorMeter(*scene.planet, editor.frames, editor.timeS, editor.errors);
     const Stopwatch watch;
     drawMainPicture(scene, pixelRatio, editor, log);
     drawObserverPicture(scene, pixelRatio, editor, log);
+    const ui::CrackKnobs& cracks = editor.settings.view.cracks;
+    const auto every = static_cast<std::uint64_t>(cracks.everyFrames);
+    if (cracks.live && editor.frames % every == 0) commands.emplace_back(ui::MeasureCracks{});
+    probe(scene, editor);
     pick(editor.viewport.main, scene, 0, commands);
     pick(editor.viewport.observer, scene, observerSelection(scene, editor), commands);
     ui::FrameStats stats = statsOf(scene);

@@ -6,7 +6,8 @@
 namespace worldy {
 
 inline constexpr int exitOk = 0;
-inline constexpr int exitBadInput = 2;  // bad input, or reading or writing failed
+inline constexpr int exitCheckFailed = 1;  // what was to be checked is there and wrong
+inline constexpr int exitBadInput = 2;     // bad input, or reading or writing failed
 inline constexpr int exitCancelled = 130;
 
 // Writes "worldy: message" to stderr; the code that the program must end with.

@@ -43,7 +43,10 @@ Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
                                   {"min_delta_m", level.minDeltaM},
                                   {"median_delta_m", level.medianDeltaM},
                                   {"p99_delta_m", level.p99DeltaM},
-                                  {"max_delta_m", level.maxDeltaM}});
+                                  {"max_delta_m", level.maxDeltaM},
+                                  {"mean_delta_m", level.meanDeltaM},
+                                  {"mean_tight_m", level.meanTightM},
+                                  {"max_tight_m", level.maxTightM}});
     }
     return json;
 }
@@ -62,13 +65,14 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
                info.missingSamples);
     fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
                ui::bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
-    fmt::print("{:>29}{:>14}\n", "", "delta_c, m:");
-    fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size", "smallest",
-               "median", "99th perc.", "largest");
+    fmt::print("{:>29}{:>14}{:>56}{:>14}\n", "", "delta_c, m:", "", "tight, m:");
+    fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size",
+               "smallest", "median", "99th perc.", "largest", "mean", "mean", "largest");
     for (const planet::LevelReport& level : report.levels) {
-        fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", level.level, level.chunks,
-                   ui::bytesText(static_cast<double>(level.bytes)), level.minDeltaM, level.medianDeltaM,
-                   level.p99DeltaM, level.maxDeltaM);
+        fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n",
+                   level.level, level.chunks, ui::bytesText(static_cast<double>(level.bytes)),
+                   level.minDeltaM, level.medianDeltaM, level.p99DeltaM, level.maxDeltaM, level.meanDeltaM,
+                   level.meanTightM, level.maxTightM);
     }
 }
 
@@ -102,6 +106,7 @@ Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& rep
         const planet::OrientedBox& box = chunk.bounds.box;
         json["chunks"].push_back({{"id", planet::toString(chunk.id)},
                                   {"delta_c_m", chunk.deltaCM},
+                                  {"tight_m", chunk.deltaTightM},
                                   {"height_m", chunk.heightM},
                                   {"min_height_m", chunk.minHeightM},
                                   {"max_height_m", chunk.maxHeightM},
@@ -115,11 +120,11 @@ void printProbe(const FileCommandOptions& options, const planet::ProbeReport& re
     fmt::print("{}: {} lies at {:.3f} m, on {} at u {:.6f}, v {:.6f}\n\n", options.file.string(),
                ui::placeText(options.latitudeDeg, options.longitudeDeg), report.heightM,
                planet::faceName(report.place.face), report.place.u, report.place.v);
-    fmt::print("{:24}{:>14}{:>14}{:>14}{:>14}\n", "chunk", "delta_c, m", "height, m", "lowest, m",
-               "highest, m");
+    fmt::print("{:24}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "chunk", "delta_c, m", "tight, m", "height, m",
+               "lowest, m", "highest, m");
     for (const planet::ProbeChunk& chunk : report.chain) {
-        fmt::print("{:24}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", planet::toString(chunk.id), chunk.deltaCM,
-                   chunk.heightM, chunk.minHeightM, chunk.maxHeightM);
+        fmt::print("{:24}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", planet::toString(chunk.id),
+                   chunk.deltaCM, chunk.deltaTightM, chunk.heightM, chunk.minHeightM, chunk.maxHeightM);
     }
 }
 

@@ -56,7 +56,8 @@ void appendSwitchDistance(const planet::Planet& planet, const planet::View& lodV
     const planet::ChunkNode& node = planet.tree().nodes[index];
     planet::appendBox(node.bounds.box, boundsColour, lines);
     const double scale = planet::screenScalePx(lodView) / planet.lodSettings().tauPx;
-    const double switchDistanceM = static_cast<double>(node.deltaCM) * scale;
+    const double switchDistanceM =
+        static_cast<double>(planet::deltaOf(node, planet.lodSettings().metric)) * scale;
     if (switchDistanceM == 0) return;  // a leaf is never replaced
     for (std::size_t axis = 0; axis < 3; ++axis) {
         appendRoundedRectangle(node.bounds.box, axis, (axis + 1) % 3, switchDistanceM, switchColour, lines);

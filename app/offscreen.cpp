@@ -3,9 +3,11 @@
 #include <epoxy/gl.h>
 
 #include <glm/trigonometric.hpp>
+#include <memory>
 #include <utility>
 
 #include "app/overlay_lines.h"
+#include "planet/true_error.h"
 #include "ui/overlay_colours.h"
 
 namespace worldy {
@@ -26,6 +28,22 @@ planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, c
     return {};
 }
 
+// Nothing where chunks are not coloured by it.
+planet::Result<std::optional<ui::ErrorMeasurement>> measuredFor(const planet::Planet& planet,
+                                                                const ui::ViewSettings& settings) {
+    if (settings.overlay.colourBy != ui::ColourBy::Measured) return std::nullopt;
+    const planet::LodSettings& lod = planet.lodSettings();
+    planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(planet.file()));
+    auto report =
+        planet::measureTrueError(planet::snapshotOf(planet.tree(), planet.selection().draw, planet.lodView(),
+                                                    lod.seams == planet::SeamMode::Stitched),
+                                 heights);
+    if (!report) return tl::unexpected(report.error());
+    ui::ErrorMeasurement measured = ui::measurementOf(std::move(*report));
+    measured.tauPx = lod.tauPx;
+    return measured;
+}
+
 }  // namespace
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
@@ -44,10 +62,12 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
                                    const ui::ViewSettings& settings) {
     Scene& scene = offscreen.scene;
     const planet::Selection& selection = scene.planet->selection();
+    const auto measured = measuredFor(*scene.planet, settings);
+    if (!measured) return tl::unexpected(measured.error());
     offscreen.target.bind();
     drawScene(scene, view, settings, 0,
               ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                             settings.surface.lighting));
+                             settings.surface.lighting, *measured ? &**measured : nullptr));
     const planet::Lines lines = overlayLines(scene.planet->tree(), selection, view, settings);
     // Lines are those of the sphere.
     if (!lines.empty() && !settings.overlay.cube) {

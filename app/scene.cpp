@@ -88,6 +88,7 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
 
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     planet::LodSettings lod;
+    lod.metric = settings.lod.metric;
     lod.tauPx = settings.lod.tauPx;
     lod.hysteresis = settings.lod.hysteresis;
     lod.maxLevel = settings.lod.maxLevel;
@@ -96,6 +97,7 @@ planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     lod.horizonCulling = settings.lod.horizonCulling && !settings.overlay.cube;
     lod.morph = settings.lod.morph;
     lod.morphRange = settings.lod.morphRange;
+    lod.fadeS = settings.lod.fadeS;
     lod.seams = settings.seams.mode;
     lod.skirtDepth = settings.seams.depth;
     lod.skirtDepthM = settings.seams.skirtDepthM;
@@ -164,9 +166,17 @@ void stepScene(Scene& scene, const planet::View& lodView, const planet::View& ob
 
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
                std::size_t selection, std::span<const planet::gl::ChunkTint> tints) {
+    drawItems(scene, renderView, settings, scene.planet->selection(selection).draw,
+              settings.seams.mode == planet::SeamMode::Stitched, tints);
+}
+
+void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+               std::span<const planet::DrawItem> items, bool stitched,
+               std::span<const planet::gl::ChunkTint> tints) {
     const Stopwatch watch;
-    scene.renderer.draw(renderView, scene.planet->selection(selection).draw,
-                        renderSettingsOf(settings, renderView, scene.planet->tree()), tints);
+    planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
+    render.stitched = stitched;
+    scene.renderer.draw(renderView, items, render, tints);
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
     scene.drawn.chunks += counters.chunks;

@@ -59,6 +59,11 @@ void stepScene(Scene& scene, const planet::View& lodView, const planet::View& ob
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
                std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {});
 
+// The same for any chunks whose slots hold them.
+void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+               std::span<const planet::DrawItem> items, bool stitched,
+               std::span<const planet::gl::ChunkTint> tints = {});
+
 // Steps until nothing more is wanted or can be had. False if that takes longer.
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS);

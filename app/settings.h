@@ -17,9 +17,10 @@
 namespace worldy {
 
 // The names of the enumerators, in their order, in files and on the command line.
-inline constexpr std::array<std::string_view, 7> colourByNames = {"none",  "level", "error",     "delta_c",
-                                                                  "morph", "age",   "load_order"};
+inline constexpr std::array<std::string_view, 8> colourByNames = {"none",  "level", "error",      "delta_c",
+                                                                  "morph", "age",   "load_order", "measured"};
 inline constexpr std::array<std::string_view, 2> surfaceNames = {"image", "ramp"};
+inline constexpr std::array<std::string_view, 2> errorMetricNames = {"additive", "tight"};
 inline constexpr std::array<std::string_view, 3> seamModeNames = {"none", "skirts", "stitched"};
 inline constexpr std::array<std::string_view, 2> skirtDepthNames = {"automatic", "fixed"};
 inline constexpr std::array<std::string_view, 3> skirtPaintNames = {"as_ground", "loud", "loud_alone"};

@@ -53,7 +53,11 @@ void addLod(Fields& fields, ui::LodKnobs& lod) {
           Number{&lod.morphRange, {0.01, 4, ""}}},
          {"lod", "frustum_culling", "Leave out what lies beside and behind the view.",
           Flag{&lod.frustumCulling}},
-         {"lod", "horizon_culling", "Leave out what the planet itself hides.", Flag{&lod.horizonCulling}}});
+         {"lod", "horizon_culling", "Leave out what the planet itself hides.", Flag{&lod.horizonCulling}},
+         {"lod", "metric", "Bound of a chunk's error: additive (safe) or tight (fewer triangles).",
+          Choice{asByte(lod.metric), errorMetricNames}},
+         {"lod", "fade_s", "Seconds that a change of level takes at least; 0: it pops if it comes late.",
+          Number{&lod.fadeS, {0, 10, "seconds"}}}});
 }
 
 void addSeams(Fields& fields, ui::SeamKnobs& seams) {
@@ -94,7 +98,7 @@ void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
     fields.insert(
         fields.end(),
         {{"overlay", "colour_by",
-          "What the tint of a chunk shows: none, level, error, delta_c, morph, age or load_order.",
+          "What the tint of a chunk shows: none, level, error, delta_c, morph, age, load_order or measured.",
           Choice{asByte(overlay.colourBy), colourByNames}},
          {"overlay", "opacity", "Of the tint.", Number{&overlay.opacity, {0, 1, ""}}},
          {"overlay", "error_scale", "Error on screen in units of tau that is tinted yellow.",
@@ -206,6 +210,14 @@ void addPanels(Fields& fields, ui::Workspace& workspace) {
         fields.push_back({"panels", fmt::format("{}_shown", info.key), "", Flag{&place.shown}});
         meaning = {};
     }
+}
+
+void addCracks(Fields& fields, ui::CrackKnobs& cracks) {
+    fields.insert(fields.end(),
+                  {{"cracks", "live", "Measure cracks again and again.", Flag{&cracks.live}},
+                   {"cracks", "every_frames", "Then: frames from one measurement to the next.",
+                    Integer{&cracks.everyFrames, {1, 1000, "frames"}}},
+                   {"cracks", "mark", "Show the crack pixels in the viewport.", Flag{&cracks.mark}}});
 }
 
 // What a setting was called before version 0.2. Files that hold these names go on to be read, without a
@@ -409,6 +421,7 @@ std::vector<Field> fieldsOf(Settings& settings) {
     addCamera(fields, settings.camera);
     addWindow(fields, settings);
     addPanels(fields, settings.workspace);
+    addCracks(fields, settings.view.cracks);
     return fields;
 }
 

@@ -64,7 +64,7 @@ constexpr std::array shortcuts = {
              [](const Targets& t) { ask(t, ui::PauseFrames{!t.view.framesPaused}); }},
     Shortcut{GLFW_KEY_F6, noModifier, [](const Targets& t) { ask(t, ui::StepFrame{}); }},
     Shortcut{GLFW_KEY_F7, noModifier, [](const Targets& t) { advance(t.settings.camera.observer, 3); }},
-    Shortcut{GLFW_KEY_F8, noModifier, [](const Targets& t) { advance(t.settings.overlay.colourBy, 7); }},
+    Shortcut{GLFW_KEY_F8, noModifier, [](const Targets& t) { advance(t.settings.overlay.colourBy, 8); }},
     Shortcut{GLFW_KEY_F10, noModifier, [](const Targets& t) { t.menu.showKeys = !t.menu.showKeys; }},
     Shortcut{GLFW_KEY_F11, noModifier, toggleAllPanels},
     Shortcut{GLFW_KEY_F12, noModifier, [](const Targets& t) { ask(t, ui::TakeScreenshot{false}); }},
@@ -83,10 +83,11 @@ constexpr std::array shortcuts = {
     Shortcut{GLFW_KEY_ESCAPE, noModifier, leave},
 };
 
-// GLFW's code of a panel's "Ctrl+X" is the letter or digit itself.
-void togglePanel(const KeyPress& press, const Targets& targets) {
+// GLFW's code of a panel's "Ctrl+X" or "Ctrl+Shift+X" is the letter or digit itself.
+void togglePanel(const KeyPress& press, bool shifted, const Targets& targets) {
     for (const ui::PanelInfo& info : ui::panelInfos) {
-        if (press.key != std::string_view(info.shortcut).back()) continue;
+        const std::string_view shortcut = info.shortcut;
+        if (press.key != shortcut.back() || shifted != shortcut.starts_with("Ctrl+Shift+")) continue;
         bool& shown = targets.workspace.panels[static_cast<std::size_t>(info.id)].shown;
         const ui::Dock dock = targets.workspace.panels[static_cast<std::size_t>(info.id)].dock;
         const bool inFront = targets.workspace.inFront[static_cast<std::size_t>(dock)] == info.id;
@@ -109,8 +110,8 @@ void obeyShortcuts(std::span<const KeyPress> pressed, const ShortcutTargets& tar
         });
         if (found != shortcuts.end())
             found->act(targets);
-        else if (modifiers == ctrl)
-            togglePanel(press, targets);
+        else if (modifiers == ctrl || modifiers == (ctrl | shift))
+            togglePanel(press, modifiers != ctrl, targets);
     }
 }
 

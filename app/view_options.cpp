@@ -96,6 +96,7 @@ planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
     std::vector<std::string> assignments;
     if (!texts.colourBy.empty()) assignments.push_back("overlay.colour_by=" + texts.colourBy);
     if (!texts.surface.empty()) assignments.push_back("surface.colour=" + texts.surface);
+    if (!texts.seams.empty()) assignments.push_back("seams.mode=" + texts.seams);
     assignments.insert(assignments.end(), texts.assignments.begin(), texts.assignments.end());
     for (const std::string& assignment : assignments) {
         if (const planet::Result<void> set = setSetting(settings, assignment); !set)

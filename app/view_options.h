@@ -31,6 +31,7 @@ struct ViewTexts {
     std::string camera;    // poseFromText's
     std::string colourBy;  // one of colourByNames
     std::string surface;   // one of surfaceNames
+    std::string seams;     // none, skirts or stitched
     std::optional<double> tauPx;
     std::optional<double> fovDeg;
     std::optional<int> budgetMB;

@@ -67,7 +67,10 @@ void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const
     picture.view = content.view;
     if (!fitTarget(picture, content.view, log)) return;
     picture.target->bind();
-    drawScene(scene, content.view, settings, content.selection, content.tints);
+    if (content.kept)
+        drawItems(scene, content.view, settings, content.kept->items, content.kept->stitched, content.tints);
+    else
+        drawScene(scene, content.view, settings, content.selection, content.tints);
     planet::gl::DebugLines* lines = linesOf(viewport, log);
     if (lines && !settings.overlay.cube) {
         const planet::gl::Projection& projection = scene.renderer.projection();

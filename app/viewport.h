@@ -41,12 +41,19 @@ void layOut(Viewport& viewport, const ui::Rect& rect, ui::ObserverMode observer)
 // Also of a picture that is not shown: the lod view goes on while the observer is alone.
 PixelSize pixelSizeOf(const ui::Rect& rect, float pixelRatio);
 
+// Chunks of another frame, in the slots that hold them now.
+struct KeptItems {
+    std::span<const planet::DrawItem> items;
+    bool stitched = false;
+};
+
 struct PictureContent {
     planet::View view;
     std::size_t selection = 0;                       // which of the planet's views chose
     std::span<const planet::gl::ChunkTint> tints{};  // of its chunks
     planet::Lines hiddenLines{};                     // the ground hides them
     planet::Lines frontLines{};                      // seen faintly through the ground
+    std::optional<KeptItems> kept{};                 // drawn instead of the selection
 };
 
 // Draws into the picture's target. What fails is told in the log, and the picture stays as it was.

@@ -94,6 +94,21 @@ Result<void> AtomicFile::overwrite(std::uint64_t offset, std::span<const std::by
     return write(offset, bytes);
 }
 
+Result<void> AtomicFile::read(std::uint64_t offset, std::span<std::byte> out) const {
+    assert(offset + out.size() <= size_);
+    while (!out.empty()) {
+        const ssize_t count = pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return ioError(describe(path_, "reading back failed"));
+        if (count == 0)
+            return ioError(path_.string() +
+                           ": was cut while it was written; leave it alone and write it again");
+        out = out.subspan(static_cast<std::size_t>(count));
+        offset += static_cast<std::uint64_t>(count);
+    }
+    return {};
+}
+
 Result<void> AtomicFile::commit() {
     if (fsync(descriptor_) != 0) return ioError(describe(path_, "writing failed"));
     if (rename(temporary_.c_str(), path_.c_str()) != 0)

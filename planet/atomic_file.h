@@ -20,10 +20,13 @@ public:
     AtomicFile& operator=(AtomicFile&&) = delete;
     ~AtomicFile();
 
+    const std::filesystem::path& path() const { return path_; }  // the name that it will have
     std::uint64_t size() const { return size_; }
     Result<void> append(std::span<const std::byte> bytes);
     // Replaces bytes that were appended before.
     Result<void> overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
+    // Fills out with bytes that were appended before. Any thread while none appends or overwrites.
+    Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
     // Makes the file durable and gives it its name.
     Result<void> commit();
 

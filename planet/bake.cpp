@@ -8,6 +8,10 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <utility>
 
 #include "planet/atomic_file.h"
 #include "planet/bake_tile.h"
@@ -21,49 +25,157 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Tiles of 128 cells a side or more, so that what neighbouring tiles both sample is little, and small enough
-// for a core's cache.
-constexpr int tileCellsLog2 = 7;
-
 // Takes baked tiles in quadtree order, appends their blocks to the file, and merges upwards as soon as four
-// siblings are there; so it holds at most three chunks a level.
+// siblings are there; so it holds at most three chunks a level. Coarse chunks, whose cells are wider than a
+// tile, are kept instead: their tight metric, which the blocks that hold them must tell, is not known yet.
 class Assembler {
 public:
     Assembler(const BakeContext& bake, int tileLevel, AtomicFile& file)
-        : bake_(bake), file_(file), waiting_(static_cast<std::size_t>(tileLevel) + 1) {}
+        : bake_(bake),
+          file_(file),
+          coarsestLevel_(coarsestLevelOfTiles(bake.shape, tileLevel)),
+          waiting_(static_cast<std::size_t>(tileLevel) + 1),
+          offM_(static_cast<std::size_t>(tileLevel)),
+          coarse_(static_cast<std::size_t>(std::max(1, coarsestLevel_))) {}
 
     Result<void> add(BakedTile&& tile) {
         const std::uint64_t shift = file_.size() - provisionalOrigin;
         if (tile.root.entry.children.exists()) tile.root.entry.children.offset += shift;
         if (auto appended = file_.append(tile.blocks); !appended) return appended;
+        for (std::size_t i = 0; i < tile.offAboveM.size(); ++i) {
+            double& offM = offM_[static_cast<std::size_t>(coarsestLevel_) + i];
+            offM = std::max(offM, tile.offAboveM[i]);
+        }
         return addChunk(std::move(tile.root));
     }
 
-    const std::array<BakedChunk, faceCount>& roots() const { return roots_; }
+    // The coarse levels, once all tiles are added. goOn is asked before each block that is read, by one
+    // thread at a time.
+    Result<void> finish(int threads, const std::function<bool()>& goOn) {
+        for (int level = coarsestLevel_ - 1; level >= 0; --level) {
+            if (level < coarsestLevel_ - 1) {
+                if (auto merged = mergeCoarse(level); !merged) return merged;
+            }
+            if (auto searched = searchCoarse(level, threads, goOn); !searched) return searched;
+        }
+        return {};
+    }
+
+    std::span<const BakedChunk> roots() const { return coarse_[0]; }
 
 private:
+    using Siblings = std::span<const BakedChunk, quadrantCount>;
+
     Result<void> addChunk(BakedChunk&& chunk) {
-        if (chunk.id.level == 0) {
-            roots_[static_cast<std::size_t>(chunk.id.face)] = std::move(chunk);
+        const std::size_t level = chunk.id.level;
+        if (level == 0 || chunk.id.level < coarsestLevel_) {
+            coarse_[level].push_back(std::move(chunk));
             return {};
         }
-        std::vector<BakedChunk>& siblings = waiting_[chunk.id.level];
+        std::vector<BakedChunk>& siblings = waiting_[level];
         siblings.push_back(std::move(chunk));
         if (siblings.size() < quadrantCount) return {};
-        std::array<BakedChunk, quadrantCount> children;
-        std::move(siblings.begin(), siblings.end(), children.begin());
+        auto parent = merge(Siblings(siblings), std::exchange(offM_[level - 1], 0));
         siblings.clear();
+        if (!parent) return tl::unexpected(parent.error());
+        return addChunk(*std::move(parent));
+    }
+
+    Result<BakedChunk> merge(Siblings children, double finestDistanceM) {
         std::vector<std::byte> block;
-        BakedChunk parent =
-            mergeChildren(bake_, parentOf(children[0].id), children, file_.size(), scratch_, block);
-        if (auto appended = file_.append(block); !appended) return appended;
-        return addChunk(std::move(parent));
+        BakedChunk parent = mergeChildren(bake_, parentOf(children[0].id), children, finestDistanceM,
+                                          file_.size(), scratch_, block);
+        if (auto appended = file_.append(block); !appended) return tl::unexpected(appended.error());
+        return parent;
+    }
+
+    Result<void> mergeCoarse(int level) {
+        const std::span<const BakedChunk> below = coarse_[static_cast<std::size_t>(level) + 1];
+        for (std::size_t i = 0; i < below.size(); i += quadrantCount) {
+            auto parent = merge(below.subspan(i).first<quadrantCount>(), 0);
+            if (!parent) return tl::unexpected(parent.error());
+            coarse_[static_cast<std::size_t>(level)].push_back(*std::move(parent));
+        }
+        return {};
+    }
+
+    // Raises the tight metric of a level's chunks to what they really lie off.
+    Result<void> searchCoarse(int level, int threads, const std::function<bool()>& goOn) {
+        const Result<ChunkFile> written = writtenSoFar();
+        if (!written) return tl::unexpected(written.error());
+        const ReadChildren readChildren = [&](const ChunkData& parent) {
+            return childrenOf(*written, parent);
+        };
+        std::vector<BakedChunk>& chunks = coarse_[static_cast<std::size_t>(level)];
+        std::mutex mutex;  // guards next and outcome, and goOn is asked under it
+        std::size_t next = 0;
+        Result<void> outcome;
+        const auto mayGoOn = [&] {
+            const std::lock_guard lock(mutex);
+            if (outcome && !goOn()) outcome = cancelled();
+            return outcome.has_value();
+        };
+        const auto work = [&] {
+            for (;;) {
+                std::unique_lock lock(mutex);
+                if (!outcome || next == chunks.size()) return;
+                BakedChunk& chunk = chunks[next++];
+                lock.unlock();
+                const Result<double> offM =
+                    searchFinestDistance(bake_.shape, dataOf(chunk), readChildren, mayGoOn);
+                lock.lock();
+                if (!offM && outcome) outcome = tl::unexpected(offM.error());
+                if (!outcome) return;
+                ChunkEntry& entry = chunk.entry;
+                entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
+            }
+        };
+        const std::size_t helpers = std::min(static_cast<std::size_t>(threads), chunks.size()) - 1;
+        std::vector<std::jthread> workers;
+        for (std::size_t i = 0; i < helpers; ++i) workers.emplace_back(work);
+        work();
+        workers.clear();  // waits for them
+        return outcome;
+    }
+
+    // The file as it stands, its header a stand-in until the roots are known.
+    Result<ChunkFile> writtenSoFar() {
+        ChunkFileInfo info;
+        info.shape = bake_.shape;
+        info.minStep = info.maxStep = coarse_[static_cast<std::size_t>(coarsestLevel_) - 1][0].entry.minStep;
+        if (auto written = file_.overwrite(0, headerBytes(info, file_.size())); !written) {
+            return tl::unexpected(written.error());
+        }
+        return ChunkFile::open(
+            file_.path().string(), file_.size(),
+            [this](std::uint64_t offset, std::span<std::byte> out) { return file_.read(offset, out); });
+    }
+
+    static ChunkData dataOf(const BakedChunk& chunk) {
+        const ChunkEntry& entry = chunk.entry;
+        return {chunk.id,      entry.deltaCM,  entry.deltaTightM, entry.minStep,
+                entry.maxStep, entry.children, chunk.heights};
+    }
+
+    Result<std::array<ChunkData, quadrantCount>> childrenOf(const ChunkFile& written,
+                                                            const ChunkData& parent) const {
+        if (parent.id.level + 1 >= coarsestLevel_) {
+            return written.readChildren(parent.id, parent.children, parent.heights);
+        }
+        const std::vector<BakedChunk>& level = coarse_[parent.id.level + 1u];
+        const std::uint64_t first = quadrantCount * indexInQuadtreeOrder(parent.id);
+        std::array<ChunkData, quadrantCount> children;
+        for (std::size_t q = 0; q < children.size(); ++q) children[q] = dataOf(level[first + q]);
+        return children;
     }
 
     const BakeContext& bake_;
     AtomicFile& file_;
+    int coarsestLevel_;                             // of those whose tight metric tiles tell
     std::vector<std::vector<BakedChunk>> waiting_;  // by level
-    std::array<BakedChunk, faceCount> roots_;
+    std::vector<double> offM_;                      // by level, of the chunk whose tiles are being added
+    // The levels above coarsestLevel_, or the roots alone where there are none; each in quadtree order.
+    std::vector<std::vector<BakedChunk>> coarse_;
     BakeScratch scratch_;
 };
 
@@ -76,8 +188,9 @@ public:
     // False when the caller wants to stop.
     bool add(std::uint64_t samples) {
         done_ += samples;
+        const bool hasEnded = samples > 0 && done_ == total_;
         const Clock::time_point now = Clock::now();
-        if (!callback_ || (done_ < total_ && now - reported_ < std::chrono::milliseconds(100))) return true;
+        if (!callback_ || (!hasEnded && now - reported_ < std::chrono::milliseconds(100))) return true;
         reported_ = now;
         const double elapsedS = std::chrono::duration<double>(now - start_).count();
         const double rate = elapsedS > 0 ? static_cast<double>(done_) / elapsedS : 0;
@@ -106,10 +219,9 @@ private:
 };
 
 Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Assembler& assembler,
-                       const BakeProgressCallback& progress) {
+                       ProgressMeter& meter) {
     const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
     const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> tileLevel);
-    ProgressMeter meter(progress, tileCount * cells * cells);
     tbb::enumerable_thread_specific<BakeScratch> scratches;
     Result<void> outcome;
     std::atomic<bool> stop = false;
@@ -188,8 +300,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     if (auto valid = checkBakeSettings(settings); !valid) return tl::unexpected(valid.error());
     const auto shape = chooseShape(source, settings);
     if (!shape) return tl::unexpected(shape.error());
-    const int tileLevels = std::max(1, tileCellsLog2 - shape->chunkCellsLog2);
-    const int tileLevel = std::max(0, leafLevel(*shape) - tileLevels);
+    const int tileLevel = tileLevelOf(*shape, settings.tileLevels);
     const BakeContext context{source, *shape, settings.compressionLevel};
 
     auto file = AtomicFile::create(output);
@@ -198,8 +309,13 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
         return tl::unexpected(reserved.error());
     }
     Assembler assembler(context, tileLevel, *file);
-    if (auto baked = bakeTiles(context, tileLevel, bakeThreads(settings), assembler, progress); !baked)
+    const auto cells = static_cast<std::uint64_t>(faceCells(*shape));
+    ProgressMeter meter(progress, faceCount * cells * cells);
+    const int threads = bakeThreads(settings);
+    if (auto baked = bakeTiles(context, tileLevel, threads, assembler, meter); !baked)
         return tl::unexpected(baked.error());
+    if (auto finished = assembler.finish(threads, [&] { return meter.add(0); }); !finished)
+        return tl::unexpected(finished.error());
     if (auto ended = writeRootsAndHeader(context, assembler, *file); !ended)
         return tl::unexpected(ended.error());
     const std::uint64_t fileBytes = file->size();
@@ -216,6 +332,10 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     report.chunks = chunkCountOf(*shape);
     report.fileBytes = fileBytes;
     report.missingSamples = source.missingCount;
+    for (const BakedChunk& root : assembler.roots()) {
+        report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
+        report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);
+    }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return report;
 }

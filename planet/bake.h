@@ -5,7 +5,13 @@
 // the diagonal that replaces the vertex. Distances at the same place bound every point of the finer surface,
 // because the finer triangles subdivide the coarser ones and the difference of two surfaces that are linear
 // on a triangle is largest at a corner. So delta_c = delta_g + max(delta_c of the four children) bounds the
-// whole pyramid (de Boer 2000 for delta_g; Ulrich 2002 for chunks).
+// whole pyramid (de Boer 2000 for delta_g; Ulrich 2002 for chunks). Beside it stands the tight metric, the
+// exact distance of a chunk from the finest samples under it (finest_distance.h), made the larger of that and
+// its children's.
+//
+// In memory at a time: three tiles a thread, three chunks a level, and all chunks of levels whose cells are
+// wider than a tile, whose distances are searched for in the file once the finer levels are there. Those are
+// one sample in some 50,000 of the finest; a planet of faces of 4097 and chunks of 33 has none.
 #pragma once
 
 #include <array>
@@ -33,6 +39,10 @@ struct BakeSettings {
     int compressionLevel = defaultCompressionLevel;
     // Each level of each face is also written there, as a 16-bit PNG; nowhere if empty.
     std::filesystem::path debugLevelsFolder{};
+    // How many levels one task bakes above the finest, [0, 10]. Where not given as many as make squares of
+    // 128 cells, but at least one: what neighbouring squares both sample is little then, and a square fits a
+    // core's cache. The chunks are the same whatever it is; the order of their blocks may differ.
+    std::optional<int> tileLevels{};
 };
 
 struct BakeProgress {
@@ -51,6 +61,8 @@ struct BakeReport {
     std::uint64_t chunks = 0;
     std::uint64_t fileBytes = 0;
     std::uint64_t missingSamples = 0;
+    float largestDeltaCM = 0;  // the largest of the six roots, metres
+    float largestDeltaTightM = 0;
     double seconds = 0;
 };
 

@@ -1,5 +1,6 @@
 // What a bake would cost, before it is done: by baking a few blocks of it in memory. Any thread; takes about
-// a second.
+// a second. Leaves out the search for the tight metric of the coarsest levels of a planet too large for a
+// tile to hold their cells: it reads few blocks.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ namespace planet {
 namespace {
 
 std::span<std::int16_t> joinQuarters(const PlanetShape& shape,
-                                     const std::array<BakedChunk, quadrantCount>& children,
+                                     std::span<const BakedChunk, quadrantCount> children,
                                      std::vector<std::int16_t>& refined) {
     const auto side = static_cast<std::size_t>(chunkSize(shape));
     const std::size_t refinedSide = 2 * side - 1;
@@ -68,7 +68,9 @@ BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, const SampleT
     for (int q = 0; q < quadrantCount; ++q) {
         children[static_cast<std::size_t>(q)] = bakeSubtree(bake, childOf(id, q), tile, scratch, blocks);
     }
-    return mergeChildren(bake, id, children, provisionalOrigin, scratch, blocks);
+    const bool aboveLeaves = id.level + 1 == leafLevel(bake.shape);
+    const double finestDistanceM = aboveLeaves ? 0 : scratch.distances.of(id);
+    return mergeChildren(bake, id, children, finestDistanceM, provisionalOrigin, scratch, blocks);
 }
 
 }  // namespace
@@ -80,6 +82,9 @@ Result<void> checkBakeSettings(const BakeSettings& settings) {
     }
     if (settings.threads < 0 || settings.threads > 1024) {
         return badInput(fmt::format("{} threads: must be 1 to 1024, or 0 for one a core", settings.threads));
+    }
+    if (settings.tileLevels.value_or(0) < 0 || settings.tileLevels.value_or(0) > 10) {
+        return badInput(fmt::format("{} levels a tile: must be 0 to 10", *settings.tileLevels));
     }
     return {};
 }
@@ -135,14 +140,19 @@ Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScr
     if (auto fitted = quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps); !fitted) {
         return tl::unexpected(fitted.error());
     }
+    measureTile(bake.shape, root, scratch.steps, scratch.geometry, scratch.distances);
     BakedTile result;
+    for (int level = scratch.distances.coarsestLevel;
+         level <= std::min(root.level - 1, leafLevel(bake.shape) - 2); ++level) {
+        result.offAboveM.push_back(scratch.distances.above(level));
+    }
     result.root = bakeSubtree(bake, root, tile, scratch, result.blocks);
     return result;
 }
 
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
-                         const std::array<BakedChunk, quadrantCount>& children, std::uint64_t origin,
-                         BakeScratch& scratch, std::vector<std::byte>& blocks) {
+                         std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
+                         std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks) {
     const auto refined = joinQuarters(bake.shape, children, scratch.refined);
     BakedChunk chunk;
     chunk.id = parent;
@@ -150,17 +160,22 @@ BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
     chunk.entry.minStep = children[0].entry.minStep;
     chunk.entry.maxStep = children[0].entry.maxStep;
     float childrenDeltaM = 0;
+    float childrenTightM = 0;
     for (const BakedChunk& child : children) {
         chunk.entry.minStep = std::min(chunk.entry.minStep, child.entry.minStep);
         chunk.entry.maxStep = std::max(chunk.entry.maxStep, child.entry.maxStep);
         childrenDeltaM = std::max(childrenDeltaM, child.entry.deltaCM);
+        childrenTightM = std::max(childrenTightM, child.entry.deltaTightM);
     }
     const double deltaG = geometricErrorM(bake.shape, parent, refined, scratch.geometry);
     chunk.entry.deltaCM = roundedUp(deltaG + childrenDeltaM);
+    const bool aboveLeaves = parent.level + 1 == leafLevel(bake.shape);
+    chunk.entry.deltaTightM =
+        tightMetric(aboveLeaves ? deltaG : finestDistanceM, childrenTightM, chunk.entry.deltaCM);
 
     const std::size_t start = blocks.size();
     const std::uint64_t offset = origin + start;
-    if (parent.level + 1 < leafLevel(bake.shape)) {
+    if (!aboveLeaves) {
         for (const BakedChunk& child : children) putEntry(blocks, child.entry, offset);
     }
     encodeRefinement(refined, chunkCells(bake.shape), bake.compressionLevel, blocks);
@@ -176,6 +191,14 @@ ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level) {
         id = childOf(id, static_cast<int>((index >> (2 * below)) & 3));
     }
     return id;
+}
+
+std::uint64_t indexInQuadtreeOrder(const ChunkId& id) {
+    auto index = static_cast<std::uint64_t>(id.face);
+    for (int below = id.level - 1; below >= 0; --below) {
+        index = 4 * index + ((id.x >> below) & 1) + 2 * ((id.y >> below) & 1);
+    }
+    return index;
 }
 
 }  // namespace planet

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "planet/bake.h"
 #include "planet/chunk_file.h"
+#include "planet/finest_distance.h"
 #include "planet/geometric_error.h"
 
 namespace planet {
@@ -25,6 +27,9 @@ struct BakedChunk {
 struct BakedTile {
     BakedChunk root;
     std::vector<std::byte> blocks;  // of everything under the root, the root's children last
+    // What the tile's finest samples lie off the chunks above it, metres: by level from coarsestLevelOfTiles
+    // to the one above the root, two above the finest at most.
+    std::vector<double> offAboveM;
 };
 
 // Kept between calls so that nothing is allocated.
@@ -33,6 +38,7 @@ struct BakeScratch {
     std::vector<std::int16_t> steps;
     std::vector<std::int16_t> refined;
     GeometricErrorScratch geometry;
+    TileDistances distances;
 };
 
 struct BakeContext {
@@ -55,12 +61,15 @@ int bakeThreads(const BakeSettings& settings);
 Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch);
 
 // Removes every other row and column: appends the block of the four children, returns their parent. Places in
-// the file count from origin, where the first of the blocks lies.
+// the file count from origin, where the first of the blocks lies. finestDistanceM is the parent's; of a
+// leaf's parent it is found here.
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
-                         const std::array<BakedChunk, quadrantCount>& children, std::uint64_t origin,
-                         BakeScratch& scratch, std::vector<std::byte>& blocks);
+                         std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
+                         std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks);
 
-// The chunks of a level in quadtree order: face by face, each quarter whole before the next.
+// The chunks of a level in quadtree order: face by face, each quarter whole before the next. So the four
+// children of a level's chunk i are 4 i to 4 i + 3 of the next.
 ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level);
+std::uint64_t indexInQuadtreeOrder(const ChunkId& id);
 
 }  // namespace planet

@@ -45,6 +45,7 @@ public:
         out_.decidedBy = id;
         out_.queueLength = facts.pageIns.size();
         out_.tauPx = facts.lod.tauPx;
+        out_.metric = facts.lod.metric;
     }
 
     ChunkExplanation explain() {
@@ -70,10 +71,12 @@ private:
     const ChunkNode& deepest() const { return facts_.tree.nodes[path_.back().node]; }
 
     double distanceOf(const ChunkNode& node) const { return distanceToM(node, facts_.lodView.eyeM); }
-    double epsPx(const ChunkNode& node) const { return epsPxOf(node, facts_.lodView.eyeM, scalePx_); }
+    double epsPx(const ChunkNode& node) const {
+        return epsPxOf(node, facts_.lodView.eyeM, scalePx_, facts_.lod.metric);
+    }
     // As selection does it, so that both agree to the last bit.
     double switchDistanceM(const ChunkNode& node) const {
-        return node.deltaCM * (scalePx_ / facts_.lod.tauPx);
+        return deltaOf(node, facts_.lod.metric) * (scalePx_ / facts_.lod.tauPx);
     }
 
     std::optional<std::size_t> placeInQueue(const ChunkId& parent) const {
@@ -96,6 +99,7 @@ private:
         const ChunkNode& node = deepest();
         out_.node = path_.back().node;
         out_.deltaCM = node.deltaCM;
+        out_.deltaTightM = node.deltaTightM;
         out_.distanceM = distanceOf(node);
         out_.epsPx = epsPx(node);
         out_.switchDistanceM = switchDistanceM(node);
@@ -113,6 +117,18 @@ private:
         }
     }
 
+    bool splitWaits(const ChunkNode& node) const {
+        const std::vector<DrawItem>& draw = facts_.selection.draw;
+        return std::any_of(draw.begin(), draw.end(),
+                           [&](const DrawItem& item) { return item.splitWaits && item.id == node.id; });
+    }
+
+    // Of a chunk that is split.
+    bool mergeWaits(const ChunkNode& node) const {
+        const double keptWithinM = switchDistanceM(node) / (1 - facts_.lod.hysteresis);
+        return node.id.level >= facts_.lod.maxLevel || keptWithinM <= distanceOf(node);
+    }
+
     // Of a chunk that is drawn.
     WhyNotSplit whyNotSplit(const ChunkNode& node) const {
         if (switchDistanceM(node) <= distanceOf(node)) return WhyNotSplit::GoodEnough;
@@ -120,7 +136,7 @@ private:
         if (node.id.level >= facts_.lod.maxLevel) return WhyNotSplit::LevelLimit;
         switch (node.childrenState) {
             case ChildrenState::Resident:
-                return WhyNotSplit::SeamLimit;
+                return splitWaits(node) ? WhyNotSplit::WaitingForMorph : WhyNotSplit::SeamLimit;
             case ChildrenState::Failed:
                 return WhyNotSplit::ChildrenFailed;
             case ChildrenState::Requested:
@@ -139,6 +155,7 @@ private:
         if (!by) {
             if (out_.node == noNode || path_.back().fate != NodeFate::Split) return;
             out_.state = ChunkState::Split;
+            out_.mergeWaits = mergeWaits(deepest());
             out_.notSplit = out_.decidedByNotSplit = WhyNotSplit::IsSplit;
             return;
         }

@@ -30,9 +30,10 @@ enum class WhyNotSplit : std::uint8_t {
     NotDrawn,    // there is nothing to split
     GoodEnough,  // eps <= tau
     Leaf,
-    LevelLimit,      // LodSettings::maxLevel
-    SeamLimit,       // a neighbour would be too much coarser for stitched seams
-    WaitingInQueue,  // for its children
+    LevelLimit,       // LodSettings::maxLevel
+    WaitingForMorph,  // it must first slide back to its own surface
+    SeamLimit,        // a neighbour would be too much coarser for stitched seams
+    WaitingInQueue,   // for its children
     WaitingForRead,
     WaitingForBudget,
     ChildrenFailed,
@@ -52,16 +53,20 @@ struct ChunkExplanation {
     // Known where it is resident.
     float deltaGM = 0;  // metres; exact with resident children and heights as the file has them, else a bound
     bool deltaGIsBound = false;
-    float deltaCM = 0;     // metres
-    double distanceM = 0;  // from the lod view's eye to its bounds
+    float deltaCM = 0;      // metres
+    float deltaTightM = 0;  // metres, [0, deltaCM]
+    double distanceM = 0;   // from the lod view's eye to its bounds
     double epsPx = 0;
     double switchDistanceM = 0;  // d_m: nearer than this it must be replaced by its children
     float morph = 0;
+    bool mergeWaits =
+        false;  // of a chunk that is split: no longer needed, but its children still slide onto it
     // Of the request that would bring it, or what is first needed above it, or else its children: 1 is next;
     // nothing where there is none.
     std::optional<std::size_t> queuePlace;
     std::size_t queueLength = 0;
     double tauPx = 0;
+    ErrorMetric metric = ErrorMetric::Additive;
 };
 
 // What a planet's last step leaves behind.

@@ -69,13 +69,15 @@ std::vector<std::int16_t> cutQuarter(std::span<const std::int16_t> fine, int cel
 }
 
 bool isSane(const ChunkEntry& entry) {
-    return std::isfinite(entry.deltaCM) && entry.deltaCM >= 0 && entry.minStep <= entry.maxStep &&
-           entry.children.exists() && entry.children.size > 0;
+    return std::isfinite(entry.deltaCM) && entry.deltaCM >= 0 && entry.deltaTightM >= 0 &&
+           entry.deltaTightM <= entry.deltaCM && entry.minStep <= entry.maxStep && entry.children.exists() &&
+           entry.children.size > 0;
 }
 
 void describeLeaf(ChunkData& chunk) {
     const auto [lowest, highest] = std::minmax_element(chunk.heights.begin(), chunk.heights.end());
     chunk.deltaCM = 0;
+    chunk.deltaTightM = 0;
     chunk.minStep = *lowest;
     chunk.maxStep = *highest;
     chunk.children = {};
@@ -83,6 +85,7 @@ void describeLeaf(ChunkData& chunk) {
 
 void describe(ChunkData& chunk, const ChunkEntry& entry) {
     chunk.deltaCM = entry.deltaCM;
+    chunk.deltaTightM = entry.deltaTightM;
     chunk.minStep = entry.minStep;
     chunk.maxStep = entry.maxStep;
     chunk.children = entry.children;
@@ -174,7 +177,7 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
     }
     const ChunkEntry entry = entryFrom(content->first<chunkEntryBytes>(), location.offset);
     if (!isSane(entry))
-        return tl::unexpected(nonsense(root.id, "its error, extremes or children are out of range"));
+        return tl::unexpected(nonsense(root.id, "its errors, extremes or children are out of range"));
     describe(root, entry);
     return root;
 }
@@ -210,7 +213,7 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
         const ChunkEntry entry =
             entryFrom(content->subspan(q * chunkEntryBytes).first<chunkEntryBytes>(), location.offset);
         if (!isSane(entry))
-            return tl::unexpected(nonsense(child.id, "its error, extremes or children are out of range"));
+            return tl::unexpected(nonsense(child.id, "its errors, extremes or children are out of range"));
         describe(child, entry);
     }
     return children;

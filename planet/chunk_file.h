@@ -6,9 +6,10 @@
 // A sibling block holds the four children of one chunk as one refinement of that chunk's grid: of the
 // (2^(k+1) + 1)^2 samples that the four cover together, only those the parent does not have (see
 // height_codec.h). A root block holds a face's root chunk whole. Each block says, for its chunks, delta_c,
-// the lowest and highest finest height under them, and where their own children lie; so the index is paged
-// with the data. Everything is little-endian; each block ends in an XXH3 checksum seeded with the chunk's
-// key, so that a block read for the wrong chunk fails too. README.md has the layout byte by byte.
+// the tight metric (finest_distance.h), the lowest and highest finest height under them, and where their own
+// children lie; so the index is paged with the data. Everything is little-endian; each block ends in an XXH3
+// checksum seeded with the chunk's key, so that a block read for the wrong chunk fails too. README.md has the
+// layout byte by byte.
 //
 // The file is hostile until checked: every offset, size and count is checked before use, and a bad one is an
 // Error that names the file and the chunk.
@@ -42,17 +43,21 @@ struct BlockLocation {
 // One chunk as the file holds it.
 struct ChunkData {
     ChunkId id;
-    float deltaCM = 0;         // metres, finite, >= 0; 0 at a leaf
+    float deltaCM = 0;  // metres, finite, >= 0; 0 at a leaf
+    // The tight metric: the largest distance between this chunk's surface, or that of any chunk under it, and
+    // the finest data at the same place; metres, [0, deltaCM]; 0 at a leaf.
+    float deltaTightM = 0;
     std::int16_t minStep = 0;  // lowest and highest finest sample under this chunk
     std::int16_t maxStep = 0;
     BlockLocation children;             // none at a leaf
     std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows along v upwards
 };
 
-// What a block says of one of its chunks that has children. A leaf's entry is not stored: its delta_c is 0,
-// its extremes are those of its heights.
+// What a block says of one of its chunks that has children. A leaf's entry is not stored: its delta_c and
+// tight metric are 0, its extremes are those of its heights.
 struct ChunkEntry {
-    float deltaCM = 0;
+    float deltaCM = 0;      // metres, finite, >= 0
+    float deltaTightM = 0;  // metres, [0, deltaCM]
     std::int16_t minStep = 0;
     std::int16_t maxStep = 0;
     BlockLocation children;
@@ -68,7 +73,7 @@ struct ChunkFileInfo {
 };
 
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
-inline constexpr std::uint32_t chunkFileVersion = 1;
+inline constexpr std::uint32_t chunkFileVersion = 2;
 
 // Reads exactly out.size() bytes at an offset; called from any thread, several at once.
 using ReadAt = std::function<Result<void>(std::uint64_t offset, std::span<std::byte> out)>;

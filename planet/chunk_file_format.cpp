@@ -51,6 +51,7 @@ std::string shapeProblem(const PlanetShape& shape) {
 void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset) {
     ByteWriter out(block);
     out.put(entry.deltaCM);
+    out.put(entry.deltaTightM);
     out.put(entry.minStep);
     out.put(entry.maxStep);
     out.put(entry.children.size);
@@ -61,6 +62,7 @@ ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uin
     ByteReader in(bytes);
     ChunkEntry entry;
     entry.deltaCM = in.get<float>();
+    entry.deltaTightM = in.get<float>();
     entry.minStep = in.get<std::int16_t>();
     entry.maxStep = in.get<std::int16_t>();
     entry.children.size = in.get<std::uint32_t>();
@@ -123,9 +125,15 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     const auto version = in.get<std::uint32_t>();
     if (version > chunkFileVersion) {
         return badInput(
-            fmt::format("{}: version {} of the chunk file; this program reads up to version {}: update it, "
-                        "or bake the source again",
+            fmt::format("{}: version {} of the chunk file; this program reads version {}: update it, or bake "
+                        "the source again",
                         name, version, chunkFileVersion));
+    }
+    if (version < chunkFileVersion) {
+        return badInput(fmt::format(
+            "{}: version {} of the chunk file, which lacks what version {} holds; bake the source "
+            "again with `worldy bake SOURCE -o OUT.chk`",
+            name, version, chunkFileVersion));
     }
     const std::uint64_t expected = checksum(header.first<chunkFileHeaderBytes - checksumBytes>(), 0);
     if (ByteReader(header.last<checksumBytes>()).get<std::uint64_t>() != expected) {
@@ -134,10 +142,9 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     }
     const auto headerSize = in.get<std::uint32_t>();
     const auto recordedBytes = in.get<std::uint64_t>();
-    if (version < 1 || headerSize != chunkFileHeaderBytes) {
-        return badInput(
-            fmt::format("{}: a header of version {} and {} bytes; version {} and {} bytes were expected",
-                        name, version, headerSize, chunkFileVersion, chunkFileHeaderBytes));
+    if (headerSize != chunkFileHeaderBytes) {
+        return badInput(fmt::format("{}: a header of {} bytes; {} were expected; bake it again", name,
+                                    headerSize, chunkFileHeaderBytes));
     }
     if (recordedBytes != fileBytes) {
         return badInput(

@@ -12,7 +12,7 @@
 
 namespace planet {
 
-inline constexpr std::size_t chunkEntryBytes = 20;
+inline constexpr std::size_t chunkEntryBytes = 24;
 inline constexpr std::size_t checksumBytes = 8;
 
 // Blocks point back to earlier ones by distance, so that a run of blocks can be made before it is known where

@@ -18,6 +18,7 @@ struct Limits {
     std::int16_t minStep;
     std::int16_t maxStep;
     float deltaCM;
+    float deltaTightM;
 };
 
 Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const ChunkId& id,
@@ -31,6 +32,11 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
     if (!(data.deltaCM >= 0 && data.deltaCM <= limits.deltaCM)) {
         return badInput(
             fmt::format("chunk {}: delta_c {} m is not within [0, {}]", name, data.deltaCM, limits.deltaCM));
+    }
+    const float mostTightM = std::min(data.deltaCM, limits.deltaTightM);
+    if (!(data.deltaTightM >= 0 && data.deltaTightM <= mostTightM)) {
+        return badInput(fmt::format("chunk {}: a tight metric of {} m is not within [0, {}]", name,
+                                    data.deltaTightM, mostTightM));
     }
     if (data.minStep > data.maxStep || data.minStep < limits.minStep || data.maxStep > limits.maxStep) {
         return badInput(fmt::format("chunk {}: steps from {} to {} are not within [{}, {}]", name,
@@ -54,7 +60,7 @@ double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
     return sum;
 }
 
-// What follows from the node's directions, its stored steps and delta_c, and the tree's exaggeration.
+// What follows from the node's directions, its stored steps and metrics, and the tree's exaggeration.
 void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     const PlanetShape& shape = tree.shape;
     const double lowM = heightM(shape, node.minStep);
@@ -65,9 +71,12 @@ void setMeasures(const ChunkTree& tree, ChunkNode& node) {
                                      node.bounds.cone};
     node.bounds = chunkBounds(directions, shape.radiusM, lowM, highM);
     node.deltaCM = node.storedDeltaCM;
+    node.deltaTightM = node.storedDeltaTightM;
     if (tree.exaggeration == 1) return;
     const double bent = std::abs(tree.exaggeration - 1) * curvatureErrorsM(shape, node.id.level);
     node.deltaCM = roundedUp(tree.exaggeration * node.storedDeltaCM + bent);
+    const float tightM = roundedUp(tree.exaggeration * node.storedDeltaTightM + bent);
+    node.deltaTightM = std::min(tightM, node.deltaCM);
 }
 
 void setOccluder(ChunkTree& tree) {
@@ -79,6 +88,7 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     ChunkNode node;
     node.id = data.id;
     node.storedDeltaCM = data.deltaCM;
+    node.storedDeltaTightM = data.deltaTightM;
     node.minStep = data.minStep;
     node.maxStep = data.maxStep;
     const ChunkDirections directions = chunkDirections(node.id);
@@ -173,7 +183,8 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
     for (const Face face : allFaces) {
         const auto index = static_cast<std::uint32_t>(face);
         const ChunkId id{face, 0, 0, 0};
-        const Limits limits{minStep, maxStep, std::numeric_limits<float>::max()};
+        constexpr float anyM = std::numeric_limits<float>::max();
+        const Limits limits{minStep, maxStep, anyM, anyM};
         if (auto checked = checkChunk(shape, roots[index], id, limits); !checked) {
             return tl::unexpected(std::move(checked.error()));
         }
@@ -214,7 +225,7 @@ double curvatureErrorM(const PlanetShape& shape, int level) {
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
                            const std::array<ChunkData, quadrantCount>& children) {
     const ChunkNode& above = tree.nodes[parent];
-    const Limits limits{above.minStep, above.maxStep, above.storedDeltaCM};
+    const Limits limits{above.minStep, above.maxStep, above.storedDeltaCM, above.storedDeltaTightM};
     for (int q = 0; q < quadrantCount; ++q) {
         const ChunkData& data = children[static_cast<std::size_t>(q)];
         if (auto checked = checkChunk(tree.shape, data, childOf(above.id, q), limits); !checked)

@@ -9,7 +9,9 @@
 //
 // and adding that up from a chunk's level L to its leaves' parents, the first term gives e times the stored
 // delta_c. So delta_c = e stored + |e - 1| (A_L + A_L+1 + ... ) is a true bound again, 0 at a leaf, never
-// grows from parent to child, and is the stored one where e = 1.
+// grows from parent to child, and is the stored one where e = 1. The same holds of the tight metric, a
+// chunk's distance from the finest samples: on the bare sphere that is at most A_L + A_L+1 + ... too. So it
+// is e stored + |e - 1| (A_L + A_L+1 + ...), or delta_c where that is less, being a bound as well.
 #pragma once
 
 #include <array>
@@ -40,9 +42,11 @@ enum class ChildrenState : std::uint8_t {
 // A chunk that is loaded and drawable.
 struct ChunkNode {
     ChunkId id;
-    float deltaCM = 0;        // metres, exaggeration counted in
-    float storedDeltaCM = 0;  // as the file has it
-    float minHeightM = 0;     // over all finest samples below
+    float deltaCM = 0;            // metres, exaggeration counted in
+    float storedDeltaCM = 0;      // as the file has it
+    float deltaTightM = 0;        // the tight metric, exaggeration counted in; at most deltaCM
+    float storedDeltaTightM = 0;  // as the file has it
+    float minHeightM = 0;         // over all finest samples below
     float maxHeightM = 0;
     std::int16_t minStep = 0;  // the same, as stored
     std::int16_t maxStep = 0;
@@ -80,7 +84,7 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
 Result<ChunkTree> makeChunkTree(const ChunkFile& file);
 
 // Draws heights this many times as high, (0, largestExaggeration]: shape, and every node's heights, bounds
-// and delta_c follow, as will those of nodes added later.
+// and both metrics follow, as will those of nodes added later.
 void setExaggeration(ChunkTree& tree, double factor);
 
 // 100, or less where that would bring the lowest ground nearer to the planet's centre than a hundredth of its
@@ -92,7 +96,8 @@ double largestExaggeration(const ChunkTree& tree);
 double curvatureErrorM(const PlanetShape& shape, int level);
 
 // Whether four chunks may become the children of a node: the right ids and number of heights, heights within
-// the chunk's range and that within the parent's, delta_c no larger than the parent's. What bounds and
+// the chunk's range and that within the parent's, delta_c and the tight metric no larger than the parent's,
+// and the tight one no larger than delta_c. What bounds and
 // selection rely on.
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
                            const std::array<ChunkData, quadrantCount>& children);

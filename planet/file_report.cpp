@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
 #include "planet/chunk_surface.h"
+#include "planet/finest_distance.h"
 #include "planet/geometric_error.h"
 #include "planet/quantise.h"
 
@@ -32,6 +34,14 @@ struct LevelTally {
     std::uint64_t chunks = 0;
     std::uint64_t bytes = 0;
     std::vector<float> deltasM;
+    double sumTightM = 0;
+    float maxTightM = 0;
+
+    void add(float deltaCM, float deltaTightM) {
+        deltasM.push_back(deltaCM);
+        sumTightM += deltaTightM;
+        maxTightM = std::max(maxTightM, deltaTightM);
+    }
 };
 
 Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLocation block,
@@ -42,7 +52,7 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     if (parent.level + 1 == leafLevel(file.info().shape)) return {};  // leaves: delta_c is 0, no index
     const auto entries = file.readEntries(parent, block);
     if (!entries) return tl::unexpected(entries.error());
-    for (const ChunkEntry& entry : *entries) level.deltasM.push_back(entry.deltaCM);
+    for (const ChunkEntry& entry : *entries) level.add(entry.deltaCM, entry.deltaTightM);
     for (std::size_t q = 0; q < entries->size(); ++q) {
         const ChunkId child = childOf(parent, static_cast<int>(q));
         if (auto done = tallyChildren(file, child, (*entries)[q].children, levels); !done) return done;
@@ -51,7 +61,10 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
 }
 
 LevelReport summarise(int level, LevelTally& tally) {
-    LevelReport report{level, tally.chunks, tally.bytes, 0, 0, 0, 0};
+    LevelReport report;
+    report.level = level;
+    report.chunks = tally.chunks;
+    report.bytes = tally.bytes;
     if (tally.deltasM.empty()) return report;
     std::sort(tally.deltasM.begin(), tally.deltasM.end());
     const auto at = [&](double fraction) {
@@ -62,6 +75,10 @@ LevelReport summarise(int level, LevelTally& tally) {
     report.medianDeltaM = at(0.5);
     report.p99DeltaM = at(0.99);
     report.maxDeltaM = tally.deltasM.back();
+    const auto count = static_cast<double>(tally.deltasM.size());
+    report.meanDeltaM = std::accumulate(tally.deltasM.begin(), tally.deltasM.end(), 0.0) / count;
+    report.meanTightM = tally.sumTightM / count;
+    report.maxTightM = tally.maxTightM;
     return report;
 }
 
@@ -85,6 +102,118 @@ struct SeenEdge {
     std::uint64_t hash;
 };
 
+using ReportProblem = std::function<void(const ChunkId& id, const std::string& what)>;
+
+// Recomputes the tight metric as a file is walked through, depth first: as a bake does, from the finest
+// heights of one tile at a time, and by a search where cells are wider than that.
+class TightVerifier {
+public:
+    explicit TightVerifier(const ChunkFile& file)
+        : file_(file),
+          shape_(file.info().shape),
+          tileLevel_(tileLevelOf(shape_, std::nullopt)),
+          coarsestLevel_(coarsestLevelOfTiles(shape_, tileLevel_)),
+          offM_(static_cast<std::size_t>(tileLevel_)),
+          missedAtEntry_(static_cast<std::size_t>(leafLevel(shape_)) + 1) {}
+
+    void enter(const ChunkData& chunk) {
+        missedAtEntry_[chunk.id.level] = missed_;
+        if (chunk.id.level == tileLevel_) {
+            finest_.assign(tileSide() * tileSide(), 0);
+            inTile_.clear();
+        }
+        if (chunk.id.level == leafLevel(shape_)) placeLeaf(chunk);
+    }
+
+    // Something under the chunk that was entered last cannot be read.
+    void missed() { ++missed_; }
+
+    struct Below {
+        double deltaGM = 0;
+        float largestTightM = 0;  // of the children
+    };
+    void leave(const ChunkData& chunk, const Below& below, const ReportProblem& report) {
+        const int level = chunk.id.level;
+        const bool whole = missed_ == missedAtEntry_[chunk.id.level];
+        const Met met{chunk.id, chunk.deltaCM, chunk.deltaTightM, below.largestTightM};
+        if (level == leafLevel(shape_) - 1) {
+            if (whole) check(met, below.deltaGM, report);
+        } else if (level < coarsestLevel_) {
+            if (whole) search(chunk, met, report);
+        } else if (level < tileLevel_) {
+            const double offM = std::exchange(offM_[chunk.id.level], 0);
+            if (whole) check(met, offM, report);
+        } else if (level < leafLevel(shape_)) {
+            inTile_.push_back(met);
+        }
+        if (level == tileLevel_ && whole) finishTile(chunk.id, report);
+    }
+
+private:
+    struct Met {
+        ChunkId id;
+        float deltaCM = 0;
+        float deltaTightM = 0;
+        float largestOfChildrenM = 0;
+    };
+
+    std::size_t tileSide() const { return static_cast<std::size_t>(faceCells(shape_) >> tileLevel_) + 1; }
+
+    void placeLeaf(const ChunkData& leaf) {
+        const auto side = static_cast<std::size_t>(chunkSize(shape_));
+        const std::uint32_t withinTile = (1u << (leafLevel(shape_) - tileLevel_)) - 1;
+        const std::size_t column = (leaf.id.x & withinTile) * (side - 1);
+        const std::size_t row = (leaf.id.y & withinTile) * (side - 1);
+        for (std::size_t j = 0; j < side; ++j) {
+            const auto from = std::span(leaf.heights).subspan(j * side, side);
+            const std::size_t to = (row + j) * tileSide() + column;
+            std::copy(from.begin(), from.end(), finest_.begin() + static_cast<std::ptrdiff_t>(to));
+        }
+    }
+
+    void finishTile(const ChunkId& tile, const ReportProblem& report) {
+        measureTile(shape_, tile, finest_, scratch_, distances_);
+        for (const Met& met : inTile_) check(met, distances_.of(met.id), report);
+        const int end = std::min(tileLevel_, leafLevel(shape_) - 1);
+        for (int level = coarsestLevel_; level < end; ++level) {
+            double& offM = offM_[static_cast<std::size_t>(level)];
+            offM = std::max(offM, distances_.above(level));
+        }
+    }
+
+    // What cannot be read has been told of already.
+    void search(const ChunkData& chunk, const Met& met, const ReportProblem& report) {
+        const Result<double> offM = searchFinestDistance(shape_, chunk, [this](const ChunkData& parent) {
+            return file_.readChildren(parent.id, parent.children, parent.heights);
+        });
+        if (offM) check(met, *offM, report);
+    }
+
+    void check(const Met& met, double ownM, const ReportProblem& report) const {
+        const float expected = tightMetric(ownM, met.largestOfChildrenM, met.deltaCM);
+        if (met.largestOfChildrenM > met.deltaTightM) {
+            report(met.id, "the tight metric grows from it to a child");
+        }
+        if (std::abs(expected - met.deltaTightM) > 1e-6f * expected + 1e-6f) {
+            report(met.id,
+                   fmt::format("the tight metric is {} m in the file, but the finest heights give {} m",
+                               met.deltaTightM, expected));
+        }
+    }
+
+    const ChunkFile& file_;
+    PlanetShape shape_;
+    int tileLevel_;
+    int coarsestLevel_;
+    std::vector<std::int16_t> finest_;          // of the tile at hand
+    std::vector<Met> inTile_;                   // its chunks, but for those of the two finest levels
+    std::vector<double> offM_;                  // by level above the tile, of the chunk at hand
+    std::uint64_t missed_ = 0;                  // chunks whose children cannot be read
+    std::vector<std::uint64_t> missedAtEntry_;  // by level
+    GeometricErrorScratch scratch_;
+    TileDistances distances_;
+};
+
 class Verifier {
 public:
     Verifier(const ChunkFile& file, const HeightSource* source, const VerifyProgressCallback& progress)
@@ -92,7 +221,8 @@ public:
           source_(source),
           progress_(progress),
           shape_(file.info().shape),
-          total_(chunkCount(shape_)) {}
+          total_(chunkCount(shape_)),
+          tight_(file) {}
 
     Result<VerifyReport> run() {
         for (const Face face : allFaces) {
@@ -126,17 +256,26 @@ private:
             return cancelled();
         checkBounds(chunk);
         checkEdges(chunk);
-        if (chunk.id.level == leafLevel(shape_))
+        const auto report = [this](const ChunkId& id, const std::string& what) { chunkProblem(id, what); };
+        tight_.enter(chunk);
+        if (chunk.id.level == leafLevel(shape_)) {
+            tight_.leave(chunk, {}, report);
             return source_ != nullptr ? compareWithSource(chunk) : Result<void>{};
+        }
         const auto children = file_.readChildren(chunk.id, chunk.children, chunk.heights);
         if (!children) {
             problem(children.error().message);
+            tight_.missed();
+            tight_.leave(chunk, {}, report);
             return {};
         }
-        checkError(chunk, *children);
+        const double deltaGM = checkError(chunk, *children);
+        float largestTightM = 0;
         for (const ChunkData& child : *children) {
             if (auto done = visit(child); !done) return done;
+            largestTightM = std::max(largestTightM, child.deltaTightM);
         }
+        tight_.leave(chunk, {deltaGM, largestTightM}, report);
         return {};
     }
 
@@ -199,7 +338,8 @@ private:
         openEdges_.erase(seen);
     }
 
-    void checkError(const ChunkData& chunk, const std::array<ChunkData, quadrantCount>& children) {
+    // Its delta_g.
+    double checkError(const ChunkData& chunk, const std::array<ChunkData, quadrantCount>& children) {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const std::size_t refinedSide = 2 * side - 1;
         std::vector<std::int16_t> refined(refinedSide * refinedSide);
@@ -213,11 +353,13 @@ private:
             placeQuarter(child.heights, chunkCells(shape_), static_cast<int>(q), refined);
         }
         if (childrenDeltaM > chunk.deltaCM) chunkProblem(chunk.id, "delta_c grows from it to a child");
-        const double expected = geometricErrorM(shape_, chunk.id, refined, scratch_) + childrenDeltaM;
+        const double deltaGM = geometricErrorM(shape_, chunk.id, refined, scratch_);
+        const double expected = deltaGM + childrenDeltaM;
         if (std::abs(expected - chunk.deltaCM) > 1e-6 * expected + 1e-6) {
             chunkProblem(chunk.id, fmt::format("delta_c is {} m in the file, but its heights give {} m",
                                                chunk.deltaCM, expected));
         }
+        return deltaGM;
     }
 
     Result<void> compareWithSource(const ChunkData& chunk) {
@@ -249,6 +391,7 @@ private:
     PlanetShape shape_;
     std::uint64_t total_;
     VerifyReport report_;
+    TightVerifier tight_;
     GeometricErrorScratch scratch_;
     std::unordered_map<EdgeKey, SeenEdge, EdgeHash> openEdges_;  // edges of which one side has been seen
 };
@@ -263,7 +406,7 @@ Result<FileReport> reportFile(const ChunkFile& file) {
         if (!root) return tl::unexpected(root.error());
         ++tallies[0].chunks;
         tallies[0].bytes += file.info().roots[static_cast<std::size_t>(face)].size;
-        tallies[0].deltasM.push_back(root->deltaCM);
+        tallies[0].add(root->deltaCM, root->deltaTightM);
         if (leafLevel(shape) == 0) continue;
         if (auto done = tallyChildren(file, root->id, root->children, tallies); !done)
             return tl::unexpected(done.error());
@@ -300,7 +443,7 @@ Result<ProbeReport> probeFile(const ChunkFile& file, const Geographic& place) {
         report.heightM = shape.baseHeightM + step * shape.quantumM;
         const double lowest = heightM(shape, chunk.minStep);
         const double highest = heightM(shape, chunk.maxStep);
-        report.chain.push_back({chunk.id, chunk.deltaCM, lowest, highest, report.heightM,
+        report.chain.push_back({chunk.id, chunk.deltaCM, chunk.deltaTightM, lowest, highest, report.heightM,
                                 chunkBounds(chunk.id, shape.radiusM, lowest, highest)});
         if (chunk.id.level == leafLevel(shape)) return report;
         auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);

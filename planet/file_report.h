@@ -22,6 +22,9 @@ struct LevelReport {
     float medianDeltaM = 0;
     float p99DeltaM = 0;
     float maxDeltaM = 0;
+    double meanDeltaM = 0;
+    double meanTightM = 0;  // the tight metric over the same chunks
+    float maxTightM = 0;
 };
 
 struct FileReport {
@@ -45,7 +48,8 @@ struct VerifyReport {
 // Called every few hundred chunks with how many of how many are done; false cancels.
 using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std::uint64_t chunksTotal)>;
 
-// Checks every block's checksum; that delta_c is what the heights give and never grows downwards; that
+// Checks every block's checksum; that delta_c and the tight metric are what the heights give and never grow
+// downwards; that
 // extremes hold all finest heights and bounds hold every vertex; that every edge two chunks of a level share
 // is the same in both. With the source it was baked from, given with the same settings, compares the finest
 // heights too. Damage is a problem in the report; the Error is for a source that cannot be read or belongs to
@@ -56,6 +60,7 @@ Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* sourc
 struct ProbeChunk {
     ChunkId id;
     float deltaCM = 0;
+    float deltaTightM = 0;
     double minHeightM = 0;  // over the finest samples under it
     double maxHeightM = 0;
     double heightM = 0;  // of this chunk's own surface at the place

@@ -9,38 +9,6 @@ namespace planet {
 
 namespace {
 
-void fillPositions(const PlanetShape& shape, const ChunkId& chunk, std::span<const std::int16_t> refined,
-                   GeometricErrorScratch& scratch) {
-    const auto side = static_cast<std::size_t>(2 * chunkCells(shape) + 1);
-    const FaceSquare square = faceSquareOf(chunk);
-    const double step = square.side / static_cast<double>(side - 1);
-    for (std::vector<double>* grid : {&scratch.x, &scratch.y, &scratch.z}) grid->resize(side * side);
-    scratch.u.resize(side);
-    scratch.uRoot.resize(side);
-    for (std::size_t i = 0; i < side; ++i) {
-        const double u = square.u + step * static_cast<double>(i);
-        scratch.u[i] = u;
-        scratch.uRoot[i] = std::sqrt(0.5 - u * u / 6);
-    }
-    const double base = shape.radiusM + shape.baseHeightM;
-    for (std::size_t j = 0; j < side; ++j) {
-        const double v = square.v + step * static_cast<double>(j);
-        const double vSquared = v * v;
-        const double vRoot = std::sqrt(0.5 - vSquared / 6);
-        const std::int16_t* const steps = refined.data() + j * side;
-        double* const x = scratch.x.data() + j * side;
-        double* const y = scratch.y.data() + j * side;
-        double* const z = scratch.z.data() + j * side;
-        for (std::size_t i = 0; i < side; ++i) {
-            const double u = scratch.u[i];
-            const double radius = base + shape.quantumM * steps[i];
-            x[i] = radius * u * vRoot;
-            y[i] = radius * v * scratch.uRoot[i];
-            z[i] = radius * std::sqrt(1 - (u * u + vSquared) / 2 + u * u * vSquared / 3);
-        }
-    }
-}
-
 // The largest squared distance along a row between vertices first, first + 2, ... and the middles of their
 // two neighbours, which lie before and after elements away.
 double largestSquaredGap(const GeometricErrorScratch& scratch, std::size_t row, std::size_t side,
@@ -59,11 +27,42 @@ double largestSquaredGap(const GeometricErrorScratch& scratch, std::size_t row, 
 
 }  // namespace
 
+void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side,
+                   std::span<const std::int16_t> heights, GeometricErrorScratch& scratch) {
+    assert(heights.size() == side * side);
+    const double step = square.side / static_cast<double>(side - 1);
+    for (std::vector<double>* grid : {&scratch.x, &scratch.y, &scratch.z}) grid->resize(side * side);
+    scratch.u.resize(side);
+    scratch.uRoot.resize(side);
+    for (std::size_t i = 0; i < side; ++i) {
+        const double u = square.u + step * static_cast<double>(i);
+        scratch.u[i] = u;
+        scratch.uRoot[i] = std::sqrt(0.5 - u * u / 6);
+    }
+    const double base = shape.radiusM + shape.baseHeightM;
+    for (std::size_t j = 0; j < side; ++j) {
+        const double v = square.v + step * static_cast<double>(j);
+        const double vSquared = v * v;
+        const double vRoot = std::sqrt(0.5 - vSquared / 6);
+        const std::int16_t* const steps = heights.data() + j * side;
+        double* const x = scratch.x.data() + j * side;
+        double* const y = scratch.y.data() + j * side;
+        double* const z = scratch.z.data() + j * side;
+        for (std::size_t i = 0; i < side; ++i) {
+            const double u = scratch.u[i];
+            const double radius = base + shape.quantumM * steps[i];
+            x[i] = radius * u * vRoot;
+            y[i] = radius * v * scratch.uRoot[i];
+            z[i] = radius * std::sqrt(1 - (u * u + vSquared) / 2 + u * u * vSquared / 3);
+        }
+    }
+}
+
 double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, std::span<const std::int16_t> refined,
                        GeometricErrorScratch& scratch) {
     const auto side = static_cast<std::size_t>(2 * chunkCells(shape) + 1);
     assert(refined.size() == side * side);
-    fillPositions(shape, chunk, refined, scratch);
+    facePositions(shape, faceSquareOf(chunk), side, refined, scratch);
     double largest = 0;
     for (std::size_t row = 0; row < side; ++row) {
         if (row % 2 == 0) {

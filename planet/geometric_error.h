@@ -15,6 +15,7 @@
 // corners. It would not bound how far a sample moves from its own place, which is what is measured on screen.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +30,11 @@ struct GeometricErrorScratch {
     std::vector<double> x, y, z;   // positions in the face's own axes, metres
     std::vector<double> u, uRoot;  // a column's coordinate and sqrt(1/2 - u^2/6)
 };
+
+// Fills x, y and z with the vertices of a grid over a square of a face: side^2 heights in
+// steps, row-major.
+void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side,
+                   std::span<const std::int16_t> heights, GeometricErrorScratch& scratch);
 
 // The refined grid of a chunk holds (2 c + 1)^2 steps, row-major, c = chunkCells. Metres.
 double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, std::span<const std::int16_t> refined,

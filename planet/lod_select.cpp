@@ -12,6 +12,31 @@ namespace planet {
 
 namespace {
 
+constexpr std::array allEdges = {Edge::West, Edge::East, Edge::South, Edge::North};
+
+// How a chunk was drawn in the frame before.
+struct Shown {
+    float morph = 0;
+    std::array<float, edgeCount> edgeMorph{};
+    std::array<bool, edgeCount> onCoarser{};  // stitched: the edge showed a coarser chunk's vertices
+};
+
+// What of the selection before counts for this one.
+struct Memory {
+    std::optional<ChunkTable> splits;  // for hysteresis and fading
+    std::optional<ChunkTable> drawn;   // for fading: each chunk's place in shown
+    std::vector<Shown> shown;
+    float fadeStep = 0;  // the most that a morph moves in this frame, [0, 1]
+
+    bool fades() const { return drawn.has_value(); }
+    bool wasSplit(const ChunkId& id) const { return splits && splits->contains(id); }
+    // Null where it was not drawn.
+    const Shown* find(const ChunkId& id) const {
+        const std::uint32_t* found = drawn ? drawn->find(id) : nullptr;
+        return found ? &shown[*found] : nullptr;
+    }
+};
+
 // What every node of one frame is compared with.
 struct Frame {
     const ChunkTree& tree;
@@ -19,17 +44,26 @@ struct Frame {
     glm::dvec3 eyeM;
     Frustum frustum;
     Horizon horizon;
-    double scalePx;                           // K'
-    double reach;                             // K = K' / tau: d_m is delta_c times this
-    double mergeReach;                        // the same for what was split: K' / (tau (1 - hysteresis))
-    std::optional<ChunkTable> splitBefore;    // what hysteresis remembers; nothing without it
+    double scalePx;     // K'
+    double reach;       // K = K' / tau: d_m is delta times this
+    double mergeReach;  // the same for what was split: K' / (tau (1 - hysteresis))
+    Memory before;
     std::unordered_set<NodeIndex> seamLimit;  // drawn though they could be split, for stitched seams
 };
 
 // What a node needs to know of its parent.
 struct Above {
-    double epsPx = 0;    // 0 for a root
-    double deltaCM = 0;  // metres
+    double epsPx = 0;        // 0 for a root
+    double deltaM = 0;       // by the metric, metres
+    bool justSplit = false;  // drawn in the frame before: the node begins on its surface
+    bool merging = false;    // it, or one above it, waits until it can take its children's place
+};
+
+// A node as the eye sees it.
+struct Seen {
+    NodeIndex index = noNode;
+    double deltaM = 0;  // by the metric, metres
+    double distanceM = 0;
 };
 
 // The tests a node still has to take: one that holds its parent wholly holds it too.
@@ -58,43 +92,138 @@ Culled cull(const Frame& frame, const ChunkNode& node, OpenTests& open) {
 // 1 where the parent is about to take the chunk's place, 0 where it is far from it.
 //
 // The chunk must show its own surface when its own children take its place, or it theirs: so it may not have
-// begun to slide while its eps is over tau (1 - hysteresis). The parent's eps is at least delta_c(parent) /
-// delta_c times the chunk's, where the parent's box holds the chunk's; where it does not, the ratio of the
+// begun to slide while its eps is over tau (1 - hysteresis). The parent's eps is at least delta(parent) /
+// delta times the chunk's, where the parent's box holds the chunk's; where it does not, the ratio of the
 // eps themselves is the smaller. Without hysteresis a ratio of 1 leaves no range, and needs none: the two
 // surfaces are the same. With it, a range too short would be a pop of its own, so a quarter of it is kept.
-double morphOf(const LodSettings& settings, const Above& above, double deltaCM, double epsPx) {
+double naturalMorph(const LodSettings& settings, const Above& above, double deltaM, double epsPx) {
     if (!settings.morph || above.epsPx == 0) return 0;
     const double overTau = above.epsPx / settings.tauPx;
     if (overTau <= 1) return 1;
     double range = settings.morphRange;
     if (epsPx > 0) {
-        const double ratio = std::min(above.deltaCM / deltaCM, above.epsPx / epsPx);
+        const double ratio = std::min(above.deltaM / deltaM, above.epsPx / epsPx);
         range = std::min(range, std::max(ratio * (1 - settings.hysteresis) - 1, (ratio - 1) / 4));
     }
     return range > 0 ? std::max(0.0, (1 + range - overTau) / range) : 0;
 }
 
-void draw(const Frame& frame, NodeIndex index, double nodeDistanceM, const Above& above, Selection& out) {
-    const ChunkNode& node = frame.tree.nodes[index];
-    const double epsPx = node.deltaCM * frame.scalePx / nodeDistanceM;
+float faded(const Memory& before, float last, float target) {
+    constexpr float rounding = 1e-6f;  // so that many steps end where they should
+    if (std::abs(target - last) <= before.fadeStep + rounding) return target;
+    return target > last ? last + before.fadeStep : last - before.fadeStep;
+}
+
+// From where it was in the frame before towards its target.
+float fadedMorph(const Memory& before, const ChunkId& id, const Above& above, float target) {
+    if (!before.fades()) return target;
+    if (above.justSplit) return 1;
+    if (const Shown* last = before.find(id)) return faded(before, last->morph, target);
+    return before.wasSplit(id) ? 0 : target;
+}
+
+void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWaits, Selection& out) {
+    const ChunkNode& node = frame.tree.nodes[seen.index];
+    const double epsPx = seen.deltaM * frame.scalePx / seen.distanceM;
+    const double natural = naturalMorph(frame.settings, above, seen.deltaM, epsPx);
+    const float target = above.merging ? 1 : splitWaits ? 0 : static_cast<float>(natural);
     DrawItem item;
-    item.node = index;
+    item.node = seen.index;
     item.id = node.id;
     item.slot = node.slot;
     item.epsPx = static_cast<float>(epsPx);
     item.parentEpsPx = static_cast<float>(above.epsPx);
-    item.distanceM = static_cast<float>(nodeDistanceM);
-    item.deltaCM = node.deltaCM;
-    item.morph = static_cast<float>(morphOf(frame.settings, above, node.deltaCM, epsPx));
+    item.distanceM = static_cast<float>(seen.distanceM);
+    item.deltaCM = static_cast<float>(seen.deltaM);
+    item.morph = fadedMorph(frame.before, node.id, above, target);
+    item.splitWaits = splitWaits;
+    item.mergeWaits = above.merging;
     out.draw.push_back(item);
+    out.counters.fading += item.morph != target || splitWaits || above.merging;
     out.counters.deepestLevel = std::max<std::uint32_t>(out.counters.deepestLevel, node.id.level);
     out.counters.worstEpsPx = std::max(out.counters.worstEpsPx, item.epsPx);
 }
 
 // Only where the children are still there: hysteresis keeps what is, and asks for nothing.
-bool staysSplit(const Frame& frame, const ChunkNode& node, double nodeDistanceM) {
-    return frame.splitBefore && node.childrenState == ChildrenState::Resident &&
-           node.deltaCM * frame.mergeReach > nodeDistanceM && frame.splitBefore->contains(node.id);
+bool staysSplit(const Frame& frame, const ChunkNode& node, const Seen& seen) {
+    return frame.settings.hysteresis > 0 && node.childrenState == ChildrenState::Resident &&
+           seen.deltaM * frame.mergeReach > seen.distanceM && frame.before.wasSplit(node.id);
+}
+
+// Whether the node should be drawn as its children.
+bool wantsSplit(const Frame& frame, const Seen& seen, const Above& above) {
+    const ChunkNode& node = frame.tree.nodes[seen.index];
+    if (node.childrenState == ChildrenState::None || node.id.level >= frame.settings.maxLevel) return false;
+    if (above.merging || (!frame.seamLimit.empty() && frame.seamLimit.contains(seen.index))) return false;
+    return seen.deltaM * frame.reach > seen.distanceM || staysSplit(frame, node, seen);
+}
+
+// The edge of a chunk, if it has one, beyond which another of its level lies.
+std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other) {
+    for (const Edge edge : allEdges) {
+        if (neighbourOf(id, edge) == other) return edge;
+    }
+    return std::nullopt;
+}
+
+bool edgeShowed(const Memory& before, const ChunkId& id, const ChunkId& towards, float morph) {
+    const Shown* shown = before.find(id);
+    const std::optional<Edge> edge = shown ? edgeTowards(id, towards) : std::nullopt;
+    return !edge || shown->edgeMorph[static_cast<std::size_t>(*edge)] == morph;
+}
+
+// Whether the chunks of its children's level beyond a chunk's edge show no more than the chunk does there.
+bool finerNeighboursFit(const Memory& before, const ChunkId& id, Edge edge) {
+    const ChunkId beyond = neighbourOf(id, edge);
+    for (int q = 0; q < quadrantCount; ++q) {
+        const ChunkId child = childOf(id, q);
+        const ChunkId other = neighbourOf(child, edge);
+        if (parentOf(other) == beyond && !edgeShowed(before, other, child, 1)) return false;
+    }
+    return true;
+}
+
+// Whether the split would be seen: the node does not show its own surface yet, or a finer chunk beside it not
+// yet the same edge.
+bool splitMustWait(const Memory& before, const ChunkId& id, const Above& above) {
+    if (!before.fades()) return false;
+    if (above.justSplit) return true;
+    const Shown* shown = before.find(id);
+    if (!shown) return false;
+    if (shown->morph != 0) return true;
+    return std::any_of(allEdges.begin(), allEdges.end(), [&](Edge edge) {
+        const auto e = static_cast<std::size_t>(edge);
+        return (shown->edgeMorph[e] != 0 && !shown->onCoarser[e]) || !finerNeighboursFit(before, id, edge);
+    });
+}
+
+// Whether a chunk showed its parent's surface, its edges included, or nothing at all.
+bool showedItsParent(const Memory& before, const ChunkId& id) {
+    if (before.wasSplit(id)) return false;
+    const Shown* shown = before.find(id);
+    if (!shown) return true;
+    if (shown->morph != 1) return false;
+    for (std::size_t e = 0; e < edgeCount; ++e) {
+        if (shown->edgeMorph[e] != 1 && !shown->onCoarser[e]) return false;
+    }
+    return true;
+}
+
+// Whether the merge of a node that should not be split would be seen: its children do not show its surface
+// yet, or a chunk beside them not yet the same edge. Those that were culled show nothing.
+bool mergeMustWait(const Frame& frame, NodeIndex index) {
+    const ChunkNode& node = frame.tree.nodes[index];
+    const Memory& before = frame.before;
+    if (!before.fades() || node.childrenState != ChildrenState::Resident || !before.wasSplit(node.id)) {
+        return false;
+    }
+    if (!frame.seamLimit.empty() && frame.seamLimit.contains(index)) return false;
+    for (int q = 0; q < quadrantCount; ++q) {
+        if (!showedItsParent(before, childOf(node.id, q))) return true;
+    }
+    return std::any_of(allEdges.begin(), allEdges.end(), [&](Edge edge) {
+        return !edgeShowed(before, neighbourOf(node.id, edge), node.id, 0);
+    });
 }
 
 void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& above, Selection& out) {
@@ -109,26 +238,24 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
         ++(culled == Culled::ByFrustum ? out.counters.culledFrustum : out.counters.culledHorizon);
         return;
     }
-    const double nodeDistanceM = distanceToM(node, frame.eyeM);
-    const bool goodEnough = node.deltaCM * frame.reach <= nodeDistanceM;
-    const bool mayBeSplit = node.childrenState != ChildrenState::None &&
-                            node.id.level < frame.settings.maxLevel &&
-                            (frame.seamLimit.empty() || !frame.seamLimit.contains(index));
-    if (!mayBeSplit || (goodEnough && !staysSplit(frame, node, nodeDistanceM))) {
-        return draw(frame, index, nodeDistanceM, above, out);
-    }
+    const Seen seen{index, deltaOf(node, frame.settings.metric), distanceToM(node, frame.eyeM)};
+    const bool wantsToSplit = wantsSplit(frame, seen, above);
+    const bool merging = !wantsToSplit && mergeMustWait(frame, index);
+    if (!wantsToSplit && !merging) return draw(frame, seen, above, false, out);
     const ChildrenRequest wanted{index, node.id,
-                                 static_cast<float>(node.deltaCM * frame.reach / nodeDistanceM)};
-    if (node.childrenState == ChildrenState::Resident) {
-        out.touched[place].fate = NodeFate::Split;
-        out.splits.push_back(wanted);
-        const Above here{node.deltaCM * frame.scalePx / nodeDistanceM, node.deltaCM};
-        for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, here, out);
+                                 static_cast<float>(seen.deltaM * frame.reach / seen.distanceM)};
+    if (node.childrenState != ChildrenState::Resident) {
+        draw(frame, seen, above, false, out);
+        ++out.counters.waiting;
+        if (node.childrenState != ChildrenState::Failed) out.requests.push_back(wanted);
         return;
     }
-    draw(frame, index, nodeDistanceM, above, out);
-    ++out.counters.waiting;
-    if (node.childrenState != ChildrenState::Failed) out.requests.push_back(wanted);
+    if (!merging && splitMustWait(frame.before, node.id, above)) return draw(frame, seen, above, true, out);
+    out.touched[place].fate = NodeFate::Split;
+    out.splits.push_back(wanted);
+    const Above here{seen.deltaM * frame.scalePx / seen.distanceM, seen.deltaM,
+                     frame.before.find(node.id) != nullptr, merging};
+    for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, here, out);
 }
 
 // The drawn chunk beyond an edge, of the same level or the first coarser one; finer ones find this chunk
@@ -145,63 +272,200 @@ const std::uint32_t* drawnNeighbour(const ChunkTable& drawn, const ChunkId& id, 
 }
 
 // How far a chunk that slides that much towards its parent may be from the truth, metres.
-float boundM(const ChunkTree& tree, const DrawItem& item, float morph) {
+float boundM(const ChunkTree& tree, const LodSettings& settings, const DrawItem& item, float morph) {
     if (morph == 0) return item.deltaCM;
     const NodeIndex parent = tree.nodes[item.node].parent;
     if (parent == noNode) return item.deltaCM;
-    return item.deltaCM + morph * (tree.nodes[parent].deltaCM - item.deltaCM);
+    return item.deltaCM + morph * (deltaOf(tree.nodes[parent], settings.metric) - item.deltaCM);
 }
 
-// Both sides of an edge get a skirt that covers both errors, so whichever of the two lies higher there, its
-// skirt reaches below the other.
-void deepenSkirts(const ChunkTree& tree, double skirtFactor, Edge edge, DrawItem& item, DrawItem& other) {
-    const bool level = item.id.level == other.id.level;
-    const float morph = item.edgeMorph[static_cast<std::size_t>(edge)];
-    const float bothM = boundM(tree, item, level ? morph : item.morph) + boundM(tree, other, morph);
-    const auto depth = static_cast<float>(skirtFactor * bothM);
-    item.skirtDepthM = std::max(item.skirtDepthM, depth);
-    other.skirtDepthM = std::max(other.skirtDepthM, depth);
-}
-
-void joinEdge(DrawItem& item, Edge edge, const DrawItem& other, Selection& out) {
-    float& morph = item.edgeMorph[static_cast<std::size_t>(edge)];
-    const int levels = item.id.level - other.id.level;
-    morph = levels == 0 ? std::max(morph, other.morph) : other.morph;
-    if (levels == 0) return;
-    item.coarserBy[static_cast<std::size_t>(edge)] = static_cast<std::uint8_t>(levels);
-    out.seams.push_back({item.id, other.id, edge});
-    out.counters.widestSeam = std::max(out.counters.widestSeam, static_cast<std::uint32_t>(levels));
-}
+// What lies beyond an edge of a drawn chunk.
+struct Beyond {
+    static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+    std::uint32_t item = nothing;  // the drawn chunk there, of the same level or coarser
+    Edge back = Edge::West;        // of a coarser one: its edge that both share
+    bool finer = false;            // finer chunks are drawn there
+};
 
 // What the edges of the drawn chunks have beyond them, and what hides the gap there.
-void joinEdges(const ChunkTree& tree, const LodSettings& settings, Selection& out) {
-    const bool automatic = settings.seams == SeamMode::Skirts &&
-                           settings.skirtDepth == SkirtDepth::Automatic && settings.skirtFactor > 0;
-    const bool fixed = settings.seams == SeamMode::Skirts && settings.skirtDepth == SkirtDepth::Fixed;
-    ChunkTable drawn(out.draw.size());
-    int coarsestLevel = maxLevel;
-    for (std::uint32_t i = 0; i < out.draw.size(); ++i) {
-        DrawItem& item = out.draw[i];
-        drawn.add(item.id, i);
-        coarsestLevel = std::min<int>(coarsestLevel, item.id.level);
-        item.edgeMorph.fill(item.morph);
-        if (fixed) item.skirtDepthM = static_cast<float>(settings.skirtDepthM);
-        // Edges that agree exactly still part by rounding, of heights and of pixels.
-        if (automatic) {
-            item.skirtDepthM = std::max(static_cast<float>(2 * tree.shape.quantumM), 1e-6f * item.distanceM);
+class EdgeJoiner {
+public:
+    EdgeJoiner(const Frame& frame, Selection& out)
+        : frame_(frame),
+          settings_(frame.settings),
+          fades_(settings_.morph && settings_.fadeS > 0),
+          out_(out),
+          beyond_(out.draw.size()),
+          starts_(out.draw.size()) {}
+
+    void join() {
+        findNeighbours();
+        fillEdgeMorphs();
+        if (settings_.seams == SeamMode::Stitched) takeCoarserEdges();
+        if (settings_.seams == SeamMode::Skirts) fillSkirts();
+    }
+
+private:
+    // Where an edge's morph starts from.
+    struct Start {
+        bool known = false;
+        bool switched = false;    // only now drawn, in the place of its children or its parent
+        bool mergesNext = false;  // nothing but its and its siblings' sliding keeps its parent from its place
+        std::array<float, edgeCount> edgeMorph{};
+    };
+
+    Start startOf(const DrawItem& item) const {
+        Start start;
+        const Memory& before = frame_.before;
+        if (!before.fades()) return start;
+        start.known = start.switched = true;
+        if (const Shown* last = before.find(item.id)) {
+            start.edgeMorph = last->edgeMorph;
+            start.switched = false;
+        } else if (!before.wasSplit(item.id)) {
+            if (item.id.level > 0 && before.find(parentOf(item.id))) {
+                start.edgeMorph.fill(1);
+            } else {
+                start.known = start.switched = false;
+            }
+        }
+        start.mergesNext = item.mergeWaits;
+        for (int q = 0; start.mergesNext && q < quadrantCount; ++q) {
+            start.mergesNext = !before.wasSplit(childOf(parentOf(item.id), q));
+        }
+        return start;
+    }
+
+    void findNeighbours() {
+        std::vector<DrawItem>& draw = out_.draw;
+        ChunkTable drawn(draw.size());
+        int coarsestLevel = maxLevel;
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            drawn.add(draw[i].id, i);
+            coarsestLevel = std::min<int>(coarsestLevel, draw[i].id.level);
+            starts_[i] = startOf(draw[i]);
+        }
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                const std::uint32_t* found = drawnNeighbour(drawn, draw[i].id, allEdges[e], coarsestLevel);
+                if (!found) continue;
+                beyond_[i][e].item = *found;
+                if (draw[*found].id.level < draw[i].id.level) noteSeam(i, e);
+            }
         }
     }
-    for (DrawItem& item : out.draw) {
-        for (int e = 0; e < edgeCount; ++e) {
-            const auto edge = static_cast<Edge>(e);
-            const std::uint32_t* found = drawnNeighbour(drawn, item.id, edge, coarsestLevel);
-            if (!found) continue;
-            DrawItem& other = out.draw[*found];
-            joinEdge(item, edge, other, out);
-            if (automatic) deepenSkirts(tree, settings.skirtFactor, edge, item, other);
+
+    void noteSeam(std::uint32_t finer, std::size_t edge) {
+        DrawItem& item = out_.draw[finer];
+        Beyond& beyond = beyond_[finer][edge];
+        const ChunkId coarser = out_.draw[beyond.item].id;
+        const auto levels = static_cast<std::uint8_t>(item.id.level - coarser.level);
+        item.coarserBy[edge] = levels;
+        out_.seams.push_back({item.id, coarser, allEdges[edge]});
+        out_.counters.widestSeam = std::max<std::uint32_t>(out_.counters.widestSeam, levels);
+        ChunkId here = item.id;
+        while (here.level > coarser.level) here = parentOf(here);
+        const std::optional<Edge> back = edgeTowards(coarser, here);
+        assert(back);
+        beyond.back = *back;
+        beyond_[beyond.item][static_cast<std::size_t>(*back)].finer = true;
+    }
+
+    // Where levels differ, with fading: both sides show the coarser one's own edge, as far as one level goes.
+    float targetOf(std::uint32_t index, std::size_t edge) const {
+        const DrawItem& item = out_.draw[index];
+        const Beyond& beyond = beyond_[index][edge];
+        const bool level = beyond.item != Beyond::nothing && item.coarserBy[edge] == 0;
+        const float natural = level ? std::max(item.morph, out_.draw[beyond.item].morph) : item.morph;
+        if (!fades_) return natural;
+        if (starts_[index].mergesNext || (level && starts_[beyond.item].mergesNext)) return 1;
+        if (item.splitWaits || (level && out_.draw[beyond.item].splitWaits)) return 0;
+        if (item.coarserBy[edge] > 0) return 1;
+        return beyond.finer ? 0 : natural;
+    }
+
+    float edgeMorphOf(std::uint32_t index, std::size_t edge) const {
+        const float target = targetOf(index, edge);
+        const Beyond& beyond = beyond_[index][edge];
+        const Start& start = starts_[index];
+        const bool level = beyond.item != Beyond::nothing && out_.draw[index].coarserBy[edge] == 0;
+        if (!level) return !start.known ? target : startedAt(start, start.edgeMorph[edge], target);
+        // Both sides must find the same.
+        const Start& other = starts_[beyond.item];
+        if (start.switched && other.switched) return std::max(start.edgeMorph[0], other.edgeMorph[0]);
+        if (start.switched) return start.edgeMorph[edge];
+        if (other.switched) return other.edgeMorph[0];
+        if (start.known) return startedAt(start, start.edgeMorph[edge], target);
+        if (!other.known) return target;
+        const std::optional<Edge> back = edgeTowards(out_.draw[beyond.item].id, out_.draw[index].id);
+        assert(back);
+        return startedAt(other, other.edgeMorph[static_cast<std::size_t>(*back)], target);
+    }
+
+    float startedAt(const Start& start, float last, float target) const {
+        return start.switched ? last : faded(frame_.before, last, target);
+    }
+
+    void fillEdgeMorphs() {
+        for (std::uint32_t i = 0; i < out_.draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                const float morph = edgeMorphOf(i, e);
+                out_.draw[i].edgeMorph[e] = morph;
+                out_.counters.fading += fades_ && morph != targetOf(i, e);
+            }
         }
     }
-}
+
+    void takeCoarserEdges() {
+        for (std::uint32_t i = 0; i < out_.draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                if (out_.draw[i].coarserBy[e] == 0) continue;
+                const Beyond& beyond = beyond_[i][e];
+                out_.draw[i].edgeMorph[e] =
+                    out_.draw[beyond.item].edgeMorph[static_cast<std::size_t>(beyond.back)];
+            }
+        }
+    }
+
+    void fillSkirts() {
+        const bool fixed = settings_.skirtDepth == SkirtDepth::Fixed;
+        if (!fixed && settings_.skirtFactor <= 0) return;
+        for (DrawItem& item : out_.draw) {
+            // Edges that agree exactly still part by rounding, of heights and of pixels.
+            const float leastM =
+                std::max(static_cast<float>(2 * frame_.tree.shape.quantumM), 1e-6f * item.distanceM);
+            item.skirtDepthM = fixed ? static_cast<float>(settings_.skirtDepthM) : leastM;
+        }
+        for (std::uint32_t i = 0; !fixed && i < out_.draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                if (beyond_[i][e].item != Beyond::nothing) deepenSkirts(i, e);
+            }
+        }
+    }
+
+    // Both sides of an edge get a skirt that covers both errors, so whichever of the two lies higher there,
+    // its skirt reaches below the other.
+    void deepenSkirts(std::uint32_t index, std::size_t edge) {
+        DrawItem& item = out_.draw[index];
+        const Beyond& beyond = beyond_[index][edge];
+        DrawItem& other = out_.draw[beyond.item];
+        const float morph = item.edgeMorph[edge];
+        const float otherMorph =
+            item.coarserBy[edge] == 0 ? morph : other.edgeMorph[static_cast<std::size_t>(beyond.back)];
+        const float bothM =
+            boundM(frame_.tree, settings_, item, morph) + boundM(frame_.tree, settings_, other, otherMorph);
+        const auto depth = static_cast<float>(settings_.skirtFactor * bothM);
+        item.skirtDepthM = std::max(item.skirtDepthM, depth);
+        other.skirtDepthM = std::max(other.skirtDepthM, depth);
+    }
+
+    const Frame& frame_;
+    const LodSettings& settings_;
+    const bool fades_;
+    Selection& out_;
+    std::vector<std::array<Beyond, edgeCount>> beyond_;  // by place in draw
+    std::vector<Start> starts_;
+};
 
 // For each seam that is too wide to be stitched, the chunk that must be drawn instead of the finer one: its
 // ancestor of the finest level that can be stitched to the coarser one. No finer drawing can do without any
@@ -234,29 +498,51 @@ void selectOnce(const Frame& frame, Selection& out) {
     all.horizon = frame.settings.horizonCulling;
     for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, {}, out);
     // Before sorting, while neighbours lie close together in memory.
-    joinEdges(frame.tree, frame.settings, out);
+    EdgeJoiner(frame, out).join();
 }
 
-std::optional<ChunkTable> rememberedSplits(const LodSettings& settings, const Selection& before) {
-    if (settings.hysteresis == 0) return std::nullopt;
-    ChunkTable table(before.splits.size());
-    for (const ChildrenRequest& split : before.splits) table.add(split.parentId, split.parent);
-    return table;
+Memory memoryOf(const Selection& before, const LodSettings& settings, double elapsedS) {
+    Memory memory;
+    const bool fades =
+        settings.morph && settings.fadeS > 0 && std::isfinite(elapsedS) && !before.draw.empty();
+    if (settings.hysteresis > 0 || fades) {
+        memory.splits.emplace(before.splits.size());
+        for (const ChildrenRequest& split : before.splits) memory.splits->add(split.parentId, split.parent);
+    }
+    if (!fades) return memory;
+    memory.fadeStep = static_cast<float>(std::min(1.0, elapsedS / settings.fadeS));
+    memory.drawn.emplace(before.draw.size());
+    memory.shown.reserve(before.draw.size());
+    for (const DrawItem& item : before.draw) {
+        memory.drawn->add(item.id, static_cast<std::uint32_t>(memory.shown.size()));
+        Shown& shown = memory.shown.emplace_back(Shown{item.morph, item.edgeMorph, {}});
+        for (std::size_t e = 0; settings.seams == SeamMode::Stitched && e < edgeCount; ++e) {
+            shown.onCoarser[e] = item.coarserBy[e] > 0;
+            if (shown.onCoarser[e]) shown.edgeMorph[e] = 1;  // of one level, the same as its own at 1
+        }
+    }
+    return memory;
 }
 
 }  // namespace
+
+float deltaOf(const ChunkNode& node, ErrorMetric metric) {
+    return metric == ErrorMetric::Tight ? node.deltaTightM : node.deltaCM;
+}
 
 double distanceToM(const ChunkNode& node, const glm::dvec3& eyeM) {
     return std::max(distanceM(node.bounds.box, eyeM), nearestM);
 }
 
-double epsPxOf(const ChunkNode& node, const glm::dvec3& eyeM, double screenScalePx) {
-    return node.deltaCM * screenScalePx / distanceToM(node, eyeM);
+double epsPxOf(const ChunkNode& node, const glm::dvec3& eyeM, double screenScalePx, ErrorMetric metric) {
+    return deltaOf(node, metric) * screenScalePx / distanceToM(node, eyeM);
 }
 
-void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings, Selection& out) {
+void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings, Selection& out,
+                  double elapsedS) {
     assert(settings.tauPx > 0 && settings.skirtFactor >= 0 && settings.skirtDepthM >= 0);
     assert(settings.hysteresis >= 0 && settings.hysteresis <= 0.9 && settings.morphRange > 0);
+    assert(settings.fadeS >= 0 && elapsedS >= 0);
     const double scalePx = screenScalePx(lodView);
     Frame frame{tree,
                 settings,
@@ -266,7 +552,7 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
                 scalePx,
                 scalePx / settings.tauPx,
                 scalePx / (settings.tauPx * (1 - settings.hysteresis)),
-                rememberedSplits(settings, out),
+                memoryOf(out, settings, elapsedS),
                 {}};
     selectOnce(frame, out);
     // Each round draws fewer and coarser chunks, so there is a last one; almost always it is the first.

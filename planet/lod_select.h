@@ -14,6 +14,18 @@
 // morph at that moment, so the switch moves nothing. The range is at most delta_c(parent) / delta_c - 1, less
 // with hysteresis, so that a chunk has not begun to slide when it is itself exchanged for its children.
 //
+// Fading does the same where the view, the tolerance or the disk is too fast for that: with a memory, a
+// chunk's morph moves towards where it should be, its natural value, by at most elapsed time / fadeS a frame.
+// A chunk is replaced by its children only once it was drawn with morph 0, and they begin with morph 1; they
+// are replaced by it only once all four were drawn with morph 1 or not at all, and it begins with morph 0.
+// Until then the switch waits, and what waits slides there; edges have morphs of their own, for which the
+// same holds. So a switch moves nothing, a change over several levels takes fadeS for each, and what was not
+// in the picture before begins at its natural value.
+// What still pops: children that are no longer resident, or that stitched seams do not allow, are gone at
+// once; with stitched seams the outermost cells along an edge are cut into other triangles when the chunk
+// beyond changes its level; and one edge of a chunk moves if in one and the same frame it takes its
+// children's place and a coarser chunk beside it is split.
+//
 // Stitched seams: along an edge whose neighbour is coarser by d levels, the vertex shader moves vertex i to
 // the nearest multiple of 2^d, so both sides have the same vertices. For that neighbours must not differ by
 // more than log2(cells) - 1 levels; selection draws parents instead of what would.
@@ -21,6 +33,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,7 +45,13 @@ namespace planet {
 enum class SeamMode : std::uint8_t { None, Skirts, Stitched };
 enum class SkirtDepth : std::uint8_t { Automatic, Fixed };
 
+// Which bound of a chunk's error is looked at. Additive: delta_c, a sum over the levels under it; safe and
+// loose. Tight: the largest distance that was measured between the chunk's surface, or that of one under it,
+// and the finest data; fewer triangles for the same tau.
+enum class ErrorMetric : std::uint8_t { Additive, Tight };
+
 struct LodSettings {
+    ErrorMetric metric = ErrorMetric::Additive;
     double tauPx = 2;  // tolerance, pixels, > 0; larger: fewer triangles, more visible error
     // What is split stays split until eps <= tau (1 - hysteresis); [0, 0.9]; larger: fewer flips, more
     // triangles.
@@ -44,6 +63,9 @@ struct LodSettings {
     // Share of tau over which a chunk slides onto its parent's surface, (0, 4]; larger: slower, and more of
     // the picture is coarser than it could be.
     double morphRange = 0.3;
+    // With morph: seconds that a chunk takes to slide all the way where its level changes at once: children
+    // that come late, a new tau, a fast camera. [0, 10]; 0: at once, with a pop.
+    double fadeS = 0;
     SeamMode seams = SeamMode::Skirts;
     SkirtDepth skirtDepth = SkirtDepth::Automatic;
     double skirtDepthM = 1000;  // of Fixed, metres, >= 0; less than the gaps: cracks show
@@ -51,21 +73,28 @@ struct LodSettings {
     // the truth). At 1 no crack shows, since neither surface is farther than its delta_c from the finest; 0:
     // no skirts.
     double skirtFactor = 1;
+
+    bool operator==(const LodSettings&) const = default;
 };
 
 struct DrawItem {
     NodeIndex node = noNode;
     ChunkId id;
-    std::uint32_t slot = 0;  // in the pool of heights
-    float epsPx = 0;         // error on screen, pixels
-    float parentEpsPx = 0;   // the parent's; 0 for a root
-    float distanceM = 0;     // from the eye to the bounding volume; nearestM inside it
-    float deltaCM = 0;       // metres
-    float skirtDepthM = 0;   // metres, towards the planet's centre; 0 unless seams are Skirts
-    float morph = 0;         // [0, 1]: 0 own surface, 1 the parent's
-    // By edge, west to north. Levels that the drawn neighbour is coarser; 0 where it is not. And the morph
-    // that both sides of the edge use: of two chunks of one level the larger, else the coarser one's own; it
-    // is about the coarser one's vertices.
+    std::uint32_t slot = 0;   // in the pool of heights
+    float epsPx = 0;          // error on screen, pixels
+    float parentEpsPx = 0;    // the parent's; 0 for a root
+    float distanceM = 0;      // from the eye to the bounding volume; nearestM inside it
+    float deltaCM = 0;        // metres, by the metric that was asked for
+    float skirtDepthM = 0;    // metres, towards the planet's centre; 0 unless seams are Skirts
+    float morph = 0;          // [0, 1]: 0 own surface, 1 the parent's
+    bool splitWaits = false;  // its children would be drawn, but it did not show just its own surface yet
+    // One above it would be drawn, but what is below that one did not show its surface yet.
+    bool mergeWaits = false;
+    // By edge, west to north. Levels that the drawn neighbour is coarser; 0 where it is not. And the morph of
+    // the edge's vertices, the same on both sides of two chunks of one level: the larger of their morphs.
+    // Beside a coarser chunk, if seams are Stitched, it is that one's and about that one's vertices; else the
+    // chunk's own, which is its morph, or with fading 1, while the coarser one's is 0 there: so both show the
+    // coarser one's edge, and neither's changes when they come to be of one level.
     std::array<std::uint8_t, edgeCount> coarserBy{};
     std::array<float, edgeCount> edgeMorph{};
 };
@@ -89,10 +118,13 @@ struct VisitedNode {
 // Distances stop here, so that the error on screen of a chunk that holds the eye stays a number.
 inline constexpr double nearestM = 1e-3;
 
-// From an eye to a node's bounds, metres; and the node's error on screen from there, pixels: eps = delta_c K'
-// / D, K' as screenScalePx gives it.
+// A node's bound of its error by either metric, metres.
+float deltaOf(const ChunkNode& node, ErrorMetric metric);
+
+// From an eye to a node's bounds, metres; and the node's error on screen from there, pixels: eps = delta K' /
+// D, with delta by the metric and K' as screenScalePx gives it.
 double distanceToM(const ChunkNode& node, const glm::dvec3& eyeM);
-double epsPxOf(const ChunkNode& node, const glm::dvec3& eyeM, double screenScalePx);
+double epsPxOf(const ChunkNode& node, const glm::dvec3& eyeM, double screenScalePx, ErrorMetric metric);
 
 // "This node should be drawn as its children."
 struct ChildrenRequest {
@@ -108,6 +140,8 @@ struct SelectionCounters {
     std::uint32_t drawn = 0;         // chunks
     std::uint32_t waiting = 0;       // drawn though eps > tau, for lack of children
     std::uint32_t deepestLevel = 0;  // of what is drawn
+    std::uint32_t fading = 0;        // drawn chunks, and edges of them, that are not yet as they would be
+                                     // without a memory: morph not natural, or a split or merge waits
     float worstEpsPx = 0;            // of what is drawn
     std::uint32_t widestSeam = 0;    // levels that two drawn neighbours differ at most
 };
@@ -123,8 +157,9 @@ struct Selection {
 };
 
 // Refills the selection, keeping its capacity. What it held is the last selection of this view, whose splits
-// hysteresis remembers; an empty one has no memory.
+// hysteresis and fading remember; an empty one has no memory. elapsedS: seconds since it was made, >= 0;
+// infinity ends every fade.
 void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings,
-                  Selection& selection);
+                  Selection& selection, double elapsedS = std::numeric_limits<double>::infinity());
 
 }  // namespace planet

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planet/planet_state.h"
@@ -60,31 +62,45 @@ void Planet::step(const View& lodView, const LodSettings& settings, const Upload
 }
 
 void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload) {
-    assert(!views.empty() && views.size() <= maxViews);
-    State& state = *state_;
-    ++state.frame;
-    state.changed = false;
-    state.nowS = std::chrono::duration<double>(Clock::now() - state.opened).count();
-    state.views.resize(views.size());
-    for (std::size_t i = 0; i < views.size(); ++i) state.views[i].input = views[i];
+    step(views, upload, state_->clockS());
+}
+
+void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload, double elapsedS) {
+    state_->step(views, upload, elapsedS, elapsedS);
+}
+
+// Seconds since this was asked last.
+double Planet::State::clockS() {
+    const Clock::time_point now = Clock::now();
+    return std::chrono::duration<double>(now - std::exchange(lastStep, now)).count();
+}
+
+void Planet::State::step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
+                         double fadeElapsedS) {
+    assert(!inputs.empty() && inputs.size() <= maxViews && std::isfinite(elapsedS) && elapsedS >= 0);
+    ++frame;
+    changed = false;
+    nowS += elapsedS;
+    views.resize(inputs.size());
+    for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
 
     Clock::time_point start = Clock::now();
-    state.dropYielding();
-    state.uploadFinished(upload);
-    state.times.uploadMs = msSince(start);
+    dropYielding();
+    uploadFinished(upload);
+    times.uploadMs = msSince(start);
 
     start = Clock::now();
-    state.select();
-    state.times.selectMs = msSince(start);
+    select(fadeElapsedS);
+    times.selectMs = msSince(start);
 
     start = Clock::now();
-    state.pager->withQueue([&](PagingQueue& queue) {
-        state.markUsed(queue);
-        state.request(queue);
+    pager->withQueue([&](PagingQueue& queue) {
+        markUsed(queue);
+        request(queue);
     });
-    state.chooseYielding();
-    state.count();
-    state.times.pagingMs = msSince(start);
+    chooseYielding();
+    count();
+    times.pagingMs = msSince(start);
 }
 
 bool Planet::settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload,
@@ -97,7 +113,7 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
     const auto timeout = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeoutS));
     const Clock::time_point deadline = Clock::now() + timeout;
     while (true) {
-        step(views, upload);
+        state_->step(views, upload, state_->clockS(), std::numeric_limits<double>::infinity());
         if (settled()) return true;
         if (Clock::now() >= deadline) return false;
         const PagerStatus status = state_->pager->status();

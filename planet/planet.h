@@ -115,12 +115,16 @@ public:
     // The first step uploads the root chunks too.
     void step(const View& lodView, const LodSettings& settings, const UploadChunk& upload);
 
-    // The same for several views, 1 to maxViews: each has its own selection, and asks for what it wants with
-    // its own priorities; a block that several want is loaded once, at the highest.
+    // The same as if so many seconds, >= 0, had passed since the step before: seconds() goes on by just that,
+    // whatever the clock says. Fades go on by that too.
+    void step(std::span<const ViewInput> views, const UploadChunk& upload, double elapsedS);
+
+    // By the clock, for several views, 1 to maxViews: each has its own selection, and asks for what it wants
+    // with its own priorities; a block that several want is loaded once, at the highest.
     void step(std::span<const ViewInput> views, const UploadChunk& upload);
 
-    // Steps until nothing more is wanted or can be had. False if that takes longer than the given seconds, or
-    // if a pause holds up what is wanted.
+    // Steps until nothing more is wanted or can be had; every fade is at its end. False if that takes longer
+    // than the given seconds, or if a pause holds up what is wanted.
     bool settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload, double timeoutS);
     bool settle(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
 

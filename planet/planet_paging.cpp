@@ -84,8 +84,9 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
     return all;
 }
 
-void Planet::State::select() {
-    for (PlanetView& view : views) selectChunks(tree, view.input.lodView, view.input.lod, view.selection);
+void Planet::State::select(double fadeElapsedS) {
+    for (PlanetView& view : views)
+        selectChunks(tree, view.input.lodView, view.input.lod, view.selection, fadeElapsedS);
 }
 
 void Planet::State::uploadFinished(const UploadChunk& upload) {
@@ -150,20 +151,27 @@ void Planet::State::markUsed(PagingQueue& queue) {
     std::vector<NodeIndex> before;
     before.swap(watched);
     usedChunks = 0;
+    const auto use = [&](NodeIndex index) {
+        ChunkNode& node = tree.nodes[index];
+        if (node.lastUsedFrame == frame) return;  // by a view before
+        ++usedChunks;
+        const bool wasOutOfUse = std::exchange(node.lastUsedFrame, frame) + 1 < frame;
+        if (node.parent == noNode || quadrantOf(node.id) != 0) return;
+        watched.push_back(index);
+        if (!wasOutOfUse) return;
+        // Wanted after all: the two requests cancel each other.
+        const ChunkId parentId = parentOf(node.id);
+        if (const PagingRequest* pageOut = queue.find(parentId)) {
+            note(*pageOut, PagingOutcome::Cancelled);
+            queue.submit({.parent = parentId, .type = PagingType::PageIn, .renewedFrame = frame});
+        }
+    };
     for (const PlanetView& view : views) {
-        for (const VisitedNode& visited : view.selection.touched) {
-            ChunkNode& node = tree.nodes[visited.node];
-            if (node.lastUsedFrame == frame) continue;  // by a view before
-            ++usedChunks;
-            const bool wasOutOfUse = std::exchange(node.lastUsedFrame, frame) + 1 < frame;
-            if (node.parent == noNode || quadrantOf(node.id) != 0) continue;
-            watched.push_back(visited.node);
-            if (!wasOutOfUse) continue;
-            // Wanted after all: the two requests cancel each other.
-            const ChunkId parentId = parentOf(node.id);
-            if (const PagingRequest* pageOut = queue.find(parentId)) {
-                note(*pageOut, PagingOutcome::Cancelled);
-                queue.submit({.parent = parentId, .type = PagingType::PageIn, .renewedFrame = frame});
+        for (const VisitedNode& visited : view.selection.touched) use(visited.node);
+        // What is about to be drawn, once a fade lets it.
+        for (const DrawItem& item : view.selection.draw) {
+            for (NodeIndex q = 0; item.splitWaits && q < quadrantCount; ++q) {
+                use(tree.nodes[item.node].firstChild + q);
             }
         }
     }
@@ -401,7 +409,7 @@ void Planet::State::dropEverything() {
 void Planet::State::afterDrops() {
     yielding.clear();
     forgetGone();
-    if (frame > 0) select();
+    if (frame > 0) select(0);
 }
 
 void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load) {

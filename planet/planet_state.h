@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,19 +53,23 @@ struct Planet::State {
     std::uint64_t frame = 0;            // of the current step; the first is 1
     bool changed = false;               // by something other than a step, since the last step
     std::uint64_t nextTicket = 1;
-    std::uint64_t oldestTicketKept = 1;  // loads of older ones are thrown away
-    std::uint64_t thrownAway = 0;        // their number
-    std::uint32_t blocksLoaded = 0;      // for ChunkNode::loadOrder
-    Clock::time_point opened = Clock::now();
-    double nowS = 0;  // since then, as of the last step
+    std::uint64_t oldestTicketKept = 1;         // loads of older ones are thrown away
+    std::uint64_t thrownAway = 0;               // their number
+    std::uint32_t blocksLoaded = 0;             // for ChunkNode::loadOrder
+    Clock::time_point lastStep = Clock::now();  // or when it was opened
+    double nowS = 0;                            // since it was opened, as of the last step
     std::deque<PagingEvent> history;
     std::vector<std::string> problems;
     std::unique_ptr<Pager> pager;
 
-    // The stages of a step.
+    double clockS();
+    // A step; fadeElapsedS as selectChunks wants it.
+    void step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
+              double fadeElapsedS);
+    // Its stages.
     void dropYielding();
     void uploadFinished(const UploadChunk& upload);
-    void select();
+    void select(double fadeElapsedS);
     void markUsed(PagingQueue& queue);
     void request(PagingQueue& queue);
     void chooseYielding();

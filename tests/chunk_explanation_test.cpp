@@ -91,6 +91,8 @@ TEST(ChunkExplanation, DeltaGIsExactWhereTheChildrenAreKnown) {
     EXPECT_EQ(scene.explain(root).deltaGM, scene.node(root).deltaCM - below);
     EXPECT_FALSE(scene.explain(root).deltaGIsBound);
     EXPECT_EQ(scene.explain(child).deltaGM, scene.node(child).deltaCM);
+    EXPECT_EQ(scene.explain(root).deltaTightM, scene.node(root).deltaTightM);
+    EXPECT_GT(scene.explain(root).deltaTightM, 0);
     EXPECT_TRUE(scene.explain(child).deltaGIsBound);
     scene.tree.exaggeration = 2;
     EXPECT_TRUE(scene.explain(root).deltaGIsBound);
@@ -242,6 +244,48 @@ TEST(ChunkExplanation, OfChunksHeldBackForStitchedSeams) {
     EXPECT_EQ(scene.explain(held).notSplit, WhyNotSplit::SeamLimit);
     EXPECT_EQ(scene.explain(childOf(held, 1)).state, ChunkState::Resident);
     EXPECT_EQ(scene.explain(childOf(held, 1)).decidedByNotSplit, WhyNotSplit::SeamLimit);
+}
+
+TEST(ChunkExplanation, OfSwitchesThatWaitForAFade) {
+    Scene scene(4);
+    scene.lod.tauPx = 1.001 * scene.epsPx(root);
+    scene.lod.morph = true;
+    scene.lod.fadeS = 1;
+    scene.select();
+    scene.lod.tauPx = 1e-6;
+    const auto frame = [&] { selectChunks(scene.tree, scene.view, scene.lod, scene.selection, 0.25); };
+    frame();
+    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
+    EXPECT_FALSE(scene.explain(root).mergeWaits);
+    EXPECT_EQ(scene.explain(child).state, ChunkState::Drawn);
+    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::WaitingForMorph);
+    EXPECT_EQ(scene.explain(child).morph, 1);
+    EXPECT_EQ(scene.explain(grandchild).decidedByNotSplit, WhyNotSplit::WaitingForMorph);
+    for (int i = 0; i < 3; ++i) frame();
+    scene.lod.tauPx = 1.001 * scene.epsPx(root);
+    frame();
+    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
+    EXPECT_TRUE(scene.explain(root).mergeWaits);
+    for (int i = 0; i < 4; ++i) frame();
+    EXPECT_EQ(scene.explain(root).state, ChunkState::Drawn);
+    EXPECT_FALSE(scene.explain(root).mergeWaits);
+}
+
+TEST(ChunkExplanation, GoesByTheMetricOfTheSettings) {
+    Scene scene(4);
+    for (ChunkNode& node : scene.tree.nodes) node.deltaTightM = 0.25f * node.deltaCM;
+    scene.lod.metric = ErrorMetric::Tight;
+    scene.lod.tauPx = 0.26 * scene.epsPx(root);
+    scene.select();
+    const ChunkExplanation whole = scene.explain(root);
+    EXPECT_EQ(whole.state, ChunkState::Drawn);
+    EXPECT_EQ(whole.notSplit, WhyNotSplit::GoodEnough);
+    EXPECT_NEAR(whole.epsPx, 0.25 * scene.epsPx(root), 1e-9);
+    EXPECT_EQ(whole.deltaTightM, 0.25f * scene.node(root).deltaCM);
+    EXPECT_EQ(whole.metric, ErrorMetric::Tight);
+    scene.lod.tauPx = 0.24 * scene.epsPx(root);
+    scene.select();
+    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
 }
 
 // Whatever is drawn, split or culled must be explained as that, in any view.

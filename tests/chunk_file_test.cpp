@@ -83,9 +83,16 @@ TEST_F(ChunkFileTest, wrongMagicIsRefused) {
 
 TEST_F(ChunkFileTest, newerVersionSaysWhichVersionsAreRead) {
     Bytes bytes = whole();
-    bytes[8] = std::byte{2};
-    EXPECT_NE(messageOf(bytes).find("version 2"), std::string::npos);
-    EXPECT_NE(messageOf(bytes).find("up to version 1"), std::string::npos);
+    bytes[8] = std::byte{3};
+    EXPECT_NE(messageOf(bytes).find("version 3"), std::string::npos);
+    EXPECT_NE(messageOf(bytes).find("reads version 2"), std::string::npos);
+}
+
+TEST_F(ChunkFileTest, olderVersionSaysToBakeAgain) {
+    Bytes bytes = whole();
+    bytes[8] = std::byte{1};
+    EXPECT_NE(messageOf(bytes).find("version 1"), std::string::npos);
+    EXPECT_NE(messageOf(bytes).find("bake the source again"), std::string::npos);
 }
 
 TEST_F(ChunkFileTest, everyFlippedBitOfTheHeaderIsSeen) {
@@ -175,7 +182,7 @@ TEST_F(ChunkFileTest, childPointingForwardOrAtItselfIsRefused) {
     for (const std::uint64_t distance : {std::uint64_t{0}, location.offset + 1, ~std::uint64_t{0}}) {
         Bytes bytes = whole();
         const auto at = static_cast<std::size_t>(location.offset);
-        for (std::size_t i = 0; i < 8; ++i) bytes[at + 12 + i] = static_cast<std::byte>(distance >> (8 * i));
+        for (std::size_t i = 0; i < 8; ++i) bytes[at + 16 + i] = static_cast<std::byte>(distance >> (8 * i));
         const std::span block(bytes.data() + at, location.size);
         std::vector<std::byte> sum;
         ByteWriter(sum).put(rootChecksum(block.first(block.size() - checksumBytes), Face::PosX));

@@ -99,6 +99,9 @@ const Damage damages[] = {
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = -1; }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = std::numeric_limits<float>::quiet_NaN(); }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = std::numeric_limits<float>::infinity(); }},
+    {"tight metric", [](ChunkData& chunk) { chunk.deltaTightM = -1; }},
+    {"tight metric", [](ChunkData& chunk) { chunk.deltaTightM = std::numeric_limits<float>::quiet_NaN(); }},
+    {"tight metric", [](ChunkData& chunk) { chunk.deltaTightM = std::nextafter(chunk.deltaCM, 1e9f); }},
     {"are not within", [](ChunkData& chunk) { std::swap(chunk.minStep, chunk.maxStep); }},
     {"are not within", [](ChunkData& chunk) { chunk.maxStep = 32767; }},
     {"are not within", [](ChunkData& chunk) { chunk.minStep = -32768; }},
@@ -121,6 +124,11 @@ TEST(ChunkTree, ChildrenThatWouldBreakItsPromisesAreRefused) {
     SiblingBlock coarser = good;
     coarser[1].deltaCM = std::nextafter(tree.nodes[0].deltaCM, 1e9f);
     EXPECT_FALSE(checkChildren(tree, 0, coarser));
+    SiblingBlock looser = good;
+    looser[3].deltaCM = tree.nodes[0].deltaCM;
+    looser[3].deltaTightM = std::nextafter(tree.nodes[0].deltaTightM, 1e9f);
+    ASSERT_LE(looser[3].deltaTightM, looser[3].deltaCM);
+    EXPECT_FALSE(checkChildren(tree, 0, looser));
 }
 
 TEST(ChunkTree, ChildrenBelowTheFinestLevelAreRefused) {
@@ -261,6 +269,8 @@ TEST(ChunkTree, ExaggeratedDeltaBoundsWhatIsMeasured) {
             if (node.id.face != Face::PosX && node.id.face != Face::NegZ) continue;
             const double measured = measuredDeltaM(smallPyramid(), tree.shape, smallPyramid().at(node.id));
             ASSERT_LE(measured, node.deltaCM * (1 + 1e-6)) << factor << ' ' << toString(node.id);
+            ASSERT_LE(measured, node.deltaTightM * (1 + 1e-6)) << factor << ' ' << toString(node.id);
+            ASSERT_LE(node.deltaTightM, node.deltaCM);
             if (node.id.level < leafLevel(tree.shape)) tightest = std::max(tightest, measured / node.deltaCM);
             needsMoreThanScaling += measured > 1.01 * factor * node.storedDeltaCM;
         }
@@ -279,6 +289,7 @@ TEST(ChunkTree, AtExaggerationOneDeltaIsTheStoredOne) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         EXPECT_EQ(tree.nodes[i].deltaCM, fakePyramid().at(tree.nodes[i].id).deltaCM);
         EXPECT_EQ(tree.nodes[i].storedDeltaCM, tree.nodes[i].deltaCM);
+        EXPECT_EQ(tree.nodes[i].deltaTightM, fakePyramid().at(tree.nodes[i].id).deltaTightM);
         EXPECT_EQ(tree.nodes[i].maxHeightM, untouched.nodes[i].maxHeightM);
         EXPECT_EQ(tree.nodes[i].bounds.box.centreM, untouched.nodes[i].bounds.box.centreM);
         EXPECT_EQ(tree.nodes[i].bounds.box.halfSizeM, untouched.nodes[i].bounds.box.halfSizeM);
@@ -292,9 +303,11 @@ TEST(ChunkTree, ExaggeratedDeltaNeverGrowsFromParentToChild) {
         for (const ChunkNode& node : tree.nodes) {
             if (node.parent != noNode) {
                 ASSERT_LE(node.deltaCM, tree.nodes[node.parent].deltaCM);
+                ASSERT_LE(node.deltaTightM, tree.nodes[node.parent].deltaTightM);
             }
             if (node.childrenState == ChildrenState::None) {
                 EXPECT_EQ(node.deltaCM, 0);
+                EXPECT_EQ(node.deltaTightM, 0);
             }
         }
     }

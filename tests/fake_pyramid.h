@@ -114,6 +114,28 @@ inline double ownErrorM(const FaceGrid& grid, int firstColumn, int firstRow, int
     return most;
 }
 
+// The largest distance from a finest sample under a chunk to the point of its own triangles there.
+inline double finestDistanceM(const FaceGrid& grid, int firstColumn, int firstRow, int cells, int stride) {
+    double most = 0;
+    for (int j = 0; j <= cells * stride; ++j) {
+        for (int i = 0; i <= cells * stride; ++i) {
+            const int column = firstColumn + std::min(i / stride, cells - 1) * stride;
+            const int row = firstRow + std::min(j / stride, cells - 1) * stride;
+            const double s = static_cast<double>(firstColumn + i - column) / stride;
+            const double t = static_cast<double>(firstRow + j - row) / stride;
+            const glm::dvec3 southWest = grid.positionsM[grid.at(column, row)];
+            const glm::dvec3 northEast = grid.positionsM[grid.at(column + stride, row + stride)];
+            const glm::dvec3 corner = s >= t ? grid.positionsM[grid.at(column + stride, row)]
+                                             : grid.positionsM[grid.at(column, row + stride)];
+            const glm::dvec3 drawn =
+                (1 - std::max(s, t)) * southWest + std::abs(s - t) * corner + std::min(s, t) * northEast;
+            most =
+                std::max(most, glm::length(drawn - grid.positionsM[grid.at(firstColumn + i, firstRow + j)]));
+        }
+    }
+    return most;
+}
+
 inline ChunkData cutChunk(const PlanetShape& shape, const FaceGrid& grid, const ChunkId& id) {
     const int cells = chunkCells(shape);
     const int stride = 1 << (leafLevel(shape) - id.level);
@@ -131,6 +153,7 @@ inline ChunkData cutChunk(const PlanetShape& shape, const FaceGrid& grid, const 
     data.maxStep = *high;
     if (stride > 1) {
         data.deltaCM = static_cast<float>(ownErrorM(grid, firstColumn, firstRow, cells, stride));
+        data.deltaTightM = static_cast<float>(finestDistanceM(grid, firstColumn, firstRow, cells, stride));
         data.children = {keyOf(id) + 1, 100};
     }
     return data;
@@ -139,6 +162,7 @@ inline ChunkData cutChunk(const PlanetShape& shape, const FaceGrid& grid, const 
 inline void addChunk(FakePyramid& pyramid, const FaceGrid& grid, const ChunkId& id) {
     ChunkData data = cutChunk(pyramid.shape, grid, id);
     float below = 0;
+    float tightBelow = 0;
     for (int q = 0; q < quadrantCount && data.children.exists(); ++q) {
         const ChunkId childId = childOf(id, q);
         addChunk(pyramid, grid, childId);
@@ -146,8 +170,10 @@ inline void addChunk(FakePyramid& pyramid, const FaceGrid& grid, const ChunkId& 
         data.minStep = std::min(data.minStep, child.minStep);
         data.maxStep = std::max(data.maxStep, child.maxStep);
         below = std::max(below, child.deltaCM);
+        tightBelow = std::max(tightBelow, child.deltaTightM);
     }
     data.deltaCM += below;
+    data.deltaTightM = std::min(std::max(data.deltaTightM, tightBelow), data.deltaCM);
     pyramid.minStep = std::min(pyramid.minStep, data.minStep);
     pyramid.maxStep = std::max(pyramid.maxStep, data.maxStep);
     pyramid.chunks.emplace(id, std::move(data));

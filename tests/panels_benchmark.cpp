@@ -21,6 +21,7 @@ ChunkData chunkOf(const PlanetShape& shape, const ChunkId& id) {
     chunk.id = id;
     const bool leaf = id.level == leafLevel(shape);
     chunk.deltaCM = leaf ? 0.0f : static_cast<float>(60000 * std::pow(0.4, id.level));
+    chunk.deltaTightM = 0.6f * chunk.deltaCM;
     chunk.minStep = -500;
     chunk.maxStep = 500;
     if (!leaf) chunk.children = {keyOf(id) + 1, 100};

@@ -338,13 +338,18 @@ void outcomeLines(const BakeView& bake) {
     } else if (bake.lastReport) {
         const planet::BakeReport& report = *bake.lastReport;
         const std::string text = fmt::format(
-            "Last bake: {} in {}, {:.2f} bits a sample{}", bytesText(static_cast<double>(report.fileBytes)),
-            durationText(report.seconds),
+            "Last bake: {} in {}, {:.2f} bits a sample; roots' delta_c {}, tight {}{}",
+            bytesText(static_cast<double>(report.fileBytes)), durationText(report.seconds),
             8 * static_cast<double>(report.fileBytes) / static_cast<double>(report.samples),
+            distanceText(static_cast<double>(report.largestDeltaCM)),
+            distanceText(static_cast<double>(report.largestDeltaTightM)),
             report.missingSamples == 0 ? std::string()
                                        : fmt::format("; {} samples had no data",
                                                      countText(static_cast<double>(report.missingSamples))));
         ImGui::TextColored(palette().good, "%s", text.c_str());
+        tooltip(
+            "The largest errors of the six root chunks: delta_c, which adds up what each level may lose, and "
+            "the tight metric, how far the farthest finest sample really lies off.");
     }
     ImGui::PopTextWrapPos();
 }

@@ -150,6 +150,18 @@ void errorRows(const ChunkExplanation& explanation) {
              "that was left out to the triangle that replaces it. Exact while its children are resident.");
     valueRow("delta_c", distanceText(static_cast<double>(explanation.deltaCM)),
              "The chunk's error: delta_g + the largest delta_c of its four children; 0 at a leaf.");
+    const double share = explanation.deltaCM > 0 ? static_cast<double>(explanation.deltaTightM) /
+                                                       static_cast<double>(explanation.deltaCM)
+                                                 : 1;
+    valueRow(
+        "tight",
+        fmt::format("{}, {:.0f}% of delta_c", distanceText(static_cast<double>(explanation.deltaTightM)),
+                    100 * share),
+        "The tight metric: the largest distance from the finest samples under the chunk to its own "
+        "surface at the same place, or a child's if that is more; 0 at a leaf. delta_c is never less: it "
+        "adds up what each level may lose, though seldom all lose it at one place.");
+    valueRow("Metric", explanation.metric == planet::ErrorMetric::Tight ? "tight" : "additive: delta_c",
+             "Which of the two eps, d_m and the skirts are reckoned from: lod.metric.");
     valueRow("Distance", distanceText(explanation.distanceM),
              "D, from the lod view's eye to the chunk's bounds.");
     const bool over = explanation.epsPx > explanation.tauPx;

@@ -2,6 +2,7 @@
 // have been drawn (app/commands.cpp has one function a command).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -113,12 +114,35 @@ struct TakeScreenshot {
 };
 struct Quit {};
 
+// Instruments.
+struct MeasureCracks {};       // of the view as it is
+struct FindSmallestSkirts {};  // that leave none of the cracks measured open
+// Pops.
+struct MeasurePops {
+    bool on = true;
+};
+struct ClearPops {};
+struct GoBackToPop {  // moves the camera to where one of the meter's events was seen
+    std::uint64_t frame = 0;
+    planet::ChunkId chunk;
+};
+enum class PopSide : std::uint8_t { Live, Before, After };
+struct ShowPopSide {  // of the event last gone back to: what was drawn then instead of what is chosen now
+    PopSide side = PopSide::Live;
+};
+struct MeasureErrors {};  // the true error of what is drawn now, in the background
+struct KeepMeasuringErrors {
+    bool on = false;
+};
+
 using Command =
     std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
                  AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
                  PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile,
                  StartBake, BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo,
-                 Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit>;
+                 Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit,
+                 MeasureCracks, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop, ShowPopSide,
+                 MeasureErrors, KeepMeasuringErrors>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

@@ -13,8 +13,12 @@
 #include "planet/lod_changes.h"
 #include "planet/planet.h"
 #include "ui/commands.h"
+#include "ui/cracks_view.h"
+#include "ui/errors_view.h"
 #include "ui/frame_stats.h"
 #include "ui/log_panel.h"
+#include "ui/pops_view.h"
+#include "ui/probe_view.h"
 #include "ui/view_settings.h"
 
 namespace ui {
@@ -110,6 +114,10 @@ struct EditorView {
     std::span<const PresetView> presets{};
     std::string undoName{};  // "tau 2 px"; empty: nothing to undo
     std::string redoName{};
+    ErrorsView errors{};
+    CracksView cracks{};
+    PopsView pops{};
+    ProbeView probe{};
 };
 
 }  // namespace ui

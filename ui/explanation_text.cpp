@@ -48,6 +48,8 @@ std::string drawnText(const ChunkExplanation& chunk) {
         case WhyNotSplit::LevelLimit:
             return fmt::format("Drawn: {}, but chunks of level {} are not to be split.",
                                comparison(chunk, ">"), chunk.id.level);
+        case WhyNotSplit::WaitingForMorph:
+            return wanted("it slides back to its own surface first, so that the split is not seen");
         case WhyNotSplit::SeamLimit:
             return wanted("a chunk beside it would then be too much coarser for stitched seams");
         case WhyNotSplit::WaitingInQueue:
@@ -67,6 +69,7 @@ std::string drawnText(const ChunkExplanation& chunk) {
 }
 
 std::string splitText(const ChunkExplanation& chunk) {
+    if (chunk.mergeWaits) return "Split: to be drawn itself as soon as its children have slid onto it.";
     if (chunk.epsPx > chunk.tauPx) {
         return fmt::format("Split: {}, so chunks below it are drawn in its place.", comparison(chunk, ">"));
     }
@@ -84,6 +87,8 @@ std::string insteadText(const ChunkExplanation& chunk) {
         case WhyNotSplit::LevelLimit:
             return fmt::format("{} is drawn, and chunks of level {} are not to be split.", above,
                                chunk.decidedBy.level);
+        case WhyNotSplit::WaitingForMorph:
+            return above + " is drawn until it has slid back to its own surface.";
         case WhyNotSplit::SeamLimit:
             return above + " is drawn, since a chunk beside it would be too much coarser for stitched seams.";
         case WhyNotSplit::WaitingInQueue:

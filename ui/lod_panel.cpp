@@ -56,7 +56,34 @@ void toleranceKnobs(LodKnobs& lod) {
                     tauSymbol(), epsSymbol())
             .c_str(),
         ImGuiSliderFlags_Logarithmic);
+    slider("Fade", lod.fadeS, defaults.fadeS, 0, 10, "%.2f s",
+           "With morph: seconds that a chunk takes at least to slide all the way, each level for itself. For "
+           "children that come late, a new tolerance, a fast camera: what the morph range cannot foresee. "
+           "Larger: calmer, but the picture is longer coarser or finer than it should be. 0: it pops.",
+           ImGuiSliderFlags_Logarithmic);
     ImGui::EndDisabled();
+}
+
+// Of a file that was baked before there was one.
+bool lacksTightErrors(const planet::ChunkTree& tree) {
+    return std::all_of(tree.nodes.begin(), tree.nodes.begin() + planet::faceCount,
+                       [](const planet::ChunkNode& root) {
+                           return root.deltaTightM == 0 && root.childrenState != planet::ChildrenState::None;
+                       });
+}
+
+void metricKnob(const EditorView& view, LodKnobs& lod) {
+    const LodKnobs defaults;
+    choice("Error metric", lod.metric, defaults.metric, "additive\0tight\0",
+           "Which bound of a chunk's error, metres, is compared with the tolerance. Additive: delta_c, the "
+           "largest step to each finer level added up over the levels; safe and loose. Tight: the largest "
+           "distance that the bake measured between the chunk's surface, or that of one under it, and the "
+           "finest data; never more than delta_c, so fewer triangles for the same tolerance.");
+    if (view.planet && lod.metric == planet::ErrorMetric::Tight && lacksTightErrors(view.planet->tree())) {
+        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+        ImGui::TextWrapped("This file has no tight errors: nothing is split. Bake it again.");
+        ImGui::PopStyleColor();
+    }
 }
 
 void cullingKnobs(const EditorView& view, LodKnobs& lod, Commands& commands) {
@@ -155,6 +182,10 @@ void drawnValues(const EditorView& view, double tauPx) {
     valueRow("Waiting", countText(s.waiting),
              "Chunks drawn though over the tolerance: their children are not loaded.",
              s.waiting > 0 ? &palette().warning : nullptr);
+    valueRow("Fading", countText(s.fading),
+             "Chunks, and edges of chunks, that still slide after a change of level, or whose split or merge "
+             "waits for that. Over 0 all the time: the camera, the tolerance or the disk is faster than the "
+             "fade.");
     valueRow("Triangles", countText(static_cast<double>(view.stats.render.triangles)),
              "Triangles drawn, skirts included.");
     valueRow("Deepest level", fmt::format("{}", s.deepestLevel), "Of what is drawn; 0 is a whole cube face.");
@@ -244,6 +275,7 @@ void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands
     LodKnobs& lod = settings.lod;
     if (section("Level of detail")) {
         toleranceKnobs(lod);
+        metricKnob(view, lod);
         cullingKnobs(view, lod, commands);
         if (view.planet) chunkSizeKnob(view, commands);
         formulas(view, lod.tauPx);

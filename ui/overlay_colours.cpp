@@ -52,7 +52,18 @@ struct TintScale {
     double tauPx;
     double nowS;
     double newestLoad;
+    const ErrorMeasurement* measured;
 };
+
+const glm::vec3 unmeasuredColour(0.5f);
+
+glm::vec3 measuredColour(const planet::ChunkId& id, const TintScale& scale) {
+    if (!scale.measured) return unmeasuredColour;
+    const auto found = scale.measured->indexOf.find(id);
+    if (found == scale.measured->indexOf.end()) return unmeasuredColour;
+    const double px = scale.measured->report.chunks[found->second].facingPx;
+    return errorColour(px / (scale.measured->tauPx * scale.overlay.errorScale));
+}
 
 glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, const TintScale& scale) {
     switch (scale.overlay.colourBy) {
@@ -68,6 +79,8 @@ glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, co
             return rampColour(ageShare(scale.nowS - node.loadedAtS, scale.overlay.ageTopS));
         case ColourBy::LoadOrder:
             return rampColour(node.loadOrder / scale.newestLoad);
+        case ColourBy::Measured:
+            return measuredColour(item.id, scale);
         case ColourBy::None:
             break;
     }
@@ -141,10 +154,11 @@ double ageShare(double ageS, double topS) {
 
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
-                                              const OverlaySettings& overlay, double tauPx, bool lighting) {
+                                              const OverlaySettings& overlay, double tauPx, bool lighting,
+                                              const ErrorMeasurement* measured) {
     if (overlay.colourBy == ColourBy::None) return {};
     const planet::ChunkTree& tree = planet.tree();
-    const TintScale scale{overlay, tauPx, planet.seconds(), newestLoad(tree, selection)};
+    const TintScale scale{overlay, tauPx, planet.seconds(), newestLoad(tree, selection), measured};
     const std::uint8_t strength = lighting ? byteOf(overlay.opacity) : std::uint8_t{255};
     std::vector<planet::gl::ChunkTint> tints;
     tints.reserve(selection.draw.size());
@@ -180,6 +194,11 @@ Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deep
                                : share == 1 ? std::string("last")
                                             : fmt::format("{:.0f} %", 100 * share);
                     })};
+        case ColourBy::Measured: {
+            std::vector<LegendEntry> entries = errorEntries(tauPx * overlay.errorScale);
+            entries.push_back({unmeasuredColour, "not measured"});
+            return {"Measured error", entries};
+        }
         case ColourBy::None:
             break;
     }

@@ -8,6 +8,7 @@
 #include "planet/chunk_explanation.h"
 #include "planet/gl/chunk_renderer.h"
 #include "planet/planet.h"
+#include "ui/errors_view.h"
 #include "ui/view_settings.h"
 
 namespace ui {
@@ -23,10 +24,12 @@ double deltaShare(double deltaCM, double topM);  // logarithmic over the four de
 double ageShare(double ageS, double topS);       // 1 just loaded, 0 at the top and older
 
 // The tints of what a selection draws, in its order; none where chunks are not coloured. Without lighting
-// they hide what is below, so that colours are just those of the legend.
+// they hide what is below, so that colours are just those of the legend. measured: for ColourBy::Measured; a
+// chunk that it does not know is grey.
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
-                                              const OverlaySettings& overlay, double tauPx, bool lighting);
+                                              const OverlaySettings& overlay, double tauPx, bool lighting,
+                                              const ErrorMeasurement* measured = nullptr);
 
 struct LegendEntry {
     glm::vec3 colour{0, 0, 0};

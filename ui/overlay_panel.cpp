@@ -18,21 +18,23 @@ namespace {
 void colourKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
     const std::string colours = std::string("Nothing") + '\0' + "Level" + '\0' + epsSymbol() + " / " +
                                 tauSymbol() + '\0' + "delta_c" + '\0' + "Morph" + '\0' + "Age" + '\0' +
-                                "Load order" + '\0';
-    choice("Colour by", overlay.colourBy, defaults.colourBy, colours.c_str(),
-           "What tints the chunks in the viewport: their level, their error on screen against the tolerance, "
-           "their error in metres, how far they have slid onto their parent, how long ago or in which order "
-           "they were loaded. F8 goes through them. A tint hides the ground's own colours.");
+                                "Load order" + '\0' + "Measured" + '\0';
+    choice(
+        "Colour by", overlay.colourBy, defaults.colourBy, colours.c_str(),
+        "What tints the chunks in the viewport: their level, their error on screen against the tolerance, "
+        "their error in metres, how far they have slid onto their parent, how long ago or in which order "
+        "they were loaded, or their error as it was last measured (panel True error) against the tolerance. "
+        "F8 goes through them. A tint hides the ground's own colours.");
     ImGui::BeginDisabled(overlay.colourBy == ColourBy::None);
     slider(
         "Opacity", overlay.opacity, defaults.opacity, 0, 1, "%.2f",
         "Of the tint over the ground, [0, 1]. Low: the ground shows, and colours are harder to tell apart. "
         "Without lighting the tint is opaque, so that colours are exactly those of the legend.");
     ImGui::EndDisabled();
-    if (overlay.colourBy == ColourBy::Error)
+    if (overlay.colourBy == ColourBy::Error || overlay.colourBy == ColourBy::Measured)
         slider(
             "Yellow at", overlay.errorScale, defaults.errorScale, 0.01, 100, "%.2f x tau",
-            "The eps / tau that is drawn yellow; 0 is green, twice it and over is red. Small: all that has "
+            "The error / tau that is drawn yellow; 0 is green, twice it and over is red. Small: all that has "
             "any error is red. Large: all is green, also what is over the tolerance.",
             ImGuiSliderFlags_Logarithmic);
     if (overlay.colourBy == ColourBy::DeltaC)

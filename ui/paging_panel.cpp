@@ -233,7 +233,7 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     const planet::ChunkNode& node = planet.tree().nodes[index];
     const planet::View& lodView = planet.lodView(v);
     const planet::LodSettings& lod = planet.lodSettings(v);
-    const double epsPx = planet::epsPxOf(node, lodView.eyeM, planet::screenScalePx(lodView));
+    const double epsPx = planet::epsPxOf(node, lodView.eyeM, planet::screenScalePx(lodView), lod.metric);
     std::string text = pageInReason(epsPx, lod.tauPx, lod.hysteresis, epsSymbol(), tauSymbol());
     if (planet.viewCount() > 1) text += fmt::format(", view {}", v + 1);
     return text;

@@ -19,9 +19,13 @@ enum class PanelId : std::uint8_t {
     Paging,
     Frame,
     Bake,
-    Log
+    Log,
+    Errors,
+    Cracks,
+    Pops,
+    Probe
 };
-inline constexpr std::size_t panelCount = 12;
+inline constexpr std::size_t panelCount = 16;
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
 inline constexpr std::size_t dockCount = 3;
@@ -47,6 +51,10 @@ inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
     {PanelId::Frame, "Frame", "frame", "Ctrl+9", Dock::Bottom, true},
     {PanelId::Bake, "Bake", "bake", "Ctrl+8", Dock::Left, true},
     {PanelId::Log, "Log", "log", "Ctrl+L", Dock::Bottom, true},
+    {PanelId::Errors, "True error", "errors", "Ctrl+Shift+1", Dock::Left, false},
+    {PanelId::Cracks, "Cracks", "cracks", "Ctrl+Shift+2", Dock::Left, false},
+    {PanelId::Pops, "Pops", "pops", "Ctrl+Shift+3", Dock::Bottom, false},
+    {PanelId::Probe, "Precision", "probe", "Ctrl+Shift+4", Dock::Left, false},
 }};
 
 }  // namespace ui

@@ -29,6 +29,14 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return bakePanel(view, states.bake, settings, commands);
         case PanelId::Log:
             return logPanel(view.log, states.log, commands);
+        case PanelId::Errors:
+            return errorsPanel(view, states.errors, settings, commands);
+        case PanelId::Cracks:
+            return cracksPanel(view, states.cracks, settings, commands);
+        case PanelId::Pops:
+            return popsPanel(view, states.pops, settings, commands);
+        case PanelId::Probe:
+            return probePanel(view, states.probe, settings, commands);
     }
 }
 

@@ -4,14 +4,18 @@
 #include "ui/bake_panel.h"
 #include "ui/camera_panel.h"
 #include "ui/chunk_panel.h"
+#include "ui/cracks_panel.h"
 #include "ui/editor_view.h"
+#include "ui/errors_panel.h"
 #include "ui/frame_panel.h"
 #include "ui/lod_panel.h"
 #include "ui/log_panel.h"
 #include "ui/overlay_panel.h"
 #include "ui/paging_panel.h"
 #include "ui/panel_list.h"
+#include "ui/pops_panel.h"
 #include "ui/presets_panel.h"
+#include "ui/probe_panel.h"
 #include "ui/quadtree_panel.h"
 #include "ui/seams_panel.h"
 #include "ui/surface_panel.h"
@@ -28,6 +32,10 @@ struct PanelStates {
     CameraPanelState camera;
     PresetsPanelState presets;
     LogPanelState log;
+    ErrorsPanelState errors;
+    CracksPanelState cracks;
+    PopsPanelState pops;
+    ProbePanelState probe;
 };
 
 // Fills the current window with a panel.

@@ -91,6 +91,8 @@ private:
             share = epsPxOf(data_, node) / (2 * data_.tauPx * colouring_.errorScale);
         } else if (colouring_.by == NetColour::DeltaC) {
             share = deltaShare(static_cast<double>(node.deltaCM), colouring_.deltaTopM);
+        } else if (colouring_.by == NetColour::Tight) {
+            share = deltaShare(static_cast<double>(node.deltaTightM), colouring_.deltaTopM);
         } else {
             share = ageShare(data_.nowS - node.loadedAtS, colouring_.ageTopS);
         }
@@ -412,11 +414,12 @@ NetData netDataOf(const planet::Planet& planet) {
             .eyeM = lodView.eyeM,
             .screenScalePx = screenScalePx(lodView),
             .tauPx = planet.lodSettings().tauPx,
+            .metric = planet.lodSettings().metric,
             .nowS = planet.seconds()};
 }
 
 double epsPxOf(const NetData& data, const ChunkNode& node) {
-    return planet::epsPxOf(node, data.eyeM, data.screenScalePx);
+    return planet::epsPxOf(node, data.eyeM, data.screenScalePx, data.metric);
 }
 
 void fillNetRects(const NetData& data, const NetPlacement& placement, const Rect& area,

@@ -87,12 +87,13 @@ struct NetData {
     glm::dvec3 eyeM{0, 0, 0};
     double screenScalePx = 0;  // K'
     double tauPx = 1;
+    planet::ErrorMetric metric = planet::ErrorMetric::Additive;
     double nowS = 0;  // since the planet was opened
 };
 NetData netDataOf(const planet::Planet& planet);
 double epsPxOf(const NetData& data, const planet::ChunkNode& node);
 
-enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age };
+enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age, Tight };
 struct NetColouring {
     NetColour by = NetColour::State;
     double errorScale = 1;  // as of OverlaySettings

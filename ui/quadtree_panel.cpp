@@ -41,12 +41,14 @@ Legend stateLegend() {
 
 Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, const OverlaySettings& overlay) {
     if (state.colourBy == 0) return stateLegend();
-    constexpr std::array same = {ColourBy::None, ColourBy::Level, ColourBy::Error, ColourBy::DeltaC,
-                                 ColourBy::Age};
+    constexpr std::array same = {ColourBy::None,   ColourBy::Level, ColourBy::Error,
+                                 ColourBy::DeltaC, ColourBy::Age,   ColourBy::DeltaC};
     OverlaySettings asked = overlay;
     asked.colourBy = same[static_cast<std::size_t>(state.colourBy)];
-    return legendOf(asked, view.planet->lodSettings().tauPx,
-                    static_cast<std::uint32_t>(leafLevel(view.planet->shape())));
+    Legend legend = legendOf(asked, view.planet->lodSettings().tauPx,
+                             static_cast<std::uint32_t>(leafLevel(view.planet->shape())));
+    if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // on delta_c's scale
+    return legend;
 }
 
 // Swatches with their labels, as many in a row as fit.
@@ -75,11 +77,12 @@ void controls(const EditorView& view, QuadtreePanelState& state) {
     choiceIndex(
         "Colour by", state.colourBy, 0,
         (std::string("State") + '\0' + "Level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "delta_c" +
-         '\0' + "Age" + '\0')
+         '\0' + "Age" + '\0' + "tight" + '\0')
             .c_str(),
         "What the squares' colours show: what became of each chunk, its level, its error on screen as "
-        "a share of the tolerance, its error in metres, or how long ago it was loaded. All but the "
-        "state are dim for chunks that are not drawn; their scales are those of the Overlay panel.");
+        "a share of the tolerance, its error in metres, how long ago it was loaded, or the tight metric on "
+        "delta_c's scale. All but the state are dim for chunks that are not drawn; their scales are those of "
+        "the Overlay panel.");
     if (button("Fit", "Shows the whole net again. So does a double click beside the faces."))
         state.focus = {};
     ImGui::SameLine();
@@ -180,8 +183,9 @@ std::string hitText(const NetData& data, const NetHit& hit) {
     std::string text = fmt::format("{}\nlevel {}, {}", toString(hit.id), hit.id.level, stateText(hit.state));
     if (hit.node == planet::noNode) return text;
     const planet::ChunkNode& node = data.tree.nodes[hit.node];
-    return text + fmt::format("\n{} {}, delta_c {}", epsSymbol(), pixelsText(epsPxOf(data, node)),
-                              distanceText(static_cast<double>(node.deltaCM)));
+    return text + fmt::format("\n{} {}, delta_c {}, tight {}", epsSymbol(), pixelsText(epsPxOf(data, node)),
+                              distanceText(static_cast<double>(node.deltaCM)),
+                              distanceText(static_cast<double>(node.deltaTightM)));
 }
 
 // Wheel, drag, clicks and hovering.

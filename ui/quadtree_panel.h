@@ -10,7 +10,7 @@
 namespace ui {
 
 struct QuadtreePanelState {
-    int colourBy = 0;                         // NetColour: state, level, eps / tau, delta_c, age
+    int colourBy = 0;                         // NetColour: state, level, eps / tau, delta_c, age, tight
     NetFocus focus;                           // what part of the net is seen
     bool showTree = true;                     // the list beside the net
     OpenChunks open;                          // in the list

@@ -19,6 +19,8 @@ struct LodKnobs {
     double morphRange = 0.3;     // share of tau over which they do, [0.01, 4]
     bool frustumCulling = true;  // leaves out what lies beside and behind the view
     bool horizonCulling = true;  // leaves out what the planet itself hides
+    planet::ErrorMetric metric = planet::ErrorMetric::Additive;
+    double fadeS = 0.25;  // seconds in which a chunk slides all the way at most, [0, 10]; 0: pops
 
     bool operator==(const LodKnobs&) const = default;
 };
@@ -42,7 +44,7 @@ struct PagingKnobs {
     bool operator==(const PagingKnobs&) const = default;
 };
 
-enum class ColourBy : std::uint8_t { None, Level, Error, DeltaC, Morph, Age, LoadOrder };
+enum class ColourBy : std::uint8_t { None, Level, Error, DeltaC, Morph, Age, LoadOrder, Measured };
 enum class ChunkLabels : std::uint8_t { None, Level, Error, LevelAndError };
 
 // Over the planet's picture.
@@ -96,6 +98,15 @@ struct CameraSettings {
     bool operator==(const CameraSettings&) const = default;
 };
 
+// The cracks instrument.
+struct CrackKnobs {
+    bool live = false;     // measures again and again
+    int everyFrames = 30;  // then: frames from one measurement to the next, [1, 1000]
+    bool mark = true;      // shows the crack pixels in the viewport
+
+    bool operator==(const CrackKnobs&) const = default;
+};
+
 struct ViewSettings {
     LodKnobs lod;
     SeamKnobs seams;
@@ -103,6 +114,7 @@ struct ViewSettings {
     OverlaySettings overlay;
     SurfaceSettings surface;
     CameraSettings camera;
+    CrackKnobs cracks;
 
     bool operator==(const ViewSettings&) const = default;
 };

@@ -180,6 +180,29 @@ void addPagingBadges(const EditorView& view, const ViewSettings& settings,
         badges.push_back({fmt::format("Loading {}", waiting), palette().good});
 }
 
+bool showsMarks(const EditorView& view, const ViewSettings& settings) {
+    return settings.cracks.mark && view.cracks.current && view.cracks.measured;
+}
+
+// Pixels side by side as one rectangle, none so small that it is overlooked.
+void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const Rect& viewport) {
+    const float scale = viewport.width / static_cast<float>(std::max(map.widthPx, 1));
+    const float rim = std::max(0.0f, (ImGui::GetFontSize() * 0.2f - scale) / 2);
+    for (std::size_t i = 0; i < map.pixels.size();) {
+        const planet::CrackPixel& first = map.pixels[i];
+        int count = 0;
+        const auto goesOn = [&](const planet::CrackPixel& pixel) {
+            return pixel.y == first.y && pixel.x == first.x + count && pixel.leaks == first.leaks;
+        };
+        while (i < map.pixels.size() && goesOn(map.pixels[i])) ++i, ++count;
+        const ImVec2 from(viewport.x + scale * static_cast<float>(first.x) - rim,
+                          viewport.y + scale * static_cast<float>(first.y) - rim);
+        const ImVec2 to(viewport.x + scale * static_cast<float>(first.x + count) + rim,
+                        viewport.y + scale * static_cast<float>(first.y + 1) + rim);
+        drawList.AddRectFilled(from, to, packed(first.leaks ? palette().bad : palette().warning));
+    }
+}
+
 }  // namespace
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
@@ -187,7 +210,20 @@ std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSett
     if (view.framesPaused) badges.push_back({"Paused, F6 steps (F5)", palette().warning});
     if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
+    if (view.pops.side != PopSide::Live && view.pops.problem.empty())
+        badges.push_back(
+            {view.pops.side == PopSide::Before ? "Before the pop" : "After the pop", palette().warning});
     if (view.planet) addPagingBadges(view, settings, badges);
+    if (showsMarks(view, settings)) {
+        const planet::gl::CrackMap& map = view.cracks.measured->map;
+        const auto leaking = static_cast<std::size_t>(map.leaking);
+        if (leaking > 0) badges.push_back({fmt::format("Leaking cracks: {} px", leaking), palette().bad});
+        if (map.pixels.size() > leaking) {
+            badges.push_back(
+                {fmt::format("Cracks behind skirts: {} px", map.pixels.size() - leaking), palette().warning});
+        }
+        if (map.pixels.empty()) badges.push_back({"No cracks", palette().good});
+    }
     if (settings.overlay.wireframe) badges.push_back({"Wireframe (F1)", palette().accent});
     if (settings.overlay.cube) badges.push_back({"Cube (F4)", palette().accent});
     if (settings.surface.exaggeration != 1)
@@ -206,6 +242,7 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
     ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
                         true);
+    if (showsMarks(view, settings)) drawCrackMarks(drawList, view.cracks.measured->map, viewport);
     Legend legend;
     if (view.planet) {
         const planet::Planet& planet = *view.planet;

@@ -163,13 +163,7 @@ Instance instanceOf(const DrawItem& item, bool stitched) {
     instance.skirtDepthM = item.skirtDepthM;
     instance.morph = item.morph;
     instance.edgeMorph = item.edgeMorph;
-    if (stitched) {
-        instance.coarserBy = item.coarserBy;
-        return instance;
-    }
-    // Where edges are not moved onto a coarser chunk's, its morph says nothing of these vertices.
-    for (std::size_t edge = 0; edge < edgeCount; ++edge)
-        if (item.coarserBy[edge] > 0) instance.edgeMorph[edge] = item.morph;
+    if (stitched) instance.coarserBy = item.coarserBy;
     return instance;
 }
 
@@ -312,10 +306,7 @@ double ChunkRenderer::State::highestRadiusM(std::span<const DrawItem> items) con
 Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<const DrawItem> items) const {
     const double scale = std::min(config.shape.radiusM / 6.371e6, 1.0);
     if (capabilities.reversedZ && boundDepthIsFloat()) return reversedProjection(view, 0.1 * scale);
-    const double eyeRadiusM = glm::length(view.eyeM);
-    const double topM = highestRadiusM(items);
-    const double nearM = std::max(0.3 * (eyeRadiusM - topM), 2 * scale);
-    return classicProjection(view, nearM, std::max(eyeRadiusM + topM, 10 * nearM));
+    return fallbackProjection(view, config.shape.radiusM, highestRadiusM(items));
 }
 
 int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawItem> items,

@@ -60,6 +60,10 @@ TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {
         drawn(WhyNotSplit::SeamLimit, 3.1),
         "Wanted to split: eps 3.1 px > tau 2.0 px; a chunk beside it would then be too much coarser for "
         "stitched seams.");
+    EXPECT_EQ(
+        drawn(WhyNotSplit::WaitingForMorph, 3.1),
+        "Wanted to split: eps 3.1 px > tau 2.0 px; it slides back to its own surface first, so that the "
+        "split is not seen.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForRead, 3.1),
               "Wanted to split: eps 3.1 px > tau 2.0 px; its children are being read.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForBudget, 3.1),
@@ -96,6 +100,9 @@ TEST(ExplanationText, OfSplitChunksSaysWhatKeepsThemSplit) {
               "Split: eps 5.0 px > tau 2.0 px, so chunks below it are drawn in its place.");
     EXPECT_EQ(whySpelled(chunk(ChunkState::Split, WhyNotSplit::IsSplit, 1.9)),
               "Split: eps 1.9 px is within tau 2.0 px, but hysteresis keeps it split until it is lower.");
+    ChunkExplanation waits = chunk(ChunkState::Split, WhyNotSplit::IsSplit, 1.1);
+    waits.mergeWaits = true;
+    EXPECT_EQ(whySpelled(waits), "Split: to be drawn itself as soon as its children have slid onto it.");
 }
 
 TEST(ExplanationText, OfCulledChunksNamesWhatIsCulled) {
@@ -121,6 +128,8 @@ TEST(ExplanationText, OfResidentChunksNamesWhatIsDrawnInstead) {
         resident(WhyNotSplit::SeamLimit, 3),
         "Not drawn: z_pos/4/3/2 above it is drawn, since a chunk beside it would be too much coarser for "
         "stitched seams.");
+    EXPECT_EQ(resident(WhyNotSplit::WaitingForMorph, 3),
+              "Not drawn: z_pos/4/3/2 above it is drawn until it has slid back to its own surface.");
     EXPECT_EQ(resident(WhyNotSplit::NotDrawn, 3), "Not drawn: nothing has asked for it.");
 }
 

@@ -289,7 +289,8 @@ TEST(QuadtreeNet, WhatIsNotDrawnIsDimmerUnlessStatesAreShown) {
     const Fixture fixture(4);
     const NetData data = fixture.data();
     const NetPlacement placement = placementOf({}, area);
-    for (const NetColour by : {NetColour::Level, NetColour::Error, NetColour::DeltaC, NetColour::Age}) {
+    for (const NetColour by :
+         {NetColour::Level, NetColour::Error, NetColour::DeltaC, NetColour::Age, NetColour::Tight}) {
         std::vector<NetRect> rects;
         fillNetRects(data, placement, area, {.by = by}, rects);
         const NetPoint behind = onScreen(placement, {3.47, 1.52});  // the far side

@@ -10,77 +10,18 @@
 #include "gl_test.h"
 #include "planet/geometric_error.h"
 #include "test_planet.h"
+#include "tests/seam_patchwork.h"
 
 namespace planet::gl {
 namespace {
 
-double mountains(const glm::dvec3& d) {
-    return 9000 * std::sin(31 * d.x + 5) * std::cos(29 * d.y) + 5000 * std::sin(83 * d.z + 41 * d.x) +
-           1500 * std::sin(600 * d.y + 500 * d.z + 300 * d.x);
-}
-
-// Which chunk is drawn beyond an edge; null where finer ones are.
-class Neighbourhood {
-public:
-    explicit Neighbourhood(std::span<const DrawItem> items) {
-        for (const DrawItem& item : items) byId_[item.id] = &item;
-    }
-    const DrawItem* beyond(const ChunkId& id, Edge edge) const {
-        ChunkId other = neighbourOf(id, edge);
-        for (;; other = parentOf(other)) {
-            const auto found = byId_.find(other);
-            if (found != byId_.end()) return found->second;
-            if (other.level == 0) return nullptr;
-        }
-    }
-
-private:
-    std::map<ChunkId, const DrawItem*> byId_;
-};
-
-// What selection says of the edges, by its header's words.
-void fillEdges(std::vector<DrawItem>& items) {
-    const Neighbourhood neighbourhood(items);
-    for (DrawItem& item : items) {
-        for (std::size_t edge = 0; edge < edgeCount; ++edge) {
-            const DrawItem* other = neighbourhood.beyond(item.id, static_cast<Edge>(edge));
-            const int coarser = other == nullptr ? 0 : item.id.level - other->id.level;
-            item.coarserBy[edge] = static_cast<std::uint8_t>(coarser);
-            item.edgeMorph[edge] = other == nullptr ? item.morph
-                                   : coarser == 0   ? std::max(item.morph, other->morph)
-                                                    : other->morph;
-        }
-    }
-}
-
-PlanetShape smallChunks() {
-    PlanetShape shape;
-    shape.chunkCellsLog2 = 4;  // three levels apart is the most that they allow
-    return shape;
-}
-
-// The whole planet, each chunk of level 1 cut into 1, 4, 16 or 64, in a pattern that brings all differences
-// together along edges of chunks and of faces.
 class Seams : public GlTest {
 protected:
     Seams() : planet_(smallChunks(), 24 * 64) {
         target_.bind();
-        std::uniform_real_distribution<float> anyMorph(0, 1);
-        for (std::uint32_t i = 0; i < 24; ++i) {
-            const ChunkId quarter{static_cast<Face>(i / 4), 1, i % 2, i % 4 / 2};
-            add(quarter, static_cast<int>((i * 7 + i / 4) % 4));
-        }
-        for (DrawItem& item : planet_.items()) {
-            const float morph = anyMorph(random_);
-            item.morph = morph < 0.2f ? 0 : morph > 0.8f ? 1 : morph;
-        }
-        fillEdges(planet_.items());
+        for (const ChunkId& id : seamPatchwork()) planet_.add(id, mountains);
+        morphAtRandom(planet_.items(), random_);
         stitched_.stitched = true;
-    }
-
-    void add(const ChunkId& id, int depth) {
-        if (depth == 0) return planet_.add(id, mountains);
-        for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) add(childOf(id, quadrant), depth - 1);
     }
 
     std::vector<glm::vec3> positions(std::span<const DrawItem> items, const RenderSettings& settings) {
@@ -208,12 +149,12 @@ TEST_F(Seams, WithoutStitchingACoarserNeighbourMovesNothing) {
     }
     EXPECT_EQ(positions(items, plainSettings()), positions(alone, plainSettings()));
     EXPECT_EQ(positions(alone, stitched_), positions(alone, plainSettings()));
-    // Beside a coarser chunk an edge then morphs as its own chunk does.
+    // Beside a coarser chunk an edge then morphs by itself.
     const auto finer =
         std::find_if(items.begin(), items.end(), [](const DrawItem& item) { return item.coarserBy[0] > 0; });
     ASSERT_NE(finer, items.end());
     DrawItem item = *finer;
-    item.morph = 1;
+    item.edgeMorph[0] = 1;
     const auto still = positions({&*finer, 1}, plainSettings());
     const auto moved = positions({&item, 1}, plainSettings());
     EXPECT_EQ(moved[2 * 17], still[2 * 17]);

@@ -15,7 +15,8 @@ TEST(CommandLine, HelpAndVersionEndWell) {
     const TemporaryFolder folder;
     const Ran help = runWorldy(folder, "--help");
     EXPECT_EQ(help.exitCode, 0);
-    for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly"}) {
+    for (const char* command :
+         {"bake", "info", "verify", "probe", "shot", "fly", "cracks", "pops", "sweep", "bench", "audit"}) {
         EXPECT_THAT(help.output, HasSubstr(command));
         const Ran own = runWorldy(folder, std::string(command) + " --help");
         EXPECT_EQ(own.exitCode, 0) << command;
@@ -80,11 +81,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"shot junk.chk -o o.png --settings none.toml", "none.toml: no such file"},
         BadCommand{"shot junk.chk -o o.png --settings bad.toml", "bad.toml: line 2: lod.tau_px is 0"},
         BadCommand{"fly junk.chk --path none.toml --set lod.morph=2", "lod.morph is 2; true or false"},
-        BadCommand{"fly junk.chk --path none.toml", "none.toml"},
+        BadCommand{"fly junk.chk --path none.toml", "none.toml"}, BadCommand{"bench none.tif", "none.tif"},
+        BadCommand{"bench --rounds 0", "--rounds"},
+        BadCommand{"sweep junk.chk --flight none.toml", "none.toml"},
+        BadCommand{"sweep junk.chk --flight none.toml --suggest speed=3", "--suggest speed=3"},
+        BadCommand{"sweep junk.chk --flight none.toml --chunk 34", "--chunk"},
         BadCommand{"fly junk.chk --path bad.toml", "bad.toml: line 1: lod is not known"},
         BadCommand{"junk.chk", "junk.chk"}, BadCommand{"--settings none.toml", "none.toml: no such file"},
         BadCommand{"--settings bad.toml", "bad.toml: line 2: lod.tau_px is 0; a number of pixels"},
-        BadCommand{"info junk.chk extra", "extra"}));
+        BadCommand{"info junk.chk extra", "extra"}, BadCommand{"audit", "FILE is required"},
+        BadCommand{"audit junk.chk", "junk.chk"}, BadCommand{"audit none.chk", "none.chk"},
+        BadCommand{"audit junk.chk --camera 1,2", "--camera"},
+        BadCommand{"audit junk.chk --metric best", "--metric"},
+        BadCommand{"audit junk.chk --step-s 2", "--flight"},
+        BadCommand{"audit junk.chk --flight a.toml --step-s 0", "--step-s"}));
 
 }  // namespace
 }  // namespace worldy

@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
@@ -220,14 +222,19 @@ TEST(Program, ACameraBelowGroundIsLifted) {
     EXPECT_NEAR(json::parse(ran.output)["camera"]["altitude_m"].get<double>(), groundM + 2, 5);
 }
 
-TEST(Program, AFlightReportsEveryFrame) {
-    if (!canDraw()) GTEST_SKIP() << "no EGL context";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+// Down to the ground in five seconds.
+void writeFlight(const TemporaryFolder& folder) {
     std::ofstream(folder.path() / "path.toml")
         << "name = \"Down\"\n[[key]]\ntime_s = 0\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = 2e5\n"
            "heading_deg = 0\npitch_deg = -90\n[[key]]\ntime_s = 5\nlatitude_deg = 10\nlongitude_deg = 5\n"
            "altitude_m = 8000\nheading_deg = 30\npitch_deg = -20\n";
+}
+
+TEST(Program, AFlightReportsEveryFrame) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writeFlight(folder);
     const Ran ran =
         runWorldy(folder, "fly planet.chk --path path.toml --frames 12 --size 160x100 --json out.json");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
@@ -243,6 +250,62 @@ TEST(Program, AFlightReportsEveryFrame) {
     }
     EXPECT_EQ(report["summary"]["drawn_chunks"]["maximum"], most);
     EXPECT_NEAR(report["frame"][11]["camera"]["altitude_m"].get<double>(), 8000, 1e-3);
+}
+
+TEST(Program, ASweepFliesAtEveryTauAndFindsOneForABudget) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    writeFlight(folder);
+    const std::string common =
+        "sweep planet.chk --flight path.toml --frames 3 --size 160x100 --metric additive ";
+    const Ran ran = runWorldy(folder, common + "--tau 0.5,2,16 --csv out.csv --json out.json --plot out.png");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    const json points = json::parse(contentOf(folder.path() / "out.json"))["points"];
+    ASSERT_EQ(points.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(points[i]["violations"], 0);
+        EXPECT_LE(points[i]["worst_measured_px"], points[i]["tau_px"].get<double>() * 1.001);
+        if (i == 0) continue;
+        EXPECT_LT(points[i]["mean_triangles"], points[i - 1]["mean_triangles"]);
+        EXPECT_GT(points[i]["worst_measured_px"], points[i - 1]["worst_measured_px"]);
+    }
+    EXPECT_TRUE(readPicture(folder.path() / "out.png"));
+    EXPECT_THAT(contentOf(folder.path() / "out.csv"), HasSubstr("\nadditive,17,16,"));
+
+    const double budget = points[1]["mean_triangles"];
+    const Ran found = runWorldy(folder, common + fmt::format("--suggest triangles={}", budget));
+    ASSERT_EQ(found.exitCode, 0) << found.errors;
+    EXPECT_THAT(found.output, HasSubstr("within"));
+    const double tauPx = std::stod(found.output.substr(found.output.find("tau ") + 4));
+    EXPECT_LE(tauPx, 2.05);
+}
+
+TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    writeHills(folder);
+    const Ran ran =
+        runShell(folder, "mkdir temporary && TMPDIR=temporary '" WORLDY_BINARY
+                         "' bench hills.pgm --faces 65 --rounds 2 --tau 1 --size 64x64 -o out.json");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    const json report = json::parse(contentOf(folder.path() / "out.json"));
+    EXPECT_NE(report["machine"]["gl_renderer"], "");
+    for (const char* part : {"lod", "dynamic", "selection", "page_in", "bake", "file_size"}) {
+        ASSERT_FALSE(report["parts"][part].empty()) << part;
+        for (const json& row : report["parts"][part]) {
+            EXPECT_GT(row["median"], 0) << row;
+            EXPECT_LE(row["minimum"], row["median"]) << row;
+            EXPECT_GE(row["maximum"], row["median"]) << row;
+        }
+    }
+    std::map<std::string, double> triangles;
+    for (const json& row : report["parts"]["lod"]) {
+        if (row["quantity"] == "triangles") triangles[row["subject"]] = row["median"];
+    }
+    EXPECT_EQ(triangles["faces of 65, every leaf"], 6 * 64 * 64 * 2);
+    EXPECT_LT(triangles["faces of 65, tau 1 px"], triangles["faces of 65, every leaf"]);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "temporary"));
 }
 
 TEST(Program, NoOpenGl33EndsWithTwoAndSaysWhatIsMissing) {

@@ -55,6 +55,12 @@ Camera ctrl+0 camera/Mode
 Presets ctrl+p presets/Name
 Log ctrl+l log/Filter
 END
+# Another set of panels has the same digits with Shift.
+for panel in "True error:1" Cracks:2 Pops:3 Precision:4; do
+    title=${panel%:*}
+    key ctrl+shift+${panel#*:}; expect shown "tab/$title"; shown tab/LOD || echo "$title hides LOD"
+    key ctrl+shift+${panel#*:}; expect hidden "tab/$title"
+done
 tab LOD
 key ctrl+6; expect shown seams/Seams
 key ctrl+6; expect hidden tab/Seams

@@ -105,7 +105,7 @@ for key in F1 F4; do
     key $key; expect differs "$plain"
     key $key; expect same "$plain"
 done
-for i in 1 2 3 4 5 6; do key F8; done
+for i in 1 2 3 4 5 6 7; do key F8; done
 expect differs "$plain"; key F8; expect same "$plain"
 
 start=$(counter camera)

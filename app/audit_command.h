@@ -1,0 +1,51 @@
+// worldy audit: whether thresholds mean what they say. Settles at each view, measures the true error of every
+// drawn chunk (planet/true_error.h) beside what was predicted, and counts what is over it. Needs no GL.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "app/view_options.h"
+#include "planet/lod_select.h"
+#include "planet/true_error.h"
+#include "ui/view_settings.h"
+
+namespace worldy {
+
+struct AuditOptions {
+    std::filesystem::path file;
+    std::vector<planet::CameraPose> cameras;    // none, and no flight: auditPoses
+    std::filesystem::path flight;               // of keys; empty: none
+    double stepS = 1;                           // between the flight's views, seconds, > 0
+    std::optional<planet::ErrorMetric> metric;  // instead of the settings'
+    std::filesystem::path jsonOutput;           // empty: none
+    int worst = 10;                             // chunks that are listed, the worst over all views; >= 0
+    PictureSize size;
+    ui::ViewSettings view;
+};
+
+struct AuditedView {
+    planet::CameraPose pose;      // lifted above the ground where it was below
+    bool settled = true;          // false: not everything was loaded in time
+    std::uint64_t triangles = 0;  // skirts left out
+    planet::TrueErrorReport report;
+};
+
+struct Audit {
+    std::vector<AuditedView> views;
+    double measuringS = 0;  // by the clock, on all cores
+    std::uint64_t blocksRead = 0;
+
+    std::uint32_t violations() const;
+};
+
+// True: no chunk was over its prediction.
+planet::Result<bool> runAudit(const AuditOptions& options);
+
+// The parts of it.
+planet::Result<Audit> audit(const AuditOptions& options);
+void printAudit(const AuditOptions& options, const Audit& audit);
+planet::Result<void> writeAudit(const AuditOptions& options, const Audit& audit);
+
+}  // namespace worldy

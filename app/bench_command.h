@@ -1,0 +1,28 @@
+// worldy bench: what LOD, streaming and the file's format cost and gain, each beside a plain way to do the
+// same, paired within one run. Needs no display, but OpenGL.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/view_options.h"
+#include "planet/height_source.h"
+
+namespace worldy {
+
+struct BenchOptions {
+    std::filesystem::path
+        source;  // an elevation image or cube faces; empty: the Earth that comes with Worldy
+    planet::HeightSourceSettings sourceSettings;
+    std::vector<int> faceSizes = {513, 4097};  // samples a side of the planets that are baked and drawn
+    std::vector<double> tausPx = {1, 2, 4};
+    int rounds = 5;  // each draws, reads or bakes everything once, in turn; [1, 1000]
+    PictureSize size;
+    std::filesystem::path jsonOutput;  // nowhere if empty
+};
+
+// The Error names the source, or what the machine lacks. Bakes into a temporary folder, which is gone
+// afterwards.
+planet::Result<void> runBench(const BenchOptions& options);
+
+}  // namespace worldy

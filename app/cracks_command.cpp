@@ -1,0 +1,291 @@
+#include "app/cracks_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <vector>
+
+#include "app/cracks.h"
+#include "app/flight_path.h"
+#include "app/interrupt.h"
+#include "app/offscreen.h"
+#include "app/output_file.h"
+#include "app/report.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::Result;
+
+constexpr std::size_t mostListed = 20;  // of a view's gaps and spots in the report
+
+struct MeasuredView {
+    double timeS = 0;  // of the flight
+    SettledView at;
+    std::size_t seams = 0;  // edges between two levels
+    planet::EdgeGap worst;  // of all edges
+    std::size_t cracks = 0;
+    int leaking = 0;
+    std::size_t spots = 0;
+    double requiredDepthM = 0;  // by the gaps
+    double requiredFactor = 0;
+    Json details;
+};
+
+struct Measured {
+    std::vector<MeasuredView> views;
+    ui::SmallestSkirts smallest;  // where asked for
+    Picture marked;               // where asked for
+};
+
+// Infinity is no number in JSON.
+Json numberOrNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json jsonOf(const planet::EdgeGap& gap) {
+    return {{"finer", planet::toString(gap.finer)},
+            {"coarser", planet::toString(gap.coarser)},
+            {"gap_m", gap.gapM},
+            {"radial_m", gap.radialM},
+            {"screen_px", gap.screenPx},
+            {"facing_px", gap.facingPx},
+            {"finer_above_m", gap.finerAboveM},
+            {"coarser_above_m", gap.coarserAboveM},
+            {"finer_skirt_m", gap.finerSkirtM},
+            {"coarser_skirt_m", gap.coarserSkirtM}};
+}
+
+Json jsonOf(const planet::CrackSpot& spot, const ui::CrackMeasurement& measured) {
+    Json entry = {{"pixels", spot.pixels},
+                  {"leaking", spot.leaking},
+                  {"from_px", {spot.from.x, spot.from.y}},
+                  {"to_px", {spot.to.x, spot.to.y}},
+                  {"centre_px", {spot.centre.x, spot.centre.y}}};
+    if (spot.pair == planet::noPair) return entry;
+    entry["finer"] = planet::toString(measured.items[measured.pairs[spot.pair].finer]);
+    entry["coarser"] = planet::toString(measured.items[measured.pairs[spot.pair].coarser]);
+    return entry;
+}
+
+Json detailsOf(const ui::CrackMeasurement& measured) {
+    Json details = {{"gaps", Json::array()}, {"spots", Json::array()}};
+    for (std::size_t i = 0; i < std::min(mostListed, measured.gaps.size()); ++i)
+        details["gaps"].push_back(jsonOf(measured.gaps[i]));
+    for (std::size_t i = 0; i < std::min(mostListed, measured.spots.size()); ++i)
+        details["spots"].push_back(jsonOf(measured.spots[i], measured));
+    return details;
+}
+
+// The worst picture so far, marked.
+Result<void> keepPicture(Offscreen& offscreen, const MeasuredView& view, const ui::CrackMeasurement& measured,
+                         const CracksOptions& options, Measured& all) {
+    const auto badness = [](const MeasuredView& v) { return std::make_tuple(v.leaking, v.cracks); };
+    const bool worse = std::all_of(all.views.begin(), all.views.end(),
+                                   [&](const MeasuredView& other) { return badness(view) > badness(other); });
+    if (!worse) return {};
+    if (Result<void> drawn = drawAndFinish(offscreen, view.at.view, options.view); !drawn) return drawn;
+    all.marked = readPicture(offscreen);
+    markCracks(measured.map, all.marked);
+    return {};
+}
+
+Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, double timeS,
+                         const CracksOptions& options, Measured& all) {
+    MeasuredView view;
+    view.timeS = timeS;
+    view.at = settleAt(offscreen, pose, options.view);
+    const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
+    if (!measured) return tl::unexpected(measured.error());
+    view.seams = measured->levelPairs;
+    if (!measured->gaps.empty()) view.worst = measured->gaps.front();
+    view.cracks = measured->map.pixels.size();
+    view.leaking = measured->map.leaking;
+    view.spots = measured->spots.size();
+    view.requiredDepthM = measured->required.depthM;
+    view.requiredFactor = measured->required.factor;
+    view.details = detailsOf(*measured);
+    if (options.findDepth) {
+        const Result<ui::SmallestSkirts> smallest =
+            smallestSkirts(offscreen.scene, view.at.view, *measured, all.smallest);
+        if (!smallest) return tl::unexpected(smallest.error());
+        all.smallest = *smallest;
+    }
+    if (!options.markedPicture.empty()) {
+        if (Result<void> kept = keepPicture(offscreen, view, *measured, options, all); !kept) return kept;
+    }
+    all.views.push_back(std::move(view));
+    return {};
+}
+
+// What the flight leaves open with skirts as found, measured anew: first one depth for all, then the factor.
+Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const Measured& all,
+                      planet::SkirtDepth kind) {
+    ui::ViewSettings settings = options.view;
+    settings.seams.mode = planet::SeamMode::Skirts;
+    settings.seams.depth = kind;
+    settings.seams.skirtDepthM = all.smallest.depthM;
+    settings.seams.skirtFactor = all.smallest.factor;
+    int leaking = 0;
+    for (const MeasuredView& view : all.views) {
+        const SettledView at = settleAt(offscreen, view.at.pose, settings);
+        const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, at.view, settings);
+        if (!measured) return tl::unexpected(measured.error());
+        leaking += measured->map.leaking;
+    }
+    return leaking;
+}
+
+struct Totals {
+    std::size_t cracks = 0;
+    std::size_t leaking = 0;
+    std::size_t spots = 0;
+    double worstGapM = 0;
+    double worstGapPx = 0;
+    double requiredDepthM = 0;
+    double requiredFactor = 0;
+};
+
+Totals totalsOf(const std::vector<MeasuredView>& views) {
+    Totals totals;
+    for (const MeasuredView& view : views) {
+        totals.cracks += view.cracks;
+        totals.leaking += static_cast<std::size_t>(view.leaking);
+        totals.spots += view.spots;
+        totals.worstGapM = std::max(totals.worstGapM, view.worst.gapM);
+        totals.worstGapPx = std::max(totals.worstGapPx, view.worst.facingPx);
+        totals.requiredDepthM = std::max(totals.requiredDepthM, view.requiredDepthM);
+        totals.requiredFactor = std::max(totals.requiredFactor, view.requiredFactor);
+    }
+    return totals;
+}
+
+constexpr std::array<const char*, 3> seamNames = {"none", "skirts", "stitched"};
+
+Json reportOf(const CracksOptions& options, const Measured& all) {
+    const Totals totals = totalsOf(all.views);
+    Json report = {{"file", options.file.string()},
+                   {"width_px", options.size.widthPx},
+                   {"height_px", options.size.heightPx},
+                   {"tau_px", options.view.lod.tauPx},
+                   {"morph", options.view.lod.morph},
+                   {"seams", seamNames[static_cast<std::size_t>(options.view.seams.mode)]},
+                   {"views", all.views.size()},
+                   {"crack_px", totals.cracks},
+                   {"leaking_px", totals.leaking},
+                   {"spots", totals.spots},
+                   {"worst_gap_m", totals.worstGapM},
+                   {"worst_gap_px", totals.worstGapPx},
+                   {"depth_by_gaps_m", totals.requiredDepthM},
+                   {"factor_by_gaps", numberOrNull(totals.requiredFactor)}};
+    if (options.findDepth) {
+        report["smallest_depth_m"] = all.smallest.depthM;
+        report["smallest_factor"] = numberOrNull(all.smallest.factor);
+    }
+    report["view"] = Json::array();
+    for (const MeasuredView& view : all.views) {
+        Json entry = {{"time_s", view.timeS},
+                      {"camera", worldy::jsonOf(view.at.pose)},
+                      {"lifted", view.at.lifted},
+                      {"settled", view.at.settled},
+                      {"seams", view.seams},
+                      {"worst_gap_m", view.worst.gapM},
+                      {"worst_gap_px", view.worst.facingPx},
+                      {"crack_px", view.cracks},
+                      {"leaking_px", view.leaking},
+                      {"spots", view.spots}};
+        entry.update(view.details);
+        report["view"].push_back(std::move(entry));
+    }
+    return report;
+}
+
+void printTable(const Measured& all) {
+    fmt::print("{:>8}{:>8}{:>14}{:>14}{:>12}{:>12}{:>8}\n", "time s", "seams", "worst gap m", "worst gap px",
+               "crack px", "leaking px", "spots");
+    for (const MeasuredView& view : all.views) {
+        fmt::print("{:8.1f}{:8}{:14.3f}{:14.3f}{:12}{:12}{:8}{}\n", view.timeS, view.seams, view.worst.gapM,
+                   view.worst.facingPx, view.cracks, view.leaking, view.spots,
+                   view.at.settled ? "" : "  not all loaded");
+    }
+    const Totals totals = totalsOf(all.views);
+    fmt::print("{:>16}{:14.3f}{:14.3f}{:12}{:12}{:8}\n", "all views", totals.worstGapM, totals.worstGapPx,
+               totals.cracks, totals.leaking, totals.spots);
+}
+
+// Found, and proven by measuring the same views again with it.
+Result<bool> proveAndPrint(Offscreen& offscreen, const CracksOptions& options, const Measured& all) {
+    const Totals totals = totalsOf(all.views);
+    const Result<int> byDepth = leaksWith(offscreen, options, all, planet::SkirtDepth::Fixed);
+    if (!byDepth) return tl::unexpected(byDepth.error());
+    fmt::print(
+        "\nsmallest depth without a leak: {:.2f} m ({:.2f} m by the gaps); measured again: {} leaking\n",
+        all.smallest.depthM, totals.requiredDepthM, *byDepth);
+    if (!std::isfinite(all.smallest.factor)) {
+        fmt::print("no automatic factor up to 1000 is enough\n");
+        return *byDepth == 0;
+    }
+    const Result<int> byFactor = leaksWith(offscreen, options, all, planet::SkirtDepth::Automatic);
+    if (!byFactor) return tl::unexpected(byFactor.error());
+    fmt::print("smallest factor without a leak: {:.3f} ({:.3f} by the gaps); measured again: {} leaking\n",
+               all.smallest.factor, totals.requiredFactor, *byFactor);
+    return *byDepth == 0 && *byFactor == 0;
+}
+
+Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Measured& all) {
+    if (options.flight.empty()) {
+        const double radiusM = offscreen.scene.planet->shape().radiusM;
+        return measureView(offscreen, options.camera.value_or(startPose(options.start, radiusM)), 0, options,
+                           all);
+    }
+    const Result<FlightPath> path = loadFlightPath(options.flight);
+    if (!path) return tl::unexpected(path.error());
+    const InterruptWatch watch;
+    const auto steps = static_cast<int>(std::floor(durationS(*path) / options.stepS + 1e-9));
+    for (int i = 0; i <= steps; ++i) {
+        if (watch.interrupted()) return planet::cancelled();
+        const double timeS = path->keys.front().timeS + i * options.stepS;
+        if (Result<void> done = measureView(offscreen, poseAt(*path, timeS), timeS, options, all); !done)
+            return done;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<bool> runCracks(const CracksOptions& options) {
+    if (options.findDepth && options.view.seams.mode == planet::SeamMode::Stitched) {
+        return planet::badInput("--find-depth: stitched seams have no skirts; --seams skirts would be right");
+    }
+    if (!options.flight.empty() && options.camera)
+        return planet::badInput("--camera and --flight: one of them would be right");
+    const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};
+    Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
+    if (!offscreen) return tl::unexpected(offscreen.error());
+    Measured all;
+    if (const Result<void> done = measureAll(*offscreen, options, all); !done)
+        return tl::unexpected(done.error());
+    for (const std::string& problem : offscreen->scene.planet->takeProblems())
+        fmt::print(stderr, "worldy: {}\n", problem);
+    printTable(all);
+    bool tight = totalsOf(all.views).leaking == 0;
+    if (options.findDepth) {
+        const Result<bool> proven = proveAndPrint(*offscreen, options, all);
+        if (!proven) return proven;
+        tight = tight && *proven;
+    }
+    if (!options.markedPicture.empty()) {
+        if (const Result<void> written = writePicture(all.marked, options.markedPicture); !written)
+            return tl::unexpected(written.error());
+    }
+    if (options.report.empty()) return tight;
+    return writeTextFile(options.report, reportOf(options, all).dump(1) + "\n").map([&] { return tight; });
+}
+
+}  // namespace worldy

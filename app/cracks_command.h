@@ -1,0 +1,30 @@
+// worldy cracks: counts crack pixels and what the skirts leave open, in one view or along a flight, without a
+// display.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/view_options.h"
+#include "ui/view_settings.h"
+
+namespace worldy {
+
+struct CracksOptions {
+    std::filesystem::path file;
+    std::filesystem::path flight;         // its keys; empty: one view
+    std::filesystem::path report;         // .json; empty: none
+    std::filesystem::path markedPicture;  // of the view that leaks most, else cracks most; empty: none
+    std::filesystem::path shaderFolder;
+    std::optional<planet::CameraPose> camera;
+    planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
+    double stepS = 1;                          // along the flight, seconds, > 0
+    bool findDepth = false;
+    PictureSize size;
+    ui::ViewSettings view;
+};
+
+// Each view is measured once everything for it is loaded. True: nothing leaks.
+planet::Result<bool> runCracks(const CracksOptions& options);
+
+}  // namespace worldy

@@ -1,0 +1,160 @@
+#include "app/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "app/settings.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::Result;
+
+struct Column {
+    const char* name;
+    double (*of)(const SweepPoint&);
+};
+constexpr std::array<Column, 13> columns = {{
+    {"chunk_size", [](const SweepPoint& p) { return double{1} * p.chunkSize; }},
+    {"tau_px", [](const SweepPoint& p) { return p.tauPx; }},
+    {"mean_triangles", [](const SweepPoint& p) { return p.figures.meanTriangles; }},
+    {"most_triangles", [](const SweepPoint& p) { return p.figures.mostTriangles; }},
+    {"mean_chunks", [](const SweepPoint& p) { return p.figures.meanChunks; }},
+    {"most_resident_mib", [](const SweepPoint& p) { return p.figures.mostResidentMiB; }},
+    {"median_frame_ms", [](const SweepPoint& p) { return p.figures.medianFrameMs; }},
+    {"worst_predicted_px", [](const SweepPoint& p) { return p.figures.worstPredictedPx; }},
+    {"worst_measured_px", [](const SweepPoint& p) { return p.figures.worstMeasuredPx; }},
+    {"p99_measured_px", [](const SweepPoint& p) { return p.figures.p99MeasuredPx; }},
+    {"worst_screen_px", [](const SweepPoint& p) { return p.figures.worstScreenPx; }},
+    {"violations", [](const SweepPoint& p) { return static_cast<double>(p.figures.violations); }},
+    {"on_front", [](const SweepPoint& p) { return p.onFront ? 1.0 : 0.0; }},
+}};
+
+std::string_view metricName(planet::ErrorMetric metric) {
+    return errorMetricNames[static_cast<std::size_t>(metric)];
+}
+
+bool isBeaten(const SweepPoint& point, const SweepPoint& by, SweepCost cost) {
+    const double costs = costOf(point.figures, cost);
+    const double otherCosts = costOf(by.figures, cost);
+    const double error = point.figures.worstMeasuredPx;
+    const double otherError = by.figures.worstMeasuredPx;
+    return otherCosts <= costs && otherError <= error && (otherCosts < costs || otherError < error);
+}
+
+}  // namespace
+
+double costOf(const FlightFigures& figures, SweepCost cost) {
+    switch (cost) {
+        case SweepCost::Triangles:
+            return figures.meanTriangles;
+        case SweepCost::FrameMs:
+            return figures.medianFrameMs;
+        case SweepCost::MemoryMiB:
+            return figures.mostResidentMiB;
+    }
+    return 0;
+}
+
+const char* costName(SweepCost cost) {
+    switch (cost) {
+        case SweepCost::Triangles:
+            return "mean triangles";
+        case SweepCost::FrameMs:
+            return "median frame, ms";
+        case SweepCost::MemoryMiB:
+            return "most resident, MiB";
+    }
+    return "";
+}
+
+void markFront(std::vector<SweepPoint>& points, SweepCost cost) {
+    for (SweepPoint& point : points) {
+        point.onFront = std::none_of(points.begin(), points.end(),
+                                     [&](const SweepPoint& other) { return isBeaten(point, other, cost); });
+    }
+}
+
+std::string sweepCsv(std::span<const SweepPoint> points) {
+    std::string text = "metric";
+    for (const Column& column : columns) text += fmt::format(",{}", column.name);
+    for (const SweepPoint& point : points) {
+        text += fmt::format("\n{}", metricName(point.metric));
+        for (const Column& column : columns) text += fmt::format(",{:.6g}", column.of(point));
+    }
+    return text + "\n";
+}
+
+std::string sweepJson(std::span<const SweepPoint> points, const std::string& file, const std::string& flight,
+                      SweepCost cost) {
+    Json report = {{"file", file}, {"flight", flight}, {"cost", costName(cost)}};
+    report["frames"] = points.empty() ? 0 : points.front().figures.frames;
+    report["points"] = Json::array();
+    for (const SweepPoint& point : points) {
+        Json entry = {{"metric", metricName(point.metric)}};
+        for (const Column& column : columns) entry[column.name] = column.of(point);
+        report["points"].push_back(std::move(entry));
+    }
+    return report.dump(1) + "\n";
+}
+
+Result<TauGoal> tauGoalFromText(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const std::string_view name = std::string_view(text).substr(0, equals);
+    TauGoal goal;
+    constexpr std::array<std::string_view, 4> names = {"triangles", "frame_ms", "memory_mib", "error_px"};
+    const auto found = std::find(names.begin(), names.end(), name);
+    const std::string_view value =
+        equals == std::string::npos ? std::string_view() : std::string_view(text).substr(equals + 1);
+    const auto parsed = std::from_chars(value.data(), value.data() + value.size(), goal.limit);
+    const bool whole = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
+    if (found == names.end() || !whole || !std::isfinite(goal.limit) || goal.limit <= 0) {
+        return planet::badInput(fmt::format(
+            "--suggest {}: one of triangles=N, frame_ms=N, memory_mib=N, error_px=N with N over 0 is right",
+            text));
+    }
+    goal.limitsError = name == "error_px";
+    if (!goal.limitsError) goal.cost = static_cast<SweepCost>(found - names.begin());
+    return goal;
+}
+
+Result<TauSuggestion> suggestTau(const TauGoal& goal, const MeasureTau& measure) {
+    constexpr double smallestPx = 0.1;
+    constexpr double largestPx = 64;
+    constexpr double knownTo = 1.02;
+    TauSuggestion best;
+    // Goals are kept on one side of some tau: an error by small ones, a cost by large ones.
+    double keeps = goal.limitsError ? smallestPx : largestPx;
+    double breaks = goal.limitsError ? largestPx : smallestPx;
+    const auto tryTau = [&](double tauPx) -> Result<bool> {
+        const Result<double> value = measure(tauPx);
+        if (!value) return tl::unexpected(value.error());
+        ++best.flown;
+        const bool met = *value <= goal.limit;
+        if (met || best.flown == 1) best = {tauPx, *value, met, best.flown};
+        return met;
+    };
+    const Result<bool> possible = tryTau(keeps);
+    if (!possible) return tl::unexpected(possible.error());
+    if (!*possible) return best;
+    const Result<bool> easy = tryTau(breaks);
+    if (!easy) return tl::unexpected(easy.error());
+    if (*easy) return best;
+    while (std::max(keeps / breaks, breaks / keeps) > knownTo) {
+        const double middle = std::sqrt(keeps * breaks);
+        const Result<bool> met = tryTau(middle);
+        if (!met) return tl::unexpected(met.error());
+        (*met ? keeps : breaks) = middle;
+    }
+    return best;
+}
+
+}  // namespace worldy

@@ -1,0 +1,341 @@
+#include "planet/pop_meter.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace planet {
+
+// One place whose level has changed: a coarser chunk of one frame, and what covers its place in the other.
+struct PopMeter::Switch {
+    ChunkId chunk;
+    bool merged = false;        // the coarser one is drawn now
+    std::uint32_t coarser = 0;  // places in the chunks of their frames
+    std::vector<std::uint32_t> finer;
+    SurfaceJump jump{};
+    double besidePx = 0;
+};
+
+namespace {
+
+// The chunk above one that is drawn in a frame; null where there is none.
+const std::uint32_t* drawnAbove(const ChunkTable& places, ChunkId id) {
+    while (id.level > 0) {
+        id = parentOf(id);
+        if (const std::uint32_t* found = places.find(id)) return found;
+    }
+    return nullptr;
+}
+
+// The drawn chunk that covers a place from its level up.
+const std::uint32_t* drawnOver(const ChunkTable& places, const ChunkId& id) {
+    const std::uint32_t* found = places.find(id);
+    return found ? found : drawnAbove(places, id);
+}
+
+// Whether the settings ask for children that are not there.
+bool isWaiting(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
+    return children != ChildrenState::None && children != ChildrenState::Resident &&
+           item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
+}
+
+bool isStitched(const LodSettings& settings) {
+    return settings.seams == SeamMode::Stitched;
+}
+
+// Whether it is drawn in spite of them.
+bool isHeldBack(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
+    return isStitched(settings) && children == ChildrenState::Resident &&
+           item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
+}
+
+bool sameEdge(const DrawItem& a, const DrawItem& b, Edge edge) {
+    const auto e = static_cast<std::size_t>(edge);
+    return a.coarserBy[e] == b.coarserBy[e] && a.edgeMorph[e] == b.edgeMorph[e] && a.morph == b.morph;
+}
+
+bool isWithin(ChunkId id, const ChunkId& above) {
+    while (id.level > above.level) id = parentOf(id);
+    return id == above;
+}
+
+}  // namespace
+
+const char* popCauseName(PopCause cause) {
+    constexpr std::array<const char*, popCauseCount> names = {
+        "camera moved", "settings changed", "load finished", "evicted", "seam limit", "culling"};
+    return names[static_cast<std::size_t>(cause)];
+}
+
+PopMeter::Frame PopMeter::keep(const ChunkTree& tree, const Selection& selection, const View& view,
+                               const LodSettings& settings) {
+    Frame frame;
+    frame.chunks.reserve(selection.draw.size());
+    frame.places = ChunkTable(selection.draw.size());
+    for (const DrawItem& item : selection.draw) {
+        const ChunkNode& node = tree.nodes[item.node];
+        frame.places.add(item.id, static_cast<std::uint32_t>(frame.chunks.size()));
+        frame.chunks.push_back({item, node.heights, node.childrenState});
+    }
+    frame.view = view;
+    frame.settings = settings;
+    frame.exaggeration = tree.exaggeration;
+    return frame;
+}
+
+void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View& view,
+                   const LodSettings& settings, double timeS) {
+    Frame now = keep(tree, selection, view, settings);
+    if (timeS < nowS_) clear();
+    if (before_ && before_->exaggeration != now.exaggeration) before_.reset();
+    nowS_ = timeS;
+    if (before_) {
+        if (std::vector<Switch> switches = findSwitches(now); !switches.empty()) {
+            const auto start = std::chrono::steady_clock::now();
+            measure(tree.shape, now, switches);
+            measureBeside(tree.shape, now, switches);
+            totals_.measuringS +=
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
+            for (const Switch& change : switches) note(now, change);
+        }
+    }
+    noteLate(now);
+    forgetOld();
+    before_ = std::move(now);
+    ++frame_;
+}
+
+void PopMeter::clear() {
+    *this = {};
+}
+
+std::vector<PopMeter::Switch> PopMeter::findSwitches(const Frame& now) {
+    std::vector<Switch> switches;
+    std::unordered_map<ChunkId, std::size_t> known;
+    // What is drawn in one frame, lies below what is drawn in the other, and is drawn there no more.
+    const auto find = [&](const Frame& fine, const Frame& coarse, bool merged, std::uint64_t& unmatched) {
+        for (std::uint32_t i = 0; i < fine.chunks.size(); ++i) {
+            const ChunkId& id = fine.chunks[i].item.id;
+            if (coarse.places.contains(id)) continue;
+            const std::uint32_t* above = drawnAbove(coarse.places, id);
+            if (!above) {
+                ++unmatched;
+                continue;
+            }
+            const ChunkId& chunk = coarse.chunks[*above].item.id;
+            const auto [at, isNew] = known.try_emplace(chunk, switches.size());
+            if (isNew) switches.push_back({chunk, merged, *above, {}});
+            switches[at->second].finer.push_back(i);
+        }
+    };
+    std::uint64_t came = 0;
+    std::uint64_t went = 0;
+    find(now, *before_, false, came);
+    find(*before_, now, true, went);
+    // A coarser chunk that was exchanged lies above what was counted, so it is unmatched itself.
+    for (const Switch& change : switches) --(change.merged ? came : went);
+    totals_.cameIntoView += came;
+    totals_.wentOutOfView += went;
+    std::sort(switches.begin(), switches.end(),
+              [](const Switch& a, const Switch& b) { return a.chunk < b.chunk; });
+    return switches;
+}
+
+void PopMeter::measure(const PlanetShape& shape, const Frame& now, std::vector<Switch>& switches) const {
+    const auto drawnChunk = [](const Frame& frame, std::uint32_t place) {
+        const KeptChunk& chunk = frame.chunks[place];
+        return DrawnChunk{chunk.item, chunk.heights, isStitched(frame.settings)};
+    };
+    tbb::parallel_for(std::size_t{0}, switches.size(), [&](std::size_t i) {
+        Switch& change = switches[i];
+        const Frame& coarse = change.merged ? now : *before_;
+        const Frame& fine = change.merged ? *before_ : now;
+        std::vector<DrawnChunk> finer;
+        for (const std::uint32_t place : change.finer) finer.push_back(drawnChunk(fine, place));
+        change.jump = surfaceJump(shape, drawnChunk(coarse, change.coarser), finer, change.merged, now.view);
+    });
+}
+
+// Whether a place that has changed is drawn in both frames: the coarser chunk draws all of it, the finer ones
+// what is not culled.
+bool PopMeter::isDrawn(const Frame& now, const Switch& change, const ChunkId& place) const {
+    const Frame& fine = change.merged ? *before_ : now;
+    return std::any_of(change.finer.begin(), change.finer.end(), [&](std::uint32_t i) {
+        const ChunkId& id = fine.chunks[i].item.id;
+        return id.level < place.level ? isWithin(place, id) : isWithin(id, place);
+    });
+}
+
+// An unchanged chunk's edge follows what its neighbour does, so it may jump when that is exchanged.
+void PopMeter::measureBeside(const PlanetShape& shape, const Frame& now,
+                             std::vector<Switch>& switches) const {
+    ChunkTable switched(switches.size());
+    for (std::uint32_t i = 0; i < switches.size(); ++i) switched.add(switches[i].chunk, i);
+    const auto drawnChunk = [](const Frame& frame, const KeptChunk& chunk) {
+        return DrawnChunk{chunk.item, chunk.heights, isStitched(frame.settings)};
+    };
+    for (const KeptChunk& chunk : now.chunks) {
+        const std::uint32_t* place = before_->places.find(chunk.item.id);
+        if (!place) continue;
+        const KeptChunk& was = before_->chunks[*place];
+        for (std::size_t e = 0; e < edgeCount; ++e) {
+            const Edge edge = static_cast<Edge>(e);
+            if (sameEdge(was.item, chunk.item, edge)) continue;
+            const ChunkId neighbour = neighbourOf(chunk.item.id, edge);
+            const std::uint32_t* beside = drawnOver(switched, neighbour);
+            // Where what lies beyond has left the view, so has the edge.
+            if (!beside || !isDrawn(now, switches[*beside], neighbour)) continue;
+            const SurfaceJump jump =
+                edgeJump(shape, drawnChunk(*before_, was), drawnChunk(now, chunk), edge, now.view);
+            double& largestPx = switches[*beside].besidePx;
+            largestPx = std::max(largestPx, jump.largestPx);
+        }
+    }
+}
+
+bool PopMeter::neighbourCameOrWent(const Frame& now, const ChunkId& chunk) const {
+    for (std::size_t e = 0; e < edgeCount; ++e) {
+        const ChunkId other = neighbourOf(chunk, static_cast<Edge>(e));
+        if ((drawnOver(before_->places, other) == nullptr) != (drawnOver(now.places, other) == nullptr))
+            return true;
+    }
+    return false;
+}
+
+PopCause PopMeter::causeOf(const Frame& now, const Switch& change) const {
+    const Frame& coarse = change.merged ? now : *before_;
+    const KeptChunk& coarser = coarse.chunks[change.coarser];
+    if (isWaiting(coarser.item, coarser.children, coarse.settings))
+        return change.merged ? PopCause::Evicted : PopCause::LoadFinished;
+    if (before_->settings != now.settings) return PopCause::SettingsChanged;
+    if (isHeldBack(coarser.item, coarser.children, coarse.settings))
+        return neighbourCameOrWent(now, change.chunk) ? PopCause::Culling : PopCause::SeamLimit;
+    // Hysteresis would have kept it split.
+    const double leastPx = coarse.settings.tauPx * (1 - coarse.settings.hysteresis);
+    if (change.merged && coarser.children != ChildrenState::Resident &&
+        static_cast<double>(coarser.item.epsPx) > leastPx)
+        return PopCause::Evicted;
+    return PopCause::CameraMoved;
+}
+
+void PopMeter::note(const Frame& now, const Switch& change) {
+    const Frame& coarse = change.merged ? now : *before_;
+    const Frame& fine = change.merged ? *before_ : now;
+    if (!before_->drawn) {
+        auto drawn = std::make_shared<DrawnFrame>();
+        for (const KeptChunk& chunk : before_->chunks) drawn->items.push_back(chunk.item);
+        drawn->view = before_->view;
+        drawn->stitched = isStitched(before_->settings);
+        before_->drawn = std::move(drawn);
+    }
+    for (const auto& drawn : {before_->drawn, now.drawn}) {
+        if (!drawnFrames_.empty() && (drawnFrames_.back() == drawn)) continue;
+        if (drawnFrames_.size() > 1 && *(drawnFrames_.rbegin() + 1) == drawn) continue;
+        drawnFrames_.push_back(drawn);
+        keptItems_ += drawn->items.size();
+    }
+    PopEvent event;
+    event.timeS = nowS_;
+    event.frame = frame_;
+    event.chunk = change.chunk;
+    event.cause = causeOf(now, change);
+    event.jump = change.jump;
+    event.besidePx = change.besidePx;
+    event.viewBefore = before_->view;
+    event.view = now.view;
+    event.frameBefore = before_->drawn;
+    event.frameAfter = now.drawn;
+    int finest = 0;
+    for (const std::uint32_t place : change.finer) {
+        const DrawItem& item = fine.chunks[place].item;
+        finest = std::max<int>(finest, item.id.level);
+        (change.merged ? event.before : event.after).push_back(item);
+    }
+    (change.merged ? event.after : event.before).push_back(coarse.chunks[change.coarser].item);
+    event.fromLevel = change.merged ? finest : change.chunk.level;
+    event.toLevel = change.merged ? change.chunk.level : finest;
+    ++totals_.switches;
+    ++totals_.byCause[static_cast<std::size_t>(event.cause)];
+    if (event.jump.places == 0) ++totals_.outsidePicture;
+    totals_.worstPx = std::max(totals_.worstPx, event.jump.largestPx);
+    totals_.worstBesidePx = std::max(totals_.worstBesidePx, event.besidePx);
+    events_.push_back(std::move(event));
+}
+
+void PopMeter::endLate(const Frame& now, LateArrival& arrival) const {
+    arrival.untilS = nowS_;
+    const ChunkId& id = arrival.chunk;
+    if (drawnOver(now.places, id)) {
+        arrival.end = LateEnd::NotWanted;
+        return;
+    }
+    const bool replaced = std::any_of(now.chunks.begin(), now.chunks.end(), [&](const KeptChunk& chunk) {
+        return chunk.item.id.level > id.level && isWithin(chunk.item.id, id);
+    });
+    arrival.end = replaced ? LateEnd::Loaded : LateEnd::OutOfView;
+}
+
+void PopMeter::noteLate(const Frame& now) {
+    late_.resize(late_.size() - std::min(open_.size(), late_.size()));
+    std::unordered_map<ChunkId, LateArrival> open;
+    for (const KeptChunk& chunk : now.chunks) {
+        const DrawItem& item = chunk.item;
+        if (!isWaiting(item, chunk.children, now.settings)) continue;
+        const auto known = open_.find(item.id);
+        LateArrival arrival = known != open_.end() ? known->second : LateArrival{item.id, nowS_};
+        if (known == open_.end()) ++totals_.late;
+        ++arrival.frames;
+        arrival.untilS = nowS_;
+        if (static_cast<double>(item.epsPx) > arrival.worstEpsPx) {
+            arrival.worstEpsPx = static_cast<double>(item.epsPx);
+            arrival.tauPx = now.settings.tauPx;
+        }
+        open.emplace(item.id, arrival);
+    }
+    const std::size_t ended = late_.size();
+    for (auto& [id, arrival] : open_) {
+        if (open.contains(id)) continue;
+        endLate(now, arrival);
+        late_.push_back(arrival);
+    }
+    const auto byChunk = [](const LateArrival& a, const LateArrival& b) { return a.chunk < b.chunk; };
+    std::sort(late_.begin() + static_cast<std::ptrdiff_t>(ended), late_.end(), byChunk);
+    open_ = std::move(open);
+    const std::size_t firstOpen = late_.size();
+    for (const auto& [id, arrival] : open_) late_.push_back(arrival);
+    std::sort(late_.begin() + static_cast<std::ptrdiff_t>(firstOpen), late_.end(), byChunk);
+}
+
+void PopMeter::forgetOld() {
+    const double oldestS = nowS_ - keptS;
+    while (!events_.empty() && (events_.front().timeS < oldestS || events_.size() > mostEvents))
+        events_.pop_front();
+    const auto ended = [&] { return late_.size() - std::min(open_.size(), late_.size()); };
+    while (ended() > 0 && (late_.front().untilS < oldestS || late_.size() > mostLate)) late_.pop_front();
+    while (keptItems_ > mostKeptItems && drawnFrames_.size() > 2) {
+        keptItems_ -= drawnFrames_.front()->items.size();
+        drawnFrames_.pop_front();
+    }
+}
+
+double PopMeter::percentilePx(double share) const {
+    std::vector<double> values;
+    for (const PopEvent& event : events_) {
+        if (event.jump.places > 0) values.push_back(event.jump.largestPx);
+    }
+    if (values.empty()) return 0;
+    const auto rank =
+        static_cast<std::size_t>(std::clamp(std::ceil(share * static_cast<double>(values.size())) - 1, 0.0,
+                                            static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+    return values[rank];
+}
+
+double PopMeter::measuredUsPerSwitch() const {
+    return totals_.switches > 0 ? 1e6 * totals_.measuringS / static_cast<double>(totals_.switches) : 0;
+}
+
+}  // namespace planet

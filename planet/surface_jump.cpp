@@ -1,0 +1,132 @@
+#include "planet/surface_jump.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "planet/drawn_surface.h"
+
+namespace planet {
+
+namespace {
+
+// A view as points are projected into it.
+struct Screen {
+    const View& view;
+    double scalePx;  // K'
+};
+
+struct ScreenPoint {
+    glm::dvec2 px{0, 0};  // from the picture's middle, right and up
+    bool inFront = false;
+    bool inPicture = false;
+};
+
+ScreenPoint onScreen(const Screen& screen, const glm::dvec3& fromEyeM) {
+    const View& view = screen.view;
+    const double aheadM = -glm::dot(fromEyeM, view.back);
+    if (aheadM <= 0) return {};
+    const glm::dvec2 px =
+        screen.scalePx / aheadM * glm::dvec2(glm::dot(fromEyeM, view.right), glm::dot(fromEyeM, view.up));
+    return {px, true, 2 * std::abs(px.x) <= view.widthPx && 2 * std::abs(px.y) <= view.heightPx};
+}
+
+// Adds places up, one by one.
+struct Sum {
+    const Screen& screen;
+    SurfaceJump jump{};
+    double totalPx = 0;
+
+    void add(const ChunkId& chunk, const glm::dvec3& beforeM, const glm::dvec3& afterM) {
+        const glm::dvec3 before = beforeM - screen.view.eyeM;
+        const glm::dvec3 after = afterM - screen.view.eyeM;
+        const ScreenPoint from = onScreen(screen, before);
+        const ScreenPoint to = onScreen(screen, after);
+        if (!from.inFront || !to.inFront || (!from.inPicture && !to.inPicture)) return;
+        const double px = glm::length(to.px - from.px);
+        const double facingPx = screen.scalePx * glm::length(glm::normalize(after) - glm::normalize(before));
+        if (px > jump.largestPx || jump.places == 0) {
+            jump.largestPx = px;
+            jump.worstPlaceM = afterM;
+            jump.worstChunk = chunk;
+        }
+        jump.largestFacingPx = std::max(jump.largestFacingPx, facingPx);
+        totalPx += px;
+        ++jump.places;
+    }
+
+    SurfaceJump done() {
+        if (jump.places > 0) jump.meanPx = totalPx / jump.places;
+        return jump;
+    }
+};
+
+DrawnGrid gridOf(const PlanetShape& shape, const DrawnChunk& chunk) {
+    return drawnGrid(shape, chunk.item, *chunk.heights, chunk.stitched);
+}
+
+// What is drawn at a grid point of the chunk, whether or not its own vertex is still there.
+glm::dvec3 drawnAt(const DrawnGrid& grid, int column, int row) {
+    const auto index = static_cast<std::size_t>(row * (grid.cells + 1) + column);
+    return grid.place[index] == glm::ivec2(column, row) ? grid.positionM[index] : pointOn(grid, column, row);
+}
+
+void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAfter, Sum& sum) {
+    assert(finer.id.face == coarser.id.face && finer.id.level > coarser.id.level);
+    const int levels = finer.id.level - coarser.id.level;
+    const double scale = 1.0 / (1 << levels);
+    const double firstColumn = (finer.id.x - (coarser.id.x << levels)) * scale * finer.cells;
+    const double firstRow = (finer.id.y - (coarser.id.y << levels)) * scale * finer.cells;
+    for (int row = 0; row <= finer.cells; ++row) {
+        for (int column = 0; column <= finer.cells; ++column) {
+            const glm::dvec3 coarse = pointOn(coarser, firstColumn + column * scale, firstRow + row * scale);
+            const glm::dvec3 fine = drawnAt(finer, column, row);
+            sum.add(finer.id, coarserIsAfter ? fine : coarse, coarserIsAfter ? coarse : fine);
+        }
+    }
+}
+
+}  // namespace
+
+SurfaceJump surfaceJump(const PlanetShape& shape, const DrawnChunk& coarser,
+                        std::span<const DrawnChunk> finer, bool coarserIsAfter, const View& view) {
+    const Screen screen{view, screenScalePx(view)};
+    const DrawnGrid coarse = gridOf(shape, coarser);
+    Sum sum{screen};
+    for (const DrawnChunk& chunk : finer) addFiner(coarse, gridOf(shape, chunk), coarserIsAfter, sum);
+    return sum.done();
+}
+
+SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const DrawnChunk& after, Edge edge,
+                     const View& view) {
+    assert(before.item.id == after.item.id);
+    const Screen screen{view, screenScalePx(view)};
+    const bool upright = edge == Edge::West || edge == Edge::East;
+    const int cells = chunkCells(shape);
+    const int across = edge == Edge::East || edge == Edge::North ? cells : 0;
+    Sum sum{screen};
+    const auto addAll = [&](const auto& from, const auto& to) {
+        for (int along = 0; along <= cells; ++along) {
+            const glm::ivec2 at = upright ? glm::ivec2(across, along) : glm::ivec2(along, across);
+            sum.add(before.item.id, from(at), to(at));
+        }
+    };
+    if (before.stitched || after.stitched) {
+        const DrawnGrid from = gridOf(shape, before);
+        const DrawnGrid to = gridOf(shape, after);
+        addAll([&](glm::ivec2 at) { return drawnAt(from, at.x, at.y); },
+               [&](glm::ivec2 at) { return drawnAt(to, at.x, at.y); });
+    } else {
+        const auto vertexOf = [&](const DrawnChunk& chunk) {
+            return [&](glm::ivec2 at) {
+                return drawnVertex(shape, chunk.item, *chunk.heights, false, at.x, at.y).positionM;
+            };
+        };
+        addAll(vertexOf(before), vertexOf(after));
+    }
+    return sum.done();
+}
+
+}  // namespace planet

@@ -1,0 +1,49 @@
+// How far the drawn surface jumps on screen when one place's chunks are exchanged for coarser or finer ones.
+//
+// Both surfaces are linear on the triangles of nested grids, so they part most at a vertex of one of the two.
+// All grid points of the finer chunks are compared, each with the point of the coarser surface at the same
+// place; where a stitched edge has moved vertices away, with what is drawn there instead. Screen distance is
+// no linear function of where points are, but across one triangle it hardly differs from one.
+//
+// Pure functions, any thread.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "planet/chunk_tree.h"
+#include "planet/lod_select.h"
+#include "planet/view.h"
+
+namespace planet {
+
+// Two pixel measures, both through one view. screenPx: the distance between the projections of the two
+// points in the flat picture. facingPx: K' |a/|a| - b/|b||, a and b as seen from the eye: the same if the
+// view were turned to face them. The flat picture stretches towards its corners, so screenPx may be larger.
+struct SurfaceJump {
+    double largestPx = 0;             // screenPx
+    double meanPx = 0;                // screenPx, over all places in the picture
+    double largestFacingPx = 0;       // facingPx
+    glm::dvec3 worstPlaceM{0, 0, 0};  // where largestPx is, as drawn after; metres from the planet's centre
+    ChunkId worstChunk;               // the finer chunk that holds it
+    std::uint32_t places = 0;         // grid points compared: those that lie in the picture, hidden or not
+};
+
+struct DrawnChunk {
+    DrawItem item;
+    SharedHeights heights;  // never null
+    bool stitched = false;  // drawn with RenderSettings::stitched
+};
+
+// A coarser chunk and chunks within it, of any deeper levels; one of the two sides was drawn before, the
+// other is drawn after.
+SurfaceJump surfaceJump(const PlanetShape& shape, const DrawnChunk& coarser,
+                        std::span<const DrawnChunk> finer, bool coarserIsAfter, const View& view);
+
+// Of one chunk that is drawn before and after, along one of its edges.
+SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const DrawnChunk& after, Edge edge,
+                     const View& view);
+
+}  // namespace planet

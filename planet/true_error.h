@@ -1,0 +1,102 @@
+// True error: how far what is drawn lies from the finest data, chunk by chunk, beside what was predicted.
+//
+// Every finest sample under a drawn chunk, at its true height a, is compared with the point b of the drawn
+// surface at the same place (drawn_surface.h: morph and stitched edges included, skirts left out). Two
+// measures of the step from a to b, both in pixels of the view, with a and b relative to the eye:
+//
+//   facing  K' |a/|a| - b/|b||: as if the view were turned to face the sample. Never more than |a - b| K' /
+//   D,
+//           so this is what eps bounds and what a violation is judged by. Every sample counts, also those
+//           behind the camera, beside the picture or hidden by other ground.
+//   screen  between the projections of a and b into the flat picture, which stretches towards its corners by
+//           up to 1 / cos^2 of the angle there. Only samples that project into the picture, with b before the
+//           camera, count; hidden ones too.
+//
+// Predicted is, for the m that a chunk morphs by, eps + m (parentEps - eps), since each point is drawn so far
+// on the way from the chunk's surface to its parent's. Two chunks of one level share the larger m of theirs
+// along their edge; a vertex there, itself a finest sample, slides by at most m delta_parent, of either's
+// parent: (delta + m min of those) K' / D. Where edges are stitched to a coarser chunk, at least that one's
+// own prediction; in the cells beside such an edge this is no proven bound, since triangles there reach over
+// several cells of the chunk, which no delta_c looks at. Violations whose worst place lies there are told
+// apart.
+//
+// Heights are drawn as high as the shape says, so exaggeration is counted in. No reliance on a delta_c or an
+// extreme of the file: every sample is looked at. The result is the same whatever the number of threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "planet/finest_heights.h"
+#include "planet/lod_select.h"
+#include "planet/view.h"
+
+namespace planet {
+
+// A selection with all that measuring it needs: holds while the planet goes on.
+struct DrawnSnapshot {
+    PlanetShape shape;
+    View view;                         // for which they were selected; pixels are counted in it
+    std::vector<DrawItem> items;       // their nodes and slots mean nothing here
+    std::vector<HeldChunk> chunks;     // of the items, in the same order
+    std::vector<double> parentDeltaM;  // by the items' metric; 0 of a root
+    bool stitched = false;             // edges are drawn with RenderSettings::stitched
+    ResidentBlocks resident;           // under the chunks
+};
+DrawnSnapshot snapshotOf(const ChunkTree& tree, std::span<const DrawItem> items, const View& view,
+                         bool stitched);
+
+struct ChunkError {
+    ChunkId id;
+    double predictedPx = 0;
+    double facingPx = 0;         // the largest
+    double screenPx = 0;         // the largest; 0 where no sample lies in the picture
+    double errorM = 0;           // |a - b| where facingPx is largest
+    double meanPx = 0;           // of facingPx over all samples
+    glm::dvec3 worstM{0, 0, 0};  // a there, metres from the planet's centre
+    // Whether it lies in a cell beside an edge that is stitched to a coarser chunk.
+    bool worstInSeam = false;
+    std::uint64_t samples = 0;  // compared
+
+    bool operator==(const ChunkError&) const = default;
+};
+
+// Whether the prediction was wrong, beyond what floats round: facing > predicted (1 + 1e-4) + 1e-3 px.
+bool isViolation(const ChunkError& error);
+
+// The share of the prediction that was not needed, 1 - facing / predicted; 0 where nothing is predicted.
+double slackOf(const ChunkError& error);
+
+struct TrueErrorReport {
+    std::vector<ChunkError> chunks;  // in the snapshot's order
+    double worstPredictedPx = 0;
+    double worstFacingPx = 0;
+    double worstScreenPx = 0;
+    // Of chunks, each counting once whatever its size: the nearest-rank 99th percentile of its largest.
+    double p99FacingPx = 0;
+    double p99ScreenPx = 0;
+    double meanSlack = 0;                 // over the chunks with a prediction over 0; at most 1
+    std::uint32_t violations = 0;         // chunks
+    std::uint32_t violationsInSeams = 0;  // of them, those whose worst lies beside a stitched edge
+    std::uint64_t samples = 0;
+
+    bool operator==(const TrueErrorReport&) const = default;
+};
+
+// What is predicted of each item, pixels, in their order.
+std::vector<double> predictedErrorsPx(const DrawnSnapshot& snapshot);
+
+// Told from time to time, by one thread at a time, how many samples of how many are compared; false cancels.
+using TrueErrorProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
+
+// The Error names the file and the chunk that could not be read, or is of kind Cancelled.
+Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHeights& heights,
+                                         const TrueErrorProgress& progress = {});
+
+// Nearest rank, share in (0, 1]; 0 of nothing.
+double percentileOf(std::vector<double> values, double share);
+
+}  // namespace planet

@@ -1,0 +1,66 @@
+// worldy cracks, run as a user runs it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+// Hills so steep and chunks so coarse that there are cracks. Without morph, which closes those between levels
+// one apart.
+const std::string view =
+    "--size 640x400 --tau 60 --set surface.exaggeration=20 --set lod.morph=false --camera 30,30,90000,0,-40 ";
+
+TEST(CracksCommand, SkirtsHoldWhatWithoutThemLeaks) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran open =
+        runWorldy(folder, "cracks planet.chk " + view + "--seams none -o open.json --mark open.png");
+    EXPECT_EQ(open.exitCode, 1) << open.errors;
+    EXPECT_THAT(open.output, HasSubstr("leaking px"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "open.png"));
+    const auto report = nlohmann::json::parse(contentOf(folder.path() / "open.json"));
+    EXPECT_GT(report["crack_px"].get<int>(), 0);
+    EXPECT_EQ(report["crack_px"], report["leaking_px"]);
+    EXPECT_EQ(report["seams"], "none");
+    ASSERT_EQ(report["view"].size(), 1u);
+    ASSERT_FALSE(report["view"][0]["spots"].empty());
+    EXPECT_TRUE(report["view"][0]["spots"][0].contains("finer"));
+    EXPECT_GT(report["view"][0]["gaps"][0]["gap_m"].get<double>(), 0);
+
+    const Ran hidden = runWorldy(folder, "cracks planet.chk " + view + "--find-depth -o hidden.json");
+    EXPECT_EQ(hidden.exitCode, 0) << hidden.errors;
+    EXPECT_THAT(hidden.output, HasSubstr("smallest depth without a leak"));
+    const auto found = nlohmann::json::parse(contentOf(folder.path() / "hidden.json"));
+    EXPECT_EQ(found["leaking_px"], 0);
+    EXPECT_EQ(found["crack_px"], report["crack_px"]) << "whatever the skirts are";
+    EXPECT_GT(found["smallest_depth_m"].get<double>(), 0);
+    EXPECT_LE(found["smallest_factor"].get<double>(), 1);
+
+    const Ran stitched = runWorldy(folder, "cracks planet.chk " + view + "--seams stitched -o stitched.json");
+    EXPECT_EQ(stitched.exitCode, 0) << stitched.errors;
+    EXPECT_EQ(nlohmann::json::parse(contentOf(folder.path() / "stitched.json"))["crack_px"], 0);
+}
+
+TEST(CracksCommand, BadInputEndsWithTwo) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    for (const char* arguments :
+         {"cracks none.chk", "cracks planet.chk --seams sewn", "cracks planet.chk --step-s 0",
+          "cracks planet.chk --flight none.toml", "cracks planet.chk --size 3x3",
+          "cracks planet.chk --seams stitched --find-depth",
+          "cracks planet.chk --camera 1,2,3 --flight none.toml"}) {
+        const Ran ran = runWorldy(folder, arguments);
+        EXPECT_EQ(ran.exitCode, 2) << arguments;
+        EXPECT_EQ(ran.output, "") << arguments;
+        EXPECT_THAT(ran.errors, HasSubstr("worldy: ")) << arguments;
+    }
+}
+
+}  // namespace
+}  // namespace worldy

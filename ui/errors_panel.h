@@ -1,0 +1,15 @@
+// True error: the measured error of what is drawn, beside what was predicted.
+#pragma once
+
+#include "ui/commands.h"
+#include "ui/editor_view.h"
+
+namespace ui {
+
+struct ErrorsPanelState {
+    bool logarithmic = true;  // the scatter's axes
+};
+
+void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui
