@@ -82,6 +82,7 @@ int runWindow(Window& window, const AppOptions& options, DataSet data, const Ope
         runFrame(window, session, editor, log, std::chrono::duration<double>(now - last).count());
         last = now;
     }
+    endFlights(session, editor, log);
     editor.settings.windowWidthPx = static_cast<int>(window.width());
     editor.settings.windowHeightPx = static_cast<int>(window.height());
     saveIfChanged(open, editor.settings, log);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/flight_record.h"
 #include "app/places.h"
 #include "planet/pick.h"
 
@@ -261,7 +262,8 @@ std::vector<fs::path> availableFlights() {
     for (const fs::path& folder : {dataFolder() / "flights", configFolder() / "flights"}) {
         std::error_code status;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
-            if (entry.path().extension() == ".toml") flights.push_back(entry.path());
+            if (entry.path().extension() == ".toml" || isFlightRecord(entry.path()))
+                flights.push_back(entry.path());
         }
     }
     std::sort(flights.begin(), flights.end(),

@@ -19,6 +19,7 @@
 #include "app/file_commands.h"
 #include "app/fly_command.h"
 #include "app/pops_command.h"
+#include "app/replay_command.h"
 #include "app/shot_command.h"
 #include "app/sweep_command.h"
 #include "planet/chunk_file.h"
@@ -138,7 +139,7 @@ void addFly(CLI::App& app, FlyOptions& options, ViewTexts& view) {
     CLI::App& command =
         *app.add_subcommand("fly", "Fly a recorded path without a display, and measure each frame");
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--path", options.path, "The flight's keys, .toml")->required();
+    command.add_option("--path", options.path, "The flight's keys, .toml, or a recorded .flight")->required();
     command.add_option("--frames", options.frames, "Frames, evenly over the flight (300)")
         ->check(CLI::Range(1, 1000000));
     addViewOptions(command, view);
@@ -263,6 +264,32 @@ void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts, ViewTexts
     command.add_option("-o,--output", options.jsonOutput, "Write every chunk of every view there, as JSON");
     command.add_option("--worst", options.worst, "Chunks that are listed, worst first (10)")
         ->check(CLI::Range(0, 1000000));
+}
+
+void addReplay(CLI::App& app, ReplayOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "replay", "Make a recorded flight again without a display, and tell whether every frame is the same");
+    command.add_option("FLIGHT", options.flight, "Recorded flight, .flight")->required();
+    command.add_option("FILE", options.file, "Chunk file (the one it was recorded over)");
+    const auto set = [&options](ReplayPaging paging) {
+        return [&options, paging](std::int64_t) { options.paging = paging; };
+    };
+    CLI::Option* simulated =
+        command.add_flag_function("--simulated", set(ReplayPaging::Simulated),
+                                  "Blocks arrive when the recorded bad disk and seed say, by simulated time");
+    command
+        .add_flag_function("--as-recorded", set(ReplayPaging::AsRecorded),
+                           "Blocks arrive in the frames in which they did (this is what it does by itself)")
+        ->excludes(simulated);
+    command.add_option("-o,--output", options.output, "Write a report there, JSON");
+    command
+        .add_option("--set", options.assignments,
+                    "A setting to hold at another value than the recorded one, as lod.tau_px=3; frames that "
+                    "differ are then told, but are no failure")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
 }
 
 void addFileCommands(CLI::App& app, FileCommandOptions& options) {
@@ -424,6 +451,7 @@ struct CommandLine {
     AuditOptions audit;
     AuditTexts auditTexts;
     ViewTexts auditView;
+    ReplayOptions replay;
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
@@ -443,6 +471,7 @@ struct CommandLine {
         addCracks(app, cracks, cracksView);
         addPops(app, pops, popsView);
         addAudit(app, audit, auditTexts, auditView);
+        addReplay(app, replay);
         app.require_subcommand(0, 1);
     }
     CommandLine(const CommandLine&) = delete;
@@ -481,6 +510,10 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
     if (app.got_subcommand("verify")) return exitCodeOf(runVerify(line.file));
     if (app.got_subcommand("probe")) return exitCodeOf(runProbe(line.file));
     if (app.got_subcommand("shot")) return exitCodeOf(withView(line.shot, line.shotView).and_then(takeShot));
+    if (app.got_subcommand("replay")) {
+        const Result<bool> same = replayFlight(line.replay);
+        return same ? (*same ? exitOk : exitCheckFailed) : reportError(same.error());
+    }
     if (app.got_subcommand("fly")) return exitCodeOf(runFly(line.fly, line.flyView));
     if (app.got_subcommand("sweep")) return exitCodeOf(withTexts(line.sweep, line.sweepTexts));
     if (app.got_subcommand("bench")) return exitCodeOf(withSize(line.bench, line.benchView));

@@ -65,15 +65,23 @@ struct CommandHandler {
         if (editor.rig) pauseFlight(*editor.rig, command.paused);
     }
 
-    void operator()(const ui::PausePaging& command) const { editor.pagingPaused = command.paused; }
-    void operator()(const ui::LoadOne&) const {
-        if (Scene* scene = shownScene(session)) scene->planet->loadOne();
+    void operator()(const ui::PausePaging& command) const {
+        if (mayTouchPaging()) editor.pagingPaused = command.paused;
     }
-    void operator()(const ui::DropAll&) const {
-        if (Scene* scene = shownScene(session)) scene->planet->dropAll();
-    }
+    void operator()(const ui::LoadOne&) const { call(FlightCall::LoadOne, &planet::Planet::loadOne); }
+    void operator()(const ui::DropAll&) const { call(FlightCall::DropAll, &planet::Planet::dropAll); }
     void operator()(const ui::RetryFailed&) const {
-        if (Scene* scene = shownScene(session)) scene->planet->retryFailed();
+        call(FlightCall::RetryFailed, &planet::Planet::retryFailed);
+    }
+    bool mayTouchPaging() const {
+        if (editor.desk.replay) log->warn("While a flight is replayed its paging is the recording's");
+        return !editor.desk.replay;
+    }
+    void call(FlightCall which, void (planet::Planet::*function)()) const {
+        Scene* scene = shownScene(session);
+        if (!scene || !mayTouchPaging()) return;
+        (*scene->planet.*function)();
+        if (editor.desk.recorder) editor.desk.recorder->called(*scene->planet, which);
     }
     void operator()(const ui::PauseFrames& command) const { editor.framesPaused = command.paused; }
     void operator()(const ui::StepFrame&) const { editor.framesPaused = editor.stepOneFrame = true; }
@@ -126,6 +134,23 @@ struct CommandHandler {
     void operator()(const ui::KeepMeasuringErrors& command) const {
         editor.errors.keepMeasuring = command.on;
     }
+    void operator()(const ui::StartRecording& command) const;
+    void operator()(const ui::StopRecording&) const {
+        Scene* scene = shownScene(session);
+        stopRecording(editor.desk, scene ? scene->planet.get() : nullptr, log);
+        editor.flights = availableFlights();
+    }
+    void operator()(const ui::DeleteRecording& command) const {
+        succeeded(deleteRecording(editor.desk, command.file));
+        editor.flights = availableFlights();
+    }
+    void operator()(const ui::StartReplay& command) const;
+    void operator()(const ui::MoveReplay& command) const { moveReplay(editor.desk, command.frame); }
+    void operator()(const ui::MoveReplayTo& command) const { moveReplayTo(editor.desk, command.timeS); }
+    void operator()(const ui::SetReplay& command) const {
+        if (Scene* scene = shownScene(session)) succeeded(setReplay(editor.desk, *scene, command.controls));
+    }
+    void operator()(const ui::StopReplay&) const { endReplay(editor, shownScene(session)); }
 
     void openPreset(const std::filesystem::path& file) const;
     bool openScreenshot(const std::filesystem::path& file) const;
@@ -150,6 +175,29 @@ void CommandHandler::operator()(const ui::LookAtChunk& command) const {
                                .headingDeg = 0,
                                .pitchDeg = -88},
                               radius));
+}
+
+void CommandHandler::operator()(const ui::StartRecording& command) const {
+    Scene* scene = shownScene(session);
+    if (!scene || !editor.rig) return;
+    endReplay(editor, scene);
+    if (succeeded(startRecording(editor.desk, *scene->planet, command.name)))
+        log->info("Recording {}: the planet starts with its six root chunks", editor.desk.recorder->name());
+    editor.changes.clear();
+    forgetPops(editor.pops);
+    editor.stepOneFrame = true;  // nothing is chosen any more
+}
+
+void CommandHandler::operator()(const ui::StartReplay& command) const {
+    Scene* scene = shownScene(session);
+    if (!scene || !editor.rig) return;
+    stopRecording(editor.desk, scene->planet.get(), log);
+    endReplay(editor, scene);
+    const BeforeReplay before{editor.settings.view, editor.rig->camera, editor.pagingPaused};
+    succeeded(startReplay(editor.desk, command.file, *scene, before));
+    editor.changes.clear();
+    forgetPops(editor.pops);
+    editor.stepOneFrame = true;
 }
 
 void CommandHandler::operator()(const ui::KeepCameraAsStart&) const {
@@ -197,6 +245,7 @@ bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
 
 void CommandHandler::operator()(const ui::OpenFile& command) const {
     if (command.file.extension() == ".toml") return openPreset(command.file);
+    if (isFlightRecord(command.file)) return (*this)(ui::StartReplay{command.file});
     if (command.file.extension() == ".png" && openScreenshot(command.file)) return;
     if (!openFile(session, command.file, editor.settings.view, log)) {
         // Why not is told there.
@@ -250,7 +299,8 @@ void CommandHandler::operator()(const ui::GoBackToPop& command) const {
     editor.pops.shown = *event;
     editor.pops.side = ui::PopSide::Live;
     editor.focus.selected = event->chunk;
-    moveCamera(cameraFromPose(planet::poseFromView(event->view, radiusM()), radiusM()));
+    if (editor.desk.replay) editor.desk.replay->controls.playing = false;
+    moveCamera({event->view.eyeM, event->view.right, event->view.back});
 }
 
 }  // namespace

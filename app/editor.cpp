@@ -35,9 +35,26 @@ Editor openEditor(const Settings& settings, const Log& log) {
     editor.bookmarks = loadBookmarks(bookmarksFile());
     if (!editor.bookmarks.problem.empty()) log->warn("{}", editor.bookmarks.problem);
     editor.flights = availableFlights();
+    editor.desk = openFlightDesk(recordingsFolder());
     editor.recent = loadRecentFiles(recentFilesFile());
     editor.recentShown = shownRecentFiles(editor.recent);
     return editor;
+}
+
+void endReplay(Editor& editor, Scene* scene) {
+    if (!editor.desk.replay) return;
+    const BeforeReplay before = stopReplay(editor.desk, scene);
+    editor.settings.view = before.settings;
+    editor.pagingPaused = before.pagingPaused;
+    if (editor.rig) editor.rig->camera = before.camera;
+    forgetPops(editor.pops);
+    editor.stepOneFrame = true;
+}
+
+void endFlights(Session& session, Editor& editor, const Log& log) {
+    Scene* scene = shownScene(session);
+    endReplay(editor, scene);
+    stopRecording(editor.desk, scene ? scene->planet.get() : nullptr, log);
 }
 
 void runFrame(Window& window, Session& session, Editor& editor, Log& log, double secondsSinceLast) {
@@ -68,7 +85,9 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     drawPanels(session, view, layout, pixelRatio, editor, commands);
     obeyShortcuts(window.pressedKeys(),
                   {view, editor.settings.view, editor.settings.workspace, editor.menu, commands});
-    editor.undo.record(before, editor.settings.view, ImGui::IsAnyItemActive(), editor.timeS);
+    // A replay's settings are not the user's.
+    if (!editor.desk.replay)
+        editor.undo.record(before, editor.settings.view, ImGui::IsAnyItemActive(), editor.timeS);
     obey(commands, window, session, editor, log);
     stats.panelsMs = panelWatch.elapsedMs();
     ui::collectItems(nullptr);

@@ -11,6 +11,7 @@
 #include "app/camera_rig.h"
 #include "app/cracks.h"
 #include "app/error_job.h"
+#include "app/flight_desk.h"
 #include "app/log.h"
 #include "app/pops.h"
 #include "app/presets.h"
@@ -68,9 +69,17 @@ struct Editor {
     bool screenshotPending = false;                  // with panels: once they are drawn
     std::filesystem::path itemMapFile;               // where to write where controls are; empty: nowhere
     std::uint64_t frames = 0;                        // run so far
+    FlightDesk desk;
 };
 
 Editor openEditor(const Settings& settings, const Log& log);
+
+// Ends the replay, if one runs, and gives back the settings and the camera of before. scene: null where its
+// planet is gone.
+void endReplay(Editor& editor, Scene* scene);
+
+// Before the window closes: keeps what is being recorded, and gives back what a replay has taken.
+void endFlights(Session& session, Editor& editor, const Log& log);
 
 void runFrame(Window& window, Session& session, Editor& editor, Log& log, double secondsSinceLast);
 

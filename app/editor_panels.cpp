@@ -94,6 +94,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     if (view.planet) view.pops = popsViewOf(editor.pops);
     view.probe = editor.probe;
     view.errors = errorsViewOf(editor.errors, editor.frames);
+    view.recording = recordingViewOf(editor.desk, editor.settings.view);
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

@@ -1,6 +1,7 @@
 #include "app/editor_planet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <utility>
@@ -19,8 +20,12 @@ namespace {
 
 // Another planet has taken the place of the last one: the camera stays where it makes sense, what was counted
 // does not.
-void meetPlanet(const planet::Planet& planet, Editor& editor) {
+void meetPlanet(planet::Planet& planet, Editor& editor, const Log& log) {
     if (&planet == editor.lastPlanet) return;
+    // Both are about the planet that they began with, which may be gone.
+    stopRecording(editor.desk, nullptr, log);
+    endReplay(editor, nullptr);
+    planet.keepMoves(false);
     const double radiusM = planet.shape().radiusM;
     if (radiusM != editor.lastRadiusM && editor.lastPlanet) {
         editor.rig.reset();
@@ -67,6 +72,7 @@ void placeCameras(const Scene& scene, float pixelRatio, Editor& editor) {
         observerStart(mainView(editor, pixelRatio), groundBelow(scene, editor.rig->camera.eyeM));
 }
 
+// While a flight is replayed, the observer alone.
 void moveCameras(Scene& scene, float pixelRatio, Editor& editor, const Log& log, double seconds) {
     const Viewport& viewport = editor.viewport;
     const Surroundings around = surroundingsOf(scene);
@@ -76,9 +82,10 @@ void moveCameras(Scene& scene, float pixelRatio, Editor& editor, const Log& log,
     // The keys go to the picture that the pointer is on.
     const bool observing =
         viewport.observer.shown() && (viewport.observer.pointer.over || !viewport.main.shown());
-    const planet::Result<void> moved =
-        advanceRig(*editor.rig, around, mainView(editor, pixelRatio), viewport.main.pointer,
-                   observing ? HeldKeys() : keys.held, seconds, editor.settings.view.camera);
+    planet::Result<void> moved;
+    if (!editor.desk.replay)
+        moved = advanceRig(*editor.rig, around, mainView(editor, pixelRatio), viewport.main.pointer,
+                           observing ? HeldKeys() : keys.held, seconds, editor.settings.view.camera);
     if (!moved) log->error("{}", moved.error().message);
 
     if (!viewport.observer.shown()) return;
@@ -107,6 +114,63 @@ void chooseChunks(Scene& scene, float pixelRatio, Editor& editor) {
         stepScene(scene, editor.lodView, editor.settings.view);
     editor.changes.add(scene.planet->selection(), editor.timeS);
     measurePops(scene, mainView(editor, pixelRatio), editor.timeS, editor.pops);
+}
+
+void record(planet::Planet& planet, Editor& editor, const Log& log) {
+    if (!editor.desk.recorder) return;
+    constexpr std::array<double, 2> priorityFactors = {1, observerPriorityFactor};
+    editor.desk.recorder->stepped(planet, priorityFactors);
+    if (!editor.desk.recorder->encoded().full()) return;
+    log->warn("The recording has reached its limit of {} frames or {} MiB and ends here", maxFlightFrames,
+              maxFlightBytes >> 20);
+    stopRecording(editor.desk, &planet, log);
+    editor.flights = availableFlights();
+}
+
+// Settings that choose and load come from the recording alone; the others may be changed meanwhile.
+void holdRecordedSettings(const ui::ViewSettings& recorded, ui::ViewSettings& settings) {
+    settings.lod = recorded.lod;
+    settings.seams = recorded.seams;
+    settings.paging = recorded.paging;
+    settings.overlay.cube = recorded.overlay.cube;
+    settings.surface.exaggeration = recorded.surface.exaggeration;
+    settings.camera.fovDeg = recorded.camera.fovDeg;
+}
+
+// In place of moving the camera, giving the planet its settings, and choosing.
+void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
+    const FlightReplay& replayed = editor.desk.replay->replay;
+    const std::size_t frameBefore = replayed.next();
+    const ReplayWatcher watcher{[&](const planet::Selection& selection) {
+                                    editor.changes.add(selection, editor.timeS);
+                                    measurePops(scene, replayed.view(), replayed.timeS(), editor.pops);
+                                },
+                                [&](const ui::ViewSettings& recorded, bool pagingPaused) {
+                                    const ui::CameraSettings camera = editor.settings.view.camera;
+                                    editor.settings.view = recorded;
+                                    editor.settings.view.camera = camera;
+                                    editor.pagingPaused = pagingPaused;
+                                }};
+    if (const auto done = advanceReplay(*editor.desk.replay, scene, seconds, watcher); !done) {
+        log->error("{}", done.error().message);
+        return endReplay(editor, &scene);
+    }
+    if (replayed.next() > 0) holdRecordedSettings(replayed.settings(), editor.settings.view);
+    // Between frames the camera may stand where a pop was gone back to.
+    if (replayed.next() == frameBefore) return;
+    editor.lodView = replayed.view();
+    editor.rig->camera = {editor.lodView.eyeM, editor.lodView.right, editor.lodView.back};
+}
+
+void giveSettings(Scene& scene, Editor& editor, const Log& log) {
+    const auto applied = applyLiveSettings(scene, editor.settings.view, editor.pagingPaused);
+    if (!applied) log->error("{}", applied.error().message);
+    if (!editor.desk.recorder) return;
+    if (applied)
+        return editor.desk.recorder->givenSettings(*scene.planet, editor.settings.view, editor.pagingPaused);
+    // What the planet has kept of them nobody could repeat.
+    log->warn("The recording ends, since settings were refused");
+    stopRecording(editor.desk, scene.planet.get(), log);
 }
 
 std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
@@ -188,14 +252,18 @@ void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selectio
 
 ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
                          ui::Commands& commands) {
-    meetPlanet(*scene.planet, editor);
-    if (const auto applied = applyLiveSettings(scene, editor.settings.view, editor.pagingPaused); !applied)
-        log->error("{}", applied.error().message);
+    meetPlanet(*scene.planet, editor, log);
+    if (!editor.desk.replay) giveSettings(scene, editor, log);
     placeCameras(scene, pixelRatio, editor);
     const bool stepOne = std::exchange(editor.stepOneFrame, false);
-    if (!editor.framesPaused || stepOne) {
-        moveCameras(scene, pixelRatio, editor, log, editor.framesPaused ? 1.0 / 60 : seconds);
+    const bool goesOn = !editor.framesPaused || stepOne;
+    const double frameS = editor.framesPaused ? 1.0 / 60 : seconds;
+    if (goesOn) moveCameras(scene, pixelRatio, editor, log, frameS);
+    if (editor.desk.replay) {
+        replay(scene, editor, log, goesOn ? frameS : 0);
+    } else if (goesOn) {
         chooseChunks(scene, pixelRatio, editor);
+        record(*scene.planet, editor, log);
     }
     advanceErrorMeter(*scene.planet, editor.frames, editor.timeS, editor.errors);
     const Stopwatch watch;

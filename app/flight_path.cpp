@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/flight_record.h"
 #include "app/toml_file.h"
 #include "planet/cube_sphere.h"
 
@@ -175,6 +176,10 @@ double valueAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std:
 }  // namespace
 
 Result<FlightPath> loadFlightPath(const fs::path& file) {
+    if (isFlightRecord(file)) {
+        return loadFlightRecord(file).and_then(
+            [&](const FlightRecord& record) { return pathOf(record, file); });
+    }
     const Result<toml::table> document = parseTomlFile(file);
     if (!document) return tl::unexpected(document.error());
     FlightPath path;

@@ -29,7 +29,8 @@ struct FlightPath {
     std::vector<FlightKey> keys;  // at least two
 };
 
-// The Error names the file, the key's number from 1 and what would be right.
+// Also the way of a recorded .flight (app/flight_record.h). The Error names the file, the key's number from 1
+// and what would be right.
 planet::Result<FlightPath> loadFlightPath(const std::filesystem::path& file);
 
 double durationS(const FlightPath& path);

@@ -14,9 +14,6 @@ namespace worldy {
 
 namespace {
 
-// An observer looks at the same planet from afar; the lod view is what one works on.
-constexpr double observerPriorityFactor = 0.5;
-
 planet::UploadChunk uploadInto(planet::gl::ChunkRenderer& renderer) {
     return [&renderer](std::uint32_t slot, std::span<const std::int16_t> heights) {
         renderer.upload(slot, heights);
@@ -105,12 +102,16 @@ planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     return lod;
 }
 
-planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused) {
+planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused,
+                                        std::optional<planet::PagingTime> time) {
+    const planet::PagingTime asSet =
+        settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock;
     return {.budgetBytes = static_cast<std::size_t>(settings.paging.budgetMB) << 20,
             .loaderThreads = settings.paging.loaderThreads,
             .uploadLimitMs = settings.paging.uploadLimitMs,
             .paused = paused,
-            .badDisk = settings.paging.badDisk};
+            .badDisk = settings.paging.badDisk,
+            .time = time.value_or(asSet)};
 }
 
 planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
@@ -141,13 +142,18 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     return render;
 }
 
-planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& settings, bool pagingPaused) {
+planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& settings, bool pagingPaused,
+                                       std::optional<planet::PagingTime> time) {
     if (scene.exaggeration != settings.surface.exaggeration) {
         scene.exaggeration = settings.surface.exaggeration;
         scene.planet->setExaggeration(settings.surface.exaggeration);
         scene.renderer.setShape(scene.planet->shape());
     }
-    return applyPaging(scene, pagingSettingsOf(settings, pagingPaused));
+    return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time));
+}
+
+planet::UploadChunk uploadInto(Scene& scene) {
+    return uploadInto(scene.renderer);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {

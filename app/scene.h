@@ -36,9 +36,15 @@ struct SceneConfig {
 
 planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSettings& settings);
 
+// Of what an observer with a selection of its own wants: it looks at the same planet from afar, and the lod
+// view is what one works on.
+inline constexpr double observerPriorityFactor = 0.5;
+
 // The user's units into the library's, here and nowhere else.
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings);
-planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused = false);
+// time: in place of what the settings say.
+planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused = false,
+                                        std::optional<planet::PagingTime> time = std::nullopt);
 planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
                                             const planet::ChunkTree& tree);
 
@@ -46,7 +52,8 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
 // exaggeration. Cheap where nothing has changed. An Error comes once for each change that is refused; the
 // planet then goes on as it was.
 planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& settings,
-                                       bool pagingPaused = false);
+                                       bool pagingPaused = false,
+                                       std::optional<planet::PagingTime> time = std::nullopt);
 
 // One frame in two stages: choose and load by the lod view, then draw as the render view sees it.
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings);
@@ -54,6 +61,9 @@ void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings
 // view wants.
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
                const ui::ViewSettings& settings);
+
+// Makes chunks drawable, for stepping the planet itself. The scene must outlive it.
+planet::UploadChunk uploadInto(Scene& scene);
 
 // Draws a selection of the last step, with a tint for each of its items or none, into what is bound.
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,

@@ -1,5 +1,10 @@
 // The loader threads: they take page-ins from the paging queue, best first, read and decode them, and leave
 // what they loaded in a list for the owning thread. One thread owns a pager and makes all calls.
+//
+// By simulated time no thread reads. As many virtual loaders take requests as there would be threads, at the
+// moment they are free and something is queued. A read lasts as long as diskFault() says, nothing without a
+// bad disk, and is over once advance() has reached its end; takeFinished() then reads the block, at once. So
+// the same calls give the same loads in the same order, on any machine.
 #pragma once
 
 #include <array>
@@ -58,6 +63,13 @@ struct PagerStatus {
 
 inline constexpr int maxLoaderThreads = 64;
 
+// By what a read's end is decided.
+enum class PagingTime : std::uint8_t {
+    Clock,      // loader threads, as fast as they are
+    Simulated,  // virtual loaders, by the bad disk's settings and seed, in the time of advance()
+    Recorded,   // whoever calls take() and finish()
+};
+
 class Pager {
 public:
     // threads: [1, maxLoaderThreads].
@@ -70,9 +82,10 @@ public:
     // Calls edit(PagingQueue&) while no loader touches the queue, and wakes the loaders. Keep it short.
     template <class Edit>
     auto withQueue(Edit&& edit) {
-        // Destroyed in reverse: the lock is gone before the loaders wake.
+        // Destroyed in reverse: virtual loaders take, then the lock is gone, then the threads wake.
         const Wake wake{workArrived_};
         const std::lock_guard lock(mutex_);
+        const VirtualLoaders loaders{*this};
         return edit(queue_);
     }
     // The same for looking only: wakes nobody.
@@ -97,7 +110,28 @@ public:
     // So that the bad disk's troubles come again as they came.
     void forgetAttempts();
 
-    // The finished loads in the order they finished, one a call.
+    // Another time from now on; simulated seconds begin at 0. What was being read, or has been read and not
+    // been taken, is given up: its requests are returned, as they were taken, and their results come to
+    // nothing.
+    std::vector<PagingRequest> setTime(PagingTime time);
+    // The same without another time.
+    std::vector<PagingRequest> giveUp();
+    PagingTime time() const;
+    // Only of Simulated and Recorded: lets so many seconds, >= 0, pass.
+    void advance(double seconds);
+    // Only of Simulated: seconds until the next read ends; nothing while none is under way.
+    std::optional<double> untilNextEnd() const;
+    // Only of Recorded: starts the read of a queued block, and ends one that was started. False where there
+    // is none such. Of several reads of the same block all but the last taken are such as will be thrown
+    // away.
+    bool take(const ChunkId& parent);
+    bool finish(const ChunkId& parent, bool fails, bool last = true);
+
+    // The blocks that were taken since the last call of this, in order. withQueue sees to it that none is
+    // taken in between: call it from there.
+    std::vector<ChunkId> takeTaken(const PagingQueue& lockedQueue);
+
+    // The finished loads in the order they finished, one a call. But for Clock the block is read here.
     std::optional<FinishedLoad> takeFinished();
 
     // Waits until a load is finished, but not past a moment, nor while there is nothing to wait for. True if
@@ -116,10 +150,19 @@ private:
         ~Wake() { condition.notify_all(); }
     };
     struct Reading {
-        ChunkId parent;
-        double priority = 0;
-        std::uint32_t bytes = 0;
+        PagingRequest request;
         Clock::time_point since;
+    };
+    // Of a virtual loader, in the order they were taken. Seconds of the pager's own time.
+    struct VirtualReading {
+        PagingRequest request;
+        double sinceS = 0;
+        double endS = 0;
+        bool fails = false;
+    };
+    struct VirtualLoaders {
+        Pager& pager;
+        ~VirtualLoaders() { pager.startVirtualReads(); }
     };
     struct Loader {
         bool running = false;
@@ -130,7 +173,13 @@ private:
     void serve(std::size_t index, const std::stop_token& stop, Lock& lock);
     bool sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock);
     bool mayTake() const;
-    PagingRequest take();
+    PagingRequest takeNext();
+    void startVirtualReads();
+    void endVirtualRead(std::size_t index);
+    std::size_t nextVirtualEnd() const;
+    DiskFault nextFault(const PagingRequest& request);
+    std::vector<PagingRequest> giveUpReads();
+    std::optional<FinishedLoad> readFinished(Lock& lock);
     PagerStatus statusLocked() const;
 
     const LoadChildren load_;
@@ -147,6 +196,12 @@ private:
     BadDiskSettings badDisk_{};
     std::uint64_t badDiskVersion_ = 0;  // one more with each change
     std::unordered_map<ChunkId, std::uint32_t> attempts_;
+    PagingTime time_ = PagingTime::Clock;
+    std::uint64_t epoch_ = 0;  // one more each time reads are given up
+    double nowS_ = 0;          // of Simulated and Recorded
+    std::vector<VirtualReading> virtualReadings_;
+    std::deque<VirtualReading> virtuallyFinished_;  // endS: when it ended
+    std::vector<ChunkId> taken_;
     std::array<std::jthread, maxLoaderThreads> threads_;  // last: joined before the rest goes
 };
 

@@ -48,6 +48,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
     state->slotCapacity = *slots;
     state->freeSlots = freeSlotsFrom(faceCount, *slots);
     state->pager = std::make_unique<Pager>(std::move(source.loadChildren), settings.loaderThreads);
+    state->pager->setTime(settings.time);  // there is nothing to give up
     applyTo(*state->pager, settings);
     state->count();
     return std::unique_ptr<Planet>(new Planet(std::move(state)));
@@ -81,10 +82,12 @@ void Planet::State::step(std::span<const ViewInput> inputs, const UploadChunk& u
     ++frame;
     changed = false;
     nowS += elapsedS;
+    lastElapsedS = elapsedS;
     views.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
 
     Clock::time_point start = Clock::now();
+    if (settings.time != PagingTime::Clock) pager->advance(elapsedS);
     dropYielding();
     uploadFinished(upload);
     times.uploadMs = msSince(start);
@@ -95,6 +98,7 @@ void Planet::State::step(std::span<const ViewInput> inputs, const UploadChunk& u
 
     start = Clock::now();
     pager->withQueue([&](PagingQueue& queue) {
+        noteTaken(queue);
         markUsed(queue);
         request(queue);
     });
@@ -112,13 +116,31 @@ bool Planet::settle(const View& lodView, const LodSettings& settings, const Uplo
 bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS) {
     const auto timeout = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeoutS));
     const Clock::time_point deadline = Clock::now() + timeout;
+    if (state_->settings.time == PagingTime::Simulated) return settleSimulated(views, upload, timeoutS);
     while (true) {
         state_->step(views, upload, state_->clockS(), std::numeric_limits<double>::infinity());
         if (settled()) return true;
-        if (Clock::now() >= deadline) return false;
+        if (Clock::now() >= deadline || state_->settings.time == PagingTime::Recorded) return false;
         const PagerStatus status = state_->pager->status();
         if (status.queued > 0 && status.atRest()) return false;  // paused
         state_->pager->waitForFinished(deadline);
+    }
+}
+
+bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS) {
+    // Where no read is under way there may still be blocks that yield; where reads take no time, time goes
+    // on.
+    constexpr double idleStepS = 1.0 / 60, leastStepS = 1e-3;
+    double waitedS = 0;
+    double stepS = 0;
+    while (true) {
+        state_->step(views, upload, stepS, std::numeric_limits<double>::infinity());
+        if (settled()) return true;
+        const PagerStatus status = state_->pager->status();
+        if (status.queued > 0 && status.atRest()) return false;  // paused
+        stepS = std::max(state_->pager->untilNextEnd().value_or(idleStepS), leastStepS);
+        waitedS += stepS;
+        if (waitedS > timeoutS) return false;
     }
 }
 
@@ -137,8 +159,10 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
     const Result<std::uint32_t> slots = slotsFor(state.tree.storedShape, settings.budgetBytes);
     if (!slots) return tl::unexpected(slots.error());
+    const bool otherTime = settings.time != state.settings.time;
     state.settings = settings;
     state.changed = true;
+    if (otherTime) state.putBack(state.pager->setTime(settings.time));
     applyTo(*state.pager, settings);
     const bool resized = *slots != state.slotCapacity;
     if (resized) state.resize(*slots);
@@ -154,6 +178,33 @@ void Planet::dropAll() {
     state_->changed = true;
     state_->dropEverything();
     state_->count();
+}
+
+void Planet::startAnew() {
+    state_->startAnew();
+    state_->count();
+}
+
+void Planet::keepMoves(bool kept) {
+    state_->keepsMoves = kept;
+    state_->moves = {};
+}
+
+PagingMoves Planet::takeMoves() {
+    return std::exchange(state_->moves, {});
+}
+
+bool Planet::follow(const PagingMoves& moves) {
+    assert(state_->settings.time == PagingTime::Recorded);
+    Pager& pager = *state_->pager;
+    if (moves.gaveUp) state_->putBack(pager.giveUp());
+    bool whole = true;
+    for (const ChunkId& parent : moves.taken) whole &= pager.take(parent);
+    for (const PagingMoves::Arrival& arrival : moves.arrived) {
+        whole &= pager.finish(arrival.parent, arrival.outcome == PagingOutcome::Failed,
+                              arrival.outcome != PagingOutcome::Cancelled);
+    }
+    return whole;
 }
 
 void Planet::setExaggeration(double factor) {
@@ -236,6 +287,9 @@ const StageTimes& Planet::times() const {
 }
 std::uint32_t Planet::slotCapacity() const {
     return state_->slotCapacity;
+}
+double Planet::elapsedS() const {
+    return state_->lastElapsedS;
 }
 double Planet::seconds() const {
     return state_->nowS;

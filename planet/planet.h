@@ -36,6 +36,10 @@ struct PagingSettings {
     double uploadLimitMs = 4;  // >= 0, of a frame, for making loaded chunks drawable; at least one block is
     bool paused = false;       // loaders take nothing but what loadOne() lets through
     BadDiskSettings badDisk{};
+    // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS, and a block arrives in
+    // the first step at or past its end; uploadLimitMs does not hold. The same steps, settings and calls then
+    // give the same selections, requests and arrivals, bit for bit, on any machine.
+    PagingTime time = PagingTime::Clock;
 
     bool operator==(const PagingSettings&) const = default;
 };
@@ -59,6 +63,23 @@ struct PagingEvent {
     std::uint32_t timesAsked = 1;  // over 1: merged
     double priority = 0;
     PagingType type = PagingType::PageIn;  // only of Cancelled may be either
+};
+
+// What the loaders did to the requests in one step or one call between steps: all about paging that a clock
+// decides, and what was asked for.
+struct PagingMoves {
+    struct Arrival {
+        ChunkId parent;
+        PagingOutcome outcome = PagingOutcome::Loaded;  // Cancelled: thrown away
+
+        bool operator==(const Arrival&) const = default;
+    };
+    bool gaveUp = false;           // the paging's time changed: what was being read went back into the queue
+    std::vector<ChunkId> taken{};  // after that, by loaders, in order
+    std::vector<Arrival> arrived{};    // after that, in order
+    std::vector<ChunkId> requested{};  // at the end
+
+    bool operator==(const PagingMoves&) const = default;
 };
 
 // Totals since the file was opened, unless said otherwise.
@@ -124,12 +145,14 @@ public:
     void step(std::span<const ViewInput> views, const UploadChunk& upload);
 
     // Steps until nothing more is wanted or can be had; every fade is at its end. False if that takes longer
-    // than the given seconds, or if a pause holds up what is wanted.
+    // than the given seconds, or if a pause holds up what is wanted. By simulated time it steps from the end
+    // of one read to that of the next, and the seconds are simulated; by recorded time it takes one step.
     bool settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload, double timeoutS);
     bool settle(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
 
     // New settings, at once, waiting for no read: loaders are started or sent home, blocks are dropped down
-    // to a smaller budget, those out of use first. True if slotCapacity() has changed; then every slot has
+    // to a smaller budget, those out of use first. Where the paging's time changes, what is being read goes
+    // back into the queue, to be read anew. True if slotCapacity() has changed; then every slot has
     // moved, the selections are made anew, and the renderer wants a pool of that size and uploadAll. The
     // Error says what is wrong, as open's does, and nothing has changed.
     Result<bool> setPaging(const PagingSettings& settings);
@@ -140,6 +163,20 @@ public:
     // being read are thrown away when they arrive. The selections are made anew. A bad disk's troubles come
     // again as they came.
     void dropAll();
+
+    // Chooses and loads from here on as if just opened with the present settings and exaggeration: all blocks
+    // but the roots, all requests and reads, the selections and what they remember are gone, and simulated
+    // time begins anew. Totals, history and seconds() go on. Nothing is selected until the next step.
+    void startAnew();
+
+    // Whether moves are kept for takeMoves(); at first they are not.
+    void keepMoves(bool kept);
+    // Those since the last call.
+    PagingMoves takeMoves();
+    // By recorded time: does again what takeMoves() told of a call, before that call, or of a step, before
+    // that step. False where something in it has no request to be about, because what went before was not
+    // the same; that is left out.
+    bool follow(const PagingMoves& moves);
 
     // Draws heights this many times as high, (0, 100], but no more than largestExaggeration(tree()), which
     // keeps the lowest ground off the planet's centre; tree().exaggeration says what it is. Bounds and
@@ -173,12 +210,14 @@ public:
     // How the last 1000 requests ended, oldest first.
     const std::deque<PagingEvent>& pagingHistory() const;
     double seconds() const;                                      // since it was opened, as of the last step
+    double elapsedS() const;                                     // of the last step: since the one before
     const LodSettings& lodSettings(std::size_t view = 0) const;  // of the last step
     const View& lodView(std::size_t view = 0) const;
 
 private:
     struct State;
     explicit Planet(std::unique_ptr<State> state);
+    bool settleSimulated(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
     std::unique_ptr<State> state_;
 };
 

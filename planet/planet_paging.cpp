@@ -100,7 +100,7 @@ void Planet::State::uploadFinished(const UploadChunk& upload) {
         std::optional<FinishedLoad> load = pager->takeFinished();
         if (!load) return;
         finish(std::move(*load), upload);
-    } while (msSince(start) < settings.uploadLimitMs);
+    } while (settings.time != PagingTime::Clock || msSince(start) < settings.uploadLimitMs);
 }
 
 void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
@@ -130,6 +130,7 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     }
     watched.push_back(first);
     ++paging.loaded;
+    if (keepsMoves) moves.arrived.push_back({load.request.parent, PagingOutcome::Loaded});
     note(load.request, PagingOutcome::Loaded, &load);
 }
 
@@ -137,10 +138,12 @@ void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, std::string
     tree.nodes[parent].childrenState = ChildrenState::Failed;
     problems.push_back(std::move(message));
     ++paging.failed;
+    if (keepsMoves) moves.arrived.push_back({load.request.parent, PagingOutcome::Failed});
     note(load.request, PagingOutcome::Failed, &load);
 }
 
 void Planet::State::throwAway(const FinishedLoad& load) {
+    if (keepsMoves) moves.arrived.push_back({load.request.parent, PagingOutcome::Cancelled});
     ++thrownAway;
     note(load.request, PagingOutcome::Cancelled, &load);
 }
@@ -207,6 +210,7 @@ void Planet::State::request(PagingQueue& queue) {
             continue;
         }
         parent.childrenState = ChildrenState::Requested;
+        if (keepsMoves) moves.requested.push_back(one.parentId);
         queue.submit({.parent = one.parentId,
                       .priority = one.priority,
                       .renewedFrame = frame,
@@ -292,6 +296,7 @@ void Planet::State::chooseYielding() {
 void Planet::State::dropYielding() {
     if (yielding.empty()) return;
     pager->withQueue([&](PagingQueue& queue) {
+        noteTaken(queue);
         for (const ChunkId& parentId : yielding) evict(queue, findNode(tree, parentId));
     });
     yielding.clear();
@@ -384,13 +389,17 @@ void Planet::State::renumber() {
 void Planet::State::resize(std::uint32_t newCapacity) {
     slotCapacity = newCapacity;
     const std::size_t blocks = (slotCapacity - faceCount) / quadrantCount;
-    pager->withQueue([&](PagingQueue& queue) { shrinkTo(queue, blocks); });
+    pager->withQueue([&](PagingQueue& queue) {
+        noteTaken(queue);
+        shrinkTo(queue, blocks);
+    });
     renumber();
     afterDrops();
 }
 
 void Planet::State::dropEverything() {
     pager->withQueue([&](PagingQueue& queue) {
+        noteTaken(queue);
         for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame)) {
             withdraw(request);
         }
@@ -403,6 +412,57 @@ void Planet::State::dropEverything() {
     }
     pager->forgetAttempts();
     afterDrops();
+}
+
+// First what is queued, so that no loader takes it; then what is being read.
+void Planet::State::startAnew() {
+    pager->withQueue([&](PagingQueue& queue) {
+        for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame)) {
+            withdraw(request);
+        }
+        queue.cancelNotRenewed(PagingType::PageOut, noFrame);
+    });
+    for (const PagingRequest& request : pager->giveUp()) {
+        ++thrownAway;
+        note(request, PagingOutcome::Cancelled);
+    }
+    pager->forgetAttempts();
+    tree.nodes.resize(faceCount);
+    tree.freeGroups.clear();
+    tree.residentChunks = faceCount;
+    for (ChunkNode& root : tree.nodes) {
+        if (root.childrenState != ChildrenState::None) root.childrenState = ChildrenState::Absent;
+        root.firstChild = noNode;
+        root.lastUsedFrame = 0;
+    }
+    freeSlots = freeSlotsFrom(faceCount, slotCapacity);
+    promised = 0;
+    watched.clear();
+    yielding.clear();
+    wanted.clear();
+    views.assign(1, {});
+    usedChunks = 0;
+    paging.budgetWaits = 0;
+    frame = 0;
+    changed = true;
+    oldestTicketKept = nextTicket;
+    moves = {};
+}
+
+// Reads that were given up before their end. Nothing else can have asked for their blocks meanwhile.
+void Planet::State::putBack(std::vector<PagingRequest> givenUp) {
+    if (keepsMoves) moves = {.gaveUp = true};
+    pager->withQueue([&](PagingQueue& queue) {
+        noteTaken(queue);
+        for (PagingRequest& request : givenUp) {
+            if (request.ticket >= oldestTicketKept) {
+                queue.submit(std::move(request));
+                continue;
+            }
+            ++thrownAway;
+            note(request, PagingOutcome::Cancelled);
+        }
+    });
 }
 
 // The selections, which hold nodes and slots, must not outlive what was dropped or moved between steps.
@@ -427,6 +487,11 @@ void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, co
     event.type = request.type;
     history.push_back(event);
     if (history.size() > eventsKept) history.pop_front();
+}
+
+void Planet::State::noteTaken(const PagingQueue& queue) {
+    const std::vector<ChunkId> taken = pager->takeTaken(queue);
+    if (keepsMoves) moves.taken.insert(moves.taken.end(), taken.begin(), taken.end());
 }
 
 void Planet::State::count() {

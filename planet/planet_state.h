@@ -60,6 +60,9 @@ struct Planet::State {
     double nowS = 0;                            // since it was opened, as of the last step
     std::deque<PagingEvent> history;
     std::vector<std::string> problems;
+    double lastElapsedS = 0;  // of the last step: since the one before
+    bool keepsMoves = false;
+    PagingMoves moves;
     std::unique_ptr<Pager> pager;
 
     double clockS();
@@ -88,8 +91,12 @@ struct Planet::State {
     // Changes between steps.
     void resize(std::uint32_t newCapacity);
     void dropEverything();
+    void startAnew();
+    void putBack(std::vector<PagingRequest> givenUp);
 
     void note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load = nullptr);
+    // Of the queue that is locked, before it is changed.
+    void noteTaken(const PagingQueue& queue);
 
 private:
     bool isOver(std::size_t blocks) const;

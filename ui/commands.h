@@ -13,6 +13,7 @@
 #include "planet/chunk_id.h"
 #include "planet/height_source.h"
 #include "planet/view.h"
+#include "ui/replay_controls.h"
 #include "ui/view_settings.h"
 
 namespace ui {
@@ -135,6 +136,28 @@ struct KeepMeasuringErrors {
     bool on = false;
 };
 
+// Recorded flights.
+struct StartRecording {  // the planet starts anew; no name: the next free one
+    std::string name;
+};
+struct StopRecording {};  // and keeps it
+struct DeleteRecording {
+    std::filesystem::path file;
+};
+struct StartReplay {
+    std::filesystem::path file;
+};
+struct MoveReplay {  // until so many frames are made, at least one
+    std::size_t frame = 1;
+};
+struct MoveReplayTo {  // to the last frame that ends no later than this, seconds from the start
+    double timeS = 0;
+};
+struct SetReplay {
+    ReplayControls controls;
+};
+struct StopReplay {};  // gives back what was before
+
 using Command =
     std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
                  AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
@@ -142,7 +165,8 @@ using Command =
                  StartBake, BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo,
                  Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit,
                  MeasureCracks, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop, ShowPopSide,
-                 MeasureErrors, KeepMeasuringErrors>;
+                 MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording, DeleteRecording,
+                 StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

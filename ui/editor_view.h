@@ -19,6 +19,7 @@
 #include "ui/log_panel.h"
 #include "ui/pops_view.h"
 #include "ui/probe_view.h"
+#include "ui/recording_view.h"
 #include "ui/view_settings.h"
 
 namespace ui {
@@ -118,6 +119,7 @@ struct EditorView {
     CracksView cracks{};
     PopsView pops{};
     ProbeView probe{};
+    RecordingView recording{};
 };
 
 }  // namespace ui

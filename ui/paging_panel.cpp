@@ -128,7 +128,8 @@ void seedKnob(std::uint32_t& seed) {
     tooltip(explanation);
 }
 
-void badDisk(planet::BadDiskSettings& disk) {
+void badDisk(PagingKnobs& paging) {
+    planet::BadDiskSettings& disk = paging.badDisk;
     const planet::BadDiskSettings defaults;
     if (isBad(disk)) {
         ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
@@ -156,6 +157,14 @@ void badDisk(planet::BadDiskSettings& disk) {
              "Reads are served in an order of the seed's instead of the most urgent first: what the "
              "priorities are good for.");
     seedKnob(disk.seed);
+    int time = paging.simulated ? 1 : 0;
+    if (choiceIndex(
+            "Reads end", time, 0, "by the clock\0simulated\0",
+            "By the clock: loader threads, as fast as they are. Simulated: no thread reads; a read lasts "
+            "just as long as the knobs above and the seed say, in the time of frames, so that the same "
+            "flight brings the same blocks in the same frames on any machine. Without latency or "
+            "bandwidth a read takes no time at all. What is being read when this changes is read anew."))
+        paging.simulated = time == 1;
 }
 
 // What is read from the planet now and then.
@@ -503,7 +512,7 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
                  Commands& commands) {
     if (!view.planet) {
         knobs(settings.paging);
-        badDisk(settings.paging.badDisk);
+        badDisk(settings.paging);
         return emptyState("Requests show here once a planet is open.");
     }
     refresh(view, state);
@@ -512,12 +521,12 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     const std::array columns = {Column{"Paging", 1.2f, 0,
                                        [&] {
                                            controls(view, state, settings, commands);
-                                           if (wide && section("Bad disk")) badDisk(settings.paging.badDisk);
+                                           if (wide && section("Bad disk")) badDisk(settings.paging);
                                        }},
                                 Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
                                 Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
     drawColumns("paging", columns);
-    if (!wide && section("Bad disk")) badDisk(settings.paging.badDisk);
+    if (!wide && section("Bad disk")) badDisk(settings.paging);
 }
 
 }  // namespace ui

@@ -23,9 +23,10 @@ enum class PanelId : std::uint8_t {
     Errors,
     Cracks,
     Pops,
-    Probe
+    Probe,
+    Flight
 };
-inline constexpr std::size_t panelCount = 16;
+inline constexpr std::size_t panelCount = 17;
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
 inline constexpr std::size_t dockCount = 3;
@@ -55,6 +56,7 @@ inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
     {PanelId::Cracks, "Cracks", "cracks", "Ctrl+Shift+2", Dock::Left, false},
     {PanelId::Pops, "Pops", "pops", "Ctrl+Shift+3", Dock::Bottom, false},
     {PanelId::Probe, "Precision", "probe", "Ctrl+Shift+4", Dock::Left, false},
+    {PanelId::Flight, "Flight", "flight", "Ctrl+Shift+5", Dock::Bottom, false},
 }};
 
 }  // namespace ui

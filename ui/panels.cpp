@@ -37,6 +37,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return popsPanel(view, states.pops, settings, commands);
         case PanelId::Probe:
             return probePanel(view, states.probe, settings, commands);
+        case PanelId::Flight:
+            return flightPanel(view, states.flight, settings, commands);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "ui/cracks_panel.h"
 #include "ui/editor_view.h"
 #include "ui/errors_panel.h"
+#include "ui/flight_panel.h"
 #include "ui/frame_panel.h"
 #include "ui/lod_panel.h"
 #include "ui/log_panel.h"
@@ -36,6 +37,7 @@ struct PanelStates {
     CracksPanelState cracks;
     PopsPanelState pops;
     ProbePanelState probe;
+    FlightPanelState flight;
 };
 
 // Fills the current window with a panel.

@@ -40,6 +40,7 @@ struct PagingKnobs {
     int loaderThreads = 1;     // threads that read chunks, [1, 64]
     double uploadLimitMs = 4;  // time a frame spent on loaded chunks, ms, [0.1, 100]
     planet::BadDiskSettings badDisk;
+    bool simulated = false;  // reads end by the bad disk and its seed in the time of frames, not by the clock
 
     bool operator==(const PagingKnobs&) const = default;
 };

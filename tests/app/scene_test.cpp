@@ -72,6 +72,11 @@ TEST_F(SceneTest, everyKnobOfPagingReachesTheLibrary) {
     EXPECT_EQ(paging.uploadLimitMs, 1.5);
     EXPECT_TRUE(paging.paused);
     EXPECT_EQ(paging.badDisk, settings_.paging.badDisk);
+    EXPECT_EQ(paging.time, planet::PagingTime::Clock);
+    settings_.paging.simulated = true;
+    EXPECT_EQ(pagingSettingsOf(settings_).time, planet::PagingTime::Simulated);
+    EXPECT_EQ(pagingSettingsOf(settings_, false, planet::PagingTime::Recorded).time,
+              planet::PagingTime::Recorded);
 }
 
 TEST_F(SceneTest, everyKnobOfDrawingReachesTheLibraryAndHeightsAreExaggerated) {

@@ -1,0 +1,568 @@
+#include "app/flight_record.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "app/settings_table.h"
+#include "planet/atomic_file.h"
+#include "planet/chunk_file_format.h"
+#include "planet/little_endian.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::ByteReader;
+using planet::ByteWriter;
+using planet::ChunkId;
+using planet::PagingMoves;
+using planet::Result;
+
+constexpr std::array<char, 8> magic = {'W', 'Y', 'F', 'L', 'I', 'G', 'H', 'T'};
+constexpr std::size_t headerBytes = 28;
+constexpr std::size_t mostTextBytes = 1 << 16;
+constexpr int mostSidePx = 1 << 16;
+constexpr double mostElapsedS = 1e6;
+constexpr int compressionLevel = 9;
+
+// What of a frame is not as in the one before.
+constexpr int callsPart = 1, viewsPart = 2, drawnPart = 4, movesPart = 8, hashPart = 16;
+
+void putVarint(ByteWriter& out, std::uint64_t value) {
+    for (; value >= 0x80; value >>= 7) out.put(static_cast<std::uint8_t>(value | 0x80));
+    out.put(static_cast<std::uint8_t>(value));
+}
+
+void putText(ByteWriter& out, std::string_view text) {
+    putVarint(out, text.size());
+    for (const char letter : text) out.put(letter);
+}
+
+void putId(ByteWriter& out, const ChunkId& id) {
+    out.put(static_cast<std::uint8_t>(static_cast<unsigned>(id.face) * 32 + id.level));
+    putVarint(out, id.x);
+    putVarint(out, id.y);
+}
+
+void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
+    putVarint(out, ids.size());
+    for (const ChunkId& id : ids) putId(out, id);
+}
+
+void putMoves(ByteWriter& out, const PagingMoves& moves) {
+    out.put(static_cast<std::uint8_t>(moves.gaveUp));
+    putIds(out, moves.taken);
+    putVarint(out, moves.arrived.size());
+    for (const PagingMoves::Arrival& arrival : moves.arrived) {
+        out.put(static_cast<std::uint8_t>(arrival.outcome));
+        putId(out, arrival.parent);
+    }
+    putIds(out, moves.requested);
+}
+
+bool empty(const PagingMoves& moves) {
+    return moves == PagingMoves{};
+}
+
+std::array<double, 13> numbersOf(const planet::View& v) {
+    return {v.eyeM.x, v.eyeM.y, v.eyeM.z, v.right.x, v.right.y, v.right.z,         v.up.x,
+            v.up.y,   v.up.z,   v.back.x, v.back.y,  v.back.z,  v.horizontalFovRad};
+}
+
+bool sameView(const FlownView& a, const FlownView& b) {
+    return numbersOf(a.view) == numbersOf(b.view) && a.view.widthPx == b.view.widthPx &&
+           a.view.heightPx == b.view.heightPx && a.priorityFactor == b.priorityFactor;
+}
+
+void putView(ByteWriter& out, const FlownView& flown) {
+    for (const double number : numbersOf(flown.view)) out.put(number);
+    putVarint(out, static_cast<std::uint64_t>(flown.view.widthPx));
+    putVarint(out, static_cast<std::uint64_t>(flown.view.heightPx));
+    out.put(flown.priorityFactor);
+}
+
+void putCalls(ByteWriter& out, const std::vector<CalledInFlight>& calls) {
+    putVarint(out, calls.size());
+    for (const CalledInFlight& called : calls) {
+        out.put(static_cast<std::uint8_t>(called.call));
+        if (called.call == FlightCall::Settings) {
+            out.put(static_cast<std::uint8_t>(called.pagingPaused));
+            putVarint(out, called.settings.size());
+            for (const std::string& assignment : called.settings) putText(out, assignment);
+        }
+        putMoves(out, called.moves);
+    }
+}
+
+std::uint64_t hashOf(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+// Reads what may be cut off or made up. After the first thing that is wrong it gives zeros, and ok() is
+// false.
+class Reader {
+public:
+    Reader(std::span<const std::byte> bytes, int deepest) : in_(bytes), deepest_(deepest) {}
+
+    bool ok() const { return problem_.empty(); }
+    const std::string& problem() const { return problem_; }
+    bool atEnd() const { return in_.rest().empty(); }
+    void fail(std::string problem) {
+        if (ok()) problem_ = std::move(problem);
+    }
+    void setDeepest(int level) { deepest_ = level; }
+
+    template <class T>
+    T get() {
+        if (ok() && in_.rest().size() < sizeof(T)) fail("is truncated");
+        return ok() ? in_.get<T>() : T{};
+    }
+    std::uint64_t varint() {
+        std::uint64_t value = 0;
+        for (int shift = 0; shift < 63; shift += 7) {
+            const auto byte = get<std::uint8_t>();
+            value |= std::uint64_t{byte & 0x7Fu} << shift;
+            if (byte < 0x80) return value;
+        }
+        fail("holds a number that is too large");
+        return 0;
+    }
+    // Of things of at least so many bytes.
+    std::size_t count(std::size_t bytesEach) {
+        const std::uint64_t wanted = varint();
+        if (ok() && wanted > in_.rest().size() / bytesEach)
+            fail(fmt::format("says that it holds {} of something, which is more than it has room for",
+                             wanted));
+        return ok() ? static_cast<std::size_t>(wanted) : 0;
+    }
+    std::string text() {
+        const std::size_t size = count(1);
+        if (size > mostTextBytes) fail(fmt::format("holds a text of {} bytes", size));
+        std::string text;
+        for (std::size_t i = 0; i < size && ok(); ++i) text.push_back(get<char>());
+        return text;
+    }
+    double number(double low, double high) {
+        const auto value = get<double>();
+        if (ok() && !(value >= low && value <= high))
+            fail(fmt::format("holds {} where {} to {} would be right", value, low, high));
+        return ok() ? value : low;
+    }
+    ChunkId id() {
+        const auto first = get<std::uint8_t>();
+        const std::uint64_t x = varint(), y = varint();
+        const int level = first % 32;
+        const std::uint64_t across = std::uint64_t{1} << level;
+        if (ok() && (first / 32 >= planet::faceCount || level > deepest_ || x >= across || y >= across))
+            fail("names a chunk that there is not");
+        if (!ok()) return {};
+        return {static_cast<planet::Face>(first / 32), static_cast<std::uint8_t>(level),
+                static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+    }
+    std::vector<ChunkId> ids() {
+        std::vector<ChunkId> all(count(3));
+        for (ChunkId& one : all) one = id();
+        return all;
+    }
+    PagingMoves moves() {
+        PagingMoves moves;
+        moves.gaveUp = get<std::uint8_t>() != 0;
+        moves.taken = ids();
+        moves.arrived.resize(count(4));
+        for (PagingMoves::Arrival& arrival : moves.arrived) {
+            const auto outcome = get<std::uint8_t>();
+            arrival.outcome = static_cast<planet::PagingOutcome>(outcome);
+            if (outcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled) ||
+                arrival.outcome == planet::PagingOutcome::Evicted)
+                fail("says of a read that it ended as none can");
+            arrival.parent = id();
+        }
+        moves.requested = ids();
+        return moves;
+    }
+
+private:
+    ByteReader in_;
+    int deepest_;
+    std::string problem_;
+};
+
+constexpr double farthestM = 1e12;
+
+glm::dvec3 readVector(Reader& in, double most) {
+    glm::dvec3 vector;
+    for (int i = 0; i < 3; ++i) vector[i] = in.number(-most, most);
+    return vector;
+}
+
+bool isUnit(const glm::dvec3& vector) {
+    return std::abs(glm::length(vector) - 1) < 1e-6;
+}
+
+FlownView readView(Reader& in) {
+    FlownView flown;
+    planet::View& view = flown.view;
+    view.eyeM = readVector(in, farthestM);
+    view.right = readVector(in, 2);
+    view.up = readVector(in, 2);
+    view.back = readVector(in, 2);
+    const bool square = isUnit(view.right) && isUnit(view.up) && isUnit(view.back) &&
+                        glm::length(glm::cross(view.right, view.up) - view.back) < 1e-6;
+    if (in.ok() && glm::length(view.eyeM) < 1e-3) in.fail("holds a camera at the planet's centre");
+    if (!square) in.fail("holds a camera whose axes are not at right angles");
+    view.horizontalFovRad = in.number(1e-6, 3.1415);
+    const std::uint64_t width = in.varint(), height = in.varint();
+    if (width < 1 || height < 1 || width > mostSidePx || height > mostSidePx)
+        in.fail(fmt::format("holds a picture of {} x {} pixels", width, height));
+    if (!in.ok()) return {};
+    view.widthPx = static_cast<int>(width);
+    view.heightPx = static_cast<int>(height);
+    flown.priorityFactor = in.number(1e-9, 1e9);
+    return flown;
+}
+
+FlightData readData(Reader& in) {
+    FlightData data;
+    data.chunkFile = in.text();
+    data.shape.radiusM = in.number(1e-3, 1e9);
+    data.shape.quantumM = in.number(1e-12, 1e9);
+    data.shape.baseHeightM = in.number(-1e9, 1e9);
+    data.shape.faceCellsLog2 = in.get<std::uint8_t>();
+    data.shape.chunkCellsLog2 = in.get<std::uint8_t>();
+    const planet::PlanetShape& shape = data.shape;
+    if (shape.chunkCellsLog2 < 4 || shape.chunkCellsLog2 > 7 || shape.faceCellsLog2 < shape.chunkCellsLog2 ||
+        shape.faceCellsLog2 > planet::maxFaceCellsLog2)
+        in.fail("holds a planet of a shape that there is not");
+    data.fileBytes = in.get<std::uint64_t>();
+    data.headerHash = in.get<std::uint64_t>();
+    return data;
+}
+
+void putData(ByteWriter& out, const FlightData& data) {
+    putText(out, data.chunkFile);
+    out.put(data.shape.radiusM);
+    out.put(data.shape.quantumM);
+    out.put(data.shape.baseHeightM);
+    out.put(static_cast<std::uint8_t>(data.shape.faceCellsLog2));
+    out.put(static_cast<std::uint8_t>(data.shape.chunkCellsLog2));
+    out.put(data.fileBytes);
+    out.put(data.headerHash);
+}
+
+// Views without what was drawn.
+std::vector<FlownView> readViews(Reader& in) {
+    std::vector<FlownView> views(in.get<std::uint8_t>());
+    if (views.empty() || views.size() > planet::maxViews) {
+        in.fail(fmt::format("holds a frame of {} views", views.size()));
+        return {};
+    }
+    for (FlownView& view : views) view = readView(in);
+    return views;
+}
+
+// settings: as of then, for what is wrong with a change.
+CalledInFlight readCall(Reader& in, ui::ViewSettings& settings) {
+    CalledInFlight called;
+    const auto call = in.get<std::uint8_t>();
+    if (call > static_cast<std::uint8_t>(FlightCall::Settings)) in.fail("holds a call that there is not");
+    called.call = static_cast<FlightCall>(call);
+    if (in.ok() && called.call == FlightCall::Settings) {
+        called.pagingPaused = in.get<std::uint8_t>() != 0;
+        called.settings.resize(in.count(1));
+        for (std::string& assignment : called.settings) assignment = in.text();
+        if (const Result<void> good = applyFlightSettings(called.settings, settings); in.ok() && !good)
+            in.fail("holds a setting that is wrong: " + good.error().message);
+    }
+    called.moves = in.moves();
+    return called;
+}
+
+// before: null for the first frame.
+FlightFrame readFrame(Reader& in, const FlightFrame* before, ui::ViewSettings& settings) {
+    FlightFrame frame;
+    const auto parts = in.get<std::uint8_t>();
+    frame.elapsedS = in.number(0, mostElapsedS);
+    if (before) frame.selectionHash = before->selectionHash;
+    if (parts & callsPart) {
+        frame.calls.resize(in.count(5));
+        for (CalledInFlight& called : frame.calls) called = readCall(in, settings);
+    }
+    if (parts & viewsPart) {
+        frame.views = readViews(in);
+    } else if (before) {
+        frame.views = before->views;
+        for (FlownView& view : frame.views) {
+            view.appeared.clear();
+            view.vanished.clear();
+        }
+    } else {
+        in.fail("begins with a frame without a view");
+    }
+    if (parts & drawnPart) {
+        for (FlownView& view : frame.views) {
+            view.appeared = in.ids();
+            view.vanished = in.ids();
+        }
+    }
+    if (parts & movesPart) frame.moves = in.moves();
+    if (parts & hashPart) frame.selectionHash = in.get<std::uint64_t>();
+    return frame;
+}
+
+FlightRecord readContent(Reader& in) {
+    FlightRecord record;
+    record.name = in.text();
+    record.data = readData(in);
+    if (!in.ok()) return record;
+    in.setDeepest(std::min(planet::leafLevel(record.data.shape), planet::maxLevel));
+    const auto frames = in.get<std::uint32_t>();
+    if (frames == 0 || frames > maxFlightFrames)
+        in.fail(fmt::format("says that it holds {} frames; 1 to {} would be right", frames, maxFlightFrames));
+    ui::ViewSettings settings;
+    for (std::uint32_t i = 0; i < frames && in.ok(); ++i) {
+        const FlightFrame* before = record.frames.empty() ? nullptr : &record.frames.back();
+        FlightFrame frame = readFrame(in, before, settings);
+        record.frames.push_back(std::move(frame));
+    }
+    if (in.ok() && !in.atEnd()) in.fail("goes on after its end");
+    return record;
+}
+
+Result<std::vector<std::byte>> readWhole(const fs::path& file) {
+    std::error_code status;
+    if (!fs::exists(file, status)) return planet::badInput(fmt::format("{}: no such file", file.string()));
+    const std::uintmax_t size = fs::is_regular_file(file, status) ? fs::file_size(file, status) : 0;
+    if (size < headerBytes || size > 2 * maxFlightBytes) {
+        return planet::badInput(
+            fmt::format("{}: is no recorded flight: it has {} bytes; {} to {} would be right", file.string(),
+                        size, headerBytes, 2 * maxFlightBytes));
+    }
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (!stream) return planet::ioError(fmt::format("{}: cannot be read", file.string()));
+    return bytes;
+}
+
+Result<std::vector<std::byte>> readContentBytes(const fs::path& file) {
+    const auto wrong = [&](const std::string& what) {
+        return planet::badInput(fmt::format("{}: {}", file.string(), what));
+    };
+    const Result<std::vector<std::byte>> bytes = readWhole(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (std::memcmp(bytes->data(), magic.data(), magic.size()) != 0)
+        return wrong("is no recorded flight; a .flight file by Worldy would be right");
+    const std::span<const std::byte> all(*bytes);
+    ByteReader header(all.subspan(magic.size(), headerBytes - magic.size()));
+    const auto version = header.get<std::uint32_t>();
+    if (version != flightRecordVersion) {
+        return wrong(fmt::format("is of version {}; this program reads version {}: record it again", version,
+                                 flightRecordVersion));
+    }
+    const auto size = header.get<std::uint64_t>();
+    const auto checksum = header.get<std::uint64_t>();
+    if (size > maxFlightBytes + (1u << 20))
+        return wrong(fmt::format("says that it holds {} bytes; {} is the most", size, maxFlightBytes));
+    std::vector<std::byte> content(static_cast<std::size_t>(size));
+    const std::size_t got = ZSTD_decompress(content.data(), content.size(), bytes->data() + headerBytes,
+                                            bytes->size() - headerBytes);
+    if (ZSTD_isError(got) || got != content.size() || hashOf(content) != checksum)
+        return wrong("is damaged or truncated: its content does not match its checksum");
+    return content;
+}
+
+}  // namespace
+
+FlightData flightDataOf(const planet::ChunkFile& file) {
+    const auto header = planet::headerBytes(file.info(), file.sizeBytes());
+    return {file.name(), file.info().shape, file.sizeBytes(), hashOf(header)};
+}
+
+Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, const FlightData& present) {
+    const auto differs = [&](const std::string& how) {
+        return planet::badInput(
+            fmt::format("{}: was recorded over another file than {}: {}; {} or a copy of it "
+                        "would be right",
+                        flight.string(), present.chunkFile, how, recorded.chunkFile));
+    };
+    const planet::PlanetShape &a = recorded.shape, &b = present.shape;
+    if (a.radiusM != b.radiusM || a.quantumM != b.quantumM || a.baseHeightM != b.baseHeightM)
+        return differs(fmt::format("a radius of {} m and steps of {} m, not {} m and {} m", a.radiusM,
+                                   a.quantumM, b.radiusM, b.quantumM));
+    if (a.faceCellsLog2 != b.faceCellsLog2 || a.chunkCellsLog2 != b.chunkCellsLog2)
+        return differs(fmt::format("faces of {} samples in chunks of {}, not {} in {}",
+                                   planet::faceCells(a) + 1, planet::chunkSize(a), planet::faceCells(b) + 1,
+                                   planet::chunkSize(b)));
+    if (recorded.fileBytes != present.fileBytes)
+        return differs(fmt::format("{} bytes, not {}", recorded.fileBytes, present.fileBytes));
+    if (recorded.headerHash != present.headerHash) return differs("its header is another");
+    return {};
+}
+
+std::uint64_t selectionHashOf(const planet::Planet& planet) {
+    std::vector<std::byte> bytes;
+    ByteWriter out(bytes);
+    for (std::size_t v = 0; v < planet.viewCount(); ++v) {
+        const planet::Selection& selection = planet.selection(v);
+        out.put(static_cast<std::uint64_t>(selection.draw.size()));
+        for (const planet::DrawItem& item : selection.draw) {
+            out.put(planet::keyOf(item.id));
+            out.put(item.morph);
+            for (const std::uint8_t levels : item.coarserBy) out.put(levels);
+            for (const float morph : item.edgeMorph) out.put(morph);
+        }
+    }
+    return hashOf(bytes);
+}
+
+namespace {
+
+bool isFlightField(const Field& field) {
+    const std::string name = field.name();
+    return isViewTable(field.table) && name != "view.flight" && name != "view.mode";
+}
+
+}  // namespace
+
+std::vector<std::string> flightSettings(const ui::ViewSettings& now) {
+    Settings settings;
+    settings.view = now;
+    std::vector<std::string> assignments;
+    for (const Field& field : fieldsOf(settings)) {
+        if (isFlightField(field)) assignments.push_back(fmt::format("{}={}", field.name(), plainText(field)));
+    }
+    return assignments;
+}
+
+std::vector<std::string> flightSettings(const ui::ViewSettings& before, const ui::ViewSettings& now) {
+    if (before == now) return {};
+    const std::vector<std::string> then = flightSettings(before);
+    std::vector<std::string> changed = flightSettings(now);
+    std::erase_if(changed,
+                  [&, i = std::size_t{0}](const std::string& one) mutable { return one == then[i++]; });
+    return changed;
+}
+
+Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ui::ViewSettings& settings) {
+    Settings all;
+    all.view = settings;
+    for (const std::string& assignment : assignments) {
+        const bool ofView = isViewTable(assignment.substr(0, assignment.find('.')));
+        if (!ofView) return planet::badInput(fmt::format("{:.60}: is no setting of the view", assignment));
+        if (Result<void> set = setSetting(all, assignment); !set) return set;
+    }
+    settings = all.view;
+    return {};
+}
+
+void FlightEncoder::add(const FlightFrame& frame) {
+    const bool newViews = frames_ == 0 || !std::equal(frame.views.begin(), frame.views.end(), views_.begin(),
+                                                      views_.end(), sameView);
+    const bool drawn = std::any_of(frame.views.begin(), frame.views.end(), [](const FlownView& view) {
+        return !view.appeared.empty() || !view.vanished.empty();
+    });
+    const bool newHash = frame.selectionHash != hash_;
+    const int parts = (frame.calls.empty() ? 0 : callsPart) | (newViews ? viewsPart : 0) |
+                      (drawn ? drawnPart : 0) | (empty(frame.moves) ? 0 : movesPart) |
+                      (newHash ? hashPart : 0);
+    ByteWriter out(bytes_);
+    out.put(static_cast<std::uint8_t>(parts));
+    out.put(frame.elapsedS);
+    if (parts & callsPart) putCalls(out, frame.calls);
+    if (newViews) {
+        out.put(static_cast<std::uint8_t>(frame.views.size()));
+        for (const FlownView& view : frame.views) putView(out, view);
+    }
+    if (drawn) {
+        for (const FlownView& view : frame.views) {
+            putIds(out, view.appeared);
+            putIds(out, view.vanished);
+        }
+    }
+    if (parts & movesPart) putMoves(out, frame.moves);
+    if (newHash) out.put(frame.selectionHash);
+    ++frames_;
+    seconds_ += frame.elapsedS;
+    hash_ = frame.selectionHash;
+    views_ = frame.views;
+}
+
+Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
+                                  const FlightData& data) const {
+    std::vector<std::byte> content;
+    ByteWriter out(content);
+    putText(out, name);
+    putData(out, data);
+    out.put(static_cast<std::uint32_t>(frames_));
+    content.insert(content.end(), bytes_.begin(), bytes_.end());
+
+    std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
+    const std::size_t size =
+        ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), compressionLevel);
+    if (ZSTD_isError(size)) {
+        return planet::ioError(
+            fmt::format("{}: cannot be compressed: {}", file.string(), ZSTD_getErrorName(size)));
+    }
+    packed.resize(size);
+    std::vector<std::byte> header;
+    ByteWriter head(header);
+    for (const char letter : magic) head.put(letter);
+    head.put(flightRecordVersion);
+    head.put(static_cast<std::uint64_t>(content.size()));
+    head.put(hashOf(content));
+    Result<planet::AtomicFile> target = planet::AtomicFile::create(file);
+    if (!target) return tl::unexpected(target.error());
+    return target->append(header).and_then([&] { return target->append(packed); }).and_then([&] {
+        return target->commit();
+    });
+}
+
+Result<FlightRecord> loadFlightRecord(const fs::path& file) {
+    const Result<std::vector<std::byte>> content = readContentBytes(file);
+    if (!content) return tl::unexpected(content.error());
+    Reader in(*content, 0);
+    FlightRecord record = readContent(in);
+    if (in.ok()) return record;
+    const std::string where =
+        record.frames.empty() ? "its beginning" : fmt::format("frame {}", record.frames.size());
+    return planet::badInput(
+        fmt::format("{}: {}: it {}; record it again", file.string(), where, in.problem()));
+}
+
+Result<FlightPath> pathOf(const FlightRecord& record, const fs::path& file) {
+    constexpr double leastGapS = 0.1;
+    FlightPath path;
+    path.name = record.name;
+    double timeS = 0;
+    for (std::size_t i = 0; i < record.frames.size(); ++i) {
+        timeS += record.frames[i].elapsedS;
+        const bool last = i + 1 == record.frames.size();
+        if (!path.keys.empty() && timeS - path.keys.back().timeS < leastGapS &&
+            !(last && path.keys.size() == 1))
+            continue;
+        if (!path.keys.empty() && timeS <= path.keys.back().timeS) continue;
+        planet::CameraPose pose =
+            planet::poseFromView(record.frames[i].views[0].view, record.data.shape.radiusM);
+        pose.altitudeM = std::max(pose.altitudeM, 1.0);  // the least that a flight has
+        path.keys.push_back({timeS, pose});
+    }
+    if (path.keys.size() >= 2) return path;
+    return planet::badInput(fmt::format(
+        "{}: is a single moment; a recording of two frames or more would be right", file.string()));
+}
+
+bool isFlightRecord(const fs::path& file) {
+    return file.extension() == ".flight";
+}
+
+}  // namespace worldy

@@ -1,0 +1,184 @@
+#include "app/flight_replay.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "app/recorder.h"
+#include "app/scene.h"
+#include "planet/lod_changes.h"
+
+namespace worldy {
+
+namespace {
+
+using Ids = std::vector<planet::ChunkId>;
+using planet::PagingMoves;
+using planet::Result;
+
+Ids without(Ids from, Ids what) {
+    std::sort(from.begin(), from.end());
+    std::sort(what.begin(), what.end());
+    Ids rest;
+    std::set_difference(from.begin(), from.end(), what.begin(), what.end(), std::back_inserter(rest));
+    return rest;
+}
+
+void change(Ids& drawn, const FlownView& view) {
+    Ids rest = without(drawn, view.vanished);
+    rest.insert(rest.end(), view.appeared.begin(), view.appeared.end());
+    std::sort(rest.begin(), rest.end());
+    drawn = std::move(rest);
+}
+
+Ids parentsOf(const std::vector<PagingMoves::Arrival>& arrivals) {
+    Ids ids;
+    for (const PagingMoves::Arrival& arrival : arrivals) ids.push_back(arrival.parent);
+    return ids;
+}
+
+}  // namespace
+
+ReplayedPlanet headless(planet::Planet& planet) {
+    return {planet, [](std::uint32_t, std::span<const std::int16_t>) {},
+            [&planet](const ui::ViewSettings& settings, bool paused, planet::PagingTime time) {
+                planet.setExaggeration(settings.surface.exaggeration);
+                return planet.setPaging(pagingSettingsOf(settings, paused, time)).map([](bool) {});
+            }};
+}
+
+Result<FlightReplay> FlightReplay::create(std::shared_ptr<const FlightRecord> record, ReplayPaging paging,
+                                          std::vector<std::string> assignments) {
+    ui::ViewSettings settings;
+    if (const Result<void> good = applyFlightSettings(assignments, settings); !good)
+        return tl::unexpected(good.error());
+    return FlightReplay(std::move(record), paging, std::move(assignments));
+}
+
+const planet::View& FlightReplay::view() const {
+    return record_->frames[next_ > 0 ? next_ - 1 : 0].views[0].view;
+}
+
+planet::PagingTime FlightReplay::time() const {
+    return paging_ == ReplayPaging::Simulated ? planet::PagingTime::Simulated : planet::PagingTime::Recorded;
+}
+
+planet::PagingSettings FlightReplay::pagingAtStart() const {
+    ui::ViewSettings settings;
+    bool paused = false;
+    for (const CalledInFlight& called : record_->frames[0].calls) {
+        if (called.call != FlightCall::Settings) continue;
+        static_cast<void>(applyFlightSettings(called.settings, settings));
+        paused = called.pagingPaused;
+    }
+    static_cast<void>(applyFlightSettings(assignments_, settings));
+    return pagingSettingsOf(settings, paused, time());
+}
+
+void FlightReplay::rewind(planet::Planet& planet) {
+    planet.startAnew();
+    planet.keepMoves(true);
+    settings_ = {};
+    next_ = 0;
+    timeS_ = 0;
+    drawn_.clear();
+    different_ = 0;
+    first_.reset();
+}
+
+void FlightReplay::follow(planet::Planet& planet, const PagingMoves& moves) const {
+    // What cannot be followed shows in what is compared.
+    if (paging_ == ReplayPaging::AsRecorded) static_cast<void>(planet.follow(moves));
+}
+
+Result<void> FlightReplay::repeat(const CalledInFlight& called, const ReplayedPlanet& replayed) {
+    if (called.call == FlightCall::Settings) {
+        // Both were checked when they were read.
+        static_cast<void>(applyFlightSettings(called.settings, settings_));
+        static_cast<void>(applyFlightSettings(assignments_, settings_));
+        follow(replayed.planet, called.moves);
+        return replayed.apply(settings_, called.pagingPaused, time());
+    }
+    follow(replayed.planet, called.moves);
+    if (called.call == FlightCall::DropAll) replayed.planet.dropAll();
+    if (called.call == FlightCall::LoadOne) replayed.planet.loadOne();
+    if (called.call == FlightCall::RetryFailed) replayed.planet.retryFailed();
+    return {};
+}
+
+Result<void> FlightReplay::step(const ReplayedPlanet& replayed) {
+    const FlightFrame& frame = record_->frames[next_];
+    planet::Planet& planet = replayed.planet;
+    for (const CalledInFlight& called : frame.calls) {
+        if (Result<void> done = repeat(called, replayed); !done) return done;
+    }
+    follow(planet, frame.moves);
+    std::vector<planet::ViewInput> views;
+    for (const FlownView& view : frame.views)
+        views.push_back({view.view, lodSettingsOf(settings_), view.priorityFactor});
+    planet.takeMoves();  // those of the calls are not compared
+    planet.step(views, replayed.upload, frame.elapsedS);
+    timeS_ += frame.elapsedS;
+    ++next_;
+    compare(planet, frame);
+    return {};
+}
+
+void FlightReplay::compare(planet::Planet& planet, const FlightFrame& frame) {
+    drawn_.resize(frame.views.size());
+    for (std::size_t v = 0; v < frame.views.size(); ++v) change(drawn_[v], frame.views[v]);
+    const PagingMoves moves = planet.takeMoves();
+    ReplayDifference difference{next_ - 1, timeS_, {}, {}, {}};
+    const auto differs = [&](const char* what, const Ids& replayed, const Ids& recorded) {
+        difference.what = what;
+        difference.onlyReplayed = without(replayed, recorded);
+        difference.onlyRecorded = without(recorded, replayed);
+    };
+    if (selectionHashOf(planet) != frame.selectionHash) {
+        for (std::size_t v = 0; v < frame.views.size(); ++v) {
+            const Ids now = drawnIds(planet.selection(v));
+            if (v == 0 || now != drawn_[v]) differs("selection", now, drawn_[v]);
+            if (now != drawn_[v]) break;
+        }
+    } else if (moves.requested != frame.moves.requested) {
+        differs("requests", moves.requested, frame.moves.requested);
+    } else if (moves.arrived != frame.moves.arrived) {
+        differs("arrivals", parentsOf(moves.arrived), parentsOf(frame.moves.arrived));
+    }
+    if (difference.what.empty()) return;
+    if (!first_) first_ = std::move(difference);
+    ++different_;
+}
+
+std::vector<FlightChange> changesIn(const FlightRecord& record) {
+    std::vector<FlightChange> all;
+    planet::LodChanges changes;
+    Ids drawn;
+    for (std::size_t i = 0; i < record.frames.size(); ++i) {
+        const FlownView& view = record.frames[i].views[0];
+        if (view.appeared.empty() && view.vanished.empty()) continue;
+        change(drawn, view);
+        planet::Selection selection;
+        std::set<planet::ChunkId> above;
+        for (const planet::ChunkId& id : drawn) {
+            selection.draw.emplace_back().id = id;
+            for (planet::ChunkId up = id; up.level > 0;) {
+                up = planet::parentOf(up);
+                if (!above.insert(up).second) break;
+            }
+        }
+        for (const planet::ChunkId& id : above) selection.splits.push_back({planet::noNode, id, 0});
+        // By frame, not by time: changes of one frame are then those that bear its number.
+        changes.add(selection, static_cast<double>(i));
+        FlightChange found{i, 0, 0};
+        for (auto it = changes.recent().rbegin(); it != changes.recent().rend(); ++it) {
+            if (it->timeS != static_cast<double>(i)) break;
+            ++(it->type == planet::LodChangeType::Split ? found.splits : found.merges);
+        }
+        if (found.splits + found.merges > 0 && i > 0) all.push_back(found);
+    }
+    return all;
+}
+
+}  // namespace worldy

@@ -1,0 +1,372 @@
+#include "app/flight_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <xxhash.h>
+#include <zstd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "app/flight_replay.h"
+#include "app/recorder.h"
+#include "app/scene.h"
+#include "planet/bake.h"
+#include "planet/little_endian.h"
+#include "tests/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+using tests::TemporaryFolder;
+
+// A planet of hills in a file, and flights over it.
+class FlightRecordTest : public testing::Test {
+protected:
+    FlightRecordTest() { bakeTo("hills.chk", 257); }
+
+    void bakeTo(const std::string& name, int faceSize) const {
+        const std::filesystem::path image = folder_ / "hills.pgm";
+        std::ofstream stream(image, std::ios::binary);
+        stream << "P5\n256 128\n255\n";
+        for (int i = 0; i < 256 * 128; ++i)
+            stream.put(static_cast<char>(100 + 100 * std::sin(0.15 * (i % 256)) * std::cos(0.2 * (i / 256))));
+        stream.close();
+        planet::HeightSourceSettings scale;
+        scale.metresPerUnit = 20;
+        const auto source = planet::openHeightSource(image, scale);
+        planet::BakeSettings settings;
+        settings.faceSize = faceSize;
+        settings.chunkSize = 17;
+        settings.radiusM = 1e5;
+        if (!source || !planet::bake(*source, settings, folder_ / name)) throw std::runtime_error("no bake");
+    }
+    std::unique_ptr<planet::Planet> openPlanet(const ui::ViewSettings& settings) const {
+        return planet::Planet::open(folder_ / "hills.chk", pagingSettingsOf(settings)).value();
+    }
+    static planet::View viewAt(int frame) {
+        planet::CameraPose pose;
+        pose.latitudeDeg = 10 + 0.1 * frame;
+        pose.longitudeDeg = 20 + 0.2 * frame;
+        pose.altitudeM = 60'000 / (1 + 0.05 * frame) + 6000;
+        pose.pitchDeg = -60;
+        return planet::viewFromPose(pose, 1e5, 1.1, 1280, 720);
+    }
+    static void step(planet::Planet& planet, Recorder& recorder, const ui::ViewSettings& settings, int frame,
+                     bool observed = false, bool paused = false, double elapsedS = 1.0 / 60) {
+        EXPECT_TRUE(headless(planet).apply(
+            settings, paused,
+            settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock));
+        recorder.givenSettings(planet, settings, paused);
+        const std::array<planet::ViewInput, 2> views = {
+            {{viewAt(frame), lodSettingsOf(settings)}, {viewAt(300 - frame), lodSettingsOf(settings), 0.5}}};
+        planet.step(std::span(views).first(observed ? 2 : 1), headless(planet).upload, elapsedS);
+        constexpr std::array<double, 2> factors = {1, 0.5};
+        recorder.stepped(planet, factors);
+    }
+
+    // With all that can happen between frames.
+    Recorder flyAbout(planet::Planet& planet, ui::ViewSettings settings, int frames) const {
+        Recorder recorder(planet, "about");
+        for (int frame = 0; frame < frames; ++frame) {
+            if (frame == 30) settings.lod.tauPx = 3.7;
+            if (frame == 60) settings.paging.badDisk.seed = 9;
+            if (frame == 80) settings.surface.exaggeration = 2.5;
+            if (frame == 90) settings.paging.budgetMB = 16;
+            if (frame == 50) {
+                planet.dropAll();
+                recorder.called(planet, FlightCall::DropAll);
+            }
+            const bool paused = frame >= 70 && frame < 78;
+            if (frame == 74) {
+                planet.loadOne();
+                recorder.called(planet, FlightCall::LoadOne);
+            }
+            if (frame == 100) {
+                planet.retryFailed();
+                recorder.called(planet, FlightCall::RetryFailed);
+            }
+            step(planet, recorder, settings, frame, frame > 110, paused);
+            if (!settings.paging.simulated) std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+        return recorder;
+    }
+    static ui::ViewSettings troubled(bool simulated) {
+        ui::ViewSettings settings;
+        settings.lod.tauPx = 1.5;
+        settings.paging.simulated = simulated;
+        settings.paging.loaderThreads = 2;
+        settings.paging.badDisk = {.latencyMs = simulated ? 20.0 : 0.3, .failureRate = 0.05, .seed = 3};
+        return settings;
+    }
+
+    std::filesystem::path written(const Recorder& recorder) const {
+        std::filesystem::path file = folder_ / "a.flight";
+        const planet::Result<void> done = recorder.write(file);
+        EXPECT_TRUE(done) << done.error().message;
+        return file;
+    }
+    FlightReplay replayed(FlightRecord record, ReplayPaging paging, std::vector<std::string> set = {}) const {
+        FlightReplay replay = FlightReplay::create(std::make_shared<const FlightRecord>(std::move(record)),
+                                                   paging, std::move(set))
+                                  .value();
+        const auto planet = planet::Planet::open(folder_ / "hills.chk", replay.pagingAtStart()).value();
+        replay.rewind(*planet);
+        while (!replay.atEnd()) EXPECT_TRUE(replay.step(headless(*planet)));
+        return replay;
+    }
+    static std::string firstOf(const FlightReplay& replay) {
+        const auto& first = replay.firstDifference();
+        return first ? first->what + " of frame " + std::to_string(first->frame) : "none";
+    }
+    std::string errorOf(const std::filesystem::path& file) const {
+        const auto record = loadFlightRecord(file);
+        return record ? "no error" : record.error().message;
+    }
+
+    // The content of a file, and a file of some content with the right checksum.
+    static std::string contentOf(const std::filesystem::path& file) {
+        std::ifstream stream(file, std::ios::binary);
+        const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+        std::uint64_t size = 0;
+        std::memcpy(&size, bytes.data() + 12, 8);
+        std::string content(size, 0);
+        ZSTD_decompress(content.data(), size, bytes.data() + 28, bytes.size() - 28);
+        return content;
+    }
+    std::filesystem::path fileOf(const std::string& content, std::uint32_t version = 1) const {
+        std::string packed(ZSTD_compressBound(content.size()), 0);
+        packed.resize(ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), 1));
+        std::vector<std::byte> header;
+        planet::ByteWriter out(header);
+        out.put(version);
+        out.put(static_cast<std::uint64_t>(content.size()));
+        out.put(static_cast<std::uint64_t>(XXH3_64bits(content.data(), content.size())));
+        std::filesystem::path file = folder_ / "made.flight";
+        std::ofstream stream(file, std::ios::binary);
+        stream << "WYFLIGHT";
+        stream.write(reinterpret_cast<const char*>(header.data()),
+                     static_cast<std::streamsize>(header.size()));
+        stream << packed;
+        return file;
+    }
+
+    const TemporaryFolder folder_;
+};
+
+TEST_F(FlightRecordTest, AFlightByTheClockReplaysExactlyAsRecorded) {
+    const ui::ViewSettings settings = troubled(false);
+    const auto planet = openPlanet(settings);
+    // Something before the recording.
+    planet->settle(viewAt(90), lodSettingsOf(settings), headless(*planet).upload, 60);
+    const Recorder recorder = flyAbout(*planet, settings, 150);
+    EXPECT_GT(planet->paging().loaded, 10u);
+    const FlightReplay replay =
+        replayed(loadFlightRecord(written(recorder)).value(), ReplayPaging::AsRecorded);
+    EXPECT_EQ(firstOf(replay), "none");
+    EXPECT_EQ(replay.next(), 150u);
+    EXPECT_NEAR(replay.timeS(), 2.5, 1e-9);
+}
+
+TEST_F(FlightRecordTest, AFlightBySimulatedTimeReplaysExactlyEitherWay) {
+    const auto planet = openPlanet(troubled(true));
+    const Recorder recorder = flyAbout(*planet, troubled(true), 150);
+    EXPECT_GT(planet->paging().failed, 0u);
+    const FlightRecord record = loadFlightRecord(written(recorder)).value();
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+TEST_F(FlightRecordTest, AnotherSeedReplaysDifferently) {
+    const auto planet = openPlanet(troubled(true));
+    const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 60))).value();
+    const FlightReplay replay = replayed(record, ReplayPaging::Simulated, {"bad_disk.seed=4"});
+    EXPECT_GT(replay.framesDifferent(), 0u);
+    EXPECT_EQ(replay.settings().paging.badDisk.seed, 4u);
+    EXPECT_FALSE(FlightReplay::create(std::make_shared<const FlightRecord>(record), ReplayPaging::Simulated,
+                                      {"bad_disk.sead=4"}));
+}
+
+TEST_F(FlightRecordTest, AFrameThatWasNotSoIsFoundWithItsChunk) {
+    const auto planet = openPlanet(troubled(true));
+    const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 60))).value();
+    std::size_t at = 20;
+    while (record.frames[at].views[0].appeared.empty()) ++at;
+    FlightRecord other = record;
+    const planet::ChunkId missing = other.frames[at].views[0].appeared.back();
+    other.frames[at].views[0].appeared.pop_back();
+    ++other.frames[at].selectionHash;
+    const FlightReplay replay = replayed(other, ReplayPaging::Simulated);
+    EXPECT_EQ(firstOf(replay), "selection of frame " + std::to_string(at));
+    EXPECT_THAT(replay.firstDifference()->onlyReplayed, testing::ElementsAre(missing));
+    EXPECT_THAT(replay.firstDifference()->onlyRecorded, testing::IsEmpty());
+    EXPECT_EQ(replay.framesDifferent(), 1u);
+
+    other = record;
+    at = 0;
+    while (other.frames[at].moves.arrived.empty()) ++at;
+    other.frames[at].moves.arrived.clear();
+    EXPECT_EQ(firstOf(replayed(other, ReplayPaging::Simulated)), "arrivals of frame " + std::to_string(at));
+    EXPECT_GT(replayed(other, ReplayPaging::AsRecorded).framesDifferent(), 0u);  // what is missing is missed
+    other = record;
+    other.frames[0].moves.requested.pop_back();
+    EXPECT_EQ(firstOf(replayed(other, ReplayPaging::Simulated)), "requests of frame 0");
+}
+
+TEST_F(FlightRecordTest, AFlightIsSmall) {
+    const ui::ViewSettings settings;
+    const auto planet = openPlanet(settings);
+    // Ten seconds of frames that are never quite as long as the one before.
+    const auto bytesPerS = [&](bool flying) {
+        Recorder recorder(*planet, "ten seconds");
+        for (int i = 0; i < 600; ++i) {
+            const double elapsedS = (1 + 0.1 * std::sin(1.7 * i * i)) / 60;
+            step(*planet, recorder, settings, flying ? i : 0, false, false, elapsedS);
+        }
+        return static_cast<double>(std::filesystem::file_size(written(recorder))) / 10;
+    };
+    const double still = bytesPerS(false), flying = bytesPerS(true);
+    RecordProperty("still_bytes_per_s", std::to_string(still));
+    RecordProperty("flying_bytes_per_s", std::to_string(flying));
+    EXPECT_LT(still, 1024);
+    EXPECT_LT(flying, 20 * 1024);
+}
+
+TEST_F(FlightRecordTest, CutOffOrDamagedItIsAnErrorThatNamesTheFile) {
+    const auto planet = openPlanet(troubled(true));
+    const std::filesystem::path file = written(flyAbout(*planet, troubled(true), 60));
+    const std::uintmax_t whole = std::filesystem::file_size(file);
+    for (std::uintmax_t size = 0; size < whole; size += 1 + size / 3) {
+        std::filesystem::copy_file(file, folder_ / "cut.flight",
+                                   std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::resize_file(folder_ / "cut.flight", size);
+        EXPECT_THAT(errorOf(folder_ / "cut.flight"), HasSubstr("cut.flight: is ")) << size;
+    }
+    EXPECT_THAT(errorOf(folder_ / "none.flight"), HasSubstr("none.flight: no such file"));
+    EXPECT_THAT(errorOf(folder_ / "hills.chk"), HasSubstr("is no recorded flight"));
+    EXPECT_THAT(errorOf(fileOf(contentOf(file), 7)),
+                HasSubstr("is of version 7; this program reads version 1"));
+    EXPECT_EQ(errorOf(fileOf(contentOf(file))), "no error");
+    EXPECT_THAT(errorOf(fileOf(contentOf(file) + "x")), HasSubstr("goes on after its end"));
+}
+
+// With the right checksum: each byte may be anything.
+TEST_F(FlightRecordTest, WhateverItHoldsItIsReadOrRefused) {
+    const auto planet = openPlanet(troubled(true));
+    const std::string content = contentOf(written(flyAbout(*planet, troubled(true), 20)));
+    std::size_t refused = 0;
+    const std::size_t stride = content.size() / 100 + 1;
+    for (std::size_t at = 0; at < content.size(); at += stride) {
+        for (const char value : {'\xFF', '\x00'}) {
+            std::string bad = content;
+            bad[at] = value;
+            const std::string error = errorOf(fileOf(bad));
+            if (error == "no error") continue;
+            EXPECT_THAT(error, HasSubstr("made.flight: "));
+            ++refused;
+        }
+        EXPECT_THAT(errorOf(fileOf(content.substr(0, at))), HasSubstr("made.flight: "));
+    }
+    EXPECT_GT(refused, 20u);
+}
+
+TEST_F(FlightRecordTest, NumbersThatAreNoneAreRefused) {
+    const auto planet = openPlanet({});
+    const FlightData data = flightDataOf(planet->file());
+    FlightFrame good;
+    good.views.resize(1);
+    good.views[0].view = viewAt(0);
+    const auto errorWith = [&](const FlightFrame& frame) {
+        FlightEncoder encoder;
+        encoder.add(frame);
+        EXPECT_TRUE(encoder.write(folder_ / "one.flight", "one", data));
+        return errorOf(folder_ / "one.flight");
+    };
+    EXPECT_EQ(errorWith(good), "no error");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    FlightFrame bad = good;
+    bad.elapsedS = nan;
+    EXPECT_THAT(errorWith(bad), HasSubstr("frame 1: it holds nan where 0 to 1000000 would be right"));
+    bad = good;
+    bad.views[0].view.eyeM.y = nan;
+    EXPECT_THAT(errorWith(bad), HasSubstr("nan"));
+    bad = good;
+    bad.views[0].view.up *= 1.5;
+    EXPECT_THAT(errorWith(bad), HasSubstr("right angles"));
+    bad = good;
+    bad.views[0].view.widthPx = 0;
+    EXPECT_THAT(errorWith(bad), HasSubstr("0 x 720 pixels"));
+    bad = good;
+    bad.views.clear();
+    EXPECT_THAT(errorWith(bad), HasSubstr("0 views"));
+    bad = good;
+    bad.views[0].appeared = {{planet::Face::PosX, 9, 1, 1}};  // deeper than the planet
+    EXPECT_THAT(errorWith(bad), HasSubstr("a chunk that there is not"));
+    bad = good;
+    bad.calls = {{.call = FlightCall::Settings, .settings = {"lod.tau_px=0"}}};
+    EXPECT_THAT(errorWith(bad), HasSubstr("tau_px"));
+    bad.calls[0].settings = {"window.width_px=800"};
+    EXPECT_THAT(errorWith(bad), HasSubstr("no setting of the view"));
+}
+
+TEST_F(FlightRecordTest, AnotherFileIsToldApart) {
+    bakeTo("other.chk", 129);
+    std::filesystem::copy_file(folder_ / "hills.chk", folder_ / "copy.chk");
+    const auto dataOf = [&](const char* name) {
+        return flightDataOf(planet::ChunkFile::open(folder_ / name).value());
+    };
+    EXPECT_TRUE(checkSameData("a.flight", dataOf("hills.chk"), dataOf("copy.chk")));
+    const auto other = checkSameData("a.flight", dataOf("hills.chk"), dataOf("other.chk"));
+    ASSERT_FALSE(other);
+    EXPECT_THAT(other.error().message, HasSubstr("a.flight: was recorded over another file than"));
+    EXPECT_THAT(other.error().message, HasSubstr("faces of 257 samples in chunks of 17, not 129 in 17"));
+    FlightData header = dataOf("hills.chk");
+    ++header.headerHash;
+    EXPECT_FALSE(checkSameData("a.flight", header, dataOf("hills.chk")));
+}
+
+TEST_F(FlightRecordTest, ACameraMayFollowIt) {
+    const auto planet = openPlanet({});
+    const FlightPath path = loadFlightPath(written(flyAbout(*planet, {}, 120))).value();
+    EXPECT_EQ(path.name, "about");
+    EXPECT_NEAR(durationS(path), 2, 0.15);  // keys are a tenth of a second apart
+    EXPECT_GE(path.keys.size(), 15u);
+    const planet::CameraPose pose = poseAt(path, path.keys[5].timeS);
+    const planet::CameraPose flown =
+        planet::poseFromView(viewAt(static_cast<int>(std::lround(path.keys[5].timeS * 60)) - 1), 1e5);
+    EXPECT_NEAR(pose.latitudeDeg, flown.latitudeDeg, 1e-6);
+    EXPECT_NEAR(pose.altitudeM, flown.altitudeM, 1e-3);
+    Recorder moment(*planet, "moment");
+    step(*planet, moment, {}, 0);
+    EXPECT_FALSE(loadFlightPath(written(moment)));
+}
+
+TEST_F(FlightRecordTest, SplitsAndMergesAreToldFromIt) {
+    const auto planet = openPlanet(troubled(true));
+    const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 120))).value();
+    int splits = 0, merges = 0;
+    for (const FlightChange& change : changesIn(record)) {
+        splits += change.splits;
+        // All that was loaded is dropped before frame 50.
+        if (change.frame == 50) {
+            merges = change.merges;
+        }
+    }
+    EXPECT_GT(splits, 10);
+    EXPECT_GT(merges, 3);
+}
+
+TEST_F(FlightRecordTest, WithoutAFrameNothingIsWritten) {
+    const auto planet = openPlanet({});
+    const Recorder recorder(*planet, "nothing");
+    EXPECT_FALSE(recorder.write(folder_ / "nothing.flight"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "nothing.flight"));
+}
+
+}  // namespace
+}  // namespace worldy
