@@ -7,7 +7,9 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/app.h"
@@ -29,6 +31,8 @@ namespace worldy {
 namespace {
 
 using planet::Result;
+
+constexpr const char* flightHelp = "The flight's keys, .toml, or a recorded .flight";
 
 template <std::size_t count>
 CLI::IsMember oneOf(const std::array<std::string_view, count>& names) {
@@ -139,7 +143,7 @@ void addFly(CLI::App& app, FlyOptions& options, ViewTexts& view) {
     CLI::App& command =
         *app.add_subcommand("fly", "Fly a recorded path without a display, and measure each frame");
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--path", options.path, "The flight's keys, .toml, or a recorded .flight")->required();
+    command.add_option("--path", options.path, flightHelp)->required();
     command.add_option("--frames", options.frames, "Frames, evenly over the flight (300)")
         ->check(CLI::Range(1, 1000000));
     addViewOptions(command, view);
@@ -176,7 +180,7 @@ void addSweep(CLI::App& app, SweepOptions& options, SweepTexts& texts) {
     CLI::App& command =
         *app.add_subcommand("sweep", "Fly at many tolerances, and set what each costs beside its true error");
     command.add_option("FILE", options.file, "Chunk file, or what is baked for each chunk size")->required();
-    command.add_option("--flight", options.flight, "The flight's keys, .toml")->required();
+    command.add_option("--flight", options.flight, flightHelp)->required();
     command.add_option("--tau", options.tausPx, "Tolerances, pixels (0.5,1,2,4,8)")
         ->delimiter(',')
         ->check(number(0.1, 64));
@@ -207,7 +211,8 @@ void addCracks(CLI::App& app, CracksOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
     command.add_option("--camera", view.camera,
                        "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius (the whole planet)");
-    command.add_option("--flight", options.flight, "Views along a flight: its keys, .toml");
+    command.add_option("--flight", options.flight,
+                       "Views along a flight: its keys, .toml, or a recorded .flight");
     command.add_option("--step-s", options.stepS, "Seconds of the flight from view to view (1)")
         ->check(number(0.001, 86400));
     command.add_option("--seams", view.seams, "none, skirts or stitched (skirts)")
@@ -227,7 +232,7 @@ void addPops(CLI::App& app, PopsOptions& options, ViewTexts& view) {
     CLI::App& command = *app.add_subcommand(
         "pops", "Fly a path with all loads on time, and tell how far each change of level jumps");
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--flight", options.flight, "The flight's keys, .toml")->required();
+    command.add_option("--flight", options.flight, flightHelp)->required();
     command.add_option("--step-s", options.stepS, "Seconds of the flight between two frames (1/60)")
         ->check(number(1e-4, 1e4));
     addViewOptions(command, view);
@@ -236,11 +241,12 @@ void addPops(CLI::App& app, PopsOptions& options, ViewTexts& view) {
 
 // What only an audit is told, as it is written.
 struct AuditTexts {
+    ViewTexts view;
     std::vector<std::string> cameras;
     std::string metric;
 };
 
-void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts, ViewTexts& view) {
+void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts) {
     CLI::App& command = *app.add_subcommand(
         "audit",
         "Measure the true error of what is drawn beside what was predicted; ends with 1 where that "
@@ -251,14 +257,16 @@ void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts, ViewTexts
                             "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius; may be given "
                             "again and again (the whole planet, and low over its most rugged ground)");
     cameras.expected(1)->take_all()->allow_extra_args(false);
-    CLI::Option& flight =
-        *command.add_option("--flight", options.flight, "Views along a flight's keys, .toml")
-             ->excludes(&cameras);
+    CLI::Option& flight = *command
+                               .add_option("--flight", options.flight,
+                                           "Views along a flight: its keys, .toml, or a recorded .flight")
+                               ->excludes(&cameras);
     command.add_option("--step-s", options.stepS, "Seconds of the flight between its views (1)")
         ->check(number(1e-6, 1e9))
         ->needs(&flight);
-    addViewOptions(command, view);
-    command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
+    addViewOptions(command, texts.view);
+    command.add_option("--fov", texts.view.fovDeg, "Horizontal field of view, degrees (60)")
+        ->check(number(5, 150));
     command.add_option("--metric", texts.metric, "Which bound chooses and predicts: additive or tight")
         ->check(oneOf(errorMetricNames));
     command.add_option("-o,--output", options.jsonOutput, "Write every chunk of every view there, as JSON");
@@ -314,107 +322,88 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
     return a == b || std::filesystem::equivalent(a, b, status);
 }
 
-Result<ShotOptions> withView(ShotOptions options, const ViewTexts& texts) {
+// What all commands that look at a planet are told: the picture's size, and the settings, which are given
+// back for what else a command wants of them.
+template <typename Options>
+Result<Settings> takeView(const ViewTexts& texts, Options& options) {
     const Result<PictureSize> size = pictureSizeFromText(texts.size);
     if (!size) return tl::unexpected(size.error());
+    Result<Settings> settings = settingsFrom(texts);
+    if (!settings) return settings;
     options.size = *size;
-    if (!texts.camera.empty()) {
-        const Result<planet::CameraPose> pose = poseFromText(texts.camera);
-        if (!pose) return tl::unexpected(pose.error());
-        options.camera = *pose;
-    }
-    const Result<Settings> settings = settingsFrom(texts);
-    if (!settings) return tl::unexpected(settings.error());
     options.view = settings->view;
+    return settings;
+}
+
+// The same for those of one view.
+template <typename Options>
+Result<Settings> takeViewAndCamera(const ViewTexts& texts, Options& options) {
+    Result<Settings> settings = takeView(texts, options);
+    if (!settings) return settings;
     options.start = settings->camera;
+    if (texts.camera.empty()) return settings;
+    const Result<planet::CameraPose> pose = poseFromText(texts.camera);
+    if (!pose) return tl::unexpected(pose.error());
+    options.camera = *pose;
+    return settings;
+}
+
+planet::ErrorMetric metricOf(const std::string& name) {
+    return name == errorMetricNames[0] ? planet::ErrorMetric::Additive : planet::ErrorMetric::Tight;
+}
+
+Result<ShotOptions> understand(ShotOptions options, const ViewTexts& texts) {
+    const Result<Settings> settings = takeViewAndCamera(texts, options);
+    if (!settings) return tl::unexpected(settings.error());
     // The settings' picture belongs to the settings' data set.
     const bool sameData = settings->dataSet.empty() || sameFile(settings->dataSet, options.file);
     if (options.colourImage.empty() && sameData) options.colourImage = settings->colourImage;
     return options;
 }
 
-Result<void> runFly(FlyOptions options, const ViewTexts& texts) {
-    const Result<PictureSize> size = pictureSizeFromText(texts.size);
-    if (!size) return tl::unexpected(size.error());
-    const Result<Settings> settings = settingsFrom(texts);
-    if (!settings) return tl::unexpected(settings.error());
-    options.size = *size;
-    options.view = settings->view;
-    return flyPath(options);
+Result<CracksOptions> understand(CracksOptions options, const ViewTexts& texts) {
+    return takeViewAndCamera(texts, options).map([&](const Settings&) { return options; });
 }
 
-Result<void> withTexts(SweepOptions options, const SweepTexts& texts) {
-    const Result<PictureSize> size = pictureSizeFromText(texts.view.size);
-    if (!size) return tl::unexpected(size.error());
-    const Result<Settings> settings = settingsFrom(texts.view);
-    if (!settings) return tl::unexpected(settings.error());
-    options.size = *size;
-    options.view = settings->view;
+Result<FlyOptions> understand(FlyOptions options, const ViewTexts& texts) {
+    return takeView(texts, options).map([&](const Settings&) { return options; });
+}
+
+Result<PopsOptions> understand(PopsOptions options, const ViewTexts& texts) {
+    return takeView(texts, options).map([&](const Settings&) { return options; });
+}
+
+Result<SweepOptions> understand(SweepOptions options, const SweepTexts& texts) {
+    if (const Result<Settings> settings = takeView(texts.view, options); !settings)
+        return tl::unexpected(settings.error());
     options.cost = static_cast<SweepCost>(
         std::find(sweepCostNames.begin(), sweepCostNames.end(), texts.cost) - sweepCostNames.begin());
     if (!texts.metrics.empty()) options.metrics.clear();
-    for (const std::string& name : texts.metrics) {
-        options.metrics.push_back(name == errorMetricNames[0] ? planet::ErrorMetric::Additive
-                                                              : planet::ErrorMetric::Tight);
-    }
-    if (!texts.goal.empty()) {
-        const Result<TauGoal> goal = tauGoalFromText(texts.goal);
-        if (!goal) return tl::unexpected(goal.error());
-        options.goal = *goal;
-    }
-    return runSweep(options);
+    for (const std::string& name : texts.metrics) options.metrics.push_back(metricOf(name));
+    if (texts.goal.empty()) return options;
+    const Result<TauGoal> goal = tauGoalFromText(texts.goal);
+    if (!goal) return tl::unexpected(goal.error());
+    options.goal = *goal;
+    return options;
 }
 
-Result<void> withSize(BenchOptions options, const ViewTexts& texts) {
+Result<BenchOptions> understand(BenchOptions options, const ViewTexts& texts) {
     const Result<PictureSize> size = pictureSizeFromText(texts.size);
     if (!size) return tl::unexpected(size.error());
     options.size = *size;
-    return runBench(options);
+    return options;
 }
 
-Result<bool> cracksOf(CracksOptions options, const ViewTexts& texts) {
-    const Result<PictureSize> size = pictureSizeFromText(texts.size);
-    if (!size) return tl::unexpected(size.error());
-    options.size = *size;
-    if (!texts.camera.empty()) {
-        const Result<planet::CameraPose> pose = poseFromText(texts.camera);
-        if (!pose) return tl::unexpected(pose.error());
-        options.camera = *pose;
-    }
-    const Result<Settings> settings = settingsFrom(texts);
-    if (!settings) return tl::unexpected(settings.error());
-    options.view = settings->view;
-    options.start = settings->camera;
-    return runCracks(options);
-}
-
-Result<void> runPopsWith(PopsOptions options, const ViewTexts& texts) {
-    const Result<PictureSize> size = pictureSizeFromText(texts.size);
-    if (!size) return tl::unexpected(size.error());
-    const Result<Settings> settings = settingsFrom(texts);
-    if (!settings) return tl::unexpected(settings.error());
-    options.size = *size;
-    options.view = settings->view;
-    return runPops(options);
-}
-
-Result<bool> runAuditCommand(AuditOptions options, const AuditTexts& texts, const ViewTexts& viewTexts) {
-    const Result<PictureSize> size = pictureSizeFromText(viewTexts.size);
-    if (!size) return tl::unexpected(size.error());
-    const Result<Settings> settings = settingsFrom(viewTexts);
-    if (!settings) return tl::unexpected(settings.error());
+Result<AuditOptions> understand(AuditOptions options, const AuditTexts& texts) {
+    if (const Result<Settings> settings = takeView(texts.view, options); !settings)
+        return tl::unexpected(settings.error());
     for (const std::string& text : texts.cameras) {
         const Result<planet::CameraPose> pose = poseFromText(text);
         if (!pose) return tl::unexpected(pose.error());
         options.cameras.push_back(*pose);
     }
-    options.size = *size;
-    options.view = settings->view;
-    if (!texts.metric.empty()) {
-        options.metric =
-            texts.metric == errorMetricNames[0] ? planet::ErrorMetric::Additive : planet::ErrorMetric::Tight;
-    }
-    return runAudit(options);
+    if (!texts.metric.empty()) options.metric = metricOf(texts.metric);
+    return options;
 }
 
 // Of a check: whether all is well.
@@ -450,7 +439,6 @@ struct CommandLine {
     ViewTexts popsView;
     AuditOptions audit;
     AuditTexts auditTexts;
-    ViewTexts auditView;
     ReplayOptions replay;
 
     CommandLine() {
@@ -470,7 +458,7 @@ struct CommandLine {
         addSweep(app, sweep, sweepTexts);
         addCracks(app, cracks, cracksView);
         addPops(app, pops, popsView);
-        addAudit(app, audit, auditTexts, auditView);
+        addAudit(app, audit, auditTexts);
         addReplay(app, replay);
         app.require_subcommand(0, 1);
     }
@@ -494,7 +482,7 @@ Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments) {
     }
     if (!line.app.got_subcommand("shot"))
         return planet::badInput("this is no `worldy shot`; worldy shot FILE -o PICTURE would be right");
-    return withView(line.shot, line.shotView);
+    return understand(line.shot, line.shotView);
 }
 
 int runCommandLine(int argumentCount, const char* const* arguments) {
@@ -505,22 +493,26 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
     } catch (const CLI::ParseError& error) {
         return error.get_exit_code() == 0 ? app.exit(error) : reportError(errorOf(error));
     }
-    if (app.got_subcommand("bake")) return exitCodeOf(runBake(line.bake));
-    if (app.got_subcommand("info")) return exitCodeOf(runInfo(line.file));
-    if (app.got_subcommand("verify")) return exitCodeOf(runVerify(line.file));
-    if (app.got_subcommand("probe")) return exitCodeOf(runProbe(line.file));
-    if (app.got_subcommand("shot")) return exitCodeOf(withView(line.shot, line.shotView).and_then(takeShot));
-    if (app.got_subcommand("replay")) {
-        const Result<bool> same = replayFlight(line.replay);
-        return same ? (*same ? exitOk : exitCheckFailed) : reportError(same.error());
+    const auto view = [](auto& options, const auto& texts, auto run) {
+        return [&options, &texts, run] { return exitCodeOf(understand(options, texts).and_then(run)); };
+    };
+    const std::vector<std::pair<const char*, std::function<int()>>> commands = {
+        {"bake", [&] { return exitCodeOf(runBake(line.bake)); }},
+        {"info", [&] { return exitCodeOf(runInfo(line.file)); }},
+        {"verify", [&] { return exitCodeOf(runVerify(line.file)); }},
+        {"probe", [&] { return exitCodeOf(runProbe(line.file)); }},
+        {"replay", [&] { return exitCodeOf(replayFlight(line.replay)); }},
+        {"shot", view(line.shot, line.shotView, takeShot)},
+        {"fly", view(line.fly, line.flyView, flyPath)},
+        {"sweep", view(line.sweep, line.sweepTexts, runSweep)},
+        {"bench", view(line.bench, line.benchView, runBench)},
+        {"cracks", view(line.cracks, line.cracksView, runCracks)},
+        {"pops", view(line.pops, line.popsView, runPops)},
+        {"audit", view(line.audit, line.auditTexts, runAudit)},
+    };
+    for (const auto& [name, run] : commands) {
+        if (app.got_subcommand(name)) return run();
     }
-    if (app.got_subcommand("fly")) return exitCodeOf(runFly(line.fly, line.flyView));
-    if (app.got_subcommand("sweep")) return exitCodeOf(withTexts(line.sweep, line.sweepTexts));
-    if (app.got_subcommand("bench")) return exitCodeOf(withSize(line.bench, line.benchView));
-    if (app.got_subcommand("cracks")) return exitCodeOf(cracksOf(line.cracks, line.cracksView));
-    if (app.got_subcommand("pops")) return exitCodeOf(runPopsWith(line.pops, line.popsView));
-    if (app.got_subcommand("audit"))
-        return exitCodeOf(runAuditCommand(line.audit, line.auditTexts, line.auditView));
     return runApp(line.window);
 }
 

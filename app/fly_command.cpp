@@ -74,7 +74,8 @@ Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity)
     return {rank(50), rank(99), values.back()};
 }
 
-Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS,
+// elapsedS: of the flight, since the frame before.
+Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS, double elapsedS,
                             const ui::ViewSettings& settings) {
     Scene& scene = offscreen.scene;
     const double radiusM = scene.planet->shape().radiusM;
@@ -83,7 +84,7 @@ Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double
     const planet::View view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                                      offscreen.target.heightPx());
     const Stopwatch watch;
-    stepScene(scene, view, settings);
+    stepScene(scene, view, settings, elapsedS);
     if (const Result<void> drawn = drawAndFinish(offscreen, view, settings); !drawn)
         return tl::unexpected(drawn.error());
     FlownFrame frame{timeS, planet::poseFromView(view, radiusM), camera.eyeM != wanted.eyeM, statsOf(scene)};
@@ -139,11 +140,11 @@ Result<void> flyPath(const FlyOptions& options) {
     settleAt(*offscreen, path->keys.front().pose, options.view);
     const InterruptWatch watch;
     std::vector<FlownFrame> frames;
+    const double stepS = options.frames > 1 ? durationS(*path) / (options.frames - 1) : 0;
     for (int i = 0; i < options.frames; ++i) {
         if (watch.interrupted()) return planet::cancelled();
-        const double share = options.frames > 1 ? static_cast<double>(i) / (options.frames - 1) : 0;
-        const double timeS = path->keys.front().timeS + share * durationS(*path);
-        const Result<FlownFrame> frame = flyFrame(*offscreen, *path, timeS, options.view);
+        const double timeS = path->keys.front().timeS + i * stepS;
+        const Result<FlownFrame> frame = flyFrame(*offscreen, *path, timeS, i > 0 ? stepS : 0, options.view);
         if (!frame) return tl::unexpected(frame.error());
         frames.push_back(*frame);
     }

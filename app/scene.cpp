@@ -161,6 +161,12 @@ void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings
     scene.planet->step(lodView, lodSettingsOf(settings), uploadInto(scene.renderer));
 }
 
+void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings, double elapsedS) {
+    beginFrame(scene);
+    const planet::ViewInput only{lodView, lodSettingsOf(settings)};
+    scene.planet->step(std::span(&only, 1), uploadInto(scene.renderer), elapsedS);
+}
+
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
                const ui::ViewSettings& settings) {
     beginFrame(scene);

@@ -57,6 +57,8 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& set
 
 // One frame in two stages: choose and load by the lod view, then draw as the render view sees it.
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings);
+// Fades go on by so many seconds, whatever the clock says.
+void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings, double elapsedS);
 // The same for an observer who has a selection of its own, number 1; what it wants comes after what the lod
 // view wants.
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,

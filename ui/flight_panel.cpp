@@ -39,7 +39,8 @@ void runningRecording(const RecordingNow& recording, Commands& commands) {
 void recordControl(FlightPanelState& state, Commands& commands) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float room = ImGui::CalcTextSize("Record").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
-    ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - room, ImGui::GetFontSize() * 4));
+    const float fontPx = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - room, 4 * fontPx, 24 * fontPx));
     ImGui::InputTextWithHint("##name", "name, or none", state.name.data(), state.name.size());
     noteItem("Name");
     tooltip("A file's name too, up to 60 bytes. Empty: the next free \"flight 1\", \"flight 2\" ...");
@@ -203,6 +204,9 @@ void eventButtons(const ReplayNow& replay, Commands& commands) {
         commands.push_back(SetReplay{controls});
         commands.push_back(MoveReplayTo{timeS});
     };
+    const ImGuiStyle& style = ImGui::GetStyle();
+    sameLineIfRoom(ImGui::CalcTextSize("< ChangeChange >").x + 4 * style.FramePadding.x +
+                   style.ItemSpacing.x);
     ImGui::BeginDisabled(replay.ticks.empty());
     if (button("< Change", "Back to the frame of the last split or merge before this one.")) go(false);
     ImGui::SameLine();
