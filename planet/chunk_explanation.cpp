@@ -7,11 +7,6 @@ namespace planet {
 
 namespace {
 
-ChunkId ancestorAt(ChunkId id, int level) {
-    while (id.level > level) id = parentOf(id);
-    return id;
-}
-
 // A chunk's own node or one above it, and what became of it in the last selection, if it was looked at.
 struct PathNode {
     NodeIndex node = noNode;
@@ -24,7 +19,7 @@ std::vector<PathNode> pathTo(const ChunkTree& tree, const Selection& selection, 
     for (int level = 1; level <= id.level; ++level) {
         const ChunkNode& above = tree.nodes[path.back().node];
         if (above.childrenState != ChildrenState::Resident) break;
-        const auto quadrant = static_cast<NodeIndex>(quadrantOf(ancestorAt(id, level)));
+        const auto quadrant = static_cast<NodeIndex>(quadrantOf(ancestorOf(id, level)));
         path.push_back({above.firstChild + quadrant, std::nullopt});
     }
     std::size_t next = 0;
@@ -57,7 +52,7 @@ public:
             out_.decidedBy = deepest().id;
         } else if (id_.level > leafLevel(facts_.tree.shape)) {
             out_.state = ChunkState::NotInFile;
-            out_.decidedBy = ancestorAt(id_, leafLevel(facts_.tree.shape));
+            out_.decidedBy = ancestorOf(id_, leafLevel(facts_.tree.shape));
         } else {
             explainMissing();
         }
@@ -173,7 +168,7 @@ private:
     // In the file, and not resident: brought, or held up, by the block under the deepest resident chunk.
     void explainMissing() {
         const ChunkNode& above = deepest();
-        const ChunkId next = ancestorAt(id_, above.id.level + 1);
+        const ChunkId next = ancestorOf(id_, above.id.level + 1);
         out_.queuePlace = placeInQueue(above.id);
         if (above.childrenState == ChildrenState::Failed) {
             out_.state = ChunkState::Failed;
@@ -211,12 +206,12 @@ std::array<std::vector<ChunkId>, edgeCount> drawnNeighbours(const Selection& sel
         const ChunkId& other = item.id;
         for (std::size_t e = 0; e < edgeCount; ++e) {
             if (other.level <= id.level) {
-                if (ancestorAt(beyond[e], other.level) == other) beside[e].push_back(other);
+                if (ancestorOf(beyond[e], other.level) == other) beside[e].push_back(other);
                 continue;
             }
-            if (ancestorAt(other, id.level) != beyond[e]) continue;
+            if (ancestorOf(other, id.level) != beyond[e]) continue;
             for (int back = 0; back < edgeCount; ++back) {
-                if (ancestorAt(neighbourOf(other, static_cast<Edge>(back)), id.level) != id) continue;
+                if (ancestorOf(neighbourOf(other, static_cast<Edge>(back)), id.level) != id) continue;
                 beside[e].push_back(other);
                 break;
             }

@@ -31,6 +31,11 @@ int quadrantOf(const ChunkId& child) {
     return static_cast<int>((child.x & 1) + 2 * (child.y & 1));
 }
 
+ChunkId ancestorOf(ChunkId id, int level) {
+    while (id.level > level) id = parentOf(id);
+    return id;
+}
+
 ChunkId neighbourOf(const ChunkId& id, Edge edge) {
     const std::uint32_t last = (1u << id.level) - 1;
     if (edge == Edge::West && id.x > 0) return {id.face, id.level, id.x - 1, id.y};
@@ -46,6 +51,13 @@ ChunkId neighbourOf(const ChunkId& id, Edge edge) {
     const double v = across ? square.v + half : end;
     const glm::dvec3 onEdge = cubePoint(id.face, u, v);
     return chunkAt(facePointFromCube(onEdge - half * faceAxes(id.face).normal), id.level);
+}
+
+std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other) {
+    for (const Edge edge : allEdges) {
+        if (neighbourOf(id, edge) == other) return edge;
+    }
+    return std::nullopt;
 }
 
 FaceSquare faceSquareOf(const ChunkId& id) {

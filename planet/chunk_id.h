@@ -1,6 +1,7 @@
 // Names a node of one of the six quadtrees, and walks between them. Pure functions, any thread.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <functional>
@@ -31,12 +32,17 @@ inline constexpr int quadrantCount = 4;
 ChunkId childOf(const ChunkId& parent, int quadrant);
 ChunkId parentOf(const ChunkId& child);  // the child's level must be over 0
 int quadrantOf(const ChunkId& child);
+// The chunk of a level that holds this one: itself where it is of that level or coarser.
+ChunkId ancestorOf(ChunkId id, int level);
 
 enum class Edge : std::uint8_t { West, East, South, North };  // u = min, u = max, v = min, v = max
 inline constexpr int edgeCount = 4;
+inline constexpr std::array allEdges = {Edge::West, Edge::East, Edge::South, Edge::North};
 
 // The chunk of the same level beyond an edge, on the next face where the edge is the face's own.
 ChunkId neighbourOf(const ChunkId& id, Edge edge);
+// The edge beyond which another chunk of the same level lies; none if it is no neighbour.
+std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other);
 
 // Where a chunk lies on its face.
 struct FaceSquare {

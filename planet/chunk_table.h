@@ -28,6 +28,16 @@ public:
         const Entry& entry = entries_[placeOf(keyOf(id))];
         return entry.key == noKey ? nullptr : &entry.value;
     }
+    // The same of the finest one that was added of the chunk and those above it; none added is coarser than
+    // coarsestLevel.
+    const std::uint32_t* findHolder(ChunkId id, int coarsestLevel) const {
+        const std::uint32_t* found = find(id);
+        while (!found && id.level > coarsestLevel) {
+            id = parentOf(id);
+            found = find(id);
+        }
+        return found;
+    }
     bool contains(const ChunkId& id) const { return find(id) != nullptr; }
 
 private:

@@ -1,7 +1,6 @@
 #include "planet/edge_gaps.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,6 +8,7 @@
 
 #include "planet/chunk_table.h"
 #include "planet/drawn_surface.h"
+#include "planet/skirt_depth.h"
 
 namespace planet {
 
@@ -16,14 +16,6 @@ namespace {
 
 bool isUpright(Edge edge) {
     return edge == Edge::West || edge == Edge::East;
-}
-
-// The edge of a chunk beyond which another one of the same level lies.
-Edge edgeTowards(const ChunkId& id, const ChunkId& other) {
-    for (const Edge edge : {Edge::West, Edge::East, Edge::South, Edge::North})
-        if (neighbourOf(id, edge) == other) return edge;
-    assert(false);
-    return Edge::West;
 }
 
 // A point of the cube, on an edge of a chunk: how far along it, [0, 1]. Exact.
@@ -138,36 +130,17 @@ EdgeGap gapOf(const DrawnGround& ground, const DrawnPair& pair, const View& view
     return gap;
 }
 
-float boundM(const ChunkTree& tree, ErrorMetric metric, const DrawItem& item, float morph) {
-    if (morph == 0) return item.deltaCM;
-    const NodeIndex parent = tree.nodes[item.node].parent;
-    if (parent == noNode) return item.deltaCM;
-    const ChunkNode& above = tree.nodes[parent];
-    const float parentM = metric == ErrorMetric::Tight ? above.deltaTightM : above.deltaCM;
-    return item.deltaCM + morph * (parentM - item.deltaCM);
-}
-
-// Shallower than this no automatic skirt is: edges that agree exactly still part by rounding.
-float leastDepthM(const ChunkTree& tree, const DrawItem& item) {
-    return std::max(static_cast<float>(2 * tree.shape.quantumM), 1e-6f * item.distanceM);
-}
-
-// What factor 1 makes of each item, without the least depth.
-std::vector<float> factorOneDepthsM(const ChunkTree& tree, ErrorMetric metric,
+// How far each item may be from any other beside it.
+std::vector<float> mostApartOfEachM(const ChunkTree& tree, ErrorMetric metric,
                                     std::span<const DrawItem> items, std::span<const DrawnPair> pairs) {
-    std::vector<float> depths(items.size(), 0);
+    std::vector<float> apartM(items.size(), 0);
     for (const DrawnPair& pair : pairs) {
-        const DrawItem& finer = items[pair.finer];
-        const DrawItem& coarser = items[pair.coarser];
-        const bool level = finer.id.level == coarser.id.level;
-        const float morph = finer.edgeMorph[static_cast<std::size_t>(pair.finerEdge)];
-        const float coarserMorph =
-            level ? morph : coarser.edgeMorph[static_cast<std::size_t>(pair.coarserEdge)];
-        const float bothM = boundM(tree, metric, finer, morph) + boundM(tree, metric, coarser, coarserMorph);
-        depths[pair.finer] = std::max(depths[pair.finer], bothM);
-        depths[pair.coarser] = std::max(depths[pair.coarser], bothM);
+        const float bothM = mostApartM(tree, metric, items[pair.finer], pair.finerEdge, items[pair.coarser],
+                                       pair.coarserEdge);
+        apartM[pair.finer] = std::max(apartM[pair.finer], bothM);
+        apartM[pair.coarser] = std::max(apartM[pair.coarser], bothM);
     }
-    return depths;
+    return apartM;
 }
 
 }  // namespace
@@ -186,13 +159,13 @@ std::vector<DrawnPair> drawnPairs(std::span<const DrawItem> items) {
     std::vector<DrawnPair> pairs;
     for (std::uint32_t i = 0; i < items.size(); ++i) {
         const ChunkId& id = items[i].id;
-        for (const Edge edge : {Edge::West, Edge::East, Edge::South, Edge::North}) {
+        for (const Edge edge : allEdges) {
             const ChunkId beside = neighbourOf(id, edge);
-            ChunkId other = beside;
-            const std::uint32_t* found = drawn.find(other);
-            while (!found && other.level > coarsestLevel) found = drawn.find(other = parentOf(other));
-            if (!found || (other.level == id.level && other < id)) continue;
-            const Edge otherEdge = edgeTowards(beside, id);
+            const std::uint32_t* found = drawn.findHolder(beside, coarsestLevel);
+            if (!found) continue;
+            const ChunkId& other = items[*found].id;
+            if (other.level == id.level && other < id) continue;
+            const Edge otherEdge = edgeTowards(beside, id).value();
             pairs.push_back({i,
                              *found,
                              edge,
@@ -257,24 +230,22 @@ std::vector<double> requiredSkirtDepthsM(std::span<const EdgeGap> gaps, std::siz
 std::vector<float> automaticSkirtDepthsM(const ChunkTree& tree, ErrorMetric metric,
                                          std::span<const DrawItem> items, std::span<const DrawnPair> pairs,
                                          double skirtFactor) {
-    std::vector<float> depths = factorOneDepthsM(tree, metric, items, pairs);
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-        const auto wanted = static_cast<float>(skirtFactor * depths[i]);
-        depths[i] = skirtFactor > 0 ? std::max(leastDepthM(tree, items[i]), wanted) : 0;
-    }
+    std::vector<float> depths = mostApartOfEachM(tree, metric, items, pairs);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+        depths[i] = automaticSkirtDepthM(tree, items[i], depths[i], skirtFactor);
     return depths;
 }
 
 RequiredSkirts requiredSkirts(const ChunkTree& tree, ErrorMetric metric, std::span<const DrawItem> items,
                               std::span<const DrawnPair> pairs, std::span<const EdgeGap> gaps) {
     const std::vector<double> neededM = requiredSkirtDepthsM(gaps, items.size());
-    const std::vector<float> oneM = factorOneDepthsM(tree, metric, items, pairs);
+    const std::vector<float> apartM = mostApartOfEachM(tree, metric, items, pairs);
     RequiredSkirts required;
     for (std::size_t i = 0; i < items.size(); ++i) {
         required.depthM = std::max(required.depthM, neededM[i]);
-        if (neededM[i] <= static_cast<double>(leastDepthM(tree, items[i]))) continue;
-        const double factor =
-            oneM[i] > 0 ? neededM[i] / static_cast<double>(oneM[i]) : std::numeric_limits<double>::infinity();
+        if (neededM[i] <= static_cast<double>(leastSkirtDepthM(tree, items[i]))) continue;
+        const double factor = apartM[i] > 0 ? neededM[i] / static_cast<double>(apartM[i])
+                                            : std::numeric_limits<double>::infinity();
         required.factor = std::max(required.factor, factor);
     }
     return required;

@@ -7,12 +7,11 @@
 #include <unordered_set>
 
 #include "planet/chunk_table.h"
+#include "planet/skirt_depth.h"
 
 namespace planet {
 
 namespace {
-
-constexpr std::array allEdges = {Edge::West, Edge::East, Edge::South, Edge::North};
 
 // How a chunk was drawn in the frame before.
 struct Shown {
@@ -158,14 +157,6 @@ bool wantsSplit(const Frame& frame, const Seen& seen, const Above& above) {
     return seen.deltaM * frame.reach > seen.distanceM || staysSplit(frame, node, seen);
 }
 
-// The edge of a chunk, if it has one, beyond which another of its level lies.
-std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other) {
-    for (const Edge edge : allEdges) {
-        if (neighbourOf(id, edge) == other) return edge;
-    }
-    return std::nullopt;
-}
-
 bool edgeShowed(const Memory& before, const ChunkId& id, const ChunkId& towards, float morph) {
     const Shown* shown = before.find(id);
     const std::optional<Edge> edge = shown ? edgeTowards(id, towards) : std::nullopt;
@@ -258,27 +249,6 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
     for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, here, out);
 }
 
-// The drawn chunk beyond an edge, of the same level or the first coarser one; finer ones find this chunk
-// themselves.
-const std::uint32_t* drawnNeighbour(const ChunkTable& drawn, const ChunkId& id, Edge edge,
-                                    int coarsestLevel) {
-    ChunkId other = neighbourOf(id, edge);
-    const std::uint32_t* found = drawn.find(other);
-    while (!found && other.level > coarsestLevel) {
-        other = parentOf(other);
-        found = drawn.find(other);
-    }
-    return found;
-}
-
-// How far a chunk that slides that much towards its parent may be from the truth, metres.
-float boundM(const ChunkTree& tree, const LodSettings& settings, const DrawItem& item, float morph) {
-    if (morph == 0) return item.deltaCM;
-    const NodeIndex parent = tree.nodes[item.node].parent;
-    if (parent == noNode) return item.deltaCM;
-    return item.deltaCM + morph * (deltaOf(tree.nodes[parent], settings.metric) - item.deltaCM);
-}
-
 // What lies beyond an edge of a drawn chunk.
 struct Beyond {
     static constexpr std::uint32_t nothing = ~std::uint32_t{0};
@@ -347,7 +317,9 @@ private:
         }
         for (std::uint32_t i = 0; i < draw.size(); ++i) {
             for (std::size_t e = 0; e < edgeCount; ++e) {
-                const std::uint32_t* found = drawnNeighbour(drawn, draw[i].id, allEdges[e], coarsestLevel);
+                // Of the same level or coarser; finer ones find this chunk themselves.
+                const std::uint32_t* found =
+                    drawn.findHolder(neighbourOf(draw[i].id, allEdges[e]), coarsestLevel);
                 if (!found) continue;
                 beyond_[i][e].item = *found;
                 if (draw[*found].id.level < draw[i].id.level) noteSeam(i, e);
@@ -363,9 +335,7 @@ private:
         item.coarserBy[edge] = levels;
         out_.seams.push_back({item.id, coarser, allEdges[edge]});
         out_.counters.widestSeam = std::max<std::uint32_t>(out_.counters.widestSeam, levels);
-        ChunkId here = item.id;
-        while (here.level > coarser.level) here = parentOf(here);
-        const std::optional<Edge> back = edgeTowards(coarser, here);
+        const std::optional<Edge> back = edgeTowards(coarser, ancestorOf(item.id, coarser.level));
         assert(back);
         beyond.back = *back;
         beyond_[beyond.item][static_cast<std::size_t>(*back)].finer = true;
@@ -428,35 +398,26 @@ private:
     }
 
     void fillSkirts() {
-        const bool fixed = settings_.skirtDepth == SkirtDepth::Fixed;
-        if (!fixed && settings_.skirtFactor <= 0) return;
-        for (DrawItem& item : out_.draw) {
-            // Edges that agree exactly still part by rounding, of heights and of pixels.
-            const float leastM =
-                std::max(static_cast<float>(2 * frame_.tree.shape.quantumM), 1e-6f * item.distanceM);
-            item.skirtDepthM = fixed ? static_cast<float>(settings_.skirtDepthM) : leastM;
+        std::vector<DrawItem>& draw = out_.draw;
+        if (settings_.skirtDepth == SkirtDepth::Fixed) {
+            for (DrawItem& item : draw) item.skirtDepthM = static_cast<float>(settings_.skirtDepthM);
+            return;
         }
-        for (std::uint32_t i = 0; !fixed && i < out_.draw.size(); ++i) {
+        std::vector<float> apartM(draw.size(), 0);
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
             for (std::size_t e = 0; e < edgeCount; ++e) {
-                if (beyond_[i][e].item != Beyond::nothing) deepenSkirts(i, e);
+                const Beyond& beyond = beyond_[i][e];
+                if (beyond.item == Beyond::nothing) continue;
+                const float bothM = mostApartM(frame_.tree, settings_.metric, draw[i], allEdges[e],
+                                               draw[beyond.item], beyond.back);
+                apartM[i] = std::max(apartM[i], bothM);
+                apartM[beyond.item] = std::max(apartM[beyond.item], bothM);
             }
         }
-    }
-
-    // Both sides of an edge get a skirt that covers both errors, so whichever of the two lies higher there,
-    // its skirt reaches below the other.
-    void deepenSkirts(std::uint32_t index, std::size_t edge) {
-        DrawItem& item = out_.draw[index];
-        const Beyond& beyond = beyond_[index][edge];
-        DrawItem& other = out_.draw[beyond.item];
-        const float morph = item.edgeMorph[edge];
-        const float otherMorph =
-            item.coarserBy[edge] == 0 ? morph : other.edgeMorph[static_cast<std::size_t>(beyond.back)];
-        const float bothM =
-            boundM(frame_.tree, settings_, item, morph) + boundM(frame_.tree, settings_, other, otherMorph);
-        const auto depth = static_cast<float>(settings_.skirtFactor * bothM);
-        item.skirtDepthM = std::max(item.skirtDepthM, depth);
-        other.skirtDepthM = std::max(other.skirtDepthM, depth);
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            draw[i].skirtDepthM =
+                automaticSkirtDepthM(frame_.tree, draw[i], apartM[i], settings_.skirtFactor);
+        }
     }
 
     const Frame& frame_;
@@ -475,9 +436,7 @@ bool limitSeams(Frame& frame, const Selection& selection) {
     const std::size_t before = frame.seamLimit.size();
     for (const LevelSeam& seam : selection.seams) {
         if (seam.finer.level - seam.coarser.level <= widest) continue;
-        ChunkId above = seam.finer;
-        while (above.level > seam.coarser.level + widest) above = parentOf(above);
-        frame.seamLimit.insert(findNode(frame.tree, above));
+        frame.seamLimit.insert(findNode(frame.tree, ancestorOf(seam.finer, seam.coarser.level + widest)));
     }
     return frame.seamLimit.size() > before;
 }

@@ -56,9 +56,8 @@ bool sameEdge(const DrawItem& a, const DrawItem& b, Edge edge) {
     return a.coarserBy[e] == b.coarserBy[e] && a.edgeMorph[e] == b.edgeMorph[e] && a.morph == b.morph;
 }
 
-bool isWithin(ChunkId id, const ChunkId& above) {
-    while (id.level > above.level) id = parentOf(id);
-    return id == above;
+bool isWithin(const ChunkId& id, const ChunkId& above) {
+    return ancestorOf(id, above.level) == above;
 }
 
 }  // namespace

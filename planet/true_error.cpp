@@ -469,9 +469,7 @@ TrueErrorReport summaryOf(std::vector<ChunkError>&& chunks) {
 
 // The chunk beyond an edge, of the same level or coarser; one that is not drawn may come out.
 ChunkId beyond(const DrawItem& item, std::size_t edge) {
-    ChunkId id = neighbourOf(item.id, static_cast<Edge>(edge));
-    for (int i = 0; i < item.coarserBy[edge]; ++i) id = parentOf(id);
-    return id;
+    return ancestorOf(neighbourOf(item.id, static_cast<Edge>(edge)), item.id.level - item.coarserBy[edge]);
 }
 
 using ItemIndex = std::unordered_map<ChunkId, std::size_t>;

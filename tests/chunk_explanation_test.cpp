@@ -309,9 +309,8 @@ TEST(ChunkExplanation, AgreesWithTheSelection) {
     }
 }
 
-bool covers(ChunkId id, const ChunkId& above) {
-    while (id.level > above.level) id = parentOf(id);
-    return id == above;
+bool covers(const ChunkId& id, const ChunkId& above) {
+    return ancestorOf(id, above.level) == above;
 }
 
 // By definition: one of two chunks has its neighbour beyond an edge in the other.

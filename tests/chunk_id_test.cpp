@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "planet/chunk_table.h"
+
 namespace planet {
 namespace {
 
@@ -68,6 +70,7 @@ TEST(ChunkId, NeighboursShareAnEdgeAndAreMutualAcrossFaces) {
                 const ChunkId other = neighbourOf(id, static_cast<Edge>(edge));
                 EXPECT_EQ(sharedCorners(id, other), 2) << toString(id) << " and " << toString(other);
                 EXPECT_EQ(other.level, id.level);
+                EXPECT_EQ(edgeTowards(id, other), static_cast<Edge>(edge));
                 neighbours.insert(other);
                 bool mutual = false;
                 for (int back = 0; back < edgeCount; ++back)
@@ -75,8 +78,30 @@ TEST(ChunkId, NeighboursShareAnEdgeAndAreMutualAcrossFaces) {
                 EXPECT_TRUE(mutual);
             }
             EXPECT_EQ(neighbours.size(), 4u);
+            EXPECT_EQ(edgeTowards(id, id), std::nullopt);
         }
     }
+}
+
+TEST(ChunkId, AncestorOfALevelIsTheChunkThatHoldsIt) {
+    const ChunkId id{Face::NegZ, 5, 19, 30};
+    EXPECT_EQ(ancestorOf(id, 5), id);
+    EXPECT_EQ(ancestorOf(id, 9), id);
+    EXPECT_EQ(ancestorOf(id, 3), (ChunkId{Face::NegZ, 3, 4, 7}));
+    EXPECT_EQ(ancestorOf(id, 0), (ChunkId{Face::NegZ, 0, 0, 0}));
+}
+
+TEST(ChunkTable, FindsTheFinestThatHoldsAChunk) {
+    const ChunkId id{Face::NegZ, 5, 19, 30};
+    ChunkTable table(2);
+    table.add(ancestorOf(id, 3), 30);
+    EXPECT_EQ(*table.findHolder(id, 3), 30u);
+    EXPECT_EQ(*table.findHolder(ancestorOf(id, 3), 3), 30u);
+    EXPECT_EQ(table.findHolder(ancestorOf(id, 2), 2), nullptr);
+    EXPECT_EQ(table.findHolder({Face::NegZ, 5, 0, 0}, 3), nullptr);
+    table.add(id, 50);
+    EXPECT_EQ(*table.findHolder(id, 3), 50u);
+    EXPECT_EQ(*table.findHolder(ancestorOf(id, 4), 3), 30u);
 }
 
 TEST(ChunkId, TextRoundTripsAndNonsenseIsRefused) {

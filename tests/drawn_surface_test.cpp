@@ -96,7 +96,7 @@ TEST(DrawnSurface, stitchedNeighboursShareEveryPointOfTheirEdge) {
     const Neighbourhood neighbourhood(items);
     int compared = 0;
     for (const DrawItem& item : items) {
-        for (const Edge edge : {Edge::West, Edge::East, Edge::South, Edge::North}) {
+        for (const Edge edge : allEdges) {
             const DrawItem* other = neighbourhood.beyond(item.id, edge);
             if (other == nullptr || other->id.face != item.id.face) continue;
             const DrawnGrid own = gridOf(item, true);

@@ -116,10 +116,13 @@ TEST_F(EdgeGaps, StitchedHasNoGapAtAnyDifferenceAndMorph) {
     EXPECT_TRUE(met.contains({3, true}));
 }
 
-TEST_F(EdgeGaps, GapsStayWithinWhatBothErrorsAllow) {
+class EdgeGapsByMetric : public EdgeGaps, public testing::WithParamInterface<ErrorMetric> {};
+
+TEST_P(EdgeGapsByMetric, GapsStayWithinWhatBothErrorsAllow) {
     for (int i = 0; i < 6; ++i) {
         const View view = randomView(random_, 1e5);
-        const LodSettings settings = wholePlanet(SeamMode::Skirts, i % 2 == 0);
+        LodSettings settings = wholePlanet(SeamMode::Skirts, i % 2 == 0);
+        settings.metric = GetParam();
         const auto items = select(tree_, view, settings);
         const auto pairs = drawnPairs(items);
         const auto gaps = edgeGaps({tree_.shape, items, heightsIn(tree_), false}, pairs, view);
@@ -136,10 +139,27 @@ TEST_F(EdgeGaps, GapsStayWithinWhatBothErrorsAllow) {
     }
 }
 
-TEST_F(EdgeGaps, AutomaticDepthsAreThoseOfTheSelection) {
+TEST_F(EdgeGaps, OfTheSameGroundSkirtsHangLessDeepByTheTightMetric) {
+    // All of one level, so that both metrics draw the same.
+    LodSettings settings = wholePlanet(SeamMode::Skirts, false);
+    settings.maxLevel = 1;
+    settings.tauPx = 1e-9;
+    const auto additive = select(tree_, view_, settings);
+    settings.metric = ErrorMetric::Tight;
+    const auto tight = select(tree_, view_, settings);
+    ASSERT_EQ(tight.size(), additive.size());
+    for (std::size_t i = 0; i < tight.size(); ++i) {
+        ASSERT_EQ(tight[i].id, additive[i].id);
+        EXPECT_LT(tight[i].skirtDepthM, 0.95f * additive[i].skirtDepthM) << toString(tight[i].id);
+        EXPECT_GT(tight[i].skirtDepthM, fakePyramid().at(tight[i].id).deltaTightM);
+    }
+}
+
+TEST_P(EdgeGapsByMetric, AutomaticDepthsAreThoseOfTheSelection) {
     for (const double factor : {0.0, 0.3, 1.0, 4.0}) {
         for (const bool morph : {false, true}) {
             LodSettings settings = wholePlanet(SeamMode::Skirts, morph);
+            settings.metric = GetParam();
             settings.skirtFactor = factor;
             const auto items = select(tree_, view_, settings);
             const auto depths =
@@ -149,6 +169,11 @@ TEST_F(EdgeGaps, AutomaticDepthsAreThoseOfTheSelection) {
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(AdditiveAndTight, EdgeGapsByMetric,
+                         testing::Values(ErrorMetric::Additive, ErrorMetric::Tight), [](const auto& given) {
+                             return given.param == ErrorMetric::Tight ? "Tight" : "Additive";
+                         });
 
 TEST_F(EdgeGaps, AMovedVertexIsAGapOfItsHeight) {
     const View view = randomView(random_, 1e5);

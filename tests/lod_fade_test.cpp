@@ -339,10 +339,9 @@ void expectNoGaps(const ChunkTree& tree, const Selection& selection, std::size_t
     for (const DrawItem& item : selection.draw) {
         for (int e = 0; e < edgeCount; ++e) {
             ChunkId beyond = neighbourOf(item.id, static_cast<Edge>(e));
-            ChunkId here = item.id;
             while (!items.contains(beyond) && beyond.level > 0) beyond = parentOf(beyond);
             if (!items.contains(beyond)) continue;
-            while (here.level > beyond.level) here = parentOf(here);
+            const ChunkId here = ancestorOf(item.id, beyond.level);
             for (int back = 0; back < edgeCount; ++back) {
                 if (neighbourOf(beyond, static_cast<Edge>(back)) != here) continue;
                 const auto theirs = edgeOf(beyond, static_cast<Edge>(back));

@@ -219,8 +219,7 @@ void parents(const ChunkId& id, Commands& commands) {
     }
     const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
     for (int level = 0; level < id.level; ++level) {
-        ChunkId above = id;
-        while (above.level > level) above = parentOf(above);
+        const ChunkId above = ancestorOf(id, level);
         const std::string text =
             level == 0 ? toString(above) : fmt::format("{}: {}/{}", level, above.x, above.y);
         const float width = ImGui::CalcTextSize(text.c_str()).x + 3 * ImGui::GetStyle().FramePadding.x;

@@ -69,15 +69,14 @@ TEST_F(Seams, StitchedNeighboursHaveTheVerySameVertices) {
     const Neighbourhood neighbourhood(items);
     std::map<std::pair<int, bool>, int> pairs;  // by difference of levels and whether across faces
     for (std::size_t i = 0; i < items.size(); ++i) {
-        for (const Edge edge : {Edge::West, Edge::East, Edge::South, Edge::North}) {
+        for (const Edge edge : allEdges) {
             const DrawItem* other = neighbourhood.beyond(items[i].id, edge);
             if (other == nullptr) continue;
             const int coarser = items[i].id.level - other->id.level;
             const std::set<Bits> own = edgeVertices(all, i, edge);
             EXPECT_EQ(own.size(), static_cast<std::size_t>((16 >> coarser) + 1));
             std::set<Bits> border;
-            for (const Edge side : {Edge::West, Edge::East, Edge::South, Edge::North})
-                border.merge(edgeVertices(all, indexOf[other->id], side));
+            for (const Edge side : allEdges) border.merge(edgeVertices(all, indexOf[other->id], side));
             EXPECT_TRUE(std::includes(border.begin(), border.end(), own.begin(), own.end()))
                 << toString(items[i].id) << " beside " << toString(other->id);
             ++pairs[{coarser, items[i].id.face != other->id.face}];
