@@ -231,11 +231,8 @@ TEST(ChunkExplanation, OfChunksThatNoFileHas) {
 TEST(ChunkExplanation, OfChunksHeldBackForStitchedSeams) {
     Scene scene(0);
     ChunkId id{Face::PosX, 0, 0, 0};  // one corner of a face deep, the rest not resident
-    for (int level = 0; level < 4; ++level, id = childOf(id, 0)) {
-        const auto next = static_cast<std::uint32_t>(scene.tree.nodes.size());
-        addChildren(scene.tree, findNode(scene.tree, id), fakePyramid().childrenOf(id),
-                    {next, next + 1, next + 2, next + 3});
-    }
+    for (int level = 0; level < 4; ++level, id = childOf(id, 0))
+        addFakeChildren(scene.tree, findNode(scene.tree, id));
     scene.lod.tauPx = 1e-6;
     scene.lod.seams = SeamMode::Stitched;
     scene.select();
@@ -323,9 +320,7 @@ TEST(ChunkExplanation, NeighboursAreAllThatIsDrawnBeyondAnEdge) {
         for (NodeIndex at = 0; at < scene.tree.nodes.size(); ++at) {
             const ChunkNode& node = scene.tree.nodes[at];
             if (node.id.level == 4 || node.childrenState == ChildrenState::Resident || random() % 2) continue;
-            const auto next = static_cast<std::uint32_t>(scene.tree.nodes.size());
-            addChildren(scene.tree, at, fakePyramid().childrenOf(node.id),
-                        {next, next + 1, next + 2, next + 3});
+            addFakeChildren(scene.tree, at);
         }
         scene.lod.tauPx = 1e-6;
         scene.lod.frustumCulling = i % 2;

@@ -7,48 +7,33 @@
 #include <random>
 #include <set>
 
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/random_view.h"
 
 namespace planet {
 namespace {
 
-ChunkTree patchyTree(unsigned seed) {
-    std::mt19937 random(seed);
-    ChunkTree tree = residentTree(fakePyramid(), 1);
-    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        const ChunkId id = tree.nodes[i].id;
-        if (tree.nodes[i].childrenState != ChildrenState::Absent || random() % 3 == 0) continue;
-        const auto next = static_cast<std::uint32_t>(tree.nodes.size());
-        addChildren(tree, i, fakePyramid().childrenOf(id), {next, next + 1, next + 2, next + 3});
-    }
-    return tree;
-}
-
 LodSettings wholePlanet(SeamMode seams, bool morph) {
-    LodSettings settings;
+    LodSettings settings = withoutCulling(2);
     settings.seams = seams;
     settings.morph = morph;
-    settings.frustumCulling = settings.horizonCulling = false;
     return settings;
 }
 
-std::vector<DrawItem> select(const ChunkTree& tree, const View& view, const LodSettings& settings) {
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
-    return selection.draw;
+std::vector<DrawItem> drawnBy(const ChunkTree& tree, const View& view, const LodSettings& settings) {
+    return select(tree, view, settings).draw;
 }
 
 class EdgeGaps : public testing::Test {
 protected:
-    ChunkTree tree_ = patchyTree(1);
+    std::mt19937 treeRandom_{1};
+    ChunkTree tree_ = patchyTree(treeRandom_, 1, 3);
     std::mt19937 random_{2};
     View view_ = randomView(random_, 1e5);
 };
 
 TEST_F(EdgeGaps, PairsAreThoseOfTheSelectionAndThoseOfOneLevel) {
-    Selection selection;
-    selectChunks(tree_, view_, wholePlanet(SeamMode::None, false), selection);
+    const Selection selection = select(tree_, view_, wholePlanet(SeamMode::None, false));
     std::set<std::pair<ChunkId, ChunkId>> seams;
     for (const LevelSeam& seam : selection.seams) seams.insert({seam.finer, seam.coarser});
     std::set<std::pair<ChunkId, ChunkId>> found;
@@ -73,7 +58,7 @@ TEST_F(EdgeGaps, PairsAreThoseOfTheSelectionAndThoseOfOneLevel) {
 }
 
 TEST_F(EdgeGaps, TheFinerEdgesOfACoarserOneFillIt) {
-    const std::vector<DrawItem> items = select(tree_, view_, wholePlanet(SeamMode::None, false));
+    const std::vector<DrawItem> items = drawnBy(tree_, view_, wholePlanet(SeamMode::None, false));
     std::map<std::pair<std::uint32_t, Edge>, double> covered;
     bool reversed = false;
     for (const DrawnPair& pair : drawnPairs(items)) {
@@ -90,7 +75,7 @@ TEST_F(EdgeGaps, OneLevelAndOneMorphHaveNoGap) {
     LodSettings settings = wholePlanet(SeamMode::None, false);
     settings.maxLevel = 1;
     settings.tauPx = 1e-9;
-    std::vector<DrawItem> items = select(tree_, view_, settings);
+    std::vector<DrawItem> items = drawnBy(tree_, view_, settings);
     for (const float morph : {0.0f, 0.3f, 1.0f}) {
         for (DrawItem& item : items) {
             item.morph = morph;
@@ -107,7 +92,7 @@ TEST_F(EdgeGaps, StitchedHasNoGapAtAnyDifferenceAndMorph) {
     std::set<std::pair<int, bool>> met;
     for (int i = 0; i < 6; ++i) {
         const View view = randomView(random_, 1e5);
-        const auto items = select(tree_, view, wholePlanet(SeamMode::Stitched, i % 2 == 0));
+        const auto items = drawnBy(tree_, view, wholePlanet(SeamMode::Stitched, i % 2 == 0));
         for (const EdgeGap& gap : edgeGaps({tree_.shape, items, heightsIn(tree_), true}, view)) {
             EXPECT_LT(gap.gapM, 1e-9) << toString(gap.finer) << " " << toString(gap.coarser);
             met.insert({gap.finer.level - gap.coarser.level, gap.finer.face != gap.coarser.face});
@@ -123,7 +108,7 @@ TEST_P(EdgeGapsByMetric, GapsStayWithinWhatBothErrorsAllow) {
         const View view = randomView(random_, 1e5);
         LodSettings settings = wholePlanet(SeamMode::Skirts, i % 2 == 0);
         settings.metric = GetParam();
-        const auto items = select(tree_, view, settings);
+        const auto items = drawnBy(tree_, view, settings);
         const auto pairs = drawnPairs(items);
         const auto gaps = edgeGaps({tree_.shape, items, heightsIn(tree_), false}, pairs, view);
         ASSERT_GT(gaps[0].gapM, 100);
@@ -144,9 +129,9 @@ TEST_F(EdgeGaps, OfTheSameGroundSkirtsHangLessDeepByTheTightMetric) {
     LodSettings settings = wholePlanet(SeamMode::Skirts, false);
     settings.maxLevel = 1;
     settings.tauPx = 1e-9;
-    const auto additive = select(tree_, view_, settings);
+    const auto additive = drawnBy(tree_, view_, settings);
     settings.metric = ErrorMetric::Tight;
-    const auto tight = select(tree_, view_, settings);
+    const auto tight = drawnBy(tree_, view_, settings);
     ASSERT_EQ(tight.size(), additive.size());
     for (std::size_t i = 0; i < tight.size(); ++i) {
         ASSERT_EQ(tight[i].id, additive[i].id);
@@ -161,7 +146,7 @@ TEST_P(EdgeGapsByMetric, AutomaticDepthsAreThoseOfTheSelection) {
             LodSettings settings = wholePlanet(SeamMode::Skirts, morph);
             settings.metric = GetParam();
             settings.skirtFactor = factor;
-            const auto items = select(tree_, view_, settings);
+            const auto items = drawnBy(tree_, view_, settings);
             const auto depths =
                 automaticSkirtDepthsM(tree_, settings.metric, items, drawnPairs(items), factor);
             for (std::size_t i = 0; i < items.size(); ++i)
@@ -177,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(AdditiveAndTight, EdgeGapsByMetric,
 
 TEST_F(EdgeGaps, AMovedVertexIsAGapOfItsHeight) {
     const View view = randomView(random_, 1e5);
-    const auto items = select(tree_, view, wholePlanet(SeamMode::Stitched, false));
+    const auto items = drawnBy(tree_, view, wholePlanet(SeamMode::Stitched, false));
     const auto pairs = drawnPairs(items);
     int tried = 0;
     for (const DrawnPair& pair : pairs) {

@@ -200,14 +200,20 @@ inline const FakePyramid& fakePyramid() {
     return pyramid;
 }
 
+// A node's children from the pyramid, each in the slot of its own index.
+inline void addFakeChildren(ChunkTree& tree, NodeIndex parent, const FakePyramid& pyramid = fakePyramid()) {
+    const auto next = static_cast<std::uint32_t>(tree.nodes.size());
+    addChildren(tree, parent, pyramid.childrenOf(tree.nodes[parent].id),
+                {next, next + 1, next + 2, next + 3});
+}
+
 // The tree with everything resident down to a level, each node in the slot of its own index.
 inline ChunkTree residentTree(const FakePyramid& pyramid, int toLevel) {
     ChunkTree tree = makeChunkTree(pyramid.shape, pyramid.minStep, pyramid.maxStep, pyramid.roots()).value();
     for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        const ChunkId id = tree.nodes[i].id;
-        if (id.level >= toLevel || tree.nodes[i].childrenState == ChildrenState::None) continue;
-        const auto next = static_cast<std::uint32_t>(tree.nodes.size());
-        addChildren(tree, i, pyramid.childrenOf(id), {next, next + 1, next + 2, next + 3});
+        const ChunkNode& node = tree.nodes[i];
+        if (node.id.level >= toLevel || node.childrenState == ChildrenState::None) continue;
+        addFakeChildren(tree, i, pyramid);
     }
     return tree;
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/random_view.h"
 
 namespace planet {
@@ -190,7 +190,6 @@ bool covered(const std::set<ChunkId>& drawn, ChunkId id) {
 }
 
 TEST(LodChanges, OfRealSelectionsEachChangeIsFound) {
-    const ChunkTree tree = residentTree(fakePyramid(), 4);
     std::mt19937 random(61);
     std::size_t found = 0;
     for (int i = 0; i < 120; ++i) {
@@ -202,13 +201,11 @@ TEST(LodChanges, OfRealSelectionsEachChangeIsFound) {
         for (int frame = 0; frame < 4; ++frame) {
             settings.tauPx = 1 + static_cast<double>(random() % 8);
             view.eyeM *= 1.02;
-            Selection selection;
-            selectChunks(tree, view, settings, selection);
+            const Selection selection = select(wholeTree(), view, settings);
             changes.add(selection, frame * 20.0);
-            std::set<ChunkId> drawnNow;
-            std::set<ChunkId> splitsNow;
-            for (const DrawItem& item : selection.draw) drawnNow.insert(item.id);
-            for (const ChildrenRequest& split : selection.splits) splitsNow.insert(split.parentId);
+            const auto ids = drawnIds(selection);
+            std::set<ChunkId> drawnNow(ids.begin(), ids.end());
+            std::set<ChunkId> splitsNow = splitIds(selection);
             std::set<Seen> expected;
             for (const ChunkId& id : splitsNow) {
                 if (!splits.contains(id) && covered(drawn, id)) expected.insert({id, LodChangeType::Split});

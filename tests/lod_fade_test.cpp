@@ -11,7 +11,7 @@
 
 #include "planet/drawn_surface.h"
 #include "planet/lod_select.h"
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/planet_fixture.h"
 #include "tests/random_view.h"
 
@@ -23,35 +23,12 @@ constexpr double fadeS = 0.25;
 constexpr float step = static_cast<float>(frameS / fadeS);
 constexpr float rounding = 2e-6f;
 
-const ChunkTree& wholeTree() {
-    static const ChunkTree tree = [] {
-        ChunkTree made = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-        for (ChunkNode& node : made.nodes) node.deltaTightM = 0.4f * node.deltaCM;
-        return made;
-    }();
-    return tree;
-}
-
 LodSettings fading(double tauPx) {
     LodSettings settings;
     settings.tauPx = tauPx;
     settings.morph = true;
     settings.fadeS = fadeS;
     return settings;
-}
-
-using ItemsById = std::map<ChunkId, DrawItem>;
-
-ItemsById itemsOf(const Selection& selection) {
-    ItemsById items;
-    for (const DrawItem& item : selection.draw) items[item.id] = item;
-    return items;
-}
-
-std::set<ChunkId> splitsOf(const Selection& selection) {
-    std::set<ChunkId> ids;
-    for (const ChildrenRequest& split : selection.splits) ids.insert(split.parentId);
-    return ids;
 }
 
 bool sameDrawing(const Selection& a, const Selection& b) {
@@ -135,7 +112,7 @@ public:
           stitched_(stitched),
           before_(itemsOf(before)),
           now_(itemsOf(now)),
-          splitBefore_(splitsOf(before)) {}
+          splitBefore_(splitIds(before)) {}
 
     void check(Tally& tally) const {
         for (const auto& [id, item] : now_) {
@@ -364,13 +341,7 @@ TEST(LodFade, StitchedEdgesHaveTheSameVerticesOnBothSidesInEveryFrame) {
     std::size_t seamVertices = 0;
     std::size_t fadingFrames = 0;
     for (int round = 0; round < 4; ++round) {
-        ChunkTree tree = residentTree(fakePyramid(), 0);  // with holes at random, so that levels differ much
-        for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-            const ChunkId id = tree.nodes[i].id;
-            if (tree.nodes[i].childrenState == ChildrenState::None || random() % 4 == 0) continue;
-            const auto next = static_cast<std::uint32_t>(tree.nodes.size());
-            addChildren(tree, i, fakePyramid().childrenOf(id), {next, next + 1, next + 2, next + 3});
-        }
+        const ChunkTree tree = patchyTree(random, 0, 4);  // so that levels differ much
         LodSettings lod = fading(2);
         lod.seams = SeamMode::Stitched;
         lod.frustumCulling = lod.horizonCulling = false;
@@ -523,7 +494,7 @@ TEST(LodFade, ACulledSiblingHoldsNoMergeUp) {
         LodSettings lod = fading(2);
         Selection selection;
         selectChunks(wholeTree(), view, lod, selection, frameS);
-        const std::set<ChunkId> splits = splitsOf(selection);
+        const std::set<ChunkId> splits = splitIds(selection);
         const ItemsById before = itemsOf(selection);
         lod.tauPx = 5;
         for (int frame = 0; frame < 100; ++frame) selectChunks(wholeTree(), view, lod, selection, frameS);
@@ -583,6 +554,8 @@ TEST(LodFade, TheSameFlightGivesTheSameDrawings) {
 }
 
 TEST(LodFade, ANewMetricIsSelectedByAndDeepensNoSkirtNeedlessly) {
+    ChunkTree tree = wholeTree();
+    for (ChunkNode& node : tree.nodes) node.deltaTightM = 0.4f * node.deltaCM;
     std::mt19937 random(43);
     for (int i = 0; i < 50; ++i) {
         const View view = randomView(random, 1e5);
@@ -591,12 +564,10 @@ TEST(LodFade, ANewMetricIsSelectedByAndDeepensNoSkirtNeedlessly) {
         LodSettings tight = additive;
         tight.metric = ErrorMetric::Tight;
         tight.tauPx = 0.4 * additive.tauPx;  // as the tight values are 0.4 of the others
-        Selection a;
-        Selection b;
-        selectChunks(wholeTree(), view, additive, a);
-        selectChunks(wholeTree(), view, tight, b);
+        const Selection a = select(tree, view, additive);
+        const Selection b = select(tree, view, tight);
         ASSERT_EQ(a.draw.size(), b.draw.size());
-        const double floorM = 2 * wholeTree().shape.quantumM;
+        const double floorM = 2 * tree.shape.quantumM;
         for (std::size_t k = 0; k < a.draw.size(); ++k) {
             EXPECT_EQ(a.draw[k].id, b.draw[k].id);
             EXPECT_FLOAT_EQ(b.draw[k].deltaCM, 0.4f * a.draw[k].deltaCM);

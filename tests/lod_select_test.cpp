@@ -12,51 +12,13 @@
 #include <random>
 #include <set>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/random_view.h"
 
 namespace planet {
 namespace {
-
-const ChunkTree& wholeTree() {
-    static const ChunkTree tree = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-    return tree;
-}
-
-// Whole but for holes in what is resident, at random.
-ChunkTree patchyTree(std::mt19937& random) {
-    ChunkTree tree = residentTree(fakePyramid(), 0);
-    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        const ChunkId id = tree.nodes[i].id;
-        if (tree.nodes[i].childrenState == ChildrenState::None || random() % 4 == 0) continue;
-        const auto next = static_cast<std::uint32_t>(tree.nodes.size());
-        addChildren(tree, i, fakePyramid().childrenOf(id), {next, next + 1, next + 2, next + 3});
-    }
-    return tree;
-}
-
-LodSettings withoutCulling(double tauPx) {
-    LodSettings settings;
-    settings.tauPx = tauPx;
-    settings.frustumCulling = false;
-    settings.horizonCulling = false;
-    return settings;
-}
-
-Selection select(const ChunkTree& tree, const View& view, const LodSettings& settings) {
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
-    return selection;
-}
-
-std::unordered_set<ChunkId> drawnIds(const Selection& selection) {
-    std::unordered_set<ChunkId> ids;
-    for (const DrawItem& item : selection.draw) ids.insert(item.id);
-    return ids;
-}
 
 // The drawn chunks that a chunk of the finest level lies in.
 std::vector<ChunkId> drawnOver(const std::unordered_set<ChunkId>& drawn, ChunkId id) {
@@ -82,7 +44,7 @@ TEST(LodSelect, DrawsEveryPlaceOnceWithoutCulling) {
     const std::vector<ChunkId> finest = leaves();
     std::set<int> levels;
     for (int i = 0; i < 60; ++i) {
-        const ChunkTree tree = i % 2 ? patchyTree(random) : wholeTree();
+        const ChunkTree tree = i % 2 ? patchyTree(random, 0, 4) : wholeTree();
         const Selection selection = select(tree, randomView(random, 1e5), withoutCulling(1 + i % 30));
         const auto drawn = drawnIds(selection);
         EXPECT_EQ(drawn.size(), selection.draw.size());
@@ -271,7 +233,7 @@ TEST(LodSelect, TheSameInputGivesTheSameAnswer) {
     std::mt19937 random(18);
     Selection reused;
     for (int i = 0; i < 50; ++i) {
-        const ChunkTree tree = patchyTree(random);
+        const ChunkTree tree = patchyTree(random, 0, 4);
         const View view = randomView(random, 1e5);
         LodSettings settings;
         settings.tauPx = 3;
@@ -285,7 +247,8 @@ TEST(LodSelect, TheSameInputGivesTheSameAnswer) {
 TEST(LodSelect, ListsAreSortedAndTiesAreInOrderOfIds) {
     std::mt19937 random(19);
     for (int i = 0; i < 50; ++i) {
-        const Selection selection = select(patchyTree(random), randomView(random, 1e5), withoutCulling(1));
+        const Selection selection =
+            select(patchyTree(random, 0, 4), randomView(random, 1e5), withoutCulling(1));
         for (std::size_t k = 1; k < selection.draw.size(); ++k) {
             const DrawItem& a = selection.draw[k - 1];
             const DrawItem& b = selection.draw[k];
@@ -429,7 +392,7 @@ TEST(LodSelect, EdgesKnowWhatLiesBeyondThem) {
         settings.morph = i % 4 < 2;
         settings.morphRange = 2;
         settings.seams = i % 3 ? SeamMode::Skirts : SeamMode::Stitched;
-        const Selection selection = select(patchyTree(random), randomView(random, 1e5), settings);
+        const Selection selection = select(patchyTree(random, 0, 4), randomView(random, 1e5), settings);
         std::map<std::pair<ChunkId, Edge>, std::pair<int, float>> expected;
         std::set<std::tuple<ChunkId, ChunkId, Edge>> seams;
         for (const SharedEdge& shared : sharedEdges(selection)) {
@@ -508,7 +471,7 @@ TEST(LodSelect, SkirtsCoverTheErrorsOnBothSidesOfEveryEdge) {
         settings.skirtFactor = i % 3 ? 1 : 2.5;
         settings.morph = i % 8 < 4;
         settings.morphRange = 1;
-        const ChunkTree tree = i % 4 ? patchyTree(random) : wholeTree();
+        const ChunkTree tree = i % 4 ? patchyTree(random, 0, 4) : wholeTree();
         const Selection selection = select(tree, randomView(random, 1e5), settings);
         const auto expected = skirtDepthsByTryingAllPairs(tree, selection, settings.skirtFactor);
         for (const DrawItem& item : selection.draw) {
@@ -559,12 +522,6 @@ void expectedSplits(const ChunkTree& tree, const View& view, const LodSettings& 
     for (NodeIndex q = 0; q < quadrantCount; ++q) {
         expectedSplits(tree, view, settings, before, node.firstChild + q, splits);
     }
-}
-
-std::set<ChunkId> splitIds(const Selection& selection) {
-    std::set<ChunkId> ids;
-    for (const ChildrenRequest& split : selection.splits) ids.insert(split.parentId);
-    return ids;
 }
 
 TEST(LodSelect, WhatWasSplitStaysSplitWithinTheHysteresis) {
@@ -621,9 +578,8 @@ TEST(LodSelect, HysteresisGoesByIdsAndNotByNodes) {
         const NodeIndex index = open.back();
         open.pop_back();
         if (other.nodes[index].childrenState == ChildrenState::None) continue;
-        const auto next = static_cast<std::uint32_t>(other.nodes.size());
-        const ChunkId id = other.nodes[index].id;
-        addChildren(other, index, pyramid.childrenOf(id), {next, next + 1, next + 2, next + 3});
+        const auto next = static_cast<NodeIndex>(other.nodes.size());
+        addFakeChildren(other, index, pyramid);
         for (NodeIndex q = 0; q < quadrantCount; ++q) open.push_back(next + q);
     }
     std::mt19937 random(33);
@@ -683,14 +639,6 @@ TEST(LodSelect, MorphGoesFromTheChunksOwnSurfaceToItsParents) {
     }
     EXPECT_GT(whole, 50u);
     EXPECT_GT(between, 500u);
-}
-
-using ItemsById = std::map<ChunkId, DrawItem>;
-
-ItemsById itemsOf(const Selection& selection) {
-    ItemsById items;
-    for (const DrawItem& item : selection.draw) items[item.id] = item;
-    return items;
 }
 
 // What is drawn just before and just after a chunk takes the place of its children.
@@ -830,10 +778,7 @@ std::set<ChunkId> limitedByTryingAllPairs(std::set<ChunkId> drawn, int widest) {
         }
         if (tooFine == ChunkId{}) return drawn;
         const ChunkId parent = parentOf(tooFine);
-        std::erase_if(drawn, [&](ChunkId id) {
-            while (id.level > parent.level) id = parentOf(id);
-            return id == parent;
-        });
+        std::erase_if(drawn, [&](const ChunkId& id) { return ancestorOf(id, parent.level) == parent; });
         drawn.insert(parent);
     }
 }

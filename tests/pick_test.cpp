@@ -8,24 +8,16 @@
 #include <limits>
 #include <random>
 
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/random_view.h"
 
 namespace planet {
 namespace {
 
-const ChunkTree& wholeTree() {
-    static const ChunkTree tree = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-    return tree;
-}
-
 Selection select(const ChunkTree& tree, const View& view, double tauPx, bool culling) {
-    LodSettings settings;
-    settings.tauPx = tauPx;
+    LodSettings settings = withoutCulling(tauPx);
     settings.frustumCulling = settings.horizonCulling = culling;
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
-    return selection;
+    return select(tree, view, settings);
 }
 
 glm::dvec3 randomDirection(std::mt19937& random) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "planet/planet.h"
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/gate.h"
 
 namespace planet {
@@ -55,13 +55,10 @@ inline std::vector<ChunkId> drawn(const Planet& planet) {
 
 // What would be drawn if everything were resident.
 inline std::vector<ChunkId> drawnOfWhole(const View& view, const LodSettings& settings) {
-    static const ChunkTree whole = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-    Selection selection;
-    selectChunks(whole, view, settings, selection);
-    std::vector<ChunkId> ids;
-    for (const DrawItem& item : selection.draw) ids.push_back(item.id);
-    std::sort(ids.begin(), ids.end());
-    return ids;
+    const auto ids = drawnIds(select(wholeTree(), view, settings));
+    std::vector<ChunkId> sorted(ids.begin(), ids.end());
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
 }
 
 // A source whose loads wait at a gate, and that notes what it was asked for.

@@ -15,11 +15,6 @@ namespace {
 
 constexpr double frameS = 1.0 / 60;
 
-const ChunkTree& wholeTree() {
-    static const ChunkTree tree = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-    return tree;
-}
-
 DrawItem itemOf(const ChunkTree& tree, const ChunkId& id, float morph = 0) {
     DrawItem item;
     item.node = findNode(tree, id);
@@ -251,8 +246,7 @@ LodSettings tauOf(double tauPx) {
 
 void addSelected(PopMeter& meter, const ChunkTree& tree, const View& view, const LodSettings& settings,
                  double timeS) {
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
+    const Selection selection = select(tree, view, settings);
     meter.add(tree, selection, view, settings, timeS);
 }
 
@@ -288,17 +282,14 @@ TEST(PopMeter, AJumpOfTheCameraIsTheCamera) {
 }
 
 void addBlock(ChunkTree& tree, const ChunkId& parent) {
-    const auto next = static_cast<std::uint32_t>(tree.nodes.size());
-    addChildren(tree, findNode(tree, parent), fakePyramid().childrenOf(parent),
-                {next, next + 1, next + 2, next + 3});
+    addFakeChildren(tree, findNode(tree, parent));
 }
 
 TEST(PopMeter, ALoadHeldBackForThirtyFramesIsLateForThirtyFrames) {
     ChunkTree tree = residentTree(fakePyramid(), 3);
     const View view = viewAt(30, 20);
     const LodSettings settings = tauOf(2);
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
+    const Selection selection = select(tree, view, settings);
     ASSERT_FALSE(selection.requests.empty());
     const ChunkId held = selection.requests.front().parentId;
     const double epsPx =
@@ -371,8 +362,7 @@ TEST(PopMeter, ChildrenThatAreGoneWereEvicted) {
     const LodSettings settings = tauOf(2);
     PopMeter meter;
     addSelected(meter, tree, view, settings, 0);
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
+    const Selection selection = select(tree, view, settings);
     ChunkId above = selection.requests.front().parentId;
     ASSERT_EQ(above.level, 3);
     above = parentOf(above);

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "planet/drawn_surface.h"
-#include "tests/fake_pyramid.h"
+#include "tests/fake_selection.h"
 #include "tests/random_view.h"
 
 namespace planet {
@@ -30,9 +30,7 @@ TrueErrorReport measured(const DrawnSnapshot& snapshot) {
 
 // What a view of the whole, resident down to a level, draws.
 DrawnSnapshot drawnFrom(const ChunkTree& tree, const View& view, const LodSettings& settings) {
-    Selection selection;
-    selectChunks(tree, view, settings, selection);
-    return snapshotOf(tree, selection.draw, view, settings.seams == SeamMode::Stitched);
+    return snapshotOf(tree, select(tree, view, settings).draw, view, settings.seams == SeamMode::Stitched);
 }
 
 // Coarse chunks are drawn, and what lies under them has to be read.
@@ -40,11 +38,6 @@ const ChunkTree& coarseTree() {
     static const ChunkTree tree = residentTree(fakePyramid(), 2);
     return tree;
 }
-const ChunkTree& wholeTree() {
-    static const ChunkTree tree = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
-    return tree;
-}
-
 // Low over the ground and level, so that errors in height are seen from the side.
 View levelView(double latitudeDeg = 12, double longitudeDeg = 31) {
     CameraPose pose;

@@ -39,8 +39,7 @@ public:
             if (tree.nodes[i].childrenState != ChildrenState::Absent) continue;
             const std::uint32_t quarter = (id.x >> (id.level - 1)) + 2 * (id.y >> (id.level - 1));
             if (id.level >= deepest[4 * static_cast<std::size_t>(id.face) + quarter]) continue;
-            const auto next = static_cast<std::uint32_t>(tree.nodes.size());
-            addChildren(tree, i, fakePyramid().childrenOf(id), {next, next + 1, next + 2, next + 3});
+            addFakeChildren(tree, i);
         }
         return MixedLevels(std::move(tree));
     }
