@@ -9,72 +9,32 @@
 #include <string>
 #include <vector>
 
-#include "../editor_fixture.h"
-#include "../fake_pyramid.h"
-#include "ui/item_map.h"
-#include "ui/theme.h"
+#include "tests/editor_fixture.h"
+#include "tests/panel_fixture.h"
+#include "tests/planet_fixture.h"
 #include "ui/viewport_overlay.h"
-#include "ui/widgets.h"
 
 namespace ui {
 namespace {
 
-std::unique_ptr<planet::Planet> openPlanet() {
-    auto opened = planet::Planet::open(planet::fakePyramid().source(), {});
-    EXPECT_TRUE(opened);
-    return std::move(*opened);
-}
-
 class ChunkPanel : public testing::Test {
 protected:
     ChunkPanel() {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {400, 1400};
-        applyTheme(Theme::Dark, 1);
-        unsigned char* pixels = nullptr;
-        int width = 0, height = 0;
-        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
         fixture_.fly({}, 2);
         selected_ = fixture_.view().focus.selected;
-        io.MousePos = {-1, -1};
         frame();
         frame();
     }
-    ~ChunkPanel() override { ImGui::DestroyContext(); }
 
     void frame() {
-        ImGui::GetIO().DeltaTime = 1.0f / 60;
         commands_.clear();
-        items_.clear();
-        collectItems(&items_);
-        ImGui::NewFrame();
-        beginFixedWindow("panel", {0, 0, 400, 1400});
         EditorView view = fixture_.view();
         view.focus.selected = selected_;
-        chunkPanel(view, state_, settings_, commands_);
-        ImGui::End();
-        ImGui::Render();
-        collectItems(nullptr);
-    }
-
-    bool isShown(const std::string& item) const {
-        return std::any_of(items_.begin(), items_.end(),
-                           [&](const ItemPlace& place) { return place.name.ends_with(item); });
+        window_.frame([&] { chunkPanel(view, state_, settings_, commands_); });
     }
 
     void click(const std::string& item) {
-        const auto found = std::find_if(items_.begin(), items_.end(),
-                                        [&](const ItemPlace& place) { return place.name.ends_with(item); });
-        ASSERT_NE(found, items_.end()) << item;
-        const Rect& rect = found->rect;
-        ImGui::GetIO().MousePos = {rect.x + rect.width / 2, rect.y + rect.height / 2};
-        frame();
-        ImGui::GetIO().MouseDown[0] = true;
-        frame();
-        ImGui::GetIO().MouseDown[0] = false;
-        frame();
+        window_.click(item, 0.5f, [&] { frame(); });
     }
 
     void type(const std::string& id) {
@@ -95,17 +55,17 @@ protected:
         return std::nullopt;
     }
 
-    worldy::test::EditorFixture fixture_{openPlanet()};
+    PanelWindow window_{{400, 1400}};
+    worldy::test::EditorFixture fixture_{planet::openFake()};
     ChunkPanelState state_;
     ViewSettings settings_;
     Commands commands_;
-    std::vector<ItemPlace> items_;
     std::optional<planet::ChunkId> selected_;
 };
 
 TEST_F(ChunkPanel, ShowsHeightsOfAResidentChunkAndNoneOfOneThatIsNot) {
-    EXPECT_TRUE(isShown("Heights"));
-    EXPECT_TRUE(isShown("Profile"));
+    EXPECT_TRUE(window_.isShown("Heights"));
+    EXPECT_TRUE(window_.isShown("Profile"));
     planet::ChunkId absent{planet::Face::NegX, 4, 3, 3};
     const planet::Planet& planet = *fixture_.view().planet;
     for (const planet::Face face : planet::allFaces) {
@@ -115,8 +75,8 @@ TEST_F(ChunkPanel, ShowsHeightsOfAResidentChunkAndNoneOfOneThatIsNot) {
     ASSERT_EQ(findNode(planet.tree(), absent), planet::noNode);
     selected_ = absent;
     frame();
-    EXPECT_TRUE(isShown("Look at"));
-    EXPECT_FALSE(isShown("Heights"));
+    EXPECT_TRUE(window_.isShown("Look at"));
+    EXPECT_FALSE(window_.isShown("Heights"));
 }
 
 TEST_F(ChunkPanel, ParentIsSelectedByItsButton) {
@@ -138,8 +98,8 @@ TEST_F(ChunkPanel, ATypedIdIsSelectedAndAWrongOneExplained) {
 TEST_F(ChunkPanel, NothingSelectedSaysHowToSelect) {
     selected_.reset();
     frame();
-    EXPECT_TRUE(isShown("Id"));
-    EXPECT_FALSE(isShown("Look at"));
+    EXPECT_TRUE(window_.isShown("Id"));
+    EXPECT_FALSE(window_.isShown("Look at"));
 }
 
 TEST_F(ChunkPanel, BadgesTellWhatChangesHowThePictureIsRead) {

@@ -1,14 +1,13 @@
 // Presses the panels' controls without a window: ImGui with a mouse of the test's own, and a small planet.
 #include <gtest/gtest.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
 
+#include "tests/panel_fixture.h"
 #include "tests/planet_fixture.h"
-#include "ui/item_map.h"
 #include "ui/panels.h"
 
 namespace ui {
@@ -16,21 +15,6 @@ namespace {
 
 class PanelControls : public testing::Test {
 protected:
-    PanelControls() {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {400, 1600};
-        unsigned char* pixels = nullptr;
-        int width = 0;
-        int height = 0;
-        io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
-    }
-    ~PanelControls() override {
-        collectItems(nullptr);
-        ImGui::DestroyContext();
-    }
-
     void openPlanet() {
         planet_ = planet::openFake();
         const planet::View view = planet::viewFromPose({.altitudeM = planet_->shape().radiusM},
@@ -43,19 +27,11 @@ protected:
 
     Commands frame(PanelId id) {
         Commands commands;
-        items_.clear();
-        collectItems(&items_);
-        ImGui::GetIO().DeltaTime = 1.0f / 60;
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        if (wantedChunkSize_ > 0)
-            ImGui::GetStateStorage()->SetInt(ImGui::GetID("wantedChunkSize"), wantedChunkSize_);
-        drawPanel(id, view_, states_, settings_, commands);
-        ImGui::End();
-        ImGui::Render();
-        collectItems(nullptr);
+        window_.frame([&] {
+            if (wantedChunkSize_ > 0)
+                ImGui::GetStateStorage()->SetInt(ImGui::GetID("wantedChunkSize"), wantedChunkSize_);
+            drawPanel(id, view_, states_, settings_, commands);
+        });
         return commands;
     }
 
@@ -63,29 +39,12 @@ protected:
     Commands click(PanelId id, std::string_view label) {
         frame(id);
         frame(id);
-        const auto item = std::find_if(items_.begin(), items_.end(),
-                                       [&](const ItemPlace& i) { return i.name.ends_with(label); });
-        if (item == items_.end()) {
-            ADD_FAILURE() << label << " is not there";
-            return {};
-        }
-        ImGui::GetIO().MousePos = {item->rect.x + item->rect.height / 2,
-                                   item->rect.y + item->rect.height / 2};
         Commands all;
-        for (const bool down : {false, true, false}) {
-            ImGui::GetIO().MouseDown[0] = down;
-            for (Command& command : frame(id)) {
-                if (!std::holds_alternative<HoverChunk>(command)) all.push_back(std::move(command));
-            }
-        }
+        window_.click(label, 0.1f, [&] { addAsked(frame(id), all); });
         return all;
     }
 
-    bool isThere(std::string_view label) const {
-        return std::any_of(items_.begin(), items_.end(),
-                           [&](const ItemPlace& i) { return i.name.ends_with(label); });
-    }
-
+    PanelWindow window_{{400, 1600}};
     std::unique_ptr<planet::Planet> planet_;
     FrameStats stats_;
     std::deque<FrameSample> history_;
@@ -94,7 +53,6 @@ protected:
     EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
     PanelStates states_;
     ViewSettings settings_;
-    std::vector<ItemPlace> items_;
     int wantedChunkSize_ = 0;  // as if it had been chosen from the list
 };
 
@@ -113,7 +71,7 @@ TEST_F(PanelControls, panelsStandWithoutAPlanet) {
 TEST_F(PanelControls, drawingChangesNoSettingAndAsksForNothing) {
     openPlanet();
     for (const float width : {330.0f, 900.0f}) {
-        ImGui::GetIO().DisplaySize = {width, 900};
+        window_.resize({width, 900});
         for (const PanelId id : ownPanels) {
             for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame(id).empty()) << static_cast<int>(id);
         }
@@ -143,7 +101,7 @@ TEST_F(PanelControls, anotherChunkSizeOffersABakeOfTheSameSource) {
     view_.bake.current.settings.quantumM = 0.25;
     view_.bake.canBake = true;
     frame(PanelId::Lod);
-    EXPECT_FALSE(isThere("/Bake"));
+    EXPECT_FALSE(window_.isShown("/Bake"));
     wantedChunkSize_ = 65;
     const Commands bake = click(PanelId::Lod, "/Bake");
     ASSERT_TRUE(only<StartBake>(bake));
@@ -166,7 +124,7 @@ TEST_F(PanelControls, theOfferGoesWhenTheFileHasTheChunkSize) {
     openPlanet();
     wantedChunkSize_ = planet::chunkSize(planet_->shape());
     frame(PanelId::Lod);
-    EXPECT_FALSE(isThere("/Bake"));
+    EXPECT_FALSE(window_.isShown("/Bake"));
 }
 
 TEST_F(PanelControls, oneRequestIsLetThroughOnlyWhilePaused) {

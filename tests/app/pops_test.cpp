@@ -8,8 +8,8 @@
 #include <string_view>
 #include <variant>
 
+#include "tests/panel_fixture.h"
 #include "tests/planet_fixture.h"
-#include "ui/item_map.h"
 #include "ui/panels.h"
 #include "ui/plot_scale.h"
 
@@ -19,20 +19,8 @@ namespace {
 class PopsTest : public testing::Test {
 protected:
     PopsTest() {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {330, 1800};
-        unsigned char* pixels = nullptr;
-        int width = 0;
-        int height = 0;
-        io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
         planet_ = planet::openFake();
         view_.planet = planet_.get();
-    }
-    ~PopsTest() override {
-        ui::collectItems(nullptr);
-        ImGui::DestroyContext();
     }
 
     // Frames that are settled, one second apart.
@@ -49,48 +37,22 @@ protected:
 
     ui::Commands frame() {
         ui::Commands commands;
-        items_.clear();
-        ui::collectItems(&items_);
         view_.pops = popsViewOf(pops_);
         view_.timeS += 1;
-        ImGui::GetIO().DeltaTime = 1.0f / 60;
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        ui::drawPanel(ui::PanelId::Pops, view_, states_, settings_, commands);
-        ImGui::End();
-        ImGui::Render();
-        ui::collectItems(nullptr);
+        window_.frame([&] { ui::drawPanel(ui::PanelId::Pops, view_, states_, settings_, commands); });
         return commands;
-    }
-
-    const ui::ItemPlace* find(std::string_view label) const {
-        const auto item = std::find_if(items_.begin(), items_.end(),
-                                       [&](const ui::ItemPlace& i) { return i.name.ends_with(label); });
-        return item == items_.end() ? nullptr : &*item;
     }
 
     // Presses at a share of a control's width, and returns what that asks for.
     ui::Commands click(std::string_view label, float share = 0.1f) {
         frame();
         frame();
-        const ui::ItemPlace* item = find(label);
-        if (!item) {
-            ADD_FAILURE() << label << " is not there";
-            return {};
-        }
-        ImGui::GetIO().MousePos = {item->rect.x + share * item->rect.width,
-                                   item->rect.y + item->rect.height / 2};
         ui::Commands all;
-        for (const bool down : {false, true, false}) {
-            ImGui::GetIO().MouseDown[0] = down;
+        window_.click(label, share, [&] {
             if (running_) settle(20e3);
-            for (ui::Command& command : frame()) {
-                if (!std::holds_alternative<ui::HoverChunk>(command)) all.push_back(std::move(command));
-            }
-        }
-        ImGui::GetIO().MousePos = {-1, -1};
+            ui::addAsked(frame(), all);
+        });
+        window_.movePointer({-1, -1});
         return all;
     }
 
@@ -101,6 +63,7 @@ protected:
         });
     }
 
+    ui::PanelWindow window_{{330, 1800}};
     std::unique_ptr<planet::Planet> planet_;
     Pops pops_;
     double timeS_ = 0;
@@ -112,14 +75,13 @@ protected:
     ui::EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
     ui::PanelStates states_;
     ui::ViewSettings settings_;
-    std::vector<ui::ItemPlace> items_;
 };
 
 TEST_F(PopsTest, ThePanelStandsWithoutPlanetAndWithoutPops) {
     EXPECT_TRUE(frame().empty());
     view_.planet = nullptr;
     EXPECT_TRUE(frame().empty());
-    ImGui::GetIO().DisplaySize = {1400, 260};
+    window_.resize({1400, 260});
     flyUpAndDown();
     view_.planet = planet_.get();
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame().empty());
@@ -139,7 +101,7 @@ TEST_F(PopsTest, TheFirstRowIsTheWorstAndGoesBackToItsView) {
     const auto* command = std::get_if<ui::GoBackToPop>(&back.front());
     ASSERT_TRUE(command);
     EXPECT_EQ(findPop(pops_, command->frame, command->chunk), &worst());
-    EXPECT_EQ(find("Before"), nullptr);
+    EXPECT_FALSE(window_.isShown("Before"));
     pops_.shown = worst();
     const ui::Commands before = click("Before");
     ASSERT_EQ(before.size(), 1u);
@@ -161,8 +123,8 @@ TEST_F(PopsTest, TheWheelZoomsTheTimeline) {
     flyUpAndDown();
     frame();
     frame();
-    const ui::ItemPlace timeline = *find("Timeline");
-    ImGui::GetIO().MousePos = {timeline.rect.x + timeline.rect.width / 2, timeline.rect.y + 10};
+    const ui::ItemPlace timeline = *window_.find("Timeline");
+    window_.movePointer({timeline.rect.x + timeline.rect.width / 2, timeline.rect.y + 10});
     frame();
     ImGui::GetIO().MouseWheel = 2;
     frame();

@@ -9,53 +9,30 @@
 #include <optional>
 #include <vector>
 
-#include "../editor_fixture.h"
-#include "../fake_pyramid.h"
-#include "ui/item_map.h"
-#include "ui/theme.h"
-#include "ui/widgets.h"
+#include "tests/editor_fixture.h"
+#include "tests/panel_fixture.h"
+#include "tests/planet_fixture.h"
 
 namespace ui {
 namespace {
 
-constexpr float width = 400;
-constexpr float height = 700;
-
 class QuadtreePanel : public testing::Test {
 protected:
     QuadtreePanel() {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {width, height};
-        applyTheme(Theme::Dark, 1);
-        unsigned char* pixels = nullptr;
-        int atlasWidth = 0, atlasHeight = 0;
-        io.Fonts->GetTexDataAsRGBA32(&pixels, &atlasWidth, &atlasHeight);
         fixture_.fly({}, 2);
-        pointAt({-1, -1});
         frame();
         frame();
     }
-    ~QuadtreePanel() override { ImGui::DestroyContext(); }
 
     void frame() {
-        ImGui::GetIO().DeltaTime = 1.0f / 60;
         commands_.clear();
-        collectItems(&items_);
-        items_.clear();
-        ImGui::NewFrame();
-        beginFixedWindow("panel", {0, 0, width, height});
         EditorView view = fixture_.view();
         view.focus = focus_;
-        quadtreePanel(view, state_, settings_, commands_);
-        ImGui::End();
-        ImGui::Render();
-        collectItems(nullptr);
+        window_.frame([&] { quadtreePanel(view, state_, settings_, commands_); });
     }
 
-    static void pointAt(const ImVec2& at) { ImGui::GetIO().MousePos = at; }
-    static void press(bool down) { ImGui::GetIO().MouseDown[0] = down; }
+    static void pointAt(const ImVec2& at) { PanelWindow::movePointer(at); }
+    static void press(bool down) { PanelWindow::press(down); }
 
     // The middle of a chunk's square on the screen.
     ImVec2 middleOf(const planet::ChunkId& id) const {
@@ -73,12 +50,6 @@ protected:
         return std::nullopt;
     }
 
-    static std::unique_ptr<planet::Planet> openPlanet() {
-        auto opened = planet::Planet::open(planet::fakePyramid().source(), {});
-        EXPECT_TRUE(opened);
-        return std::move(*opened);
-    }
-
     // On the far side: one square.
     planet::ChunkId farRoot() const {
         for (const planet::NodeIndex root : {5u, 3u, 1u, 0u}) {
@@ -90,11 +61,11 @@ protected:
     }
     const planet::Planet& planetOf() const { return *fixture_.view().planet; }
 
-    worldy::test::EditorFixture fixture_{openPlanet()};
+    PanelWindow window_{{400, 700}};
+    worldy::test::EditorFixture fixture_{planet::openFake()};
     QuadtreePanelState state_;
     ViewSettings settings_;
     Commands commands_;
-    std::vector<ItemPlace> items_;
     ChunkFocus focus_;
 };
 
