@@ -19,4 +19,10 @@ void chunkLink(const planet::ChunkId& id, const EditorView& view, Commands& comm
     }
 }
 
+void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& commands,
+               ImGuiSelectableFlags flags) {
+    ImGui::TableNextColumn();
+    chunkLink(id, view, commands, flags);
+}
+
 }  // namespace ui

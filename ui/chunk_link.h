@@ -12,5 +12,8 @@ namespace ui {
 // click offers these and copying its name. Lit while it is selected.
 void chunkLink(const planet::ChunkId& id, const EditorView& view, Commands& commands,
                ImGuiSelectableFlags flags = 0);
+// The same in the next cell of a table.
+void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& commands,
+               ImGuiSelectableFlags flags = 0);
 
 }  // namespace ui

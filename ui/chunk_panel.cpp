@@ -49,9 +49,7 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
             commands.emplace_back(SelectChunk{planet::chunkIdFromString(state.idText.data())});
     }
     if (state.problem.empty()) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-    ImGui::TextWrapped("%s", state.problem.c_str());
-    ImGui::PopStyleColor();
+    wrappedText(state.problem, palette().bad);
 }
 
 // The state in its colour, and in words why.
@@ -257,9 +255,7 @@ void neighbours(const EditorView& view, const ChunkId& id, Commands& commands) {
             chunkButton(other, toString(other), fmt::format("{}: {}", toString(other), difference), commands);
             if (other.level == id.level) continue;
             ImGui::SameLine();
-            ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-            ImGui::TextUnformatted(difference.c_str());
-            ImGui::PopStyleColor();
+            ImGui::TextColored(palette().dim, "%s", difference.c_str());
         }
         if (beside[edge].size() > most) ImGui::TextDisabled("and %zu more", beside[edge].size() - most);
     }

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "ui/chunk_link.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -94,16 +95,6 @@ void jump(const EditorView& view, const planet::ChunkId& finer, const glm::dvec3
     commands.emplace_back(towards(*view.cracks.measured, placeM, view.planet->shape().radiusM));
 }
 
-bool beginTable(const char* id, int columns, std::size_t rows) {
-    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-    const float lines = static_cast<float>(std::clamp<std::size_t>(rows + 1, 4, 12));
-    if (!ImGui::BeginTable(id, columns, flags, {0, lines * ImGui::GetTextLineHeightWithSpacing()}))
-        return false;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    return true;
-}
-
 void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::dvec3& placeM,
               Commands& commands) {
     ImGui::TableNextColumn();
@@ -111,100 +102,52 @@ void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::d
     tooltip("Moves the camera nearer to it and selects the finer chunk.");
 }
 
-void note(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-    ImGui::TextWrapped("%s", text);
-    ImGui::PopStyleColor();
-}
-
 void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& commands) {
     const CrackMeasurement& measured = *view.cracks.measured;
-    ImGui::TableNextColumn();
-    ImGui::Text("%d", spot.pixels);
-    ImGui::TableNextColumn();
-    ImGui::TextColored(spot.leaking > 0 ? palette().bad : palette().dim, "%d", spot.leaking);
-    if (spot.pair == planet::noPair) {
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted("beside nothing drawn");
-        ImGui::TableNextColumn();
-        ImGui::TableNextColumn();
-        return;
-    }
+    cell(fmt::format("{}", spot.pixels));
+    cell(fmt::format("{}", spot.leaking), spot.leaking > 0 ? palette().bad : palette().dim);
+    if (spot.pair == planet::noPair) return cell("beside nothing drawn");
     const planet::DrawnPair& pair = measured.pairs[spot.pair];
-    ImGui::TableNextColumn();
-    chunkLink(measured.items[pair.finer], view, commands);
-    ImGui::TableNextColumn();
-    ImGui::PushID("coarser");
-    chunkLink(measured.items[pair.coarser], view, commands);
-    ImGui::PopID();
+    chunkCell(measured.items[pair.finer], view, commands);
+    chunkCell(measured.items[pair.coarser], view, commands);
     goButton(view, measured.items[pair.finer], spot.placeM, commands);
 }
 
 void spotTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::CrackSpot>& spots = view.cracks.measured->spots;
-    if (spots.empty()) return note("No pixel of this view shows a crack.");
-    if (!beginTable("spots", 5, spots.size())) return;
-    ImGui::TableSetupColumn("Pixels", 0, 0.8f);
-    ImGui::TableSetupColumn("Leak", 0, 0.6f);
-    ImGui::TableSetupColumn("Finer", 0, 1.6f);
-    ImGui::TableSetupColumn("Coarser", 0, 1.6f);
-    ImGui::TableSetupColumn("##go", 0, 0.5f);
-    ImGui::TableHeadersRow();
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(spots.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            ImGui::PushID(i);
-            ImGui::TableNextRow();
-            spotRow(view, spots[static_cast<std::size_t>(i)], commands);
-            ImGui::PopID();
-        }
-    }
+    if (spots.empty()) return wrappedText("No pixel of this view shows a crack.", palette().dim);
+    constexpr std::array columns = {TableColumn{"Pixels", 0.8f}, TableColumn{"Leak", 0.6f},
+                                    TableColumn{"Finer", 1.6f}, TableColumn{"Coarser", 1.6f},
+                                    TableColumn{"##go", 0.5f}};
+    if (!beginListTable("spots", columns, spots.size())) return;
+    tableRows(spots.size(), [&](std::size_t row) { spotRow(view, spots[row], commands); });
     ImGui::EndTable();
 }
 
 void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& commands) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(distanceText(gap.gapM).c_str());
+    cell(distanceText(gap.gapM));
     tooltip("Largest distance between the two edges at the same place.");
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(pixelsText(gap.facingPx, "").c_str());
+    cell(pixelsText(gap.facingPx, ""));
     tooltip("The same in pixels of the view, as if it were turned to face it.");
-    ImGui::TableNextColumn();
     const bool tooShort = gap.finerAboveM > static_cast<double>(gap.finerSkirtM) ||
                           gap.coarserAboveM > static_cast<double>(gap.coarserSkirtM);
     const float skirtM = gap.finerAboveM >= gap.coarserAboveM ? gap.finerSkirtM : gap.coarserSkirtM;
-    ImGui::TextColored(tooShort ? palette().bad : palette().text, "%s",
-                       distanceText(static_cast<double>(skirtM)).c_str());
+    cell(distanceText(static_cast<double>(skirtM)), tooShort ? palette().bad : palette().text);
     tooltip("The skirt of the edge that stands higher. Red: it does not reach down to the other.");
-    ImGui::TableNextColumn();
-    chunkLink(gap.finer, view, commands);
-    ImGui::PushID("coarser");
+    chunkCell(gap.finer, view, commands);
     chunkLink(gap.coarser, view, commands);
-    ImGui::PopID();
     goButton(view, gap.finer, gap.placeM, commands);
 }
 
 void gapTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::EdgeGap>& gaps = view.cracks.measured->gaps;
-    if (gaps.empty()) return note("All edges that are drawn side by side are the same.");
-    if (!beginTable("gaps", 5, 2 * gaps.size())) return;
-    ImGui::TableSetupColumn("Gap", 0, 0.9f);
-    ImGui::TableSetupColumn("px", 0, 0.6f);
-    ImGui::TableSetupColumn("Skirt", 0, 0.9f);
-    ImGui::TableSetupColumn("Finer, coarser", 0, 1.7f);
-    ImGui::TableSetupColumn("##go", 0, 0.5f);
-    ImGui::TableHeadersRow();
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(gaps.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            ImGui::PushID(i);
-            ImGui::TableNextRow();
-            gapRow(view, gaps[static_cast<std::size_t>(i)], commands);
-            ImGui::PopID();
-        }
-    }
+    if (gaps.empty())
+        return wrappedText("All edges that are drawn side by side are the same.", palette().dim);
+    constexpr std::array columns = {TableColumn{"Gap", 0.9f}, TableColumn{"px", 0.6f},
+                                    TableColumn{"Skirt", 0.9f}, TableColumn{"Finer, coarser", 1.7f},
+                                    TableColumn{"##go", 0.5f}};
+    if (!beginListTable("gaps", columns, 2 * gaps.size())) return;
+    tableRows(gaps.size(), [&](std::size_t row) { gapRow(view, gaps[row], commands); });
     ImGui::EndTable();
 }
 
@@ -216,9 +159,7 @@ void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settin
     if (!view.cracks.measured)
         return emptyState("Nothing measured yet: Measure counts the crack pixels of the view as it is now.");
     if (!view.cracks.current) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-        ImGui::TextWrapped("Of an earlier view: the camera or what is drawn has changed since.");
-        ImGui::PopStyleColor();
+        wrappedText("Of an earlier view: the camera or what is drawn has changed since.", palette().warning);
     }
     const float alpha = ImGui::GetStyle().Alpha * (view.cracks.current ? 1.0f : 0.6f);
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);

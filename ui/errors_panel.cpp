@@ -12,6 +12,7 @@
 #include "ui/columns.h"
 #include "ui/item_map.h"
 #include "ui/plot_scale.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -55,22 +56,18 @@ void controls(const EditorView& view, ViewSettings& settings, Commands& commands
         ImGui::ProgressBar(static_cast<float>(errors.progress), {-1, 0},
                            fmt::format("measuring, {:.0f} %", 100 * errors.progress).c_str());
     }
-    if (errors.problem.empty()) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-    ImGui::TextWrapped("%s", errors.problem.c_str());
-    ImGui::PopStyleColor();
+    if (!errors.problem.empty()) wrappedText(errors.problem, palette().bad);
 }
 
 // Which frame the figures are of.
 void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
     const std::uint64_t since = view.errors.frame - std::min(view.errors.frame, last.frame);
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-    ImGui::TextWrapped(
-        "Frame %llu, %s ago. %s %s, %s metric. Took %s.", static_cast<unsigned long long>(last.frame),
-        since == 1 ? "1 frame" : fmt::format("{} frames", since).c_str(), tauSymbol(),
-        pixelsText(last.tauPx).c_str(), last.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
-        durationText(last.tookS).c_str());
-    ImGui::PopStyleColor();
+    wrappedText(
+        fmt::format("Frame {}, {} ago. {} {}, {} metric. Took {}.", last.frame,
+                    since == 1 ? "1 frame" : fmt::format("{} frames", since), tauSymbol(),
+                    pixelsText(last.tauPx), last.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
+                    durationText(last.tookS)),
+        palette().dim);
     tooltip("What is listed was drawn in that frame, from its lod view. The camera may have moved since.");
 }
 
@@ -230,17 +227,10 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
         "diagonal the prediction is exact, above it wrong; far below it wastes triangles.");
 }
 
-void cell(const std::string& text) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(text.c_str());
-}
-
 void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& commands) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
     const bool wrong = planet::isViolation(chunk);
     if (wrong) ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-    chunkLink(chunk.id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+    chunkCell(chunk.id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
     cell(finePx(chunk.facingPx, ""));
     cell(finePx(chunk.predictedPx, ""));
     cell(fmt::format("{:.0f} %", 100 * planet::slackOf(chunk)));
@@ -250,46 +240,20 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
     if (wrong) ImGui::PopStyleColor();
 }
 
-struct WorstColumn {
-    const char* title;
-    float share;
-    const char* explanation;
-};
 constexpr std::array worstColumns = {
-    WorstColumn{"Chunk", 1.9f, "Click selects it, a double click looks at it."},
-    WorstColumn{"Facing", 0.9f, "Measured, pixels, the view turned to face the sample."},
-    WorstColumn{"Predicted", 1.1f, "Pixels, morphing counted in."},
-    WorstColumn{"Slack", 0.8f, "1 - facing / predicted."},
-    WorstColumn{"Picture", 0.9f, "Measured in the flat picture, pixels; 0 where nothing of it lies there."},
-    WorstColumn{"Error", 0.9f, "Metres between the sample and what is drawn there, where facing is largest."},
-    WorstColumn{"Mean", 0.9f, "Facing pixels, mean over all finest samples under the chunk."}};
-
-void worstHeaders() {
-    ImGui::TableSetupScrollFreeze(1, 1);
-    for (const WorstColumn& column : worstColumns) ImGui::TableSetupColumn(column.title, 0, column.share);
-    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-    for (const WorstColumn& column : worstColumns) {
-        ImGui::TableNextColumn();
-        ImGui::TableHeader(column.title);
-        tooltip(column.explanation);
-    }
-}
+    TableColumn{"Chunk", 1.9f, "Click selects it, a double click looks at it."},
+    TableColumn{"Facing", 0.9f, "Measured, pixels, the view turned to face the sample."},
+    TableColumn{"Predicted", 1.1f, "Pixels, morphing counted in."},
+    TableColumn{"Slack", 0.8f, "1 - facing / predicted."},
+    TableColumn{"Picture", 0.9f, "Measured in the flat picture, pixels; 0 where nothing of it lies there."},
+    TableColumn{"Error", 0.9f, "Metres between the sample and what is drawn there, where facing is largest."},
+    TableColumn{"Mean", 0.9f, "Facing pixels, mean over all finest samples under the chunk."}};
 
 void worstList(const EditorView& view, Commands& commands) {
-    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
-                                      ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
-                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-    const float width = std::max(ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
-                                 30 * ImGui::GetFontSize());
-    if (!ImGui::BeginTable("worst", static_cast<int>(worstColumns.size()), flags, {0, 0}, width)) return;
-    worstHeaders();
+    if (!beginWideTable("worst", worstColumns, 30, 1)) return;
     const ErrorMeasurement& last = *view.errors.last;
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(last.worstFirst.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            chunkRow(last.report.chunks[last.worstFirst[static_cast<std::size_t>(i)]], view, commands);
-    }
+    tableRows(last.worstFirst.size(),
+              [&](std::size_t row) { chunkRow(last.report.chunks[last.worstFirst[row]], view, commands); });
     ImGui::EndTable();
 }
 

@@ -80,9 +80,7 @@ void metricKnob(const EditorView& view, LodKnobs& lod) {
            "distance that the bake measured between the chunk's surface, or that of one under it, and the "
            "finest data; never more than delta_c, so fewer triangles for the same tolerance.");
     if (view.planet && lod.metric == planet::ErrorMetric::Tight && lacksTightErrors(view.planet->tree())) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-        ImGui::TextWrapped("This file has no tight errors: nothing is split. Bake it again.");
-        ImGui::PopStyleColor();
+        wrappedText("This file has no tight errors: nothing is split. Bake it again.", palette().warning);
     }
 }
 

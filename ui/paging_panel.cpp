@@ -15,6 +15,7 @@
 #include "ui/paging_text.h"
 #include "ui/plot_scale.h"
 #include "ui/plots.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -28,18 +29,6 @@ constexpr double sampledEveryS = 0.1;
 constexpr double fastestS = 1e-4;
 constexpr double slowestS = 100;
 constexpr std::size_t latencyBuckets = 36;
-
-constexpr ImGuiTableFlags tableFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
-                                       ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
-                                       ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-
-// A table that fills the room, but scrolls sideways rather than squeeze its columns. Width in heights of the
-// font.
-bool beginTable(const char* id, int columns, float leastWidth) {
-    const float width = std::max(ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
-                                 leastWidth * ImGui::GetFontSize());
-    return ImGui::BeginTable(id, columns, tableFlags, {0, 0}, width);
-}
 
 // Controls.
 
@@ -98,9 +87,8 @@ void memory(const EditorView& view) {
                         bytesText(static_cast<double>(p.residentBytesGpu)))
                 .c_str());
     if (p.budgetWaits > 0) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-        ImGui::TextWrapped("%s blocks wanted have no room in the budget.", countText(p.budgetWaits).c_str());
-        ImGui::PopStyleColor();
+        wrappedText(fmt::format("{} blocks wanted have no room in the budget.", countText(p.budgetWaits)),
+                    palette().warning);
     }
 }
 
@@ -132,9 +120,7 @@ void badDisk(PagingKnobs& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
     const planet::BadDiskSettings defaults;
     if (isBad(disk)) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-        ImGui::TextWrapped("The disk is made bad: %s.", badDiskText(disk).c_str());
-        ImGui::PopStyleColor();
+        wrappedText(fmt::format("The disk is made bad: {}.", badDiskText(disk)), palette().warning);
         if (button("Off", "The disk as it is. The seed stays.")) {
             const std::uint32_t seed = disk.seed;
             disk = {};
@@ -248,16 +234,9 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     return text;
 }
 
-void cell(const std::string& text) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(text.c_str());
-}
-
-void linkCell(const planet::ChunkId& id, std::size_t row, const EditorView& view, Commands& commands) {
-    ImGui::TableNextColumn();
-    ImGui::PushID(static_cast<int>(row));
-    chunkLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
-    ImGui::PopID();
+// A link as long as the row.
+void rowLink(const planet::ChunkId& id, const EditorView& view, Commands& commands) {
+    chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
 }
 
 void queueFilter(const EditorView& view, PagingPanelState& state) {
@@ -299,29 +278,19 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     queueFilter(view, state);
     const std::span<const PagingRow> queue = shownQueue(state);
     if (queue.empty()) return emptyState(emptyQueueText(view, state));
-    if (!beginTable("queue", 5, 26)) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Type", 0, 0.6f);
-    ImGui::TableSetupColumn("Children of", 0, 1.7f);
-    ImGui::TableSetupColumn("Priority", 0, 0.9f);
-    ImGui::TableSetupColumn("Age", 0, 0.9f);
-    ImGui::TableSetupColumn("Why", 0, 2.4f);
-    ImGui::TableHeadersRow();
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(queue.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            const PagingRow& row = queue[at];
-            const double ageS = std::max(view.planet->seconds() - row.askedAtS, 0.0);
-            ImGui::TableNextRow();
-            cell(row.type == planet::PagingType::PageIn ? "in" : "out");
-            linkCell(row.parent, at, view, commands);
-            cell(axisText(row.priority));
-            cell(latencyText(ageS));
-            cell(reason(*view.planet, row, state.shownView, ageS));
-        }
-    }
+    constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Children of", 1.7f},
+                                    TableColumn{"Priority", 0.9f}, TableColumn{"Age", 0.9f},
+                                    TableColumn{"Why", 2.4f}};
+    if (!beginWideTable("queue", columns, 26)) return;
+    tableRows(queue.size(), [&](std::size_t at) {
+        const PagingRow& row = queue[at];
+        const double ageS = std::max(view.planet->seconds() - row.askedAtS, 0.0);
+        cell(row.type == planet::PagingType::PageIn ? "in" : "out");
+        rowLink(row.parent, view, commands);
+        cell(axisText(row.priority));
+        cell(latencyText(ageS));
+        cell(reason(*view.planet, row, state.shownView, ageS));
+    });
     ImGui::EndTable();
 }
 
@@ -329,20 +298,15 @@ void loadingTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::LoadInProgress> loading = view.planet->loadingNow();
     if (loading.empty())
         return emptyState(view.pagingPaused ? "Paging is paused." : "Nothing is being read now.");
-    if (!beginTable("loading", 4, 20)) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Children of", 0, 1.7f);
-    ImGui::TableSetupColumn("Priority");
-    ImGui::TableSetupColumn("Size");
-    ImGui::TableSetupColumn("For");
-    ImGui::TableHeadersRow();
-    for (std::size_t i = 0; i < loading.size(); ++i) {
-        ImGui::TableNextRow();
-        linkCell(loading[i].parent, i, view, commands);
-        cell(axisText(loading[i].priority));
-        cell(bytesText(loading[i].bytes));
-        cell(latencyText(loading[i].seconds));
-    }
+    constexpr std::array columns = {TableColumn{"Children of", 1.7f}, TableColumn{"Priority"},
+                                    TableColumn{"Size"}, TableColumn{"For"}};
+    if (!beginWideTable("loading", columns, 20)) return;
+    tableRows(loading.size(), [&](std::size_t row) {
+        rowLink(loading[row].parent, view, commands);
+        cell(axisText(loading[row].priority));
+        cell(bytesText(loading[row].bytes));
+        cell(latencyText(loading[row].seconds));
+    });
     ImGui::EndTable();
 }
 
@@ -396,14 +360,11 @@ void historyFilter(PagingPanelState& state) {
     tooltip("Only requests that were asked for more than once.");
 }
 
-void historyRow(const EditorView& view, const planet::PagingEvent& event, std::size_t row,
-                Commands& commands) {
+void historyRow(const EditorView& view, const planet::PagingEvent& event, Commands& commands) {
     const OutcomeLook look = lookOf(event.outcome);
     const bool read = event.outcome == planet::PagingOutcome::Loaded;
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextColored(look.colour, "%s", look.name);
-    linkCell(event.parent, row, view, commands);
+    cell(look.name, look.colour);
+    rowLink(event.parent, view, commands);
     cell(latencyText(event.waitedS));
     cell(read ? latencyText(event.readS) : "");
     cell(read ? bytesText(event.bytes) : "");
@@ -420,20 +381,12 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
         if (isShown(*event, state)) shown.push_back(&*event);
     if (shown.empty())
         return emptyState(history.empty() ? "No request has ended yet." : "No request of these kinds.");
-    if (!beginTable("history", 7, 34)) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Outcome", 0, 1.1f);
-    ImGui::TableSetupColumn("Children of", 0, 1.7f);
-    for (const char* title : {"Waited", "Reading", "Size"}) ImGui::TableSetupColumn(title);
-    ImGui::TableSetupColumn("Asked", 0, 0.7f);
-    ImGui::TableSetupColumn("When", 0, 1.2f);
-    ImGui::TableHeadersRow();
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(shown.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            historyRow(view, *shown[static_cast<std::size_t>(i)], static_cast<std::size_t>(i), commands);
-    }
+    constexpr std::array columns = {TableColumn{"Outcome", 1.1f}, TableColumn{"Children of", 1.7f},
+                                    TableColumn{"Waited"},        TableColumn{"Reading"},
+                                    TableColumn{"Size"},          TableColumn{"Asked", 0.7f},
+                                    TableColumn{"When", 1.2f}};
+    if (!beginWideTable("history", columns, 34)) return;
+    tableRows(shown.size(), [&](std::size_t row) { historyRow(view, *shown[row], commands); });
     ImGui::EndTable();
 }
 

@@ -12,7 +12,7 @@
 #include "ui/item_map.h"
 #include "ui/plot_scale.h"
 #include "ui/plots.h"
-#include "ui/table_window.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -69,11 +69,10 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     controls(view, state, commands);
     const PopsPanelState::Sample& sample = state.sample;
     if (sample.seen == 0) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-        ImGui::TextWrapped(view.pops.measuring ? "No change of level in the last minutes. Fly, or change a "
-                                                 "setting of the LOD panel."
-                                               : "Not measuring.");
-        ImGui::PopStyleColor();
+        wrappedText(view.pops.measuring ? "No change of level in the last minutes. Fly, or change a setting "
+                                          "of the LOD panel."
+                                        : "Not measuring.",
+                    palette().dim);
     } else {
         // A line of its own: else it may be broken at its decimal point.
         ImGui::TextWrapped("99%% of switches move less than\n%s; %s measured.",
@@ -142,10 +141,7 @@ void flip(const EditorView& view, Commands& commands) {
                             meanings[i])
                     .c_str());
     }
-    if (pops.problem.empty()) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-    ImGui::TextWrapped("%s", pops.problem.c_str());
-    ImGui::PopStyleColor();
+    if (!pops.problem.empty()) wrappedText(pops.problem, palette().warning);
 }
 
 void selectedValues(const PopEvent& event) {
@@ -172,9 +168,8 @@ void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& comm
         return state.selected && keyOf(event) == *state.selected;
     });
     if (found == events.end()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-        ImGui::TextWrapped("Click a tick or a row to select a switch. Drag the timeline, or turn the wheel.");
-        ImGui::PopStyleColor();
+        wrappedText("Click a tick or a row to select a switch. Drag the timeline, or turn the wheel.",
+                    palette().dim);
     } else {
         if (button("Go back", "Moves the camera to where the switch was seen, and selects its chunk."))
             commands.push_back(GoBackToPop{found->frame, found->chunk});
@@ -202,15 +197,8 @@ void timeline(const EditorView& view, PopsPanelState& state, bool wide, Commands
     selectedEvent(view, state, commands);
 }
 
-void cell(const std::string& text) {
+void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, PopsPanelState& state) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(text.c_str());
-}
-
-void eventRow(const EditorView& view, const PopEvent& event, int row, PopsPanelState& state) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushID(row);
     const bool isSelected = state.selected == keyOf(event);
     const double agoS = std::max(view.pops.meter->lastTimeS() - event.timeS, 0.0);
     // The same row whatever the time.
@@ -218,12 +206,10 @@ void eventRow(const EditorView& view, const PopEvent& event, int row, PopsPanelS
     if (ImGui::Selectable(ago.c_str(), isSelected, ImGuiSelectableFlags_SpanAllColumns))
         state.selected = keyOf(event);
     if (row < 3) noteItem(fmt::format("Row {}", row));
-    ImGui::PopID();
     cell(popPxText(event.jump.largestPx));
     cell(planet::toString(event.chunk));
     cell(fmt::format("{} > {}", event.fromLevel, event.toLevel));
-    ImGui::TableNextColumn();
-    ImGui::TextColored(popColour(event.cause), "%s", planet::popCauseName(event.cause));
+    cell(planet::popCauseName(event.cause), popColour(event.cause));
     cell(popPxText(event.jump.meanPx));
     cell(popPxText(event.besidePx));
 }
@@ -231,36 +217,20 @@ void eventRow(const EditorView& view, const PopEvent& event, int row, PopsPanelS
 void worstFirst(const EditorView& view, PopsPanelState& state) {
     const auto& events = view.pops.meter->events();
     if (events.empty()) return emptyState("Changes of level are listed here, worst first.");
-    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
-                                      ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
-                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-    const float width = std::max(ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
-                                 33 * ImGui::GetFontSize());
-    if (!ImGui::BeginTable("worst", 7, flags, {0, 0}, width)) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Ago", 0, 0.8f);
-    ImGui::TableSetupColumn("Largest", 0, 1);
-    ImGui::TableSetupColumn("Chunk", 0, 1.6f);
-    ImGui::TableSetupColumn("Levels", 0, 0.9f);
-    ImGui::TableSetupColumn("Cause", 0, 1.7f);
-    ImGui::TableSetupColumn("Mean", 0, 1);
-    ImGui::TableSetupColumn("Beside", 0, 1);
-    ImGui::TableHeadersRow();
+    constexpr std::array columns = {TableColumn{"Ago", 0.8f},   TableColumn{"Largest"},
+                                    TableColumn{"Chunk", 1.6f}, TableColumn{"Levels", 0.9f},
+                                    TableColumn{"Cause", 1.7f}, TableColumn{"Mean"},
+                                    TableColumn{"Beside"}};
+    if (!beginWideTable("worst", columns, 33)) return;
     std::vector<std::size_t> order(events.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(events.size()));
-    while (clipper.Step()) {
-        const auto first = static_cast<std::size_t>(clipper.DisplayStart);
-        const auto last = static_cast<std::size_t>(clipper.DisplayEnd);
-        sortWindow(order, first, last, [&](std::size_t a, std::size_t b) {
-            const double pxA = events[a].jump.largestPx;
-            const double pxB = events[b].jump.largestPx;
-            return pxA != pxB ? pxA > pxB : a > b;
-        });
-        for (std::size_t i = first; i < last; ++i)
-            eventRow(view, events[order[i]], static_cast<int>(i), state);
-    }
+    const auto larger = [&](std::size_t a, std::size_t b) {
+        const double pxA = events[a].jump.largestPx;
+        const double pxB = events[b].jump.largestPx;
+        return pxA != pxB ? pxA > pxB : a > b;
+    };
+    sortedTableRows(order, larger,
+                    [&](std::size_t event, std::size_t row) { eventRow(view, events[event], row, state); });
     ImGui::EndTable();
 }
 

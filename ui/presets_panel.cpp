@@ -13,12 +13,6 @@ namespace ui {
 
 namespace {
 
-void dimText(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-    ImGui::TextWrapped("%s", text);
-    ImGui::PopStyleColor();
-}
-
 const PresetView* presetNamed(const EditorView& view, const std::string& name) {
     const auto found = std::find_if(view.presets.begin(), view.presets.end(),
                                     [&](const PresetView& preset) { return preset.name == name; });
@@ -60,7 +54,7 @@ void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& com
 
 void presetList(const EditorView& view, PresetsPanelState& state, Commands& commands) {
     if (view.presets.empty()) {
-        dimText("There are no presets yet.");
+        wrappedText("There are no presets yet.", palette().dim);
         return;
     }
     if (!ImGui::BeginTable("presets", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
@@ -139,7 +133,7 @@ void differencesTable(const PresetView& preset) {
 void selectedSection(const EditorView& view, const PresetsPanelState& state, Commands& commands) {
     const PresetView* preset = presetNamed(view, state.selected);
     if (!preset) {
-        dimText("Choose a preset to compare it with the settings as they are.");
+        wrappedText("Choose a preset to compare it with the settings as they are.", palette().dim);
         return;
     }
     const bool readable = preset->problem.empty();
@@ -150,11 +144,9 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
     ImGui::SameLine();
     deleteControl(*preset, commands);
     if (!readable) {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-        ImGui::TextWrapped("%s", preset->problem.c_str());
-        ImGui::PopStyleColor();
+        wrappedText(preset->problem, palette().bad);
     } else if (preset->differences.empty()) {
-        dimText("All that it holds is as it is now.");
+        wrappedText("All that it holds is as it is now.", palette().dim);
     } else {
         differencesTable(*preset);
     }

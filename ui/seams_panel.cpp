@@ -11,7 +11,7 @@
 #include "ui/chunk_link.h"
 #include "ui/plot_scale.h"
 #include "ui/plots.h"
-#include "ui/table_window.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -102,34 +102,18 @@ const char* edgeName(planet::Edge edge) {
     return names[static_cast<std::size_t>(edge)];
 }
 
-void seamRow(const planet::LevelSeam& seam, int row, const EditorView& view, Commands& commands) {
-    ImGui::PushID(row);
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    chunkLink(seam.finer, view, commands);
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(edgeName(seam.edge));
-    ImGui::TableNextColumn();
-    ImGui::PushID("coarser");
-    chunkLink(seam.coarser, view, commands);
-    ImGui::PopID();
-    ImGui::TableNextColumn();
-    ImGui::Text("%d", difference(seam));
-    ImGui::PopID();
+void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& commands) {
+    chunkCell(seam.finer, view, commands);
+    cell(edgeName(seam.edge));
+    chunkCell(seam.coarser, view, commands);
+    cell(fmt::format("{}", difference(seam)));
 }
 
 // Widest first, then by id. Only the rows that are seen are sorted.
 void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
-    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-    const float lines = static_cast<float>(std::clamp<std::size_t>(seams.size() + 1, 4, 14));
-    if (!ImGui::BeginTable("pairs", 4, flags, {0, lines * ImGui::GetTextLineHeightWithSpacing()})) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Finer", 0, 1.6f);
-    ImGui::TableSetupColumn("Its edge", 0, 0.9f);
-    ImGui::TableSetupColumn("Coarser", 0, 1.6f);
-    ImGui::TableSetupColumn("By", 0, 0.5f);
-    ImGui::TableHeadersRow();
+    constexpr std::array columns = {TableColumn{"Finer", 1.6f}, TableColumn{"Its edge", 0.9f},
+                                    TableColumn{"Coarser", 1.6f}, TableColumn{"By", 0.5f}};
+    if (!beginListTable("pairs", columns, seams.size(), 14)) return;
     std::vector<const planet::LevelSeam*> order;
     order.reserve(seams.size());
     for (const planet::LevelSeam& seam : seams) order.push_back(&seam);
@@ -137,14 +121,8 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
         return std::make_tuple(-difference(*a), a->finer, a->edge, a->coarser) <
                std::make_tuple(-difference(*b), b->finer, b->edge, b->coarser);
     };
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(order.size()));
-    while (clipper.Step()) {
-        sortWindow(order, static_cast<std::size_t>(clipper.DisplayStart),
-                   static_cast<std::size_t>(clipper.DisplayEnd), wider);
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            seamRow(*order[static_cast<std::size_t>(i)], i, view, commands);
-    }
+    sortedTableRows(order, wider,
+                    [&](const planet::LevelSeam* seam, std::size_t) { seamRow(*seam, view, commands); });
     ImGui::EndTable();
 }
 

@@ -204,6 +204,12 @@ float checkboxWidth(const char* label) {
     return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
 }
 
+void wrappedText(const std::string& text, const ImVec4& colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+}
+
 void emptyState(const char* text) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float wrap = std::min(room.x * 0.9f, ImGui::GetFontSize() * 22);

@@ -54,6 +54,9 @@ void secondColumn();
 void sameLineIfRoom(float width);
 float checkboxWidth(const char* label);
 
+// In lines as wide as the panel.
+void wrappedText(const std::string& text, const ImVec4& colour);
+
 // A line in the middle of an empty panel that says why it is empty.
 void emptyState(const char* text);
 
