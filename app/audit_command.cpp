@@ -20,6 +20,7 @@
 #include "app/report.h"
 #include "app/scene.h"
 #include "app/stopwatch.h"
+#include "planet/percentile.h"
 #include "planet/planet.h"
 #include "ui/text.h"
 
@@ -183,8 +184,8 @@ TrueErrorReport totalsOf(const Audit& audit) {
             screen.push_back(chunk.screenPx);
         }
     }
-    totals.p99FacingPx = planet::percentileOf(std::move(facing), 0.99);
-    totals.p99ScreenPx = planet::percentileOf(std::move(screen), 0.99);
+    totals.p99FacingPx = planet::percentileOf(facing, 0.99);
+    totals.p99ScreenPx = planet::percentileOf(screen, 0.99);
     totals.meanSlack = audit.views.empty() ? 0 : slack / static_cast<double>(audit.views.size());
     return totals;
 }

@@ -18,6 +18,7 @@
 #include "app/output_file.h"
 #include "app/stopwatch.h"
 #include "planet/gl/offscreen_context.h"
+#include "planet/percentile.h"
 
 namespace worldy {
 
@@ -159,8 +160,10 @@ BenchRows benchLod(const std::vector<BenchPlanet>& planets, const BenchOptions& 
 }  // namespace
 
 Spread spreadOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return {values[(values.size() - 1) / 2], values.front(), values.back()};
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const double minimum = *least;
+    const double maximum = *most;
+    return {planet::percentileOf(values, 0.5), minimum, maximum};
 }
 
 std::vector<double> ratios(const std::vector<double>& of, const std::vector<double>& to) {

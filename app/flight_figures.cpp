@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/stopwatch.h"
+#include "planet/percentile.h"
 #include "planet/true_error.h"
 
 namespace worldy {

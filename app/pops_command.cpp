@@ -19,6 +19,7 @@
 #include "app/report.h"
 #include "app/scene.h"
 #include "app/stopwatch.h"
+#include "planet/percentile.h"
 #include "planet/pop_meter.h"
 
 namespace worldy {
@@ -26,6 +27,7 @@ namespace worldy {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using planet::percentileOf;
 using planet::PopEvent;
 using planet::Result;
 
@@ -92,21 +94,13 @@ Result<Flown> fly(planet::Planet& planet, const FlightPath& path, const PopsOpti
     return flown;
 }
 
-// Of the switches in the picture, smallest first.
+// Of the switches in the picture.
 std::vector<double> jumpsOf(const Flown& flown) {
     std::vector<double> jumps;
     for (const PopEvent& event : flown.events) {
         if (event.jump.places > 0) jumps.push_back(event.jump.largestPx);
     }
-    std::sort(jumps.begin(), jumps.end());
     return jumps;
-}
-
-// By nearest rank; 0 for none.
-double rankOf(const std::vector<double>& sorted, double share) {
-    if (sorted.empty()) return 0;
-    const auto count = static_cast<double>(sorted.size());
-    return sorted[static_cast<std::size_t>(std::clamp(std::ceil(share * count) - 1, 0.0, count - 1))];
 }
 
 std::vector<const PopEvent*> worstOf(const Flown& flown) {
@@ -150,9 +144,9 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const Flown& flo
                    {"late", flown.totals.late},
                    {"worst_beside_px", flown.totals.worstBesidePx},
                    {"measuring_us_per_switch", flown.usPerSwitch}};
-    const std::vector<double> jumps = jumpsOf(flown);
+    std::vector<double> jumps = jumpsOf(flown);
     for (std::size_t i = 0; i < shares.size(); ++i)
-        report["largest_px"][shareNames[i]] = rankOf(jumps, shares[i]);
+        report["largest_px"][shareNames[i]] = percentileOf(jumps, shares[i]);
     for (std::size_t i = 0; i < planet::popCauseCount; ++i)
         report["cause"][planet::popCauseName(static_cast<planet::PopCause>(i))] = flown.totals.byCause[i];
     report["worst"] = Json::array();
@@ -161,7 +155,7 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const Flown& flo
 }
 
 void printSummary(const FlightPath& path, const PopsOptions& options, const Flown& flown) {
-    const std::vector<double> jumps = jumpsOf(flown);
+    std::vector<double> jumps = jumpsOf(flown);
     fmt::print("{}: {} frames, {:.4g} s apart\n", path.name, flown.frames, options.stepS);
     fmt::print("{} switches of level, {} of them outside the picture; {:.0f} us to measure one\n",
                flown.totals.switches, flown.totals.outsidePicture, flown.usPerSwitch);
@@ -174,7 +168,7 @@ void printSummary(const FlightPath& path, const PopsOptions& options, const Flow
     fmt::print(
         "99% of switches move less than {:.4f} px; median {:.4f}, 90% {:.4f}, worst {:.4f} px; edges "
         "beside them {:.4f} px\n\n",
-        rankOf(jumps, 0.99), rankOf(jumps, 0.5), rankOf(jumps, 0.9), jumps.back(),
+        percentileOf(jumps, 0.99), percentileOf(jumps, 0.5), percentileOf(jumps, 0.9), percentileOf(jumps, 1),
         flown.totals.worstBesidePx);
     fmt::print("{:>10}  {:22}{:>8}{:>14}{:>14}{:>14}  {}\n", "time", "chunk", "levels", "largest px",
                "mean px", "beside px", "cause");

@@ -15,6 +15,7 @@
 #include "planet/chunk_surface.h"
 #include "planet/finest_distance.h"
 #include "planet/geometric_error.h"
+#include "planet/percentile.h"
 #include "planet/quantise.h"
 
 namespace planet {
@@ -66,15 +67,11 @@ LevelReport summarise(int level, LevelTally& tally) {
     report.chunks = tally.chunks;
     report.bytes = tally.bytes;
     if (tally.deltasM.empty()) return report;
-    std::sort(tally.deltasM.begin(), tally.deltasM.end());
-    const auto at = [&](double fraction) {
-        return tally
-            .deltasM[static_cast<std::size_t>(fraction * static_cast<double>(tally.deltasM.size() - 1))];
-    };
-    report.minDeltaM = tally.deltasM.front();
-    report.medianDeltaM = at(0.5);
-    report.p99DeltaM = at(0.99);
-    report.maxDeltaM = tally.deltasM.back();
+    const auto [least, most] = std::minmax_element(tally.deltasM.begin(), tally.deltasM.end());
+    report.minDeltaM = *least;
+    report.maxDeltaM = *most;
+    report.medianDeltaM = percentileOf(tally.deltasM, 0.5);
+    report.p99DeltaM = percentileOf(tally.deltasM, 0.99);
     const auto count = static_cast<double>(tally.deltasM.size());
     report.meanDeltaM = std::accumulate(tally.deltasM.begin(), tally.deltasM.end(), 0.0) / count;
     report.meanTightM = tally.sumTightM / count;

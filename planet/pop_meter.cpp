@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "planet/percentile.h"
+
 namespace planet {
 
 // One place whose level has changed: a coarser chunk of one frame, and what covers its place in the other.
@@ -325,12 +327,7 @@ double PopMeter::percentilePx(double share) const {
     for (const PopEvent& event : events_) {
         if (event.jump.places > 0) values.push_back(event.jump.largestPx);
     }
-    if (values.empty()) return 0;
-    const auto rank =
-        static_cast<std::size_t>(std::clamp(std::ceil(share * static_cast<double>(values.size())) - 1, 0.0,
-                                            static_cast<double>(values.size() - 1)));
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-    return values[rank];
+    return percentileOf(values, share);
 }
 
 double PopMeter::measuredUsPerSwitch() const {

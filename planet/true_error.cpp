@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "planet/drawn_surface.h"
+#include "planet/percentile.h"
 
 namespace planet {
 
@@ -461,8 +462,8 @@ TrueErrorReport summaryOf(std::vector<ChunkError>&& chunks) {
         report.violations += isViolation(chunk);
         report.violationsInSeams += isViolation(chunk) && chunk.worstInSeam;
     }
-    report.p99FacingPx = percentileOf(std::move(facing), 0.99);
-    report.p99ScreenPx = percentileOf(std::move(screen), 0.99);
+    report.p99FacingPx = percentileOf(facing, 0.99);
+    report.p99ScreenPx = percentileOf(screen, 0.99);
     report.meanSlack = predicted > 0 ? slack / static_cast<double>(predicted) : 0;
     return report;
 }
@@ -563,15 +564,6 @@ Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHe
         if (chunk.samples > 0) chunk.meanPx /= static_cast<double>(chunk.samples);
     }
     return summaryOf(std::move(chunks));
-}
-
-double percentileOf(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const double rank = std::ceil(share * static_cast<double>(values.size()));
-    const auto at =
-        static_cast<std::ptrdiff_t>(std::clamp(rank, 1.0, static_cast<double>(values.size()))) - 1;
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
 }
 
 }  // namespace planet

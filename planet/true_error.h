@@ -96,7 +96,4 @@ using TrueErrorProgress = std::function<bool(std::uint64_t done, std::uint64_t t
 Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHeights& heights,
                                          const TrueErrorProgress& progress = {});
 
-// Nearest rank, share in (0, 1]; 0 of nothing.
-double percentileOf(std::vector<double> values, double share);
-
 }  // namespace planet

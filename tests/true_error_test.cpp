@@ -357,16 +357,6 @@ TEST(TrueError, canBeCancelled) {
     EXPECT_EQ(report.error().kind, ErrorKind::Cancelled);
 }
 
-TEST(TrueError, percentilesAreByNearestRank) {
-    EXPECT_EQ(percentileOf({}, 0.99), 0);
-    EXPECT_EQ(percentileOf({5}, 0.99), 5);
-    std::vector<double> values;
-    for (int i = 200; i > 0; --i) values.push_back(i);
-    EXPECT_EQ(percentileOf(values, 0.99), 198);
-    EXPECT_EQ(percentileOf(values, 1), 200);
-    EXPECT_EQ(percentileOf(values, 0.001), 1);
-}
-
 HeldChunk heldRoot(Face face) {
     const ChunkData& root = fakePyramid().at({face, 0, 0, 0});
     return {root.id, std::make_shared<const std::vector<std::int16_t>>(root.heights), root.children};

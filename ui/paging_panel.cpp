@@ -8,6 +8,7 @@
 #include <cmath>
 #include <span>
 
+#include "planet/percentile.h"
 #include "ui/chunk_link.h"
 #include "ui/columns.h"
 #include "ui/history.h"
@@ -190,8 +191,8 @@ void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelStat
     }
     sample.latencies = seconds.size();
     sample.latencyCounts = bucketCounts(positions, latencyBuckets);
-    sample.medianS = quantile(seconds, 0.5);
-    sample.slowestS = quantile(seconds, 0.99);
+    sample.medianS = planet::percentileOf(seconds, 0.5);
+    sample.slowestS = planet::percentileOf(seconds, 0.99);
 }
 
 void refresh(const EditorView& view, PagingPanelState& state) {

@@ -78,14 +78,6 @@ std::vector<float> bucketCounts(std::span<const float> positions, std::size_t bu
     return counts;
 }
 
-float quantile(std::span<float> values, double share) {
-    if (values.empty()) return 0;
-    const double rank = std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(values.size()));
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
-
 std::vector<float> growthPerS(std::span<const float> timesS, std::span<const double> totals, double windowS) {
     assert(timesS.size() == totals.size() && windowS > 0);
     std::vector<float> rates(timesS.size(), 0.0f);

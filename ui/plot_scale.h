@@ -34,10 +34,6 @@ double logarithmicValue(double position, double lowest, double highest);
 // How many of the positions in [0, 1] fall into each of so many equal buckets; the last one holds 1 too.
 std::vector<float> bucketCounts(std::span<const float> positions, std::size_t buckets);
 
-// The value that a share of all values does not exceed, share in [0, 1]: the nearest rank, so 0.5 is the
-// median's lower one. 0 for no values. Reorders the values.
-float quantile(std::span<float> values, double share);
-
 // How fast a total grew at each sample, per second, over the windowS seconds before it (or as much of it as
 // there is); 0 at the first one. A total that falls, since it was set back, counts as no growth. Times
 // ascend.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "planet/percentile.h"
 #include "ui/chunk_link.h"
 #include "ui/plot_scale.h"
 #include "ui/plots.h"
@@ -62,7 +63,7 @@ Depths drawnDepths(std::span<const planet::DrawItem> items) {
     depths.reserve(items.size());
     for (const planet::DrawItem& item : items) depths.push_back(item.skirtDepthM);
     if (depths.empty()) return {};
-    return {*std::max_element(depths.begin(), depths.end()), quantile(depths, 0.5)};
+    return {*std::max_element(depths.begin(), depths.end()), planet::percentileOf(depths, 0.5)};
 }
 
 int difference(const planet::LevelSeam& seam) {

@@ -80,16 +80,6 @@ TEST(PlotScale, everyValueFallsIntoOneBucket) {
     EXPECT_THAT(bucketCounts(positions, 4), ElementsAre(3.0f, 1.0f, 0.0f, 3.0f));
 }
 
-TEST(PlotScale, quantilesAreNearestRanks) {
-    std::array values{5.0f, 1.0f, 4.0f, 2.0f, 3.0f};
-    EXPECT_EQ(quantile(values, 0.5), 3);
-    EXPECT_EQ(quantile(values, 0), 1);
-    EXPECT_EQ(quantile(values, 0.99), 5);
-    std::array two{8.0f, 6.0f};
-    EXPECT_EQ(quantile(two, 0.5), 6);
-    EXPECT_EQ(quantile({}, 0.5), 0);
-}
-
 TEST(PlotScale, ratesAreGrowthOverTheWindow) {
     const std::array times{0.0f, 0.5f, 1.0f, 1.5f};
     const std::array totals{0.0, 100.0, 100.0, 400.0};

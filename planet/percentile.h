@@ -1,0 +1,25 @@
+// Percentiles by nearest rank: one of the values themselves, never a mixture of two. Pure functions, any
+// thread.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <type_traits>
+
+namespace planet {
+
+// The smallest value that a share of all values, [0, 1], does not exceed; so 0.5 is the median's lower one,
+// and 0 the smallest. 0 for no values. Values: std::vector or std::span of numbers; reorders them. Linear.
+template <class Values>
+auto percentileOf(Values&& values, double share) {
+    using Value = std::remove_cv_t<typename std::remove_reference_t<Values>::value_type>;
+    if (values.empty()) return Value{0};
+    const double rank = std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(values.size()));
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+    std::nth_element(values.begin(), place, values.end());
+    return Value{*place};
+}
+
+}  // namespace planet
