@@ -138,22 +138,27 @@ Json jsonOf(const ChunkError& chunk) {
     return json;
 }
 
+// Of one view, or of all together.
+void addFigures(const TrueErrorReport& report, Json& json) {
+    json["worst_predicted_px"] = report.worstPredictedPx;
+    json["worst_facing_px"] = report.worstFacingPx;
+    json["worst_screen_px"] = report.worstScreenPx;
+    json["p99_facing_px"] = report.p99FacingPx;
+    json["p99_screen_px"] = report.p99ScreenPx;
+    json["mean_slack"] = report.meanSlack;
+    json["violations"] = report.violations;
+    json["violations_beside_stitched_edges"] = report.violationsInSeams;
+    json["samples"] = report.samples;
+}
+
 Json jsonOf(const AuditedView& view) {
     const TrueErrorReport& report = view.report;
     Json json = {{"camera", worldy::jsonOf(view.pose)},
                  {"settled", view.settled},
                  {"chunks", report.chunks.size()},
-                 {"triangles", view.triangles},
-                 {"worst_predicted_px", report.worstPredictedPx},
-                 {"worst_facing_px", report.worstFacingPx},
-                 {"worst_screen_px", report.worstScreenPx},
-                 {"p99_facing_px", report.p99FacingPx},
-                 {"p99_screen_px", report.p99ScreenPx},
-                 {"mean_slack", report.meanSlack},
-                 {"violations", report.violations},
-                 {"violations_beside_stitched_edges", report.violationsInSeams},
-                 {"samples", report.samples},
-                 {"chunk", Json::array()}};
+                 {"triangles", view.triangles}};
+    addFigures(report, json);
+    json["chunk"] = Json::array();
     for (const ChunkError& chunk : report.chunks) json["chunk"].push_back(jsonOf(chunk));
     return json;
 }
@@ -286,24 +291,15 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
 }
 
 Result<void> writeAudit(const AuditOptions& options, const Audit& audit) {
-    const TrueErrorReport totals = totalsOf(audit);
     Json json = {{"file", options.file.string()},
                  {"tau_px", options.view.lod.tauPx},
                  {"metric", auditedLod(options).metric == planet::ErrorMetric::Tight ? "tight" : "additive"},
                  {"width_px", options.size.widthPx},
                  {"height_px", options.size.heightPx},
-                 {"samples", totals.samples},
                  {"measuring_s", audit.measuringS},
-                 {"blocks_read", audit.blocksRead},
-                 {"worst_predicted_px", totals.worstPredictedPx},
-                 {"worst_facing_px", totals.worstFacingPx},
-                 {"worst_screen_px", totals.worstScreenPx},
-                 {"p99_facing_px", totals.p99FacingPx},
-                 {"p99_screen_px", totals.p99ScreenPx},
-                 {"mean_slack", totals.meanSlack},
-                 {"violations", totals.violations},
-                 {"violations_beside_stitched_edges", totals.violationsInSeams},
-                 {"view", Json::array()}};
+                 {"blocks_read", audit.blocksRead}};
+    addFigures(totalsOf(audit), json);
+    json["view"] = Json::array();
     for (const AuditedView& view : audit.views) json["view"].push_back(jsonOf(view));
     return writeTextFile(options.jsonOutput, json.dump(1) + "\n");
 }

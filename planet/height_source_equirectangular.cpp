@@ -283,20 +283,9 @@ Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece,
 Result<void> sampleTile(const Equirectangular& source, const SampleTile& tile, std::span<float> out) {
     assert(tile.faceCells > 0 && tile.columns >= 0 && tile.rows >= 0);
     assert(out.size() == static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows));
-    const auto stride = static_cast<std::size_t>(tile.columns);
-    for (int row = 0; row < tile.rows; row += pieceSide) {
-        for (int column = 0; column < tile.columns; column += pieceSide) {
-            SampleTile piece = tile;
-            piece.firstColumn += column;
-            piece.firstRow += row;
-            piece.columns = std::min(pieceSide, tile.columns - column);
-            piece.rows = std::min(pieceSide, tile.rows - row);
-            float* const to =
-                out.data() + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
-            if (Result<void> done = samplePiece(source, piece, to, stride); !done) return done;
-        }
-    }
-    return {};
+    return sampleInPieces(tile, pieceSide, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
+        return samplePiece(source, piece, to, stride);
+    });
 }
 
 Result<void> checkShape(const std::string& file, const ImageLayout& layout) {

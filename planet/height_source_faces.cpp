@@ -225,20 +225,9 @@ Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out
 Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
     // Smaller pieces where a sample covers many of the source's, to bound memory.
     const int side = set.size > 64 * tile.faceCells ? 16 : 65;
-    const auto stride = static_cast<std::size_t>(tile.columns);
-    for (int row = 0; row < tile.rows; row += side) {
-        for (int column = 0; column < tile.columns; column += side) {
-            SampleTile piece = tile;
-            piece.firstColumn += column;
-            piece.firstRow += row;
-            piece.columns = std::min(side, tile.columns - column);
-            piece.rows = std::min(side, tile.rows - row);
-            float* const to =
-                out.data() + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
-            if (Result<void> done = samplePiece(set, piece, to, stride); !done) return done;
-        }
-    }
-    return {};
+    return sampleInPieces(tile, side, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
+        return samplePiece(set, piece, to, stride);
+    });
 }
 
 Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out);

@@ -1,9 +1,12 @@
 // The kinds of height source behind openHeightSource, and what they share. Internal to the library.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "planet/cube_sphere.h"
@@ -36,6 +39,27 @@ HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType 
 // Sets stepM, minM, maxM and missingCount.
 void describeHeights(HeightSource& source, const HeightConversion& conversion,
                      const HeightStatistics& statistics);
+
+// A tile in square pieces of side samples at most, so that each needs little memory. samplePiece(piece, to,
+// stride) fills the piece's samples from to on, its rows stride floats apart; its first Error ends it.
+template <class SamplePiece>
+Result<void> sampleInPieces(const SampleTile& tile, int side, std::span<float> out,
+                            const SamplePiece& samplePiece) {
+    const auto stride = static_cast<std::size_t>(tile.columns);
+    for (int row = 0; row < tile.rows; row += side) {
+        for (int column = 0; column < tile.columns; column += side) {
+            SampleTile piece = tile;
+            piece.firstColumn += column;
+            piece.firstRow += row;
+            piece.columns = std::min(side, tile.columns - column);
+            piece.rows = std::min(side, tile.rows - row);
+            float* const to =
+                out.data() + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
+            if (Result<void> done = samplePiece(piece, to, stride); !done) return done;
+        }
+    }
+    return {};
+}
 
 // The smallest 2^n with 2^n >= count, up to 2^maxFaceCellsLog2.
 int powerOfTwoCells(double count);
