@@ -19,16 +19,66 @@ std::optional<Edge> edgeOf(glm::ivec2 vertex, int last) {
     return std::nullopt;
 }
 
-VertexSlide slideOf(const DrawItem& item, glm::ivec2 vertex, int last, bool stitched) {
-    const std::optional<Edge> edge = edgeOf(vertex, last);
-    if (!edge) return {vertex, {vertex.x & 1, vertex.y & 1}, item.morph};
-    const auto index = static_cast<std::size_t>(*edge);
-    const bool upright = *edge == Edge::West || *edge == Edge::East;
+// Of an odd vertex: the next one that is a multiple of four.
+int gatherPoint(int vertex) {
+    return (vertex & 3) == 1 ? vertex - 1 : vertex + 1;
+}
+
+// The share of the way that an edge's odd vertices are gathered.
+double gatheredAt(float edgeMorph) {
+    return std::max(4 * static_cast<double>(edgeMorph) - 3, 0.0);
+}
+
+void add(VertexBlend& blend, glm::ivec2 vertex, double share) {
+    if (share > 0) blend.parts[blend.count++] = {vertex, share};
+}
+
+// The ends are equally far to either side. They come first, so that sums are the same to the last bit whichever
+// of them comes before: chunks beside each other may count an edge in opposite directions.
+void addBetween(VertexBlend& blend, glm::ivec2 vertex, glm::ivec2 aside, double amount, double share) {
+    add(blend, vertex - aside, 0.5 * amount * share);
+    add(blend, vertex + aside, 0.5 * amount * share);
+    add(blend, vertex, (1 - amount) * share);
+}
+
+void addOnEdge(VertexBlend& blend, const DrawItem& item, Edge edge, glm::ivec2 vertex, int last,
+               bool stitched, double share) {
+    const auto index = static_cast<std::size_t>(edge);
+    const bool upright = edge == Edge::West || edge == Edge::East;
     const glm::ivec2 along = upright ? glm::ivec2(0, 1) : glm::ivec2(1, 0);
-    const int coarser = stitched ? item.coarserBy[index] : 0;
+    const int levels = stitched ? item.coarserBy[index] : 0;
     const int here = upright ? vertex.y : vertex.x;
-    const int at = (here + ((1 << coarser) >> 1)) >> coarser;
-    return {vertex + along * ((at << coarser) - here), along * ((at & 1) << coarser), item.edgeMorph[index]};
+    const int start = static_cast<int>(upright ? item.id.y : item.id.x) * last;
+    int at = start + here;
+    for (int level = 0; level < levels; ++level) {
+        if (((at >> level) & 1) != 0) at = gatherPoint(at >> level) << level;
+    }
+    const glm::ivec2 gathered = vertex + along * (at - start - here);
+    const int coarse = at >> levels;
+    if ((coarse & 1) == 0) return add(blend, gathered, share);
+    const double onItsWay = stitched ? gatheredAt(item.edgeMorph[index]) : 0;
+    addBetween(blend, gathered, along << levels, item.edgeMorph[index], (1 - onItsWay) * share);
+    add(blend, gathered + along * ((gatherPoint(coarse) << levels) - at), onItsWay * share);
+}
+
+VertexBlend blendOf(const DrawItem& item, glm::ivec2 vertex, int last, bool stitched) {
+    VertexBlend blend;
+    const auto addDrawn = [&](glm::ivec2 at, double share) {
+        if (const std::optional<Edge> edge = edgeOf(at, last))
+            addOnEdge(blend, item, *edge, at, last, stitched, share);
+        else
+            add(blend, at, share);
+    };
+    const glm::ivec2 aside{vertex.x & 1, vertex.y & 1};
+    if (item.morph == 0 || aside == glm::ivec2(0, 0) || edgeOf(vertex, last)) {
+        addDrawn(vertex, 1);
+        return blend;
+    }
+    const auto morph = static_cast<double>(item.morph);
+    add(blend, vertex, 1 - morph);
+    addDrawn(vertex - aside, 0.5 * morph);
+    addDrawn(vertex + aside, 0.5 * morph);
+    return blend;
 }
 
 glm::dvec3 ownPositionM(const PlanetShape& shape, const ChunkId& id, std::span<const std::int16_t> heights,
@@ -42,11 +92,14 @@ glm::dvec3 ownPositionM(const PlanetShape& shape, const ChunkId& id, std::span<c
 }
 
 template <class OwnPosition>
-DrawnVertex slid(const VertexSlide& slide, const OwnPosition& own) {
-    const glm::dvec3 here = own(slide.vertex);
-    if (slide.amount == 0 || slide.aside == glm::ivec2(0, 0)) return {slide.vertex, here};
-    const glm::dvec3 middle = 0.5 * (own(slide.vertex - slide.aside) + own(slide.vertex + slide.aside));
-    return {slide.vertex, glm::mix(here, middle, slide.amount)};
+DrawnVertex blended(glm::ivec2 itself, const VertexBlend& blend, const OwnPosition& own) {
+    DrawnVertex drawn{itself, {0, 0, 0}};
+    for (std::size_t i = 0; i < blend.count; ++i) {
+        const auto& [vertex, share] = blend.parts[i];
+        drawn.place += share * glm::dvec2(vertex - itself);  // between equally far ends just 0
+        drawn.positionM += share * own(vertex);
+    }
+    return drawn;
 }
 
 struct Triangle {
@@ -63,9 +116,9 @@ std::array<Triangle, 2> trianglesOf(int column, int row, int cells) {
 // The point of a triangle over a place, or nothing where the triangle does not cover it.
 std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const Triangle& triangle, glm::dvec2 place) {
     const std::array<std::size_t, 3>& vertex = triangle.vertices;
-    const glm::dvec2 a(grid.place[vertex[0]]);
-    const glm::dvec2 ab = glm::dvec2(grid.place[vertex[1]]) - a;
-    const glm::dvec2 ac = glm::dvec2(grid.place[vertex[2]]) - a;
+    const glm::dvec2 a = grid.place[vertex[0]];
+    const glm::dvec2 ab = grid.place[vertex[1]] - a;
+    const glm::dvec2 ac = grid.place[vertex[2]] - a;
     const double area = ab.x * ac.y - ab.y * ac.x;
     if (area <= 0) return std::nullopt;  // stitching has drawn it to a line
     const glm::dvec2 at = place - a;
@@ -84,37 +137,56 @@ std::optional<glm::dvec3> pointInCell(const DrawnGrid& grid, int column, int row
     return std::nullopt;
 }
 
-// Along a stitched edge the triangle over a place may belong to a cell further along: no vertex has moved
-// more than a quarter of the edge.
-std::optional<glm::dvec3> pointInRing(const DrawnGrid& grid, int column, int row, glm::dvec2 place) {
+// Stitched edges move the vertices on them and those beside them, along the edge: so far in from it the
+// triangle over a place may belong to a cell further along.
+constexpr int ringCells = 2;
+
+bool isInRing(int cell, int last) {
+    return cell < ringCells || cell > last - ringCells;
+}
+
+std::optional<glm::dvec3> pointInStrip(const DrawnGrid& grid, bool upright, int across, int along,
+                                       glm::dvec2 place) {
     const int last = grid.cells - 1;
-    const bool besideWestOrEast = column == 0 || column == last;
-    const bool besideSouthOrNorth = row == 0 || row == last;
-    for (int away = 0; away <= grid.cells / 4; ++away) {
-        for (const int step : {-away, away}) {
-            const int otherRow = row + step;
-            const int otherColumn = column + step;
-            if (besideWestOrEast && otherRow >= 0 && otherRow <= last) {
-                if (const auto point = pointInCell(grid, column, otherRow, place)) return point;
-            }
-            if (besideSouthOrNorth && otherColumn >= 0 && otherColumn <= last) {
-                if (const auto point = pointInCell(grid, otherColumn, row, place)) return point;
+    const int first = across < ringCells ? 0 : last - ringCells + 1;
+    for (int away = 0; away < grid.cells; ++away) {
+        for (const int at : {along - away, along + away}) {
+            if (at < 0 || at > last) continue;
+            for (int i = first; i < first + ringCells; ++i) {
+                const auto point =
+                    upright ? pointInCell(grid, i, at, place) : pointInCell(grid, at, i, place);
+                if (point) return point;
             }
         }
     }
     return std::nullopt;
 }
 
+std::optional<glm::dvec3> pointInRing(const DrawnGrid& grid, int column, int row, glm::dvec2 place) {
+    const int last = grid.cells - 1;
+    if (const auto point = pointInCell(grid, column, row, place)) return point;
+    if (isInRing(column, last)) {
+        if (const auto point = pointInStrip(grid, true, column, row, place)) return point;
+    }
+    if (!isInRing(row, last)) return std::nullopt;
+    return pointInStrip(grid, false, row, column, place);
+}
+
 }  // namespace
 
-VertexSlide vertexSlide(const PlanetShape& shape, const DrawItem& item, bool stitched, int column, int row) {
-    return slideOf(item, {column, row}, chunkCells(shape), stitched);
+VertexBlend vertexBlend(const PlanetShape& shape, const DrawItem& item, bool stitched, int column, int row) {
+    return blendOf(item, {column, row}, chunkCells(shape), stitched);
 }
 
 DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
                         bool stitched, int column, int row) {
-    return slid(slideOf(item, {column, row}, chunkCells(shape), stitched),
-                [&](glm::ivec2 vertex) { return ownPositionM(shape, item.id, heights, vertex); });
+    return blended({column, row}, blendOf(item, {column, row}, chunkCells(shape), stitched),
+                   [&](glm::ivec2 vertex) { return ownPositionM(shape, item.id, heights, vertex); });
+}
+
+bool gathersVertices(const DrawItem& item, Edge edge) {
+    const auto index = static_cast<std::size_t>(edge);
+    return item.coarserBy[index] > 0 || gatheredAt(item.edgeMorph[index]) > 0;
 }
 
 DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
@@ -133,12 +205,12 @@ DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<co
     for (int row = 0; row <= cells; ++row) {
         for (int column = 0; column <= cells; ++column) {
             const DrawnVertex vertex =
-                slid(slideOf(item, {column, row}, cells, stitched), [&](glm::ivec2 at) {
+                blended({column, row}, blendOf(item, {column, row}, cells, stitched), [&](glm::ivec2 at) {
                     return own[static_cast<std::size_t>(at.y) * size + static_cast<std::size_t>(at.x)];
                 });
             grid.positionM.push_back(vertex.positionM);
             grid.place.push_back(vertex.place);
-            grid.stitched = grid.stitched || vertex.place != glm::ivec2(column, row);
+            grid.stitched = grid.stitched || vertex.place != glm::dvec2(column, row);
         }
     }
     return grid;
@@ -149,7 +221,7 @@ glm::dvec3 pointOn(const DrawnGrid& grid, double x, double y) {
     const int column = std::min(static_cast<int>(x), grid.cells - 1);
     const int row = std::min(static_cast<int>(y), grid.cells - 1);
     const int last = grid.cells - 1;
-    const bool inRing = column == 0 || row == 0 || column == last || row == last;
+    const bool inRing = isInRing(column, last) || isInRing(row, last);
     const std::optional<glm::dvec3> point = grid.stitched && inRing ? pointInRing(grid, column, row, {x, y})
                                                                     : pointInCell(grid, column, row, {x, y});
     assert(point);

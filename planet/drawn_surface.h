@@ -4,6 +4,8 @@
 // Pure functions, any thread.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -19,9 +21,9 @@ struct DrawnGrid {
     ChunkId id;
     int cells = 0;                      // along a side
     std::vector<glm::dvec3> positionM;  // (cells + 1)^2, rows from the south; metres from the planet's centre
-    // Where each vertex lies on the chunk, in cells from its west and south edges: its own column and row,
-    // or along a coarser chunk that is stitched to, those of the nearest vertex of that.
-    std::vector<glm::ivec2> place;
+    // Where each vertex lies on the chunk, in cells from its west and south edges: its own column and row, or
+    // on a stitched edge, further along it.
+    std::vector<glm::dvec2> place;
     bool stitched = false;  // whether any vertex lies elsewhere than on its own place
 };
 
@@ -33,20 +35,36 @@ DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<co
 // that covers the place, metres from the planet's centre.
 glm::dvec3 pointOn(const DrawnGrid& grid, double x, double y);
 
-// How a vertex slides onto a coarser surface, as the vertex shader's slideOf has it.
-struct VertexSlide {
-    glm::ivec2 vertex{0, 0};  // itself, or the nearest vertex of a coarser chunk beside it
-    glm::ivec2 aside{0, 0};   // from it to either end of what will replace it; 0 where it stays
-    double amount = 0;        // [0, 1] of the way to the middle between those ends
+// How a vertex slides onto a coarser surface, as the vertex shader has it: what share it is drawn of which of
+// the chunk's own vertices; the shares are over 0 and come to 1.
+//
+// A vertex that its parent lacks slides to the middle between those two of the parent's vertices that it lies
+// between, where the parent would draw them.
+//
+// Where edges are stitched, vertices are gathered along them: level by level each odd one, counted along the
+// face's edge, joins its neighbour that is a multiple of four. Beside a coarser chunk those it lacks are
+// gathered for good. On any other edge the odd ones are on their way while its morph is over 3/4, and there
+// at 1; the outermost triangles are then those that they will be beside a coarser chunk, and no switch cuts
+// them anew. The order is such that what is gathered for one level more is what was gathered before.
+struct VertexBlend {
+    struct Part {
+        glm::ivec2 vertex{0, 0};
+        double share = 0;
+    };
+    std::array<Part, 9> parts{};
+    std::size_t count = 0;
 };
-VertexSlide vertexSlide(const PlanetShape& shape, const DrawItem& item, bool stitched, int column, int row);
+VertexBlend vertexBlend(const PlanetShape& shape, const DrawItem& item, bool stitched, int column, int row);
 
 // One vertex of it.
 struct DrawnVertex {
-    glm::ivec2 place{0, 0};
+    glm::dvec2 place{0, 0};
     glm::dvec3 positionM{0, 0, 0};
 };
 DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
                         bool stitched, int column, int row);
+
+// Where stitched: whether vertices of an edge lie elsewhere than on their own places.
+bool gathersVertices(const DrawItem& item, Edge edge);
 
 }  // namespace planet

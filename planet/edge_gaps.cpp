@@ -56,7 +56,7 @@ EdgeLine edgeLine(const DrawnGround& ground, const DrawItem& item, Edge edge) {
         const int column = edge == Edge::West ? 0 : edge == Edge::East ? cells : i;
         const int row = edge == Edge::South ? 0 : edge == Edge::North ? cells : i;
         const DrawnVertex vertex = drawnVertex(ground.shape, item, heights, ground.stitched, column, row);
-        line.along.push_back(static_cast<double>(isUpright(edge) ? vertex.place.y : vertex.place.x) / cells);
+        line.along.push_back((isUpright(edge) ? vertex.place.y : vertex.place.x) / cells);
         line.positionM.push_back(vertex.positionM);
     }
     return line;

@@ -22,13 +22,13 @@
 // same holds. So a switch moves nothing, a change over several levels takes fadeS for each, and what was not
 // in the picture before begins at its natural value.
 // What still pops: children that are no longer resident, or that stitched seams do not allow, are gone at
-// once; with stitched seams the outermost cells along an edge are cut into other triangles when the chunk
-// beyond changes its level; and one edge of a chunk moves if in one and the same frame it takes its
-// children's place and a coarser chunk beside it is split.
+// once; and one edge of a chunk moves if a coarser chunk beside it is split in the very frame in which it
+// takes its children's place, or in which it is split itself and what comes of the other there is culled.
 //
-// Stitched seams: along an edge whose neighbour is coarser by d levels, the vertex shader moves vertex i to
-// the nearest multiple of 2^d, so both sides have the same vertices. For that neighbours must not differ by
-// more than log2(cells) - 1 levels; selection draws parents instead of what would.
+// Stitched seams: along an edge whose neighbour is coarser by d levels, the vertex shader moves each vertex
+// onto a multiple of 2^d, so both sides have the same vertices; drawn_surface.h says which, and how they go
+// there before the neighbour changes its level. For that neighbours must not differ by more than
+// log2(cells) - 1 levels; selection draws parents instead of what would.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-// The shader's positionOf and its slide, in floats as there.
+// The shader's positionOf and its slides, in floats as there.
 struct ShaderVertices {
     const PlanetShape& shape;
     const VertexFrame& frame;
@@ -23,10 +23,11 @@ struct ShaderVertices {
         const auto index = static_cast<std::size_t>(vertex.y * chunkSize(shape) + vertex.x);
         return vertexFromEyeM(frame, id.face, gridU, gridV, heights[index]);
     }
-    glm::vec3 slid(const VertexSlide& slide) const {
-        const glm::vec3 here = own(slide.vertex);
-        const glm::vec3 middle = 0.5f * (own(slide.vertex - slide.aside) + own(slide.vertex + slide.aside));
-        return here + static_cast<float>(slide.amount) * (middle - here);
+    glm::vec3 blended(const VertexBlend& blend) const {
+        glm::vec3 sum(0);
+        for (std::size_t i = 0; i < blend.count; ++i)
+            sum += static_cast<float>(blend.parts[i].share) * own(blend.parts[i].vertex);
+        return sum;
     }
 };
 
@@ -55,8 +56,8 @@ VertexPrecision vertexPrecision(const PlanetShape& shape, const VertexFrame& fra
     const glm::dvec3 fromEyeM = precision.positionM - view.eyeM;
     precision.distanceM = glm::length(fromEyeM);
     const ShaderVertices shader{shape, frame, item.id, heights};
-    const VertexSlide slide = vertexSlide(shape, item, stitched, vertex.x, vertex.y);
-    precision.shader = measured(shader.slid(slide), fromEyeM, view);
+    const VertexBlend blend = vertexBlend(shape, item, stitched, vertex.x, vertex.y);
+    precision.shader = measured(shader.blended(blend), fromEyeM, view);
     const glm::vec3 plainM = glm::vec3(precision.positionM) - glm::vec3(view.eyeM);
     precision.fromCentre = measured(plainM, fromEyeM, view);
     return precision;

@@ -70,7 +70,7 @@ DrawnGrid gridOf(const PlanetShape& shape, const DrawnChunk& chunk) {
 // What is drawn at a grid point of the chunk, whether or not its own vertex is still there.
 glm::dvec3 drawnAt(const DrawnGrid& grid, int column, int row) {
     const auto index = static_cast<std::size_t>(row * (grid.cells + 1) + column);
-    return grid.place[index] == glm::ivec2(column, row) ? grid.positionM[index] : pointOn(grid, column, row);
+    return grid.place[index] == glm::dvec2(column, row) ? grid.positionM[index] : pointOn(grid, column, row);
 }
 
 void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAfter, Sum& sum) {

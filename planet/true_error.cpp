@@ -94,13 +94,15 @@ public:
     const DrawnGrid& grid() const { return grid_; }
     int finestCells() const { return grid_.cells * perCell_; }
 
-    // Whether a finest sample lies in a cell that stitching has changed.
+    // Whether a finest sample lies in a cell that stitching has changed: of an edge's two outermost rows.
     bool inSeam(int x, int y) const {
         if (!grid_.stitched) return false;
         const int last = grid_.cells - 1;
         const int column = std::min(x / perCell_, last);
         const int row = std::min(y / perCell_, last);
-        return isStitched(column, row) && (column == 0 || row == 0 || column == last || row == last);
+        const auto moved = [&](Edge edge) { return gathersVertices(item_, edge); };
+        return (column <= 1 && moved(Edge::West)) || (column >= last - 1 && moved(Edge::East)) ||
+               (row <= 1 && moved(Edge::South)) || (row >= last - 1 && moved(Edge::North));
     }
 
     // The drawn points at finest samples x, x + 1, ... of a row, counted from the chunk's west and south.
@@ -120,13 +122,6 @@ public:
     }
 
 private:
-    bool isStitched(int column, int row) const {
-        const int last = grid_.cells - 1;
-        const auto coarser = [&](Edge edge) { return item_.coarserBy[static_cast<std::size_t>(edge)] > 0; };
-        return (column == 0 && coarser(Edge::West)) || (column == last && coarser(Edge::East)) ||
-               (row == 0 && coarser(Edge::South)) || (row == last && coarser(Edge::North));
-    }
-
     void fillSeam(int x, int y, int first, int end, Row& out) const {
         for (int i = first; i < end; ++i) {
             const glm::dvec3 point = inFaceAxes(axes_, pointOn(grid_, static_cast<double>(x + i) / perCell_,
@@ -484,12 +479,14 @@ double ownPredictionPx(const DrawnSnapshot& snapshot, const ItemIndex& indexOf, 
     const double pxPerM = screenScalePx(snapshot.view) / static_cast<double>(item.distanceM);
     for (std::size_t edge = 0; edge < edgeCount; ++edge) {
         if (snapshot.stitched && item.coarserBy[edge] > 0) continue;
-        if (item.edgeMorph[edge] <= item.morph) continue;
+        const bool gathers = snapshot.stitched && gathersVertices(item, static_cast<Edge>(edge));
+        if (item.edgeMorph[edge] <= item.morph && !gathers) continue;
         double slideM = snapshot.parentDeltaM[at];
         const auto other = indexOf.find(beyond(item, edge));
         if (item.coarserBy[edge] == 0 && other != indexOf.end())
             slideM = std::min(slideM, snapshot.parentDeltaM[other->second]);
-        predicted = std::max(predicted, eps + static_cast<double>(item.edgeMorph[edge]) * slideM * pxPerM);
+        const double slid = static_cast<double>(item.edgeMorph[edge]) + (gathers ? 1 : 0);
+        predicted = std::max(predicted, eps + slid * slideM * pxPerM);
     }
     return predicted;
 }
@@ -540,7 +537,7 @@ std::vector<double> predictedErrorsPx(const DrawnSnapshot& snapshot) {
         for (std::size_t edge = 0; edge < edgeCount; ++edge) {
             if (items[i].coarserBy[edge] == 0) continue;
             const auto other = indexOf.find(beyond(items[i], edge));
-            if (other != indexOf.end()) predicted[i] = std::max(predicted[i], own[other->second]);
+            if (other != indexOf.end()) predicted[i] = std::max(predicted[i], own[i] + own[other->second]);
         }
     }
     return predicted;

@@ -15,10 +15,11 @@
 // Predicted is, for the m that a chunk morphs by, eps + m (parentEps - eps), since each point is drawn so far
 // on the way from the chunk's surface to its parent's. Two chunks of one level share the larger m of theirs
 // along their edge; a vertex there, itself a finest sample, slides by at most m delta_parent, of either's
-// parent: (delta + m min of those) K' / D. Where edges are stitched to a coarser chunk, at least that one's
-// own prediction; in the cells beside such an edge this is no proven bound, since triangles there reach over
-// several cells of the chunk, which no delta_c looks at. Violations whose worst place lies there are told
-// apart.
+// parent: (delta + m min of those) K' / D. Along an edge that is stitched to a coarser chunk a triangle has
+// two of that one's vertices and one of the chunk's own, so both errors are added up; while vertices are
+// gathered (drawn_surface.h), delta_parent is once more. In those cells this is no proven bound, since
+// triangles there reach over several cells of the chunk, which no delta_c looks at. Violations whose worst
+// place lies there are told apart.
 //
 // Heights are drawn as high as the shape says, so exaggeration is counted in. No reliance on a delta_c or an
 // extreme of the file: every sample is looked at. The result is the same whatever the number of threads.
@@ -57,7 +58,8 @@ struct ChunkError {
     double errorM = 0;           // |a - b| where facingPx is largest
     double meanPx = 0;           // of facingPx over all samples
     glm::dvec3 worstM{0, 0, 0};  // a there, metres from the planet's centre
-    // Whether it lies in a cell beside an edge that is stitched to a coarser chunk.
+    // Whether it lies in one of the two cells beside an edge that is stitched to a coarser chunk, or about
+    // to.
     bool worstInSeam = false;
     std::uint64_t samples = 0;  // compared
 

@@ -123,23 +123,44 @@ mat2 slopes(ivec3 corner, ivec2 vertex, int last, int here, int apart) {
                 slope(corner, vertex, ivec2(0, 1), last, here, beside.z, beside.w, apart));
 }
 
-// How a vertex of the grid is drawn while its chunk turns into a coarser one.
+// How a vertex of the grid is drawn while its chunk turns into a coarser one, as planet/drawn_surface.h has it.
 struct Slide {
-    ivec2 vertex;  // itself; or, along a coarser chunk, the nearest of that chunk's vertices
-    ivec2 aside;   // from it to either end of the edge or diagonal that will replace it; 0 where it stays
-    float amount;  // [0, 1] of the way to the middle between those ends
+    ivec2 vertex;    // itself; or, along a coarser chunk, that one's vertex that it is drawn with
+    ivec2 aside;     // from it to either end of the edge or diagonal that will replace it; 0 where it stays
+    float amount;    // [0, 1] of the way to the middle between those ends
+    ivec2 onto;      // from it to the vertex that it is gathered to at last
+    float gathered;  // [0, 1] of the way there
 };
+
+// Of an odd vertex: the next one that is a multiple of four.
+int gatherPoint(int vertex) {
+    return (vertex & 3) == 1 ? vertex - 1 : vertex + 1;
+}
 
 Slide slideOf(ivec2 vertex, int last) {
     bool west = vertex.x == 0;
     bool east = vertex.x == last;
     bool south = vertex.y == 0;
-    if (!(west || east || south || vertex.y == last)) return Slide(vertex, vertex & 1, skirtAndMorph.y);
+    if (!(west || east || south || vertex.y == last))
+        return Slide(vertex, vertex & 1, skirtAndMorph.y, ivec2(0), 0.0);
     int edge = west ? 0 : east ? 1 : south ? 2 : 3;
     ivec2 along = edge < 2 ? ivec2(0, 1) : ivec2(1, 0);
-    int coarser = int(coarserBy[edge]);
-    int at = (vertex.x * along.x + vertex.y * along.y + ((1 << coarser) >> 1)) >> coarser;
-    return Slide(vertex + along * ((at << coarser) - vertex), along * ((at & 1) << coarser), edgeMorph[edge]);
+    int levels = int(coarserBy[edge]);
+    // Along the whole face, where both sides of an edge count alike.
+    int here = vertex.x * along.x + vertex.y * along.y;
+    int start = int(edge < 2 ? chunk.z : chunk.y) << grid.y;
+    int at = start + here;
+    for (int level = 0; level < levels; ++level) {
+        if (((at >> level) & 1) != 0) at = gatherPoint(at >> level) << level;
+    }
+    Slide slide = Slide(vertex + along * (at - start - here), ivec2(0), edgeMorph[edge], ivec2(0), 0.0);
+    int coarse = at >> levels;
+    if ((coarse & 1) == 0) return slide;
+    slide.aside = along << levels;
+    if (!isOn(switchGather)) return slide;
+    slide.onto = along * ((gatherPoint(coarse) << levels) - at);
+    slide.gathered = max(4.0 * slide.amount - 3.0, 0.0);
+    return slide;
 }
 
 ivec2 gridPointOf(ivec2 vertex) {
@@ -158,13 +179,32 @@ vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
     return positionOnSphere(faces[face], place, float(heightStep - grid.x) * planet.y - drop);
 }
 
+vec3 ownPosition(ivec3 corner, ivec2 vertex, float drop) {
+    vec3 up;
+    return positionOf(vertex, stepAt(corner, vertex), drop, up);
+}
+
+// Where the coarser chunk would draw one of its vertices: on a stitched edge not where it lies.
+vec3 coarserPosition(ivec3 corner, ivec2 vertex, int last, float drop) {
+    bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
+    if (inside || !isOn(switchGather)) return ownPosition(corner, vertex, drop);
+    Slide slide = slideOf(vertex, last);
+    vec3 position = ownPosition(corner, slide.vertex, drop);
+    if (slide.aside == ivec2(0)) return position;
+    vec3 middle = 0.5 * (ownPosition(corner, slide.vertex - slide.aside, drop) +
+                         ownPosition(corner, slide.vertex + slide.aside, drop));
+    position += slide.amount * (middle - position);
+    return (1.0 - slide.gathered) * position +
+           slide.gathered * ownPosition(corner, slide.vertex + slide.onto, drop);
+}
+
 void main() {
     FaceFrame frame = faces[chunk.x & 7u];
     int last = 1 << grid.y;
-    Slide slide = Slide(ivec2(gridVertex.xy), ivec2(0), 0.0);
+    Slide slide = Slide(ivec2(gridVertex.xy), ivec2(0), 0.0, ivec2(0), 0.0);
     if (isOn(switchSlide)) slide = slideOf(slide.vertex, last);
     ivec2 vertex = slide.vertex;
-    ivec2 gridPoint = gridPointOf(vertex);
+    vec2 gridPlaceOnFace = vec2(gridPointOf(vertex));
 
     ivec3 corner = slotCorner(chunk.w, last);
     int heightStep = stepAt(corner, vertex);
@@ -179,11 +219,23 @@ void main() {
     if (isOn(switchSlide)) {
         before = stepAt(corner, vertex - slide.aside);
         after = stepAt(corner, vertex + slide.aside);
-        vec3 unused;
-        vec3 middle = 0.5 * (positionOf(vertex - slide.aside, before, drop, unused) +
-                             positionOf(vertex + slide.aside, after, drop, unused));
+        vec3 middle = 0.5 * (coarserPosition(corner, vertex - slide.aside, last, drop) +
+                             coarserPosition(corner, vertex + slide.aside, last, drop));
         position += slide.amount * (middle - position);
         height += slide.amount * (0.5 * float(before + after) - float(heightStep)) * planet.y;
+    }
+    ivec2 gatherVertex = vertex + slide.onto;
+    int gatherStep = heightStep;
+    if (slide.gathered > 0.0) {
+        gatherStep = stepAt(corner, gatherVertex);
+        vec3 gatherUp;
+        vec3 there = positionOf(gatherVertex, gatherStep, drop, gatherUp);
+        // Exactly there at 1, so that nothing parts.
+        float kept = 1.0 - slide.gathered;
+        position = kept * position + slide.gathered * there;
+        up = kept * up + slide.gathered * gatherUp;
+        height = kept * height + slide.gathered * (heights.x + float(gatherStep) * planet.y);
+        gridPlaceOnFace = kept * gridPlaceOnFace + slide.gathered * vec2(gridPointOf(gatherVertex));
     }
     vec3 normal = up;
     float rough = 0.0;
@@ -197,10 +249,12 @@ void main() {
             mat2 coarser = 0.5 * (slopes(corner, vertex - slide.aside, last, before, 2) +
                                   slopes(corner, vertex + slide.aside, last, after, 2));
             steps += slide.amount * (coarser - steps);
+            if (slide.gathered > 0.0)
+                steps += slide.gathered * (slopes(corner, gatherVertex, last, gatherStep, 1) - steps);
         }
         float stepsPerSlope = planet.y / (float(1 << (fineGridLog2 - grid.y - int(chunk.x >> 3u))) * fineCell);
         vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * heights.z);
-        vec2 coordinates = vec2(gridPoint) * fineCell - 1.0;
+        vec2 coordinates = gridPlaceOnFace * fineCell - 1.0;
         normal = isOn(switchCube) ? frame.normal.xyz * planet.w - heightSlope.x * frame.u.xyz -
                                         heightSlope.y * frame.v.xyz
                                   : normalOnSphere(frame, coordinates, up, planet.z + rise, heightSlope);
@@ -213,7 +267,7 @@ void main() {
     }
 
     surface = position;
-    facePlace = vec4(vec2(gridPoint) * (0.5 * fineCell), height, float(chunk.x & 7u));
+    facePlace = vec4(gridPlaceOnFace * (0.5 * fineCell), height, float(chunk.x & 7u));
     surfaceNormal = vec4(normal, rough);
     gridCoordinate = vec2(gridVertex.xy);
     onSkirt = float(gridVertex.z);

@@ -53,6 +53,7 @@ const int switchOutlines = 4096;
 const int switchLoudSkirts = 8192;
 const int switchSlide = 16384;         // some vertices morph, or move onto a coarser neighbour's
 const int switchMorph = 32768;         // some morph: light does, too
+const int switchGather = 65536;        // edges that morph let vertices go as a coarser chunk's stitched edge does
 
 bool isOn(int bit) {
     return (variant & bit) != 0;

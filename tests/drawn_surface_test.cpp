@@ -90,6 +90,32 @@ TEST(DrawnSurface, aPointLiesOverItsPlaceAlsoInAStitchedRing) {
     }
 }
 
+// So that nothing moves when the chunk beyond changes its level.
+TEST(DrawnSurface, anEdgeThatMorphsFullyIsAlreadyStitchedToOneLevelMore) {
+    for (DrawItem item : patchworkItems(7)) {
+        for (const Edge edge : {Edge::West, Edge::East, Edge::South, Edge::North}) {
+            const auto e = static_cast<std::size_t>(edge);
+            item.coarserBy.fill(0);
+            item.edgeMorph.fill(0);
+            // A finer chunk than its neighbour by so many levels there is only so far down, and a chunk's
+            // sixteen cells end at every second vertex of what is three levels coarser.
+            for (std::uint8_t levels = 0; levels < 3 && levels < item.id.level; ++levels) {
+                item.coarserBy[e] = levels;
+                item.edgeMorph[e] = 1;
+                const DrawnGrid before = gridOf(item, true);
+                item.coarserBy[e] = static_cast<std::uint8_t>(levels + 1);
+                item.edgeMorph[e] = 0;
+                const DrawnGrid after = gridOf(item, true);
+                for (std::size_t i = 0; i < before.place.size(); ++i) {
+                    ASSERT_EQ(before.place[i], after.place[i]) << toString(item.id) << " vertex " << i;
+                    ASSERT_LT(distanceInCells(before, before.positionM[i], after.positionM[i]), 1e-9)
+                        << toString(item.id) << " vertex " << i;
+                }
+            }
+        }
+    }
+}
+
 // Seen from either side a stitched edge is the same line.
 TEST(DrawnSurface, stitchedNeighboursShareEveryPointOfTheirEdge) {
     const std::vector<DrawItem> items = patchworkItems(6);

@@ -71,21 +71,30 @@ DrawnGrid gridOf(const DrawItem& item, bool stitched) {
     return drawnGrid(wholeTree().shape, item, fakePyramid().at(item.id).heights, stitched);
 }
 
+// Whether a stitched edge of the parent's is drawn by the child as it was by the parent, or the reverse. The
+// chunk beyond may slide on meanwhile, and the edge with it; or be split, and what takes its place be out of
+// view.
+bool edgeRests(const DrawItem& parent, const DrawItem& child, Edge edge) {
+    const auto e = static_cast<std::size_t>(edge);
+    if (child.coarserBy[e] == 0) return parent.coarserBy[e] == 0;
+    return child.coarserBy[e] == parent.coarserBy[e] + 1 && child.edgeMorph[e] == parent.edgeMorph[e];
+}
+
 // The farthest that the picture moves when a chunk is exchanged for one of its children or the reverse: at
-// all places of the child's vertices, or if they are stitched, those that lie a cell or more inside the
-// chunk.
+// all places of the child's vertices, but for the outermost cells along an edge that slides anyway.
 double largestJumpPx(const View& view, const DrawItem& parent, const DrawItem& child, bool stitched) {
     const DrawnGrid coarse = gridOf(parent, stitched);
     const DrawnGrid fine = gridOf(child, stitched);
     const int quadrant = quadrantOf(child.id);
+    const auto slides = [&](Edge edge) { return stitched && !edgeRests(parent, child, edge); };
     double most = 0;
     for (int y = 0; y <= fine.cells; ++y) {
         for (int x = 0; x <= fine.cells; ++x) {
             const double coarseX = 0.5 * (x + quadrant % 2 * fine.cells);
             const double coarseY = 0.5 * (y + quadrant / 2 * fine.cells);
-            const bool outermost =
-                std::min(coarseX, coarseY) < 1 || std::max(coarseX, coarseY) > coarse.cells - 1;
-            if (stitched && outermost) continue;
+            if ((coarseX < 1 && slides(Edge::West)) || (coarseX > coarse.cells - 1 && slides(Edge::East)) ||
+                (coarseY < 1 && slides(Edge::South)) || (coarseY > coarse.cells - 1 && slides(Edge::North)))
+                continue;
             const auto before = project(view, pointOn(coarse, coarseX, coarseY));
             const auto after = project(view, pointOn(fine, x, y));
             if (before && after) most = std::max(most, glm::length(*before - *after));

@@ -173,7 +173,8 @@ int slidingSwitches(std::span<const DrawItem> items, bool stitched) {
         return std::any_of(values.begin(), values.end(), [](auto value) { return value > 0; });
     };
     const auto morphs = [&](const DrawItem& item) { return item.morph > 0 || anyOver0(item.edgeMorph); };
-    if (std::any_of(items.begin(), items.end(), morphs)) return switchSlide | switchMorph;
+    if (std::any_of(items.begin(), items.end(), morphs))
+        return switchSlide | switchMorph | (stitched ? switchGather : 0);
     const auto moves = [&](const DrawItem& item) { return anyOver0(item.coarserBy); };
     return stitched && std::any_of(items.begin(), items.end(), moves) ? switchSlide : 0;
 }

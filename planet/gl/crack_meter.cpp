@@ -205,8 +205,8 @@ private:
         const double share = squared > 0 ? std::clamp(glm::dot(seen, way) / squared, 0.0, 1.0) : 0;
         const bool upright = piece.edge == Edge::West || piece.edge == Edge::East;
         const auto along = [&](std::size_t vertex) {
-            const glm::ivec2 place = chunk.grid.place[vertex];
-            return static_cast<double>(upright ? place.y : place.x) / chunk.grid.cells;
+            const glm::dvec2 place = chunk.grid.place[vertex];
+            return (upright ? place.y : place.x) / chunk.grid.cells;
         };
         pixel.wallM = wall.farthestM;
         pixel.placeM = glm::mix(from, to, share);

@@ -33,7 +33,8 @@ enum Switch : int {
     switchOutlines = 4096,
     switchLoudSkirts = 8192,
     switchSlide = 16384,
-    switchMorph = 32768
+    switchMorph = 32768,
+    switchGather = 65536
 };
 
 // std140: only members of 16 bytes, so that C++ and GLSL agree without padding.
