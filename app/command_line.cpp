@@ -16,6 +16,7 @@
 #include "app/audit_command.h"
 #include "app/bake_command.h"
 #include "app/bench_command.h"
+#include "app/compare_command.h"
 #include "app/cracks_command.h"
 #include "app/exit_code.h"
 #include "app/file_commands.h"
@@ -239,6 +240,37 @@ void addPops(CLI::App& app, PopsOptions& options, ViewTexts& view) {
     command.add_option("-o,--output", options.output, "Write a report there, JSON");
 }
 
+// What a comparison's sides are told, as it is written: A and B.
+using CompareTexts = std::array<ViewTexts, 2>;
+
+void addCompare(CLI::App& app, CompareOptions& options, CompareTexts& texts) {
+    CLI::App& command = *app.add_subcommand(
+        "compare", "Fly with two settings or two bakes, A and B, and set their figures side by side");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--flight", options.flight, flightHelp)->required();
+    command.add_option("--with", options.fileOfB, "Chunk file of B (FILE)");
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const char letter = i == 0 ? 'a' : 'b';
+        const char* const side = i == 0 ? "A" : "B";
+        command.add_option(fmt::format("--settings-{}", letter), texts[i].settingsFile,
+                           fmt::format("Settings of {}: a settings file, a preset, or a screenshot", side));
+        command
+            .add_option(fmt::format("--set-{}", letter), texts[i].assignments,
+                        fmt::format("Any setting of {}, as lod.tau_px=3; may be given again and again", side))
+            ->type_name("NAME=VALUE")
+            ->expected(1)
+            ->take_all()
+            ->allow_extra_args(false);
+    }
+    command.add_option("--frames", options.moments, "Moments of the flight, evenly spread (12)")
+        ->check(CLI::Range(1, 100000));
+    command.add_option("--size", texts[0].size, "Picture size, WIDTHxHEIGHT (1280x720)");
+    command.add_option("-o,--output", options.report, "Write the figures there, JSON");
+    command.add_option(
+        "--pictures", options.pictures,
+        "Folder for pictures of the moment that differs most: side_by_side.png, difference.png");
+}
+
 // What only an audit is told, as it is written.
 struct AuditTexts {
     ViewTexts view;
@@ -394,6 +426,18 @@ Result<BenchOptions> understand(BenchOptions options, const ViewTexts& texts) {
     return options;
 }
 
+Result<CompareOptions> understand(CompareOptions options, const CompareTexts& texts) {
+    const Result<PictureSize> size = pictureSizeFromText(texts[0].size);
+    if (!size) return tl::unexpected(size.error());
+    options.size = *size;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const Result<Settings> settings = settingsFrom(texts[i]);
+        if (!settings) return tl::unexpected(settings.error());
+        options.settings[i] = settings->view;
+    }
+    return options;
+}
+
 Result<AuditOptions> understand(AuditOptions options, const AuditTexts& texts) {
     if (const Result<Settings> settings = takeView(texts.view, options); !settings)
         return tl::unexpected(settings.error());
@@ -440,6 +484,8 @@ struct CommandLine {
     AuditOptions audit;
     AuditTexts auditTexts;
     ReplayOptions replay;
+    CompareOptions compare;
+    CompareTexts compareTexts;
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
@@ -460,6 +506,7 @@ struct CommandLine {
         addPops(app, pops, popsView);
         addAudit(app, audit, auditTexts);
         addReplay(app, replay);
+        addCompare(app, compare, compareTexts);
         app.require_subcommand(0, 1);
     }
     CommandLine(const CommandLine&) = delete;
@@ -509,6 +556,7 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
         {"cracks", view(line.cracks, line.cracksView, runCracks)},
         {"pops", view(line.pops, line.popsView, runPops)},
         {"audit", view(line.audit, line.auditTexts, runAudit)},
+        {"compare", view(line.compare, line.compareTexts, runCompare)},
     };
     for (const auto& [name, run] : commands) {
         if (app.got_subcommand(name)) return run();

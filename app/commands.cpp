@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "app/bookmarks.h"
+#include "app/places.h"
 #include "app/recent_files.h"
 #include "app/screenshot.h"
 #include "app/shot_line.h"
@@ -152,6 +153,40 @@ struct CommandHandler {
     }
     void operator()(const ui::StopReplay&) const { endReplay(editor, shownScene(session)); }
 
+    void operator()(const ui::StartSweep& command) const {
+        startSweep(editor.sweep, shownPlanet(session), command.request, editor.settings.view, log);
+    }
+    void operator()(const ui::CancelSweep&) const { cancelSweep(editor.sweep); }
+    void operator()(const ui::SaveSweep& command) const {
+        const Result<std::filesystem::path> plot = saveSweep(editor.sweep, command.cost, picturesFolder());
+        if (plot)
+            log->info("Sweep: {}, and its table beside it as .csv and .json", plot->string());
+        else
+            log->error("{}", plot.error().message);
+    }
+    void operator()(const ui::OpenSweptChunks& command) const {
+        openSweptChunks(editor.sweep, command.chunkSize, session, editor.settings.view, log);
+    }
+
+    void operator()(const ui::StartCompare& command) const {
+        if (succeeded(startCompare(editor.compare, session, editor.presets, editor.settings.view, command)))
+            editor.stepOneFrame = true;  // B has chosen nothing yet
+    }
+    void operator()(const ui::StopCompare&) const { editor.compare.ending = true; }
+    void operator()(const ui::SwapCompare& command) const;
+    void operator()(const ui::MeasureCompare&) const {
+        Scene* scene = shownScene(session);
+        if (!scene || !editor.rig) return;
+        succeeded(measureCompared(editor.compare, *scene, editor.settings.view, editor.viewport.main.view));
+    }
+    void operator()(const ui::CompareOverFlight& command) const {
+        succeeded(
+            compareFlight(editor.compare, session, editor.settings.view, editor.viewport.main.view, command));
+    }
+    void operator()(const ui::CancelCompareFlight&) const {
+        if (editor.compare.job) editor.compare.job->cancel();
+    }
+
     void openPreset(const std::filesystem::path& file) const;
     bool openScreenshot(const std::filesystem::path& file) const;
 };
@@ -186,6 +221,14 @@ void CommandHandler::operator()(const ui::StartRecording& command) const {
     editor.changes.clear();
     forgetPops(editor.pops);
     editor.stepOneFrame = true;  // nothing is chosen any more
+}
+
+void CommandHandler::operator()(const ui::SwapCompare&) const {
+    if (editor.desk.replay) return log->warn("While a flight is replayed its settings are the recording's");
+    const ui::ViewSettings settings = swapCompared(editor.compare, session, editor.settings.view, log);
+    editor.undo.add(editor.settings.view, settings, "swap of A and B");
+    editor.settings.view = settings;
+    editor.stepOneFrame = true;
 }
 
 void CommandHandler::operator()(const ui::StartReplay& command) const {
@@ -288,8 +331,9 @@ void CommandHandler::operator()(const ui::TakeScreenshot& command) const {
     }
     const PlanetPicture& shown =
         editor.viewport.main.shown() ? editor.viewport.main : editor.viewport.observer;
-    if (!shown.target) return;
-    const Picture picture{shown.target->widthPx(), shown.target->heightPx(), shown.target->readRgb()};
+    const planet::gl::RenderTarget* target = shown.shownTarget();
+    if (!target) return;
+    const Picture picture{target->widthPx(), target->heightPx(), target->readRgb()};
     keepScreenshot(picture, session, editor, log);
 }
 

@@ -61,8 +61,8 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     editor.timeS += secondsSinceLast;
     window.setTheme(editor.settings.workspace.theme, editor.settings.workspace.scale);
     // While there is only a bake to be seen, the cores have better things to do than to draw the same bar
-    // again.
-    window.beginFrame(shownScene(session) ? 0 : 0.05);
+    // again; and while a sweep measures frame times, than to disturb them. Input is answered at once.
+    window.beginFrame(shownScene(session) && !editor.sweep.job ? 0 : 0.05);
     const float pixelRatio = window.pixelRatio();
     const ui::Layout layout = ui::layoutOf(window.width(), window.height(), editor.settings.workspace,
                                            ui::menuBarHeight(), ui::statusBarHeight(), ui::unitPx());
@@ -73,7 +73,11 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     ui::Commands commands;
     for (const std::filesystem::path& file : window.droppedFiles()) commands.push_back(ui::OpenFile{file});
     advanceSession(session, editor.settings.view, log);
-    reloadChangedShaders(session, log);
+    advanceSweep(editor.sweep, log);
+    if (reloadChangedShaders(session, log) && editor.compare.other) {
+        const auto reloaded = editor.compare.other->planet.scene.renderer.reloadShaders();
+        if (!reloaded) log->error("B: {}", reloaded.error().message);
+    }
     ui::FrameStats stats;
     if (Scene* scene = shownScene(session))
         stats = runPlanet(*scene, pixelRatio, editor, log, secondsSinceLast, commands);

@@ -9,6 +9,7 @@
 
 #include "app/bookmarks.h"
 #include "app/camera_rig.h"
+#include "app/compare_desk.h"
 #include "app/cracks.h"
 #include "app/error_job.h"
 #include "app/flight_desk.h"
@@ -17,6 +18,7 @@
 #include "app/presets.h"
 #include "app/session.h"
 #include "app/settings.h"
+#include "app/sweep_desk.h"
 #include "app/undo.h"
 #include "app/viewport.h"
 #include "app/window.h"
@@ -70,6 +72,8 @@ struct Editor {
     std::filesystem::path itemMapFile;               // where to write where controls are; empty: nowhere
     std::uint64_t frames = 0;                        // run so far
     FlightDesk desk;
+    SweepDesk sweep;
+    CompareDesk compare;
 };
 
 Editor openEditor(const Settings& settings, const Log& log);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "ui/bake_window.h"
+#include "ui/compare_overlay.h"
 #include "ui/item_map.h"
 #include "ui/status_bar.h"
 #include "ui/viewport_overlay.h"
@@ -14,24 +15,32 @@ namespace worldy {
 
 namespace {
 
-void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio) {
+// wiped: null, or what its divider changes.
+void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
+                   ui::CompareKnobs* wiped = nullptr) {
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ui::beginFixedWindow(name, picture.rect,
                          ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
-    if (!picture.target) return;
-    const auto texture = static_cast<std::intptr_t>(picture.target->colourTexture());
-    ui::viewportPicture(reinterpret_cast<ImTextureID>(texture), picture.rect);
+    const planet::gl::RenderTarget* target = picture.shownTarget();
+    if (!target) return;
+    const auto texture = static_cast<std::intptr_t>(target->colourTexture());
     ui::setItemScope(name);
+    if (wiped) ui::wipeHandle(*wiped, picture.rect);
+    ui::viewportPicture(reinterpret_cast<ImTextureID>(texture), picture.rect);
     ui::noteItem("picture");
     picture.pointer = readPointer(pixelRatio);
+    if (picture.instead)
+        picture.pointer.positionPx.x = planet::gl::pictureColumn(picture.mix, picture.pointer.positionPx.x);
 }
 
 void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor) {
     Viewport& viewport = editor.viewport;
-    pictureWindow("viewport", viewport.main, pixelRatio);
+    ui::CompareKnobs& compare = editor.settings.view.compare;
+    const bool wiping = view.compare.on && compare.mode == ui::CompareMode::Wipe;
+    pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
     if (viewport.main.shown()) {
         if (view.planet) ui::viewportOverlay(view, editor.settings.view, viewport.main.rect);
         ImGui::End();
@@ -95,6 +104,9 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.probe = editor.probe;
     view.errors = errorsViewOf(editor.errors, editor.frames);
     view.recording = recordingViewOf(editor.desk, editor.settings.view);
+    view.sweep = sweepViewOf(editor.sweep);
+    view.compare =
+        compareViewOf(editor.compare, session, editor.settings.view, editor.stats, editor.viewport.main.view);
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

@@ -147,8 +147,10 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
                                 },
                                 [&](const ui::ViewSettings& recorded, bool pagingPaused) {
                                     const ui::CameraSettings camera = editor.settings.view.camera;
+                                    const ui::CompareKnobs compare = editor.settings.view.compare;
                                     editor.settings.view = recorded;
                                     editor.settings.view.camera = camera;
+                                    editor.settings.view.compare = compare;
                                     editor.pagingPaused = pagingPaused;
                                 }};
     if (const auto done = advanceReplay(*editor.desk.replay, scene, seconds, watcher); !done) {
@@ -266,8 +268,15 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
         record(*scene.planet, editor, log);
     }
     advanceErrorMeter(*scene.planet, editor.frames, editor.timeS, editor.errors);
+    stepCompared(editor.compare,
+                 {scene, editor.settings.view, editor.lodView, mainView(editor, pixelRatio), editor.timeS,
+                  editor.frames, goesOn, editor.pagingPaused},
+                 log);
     const Stopwatch watch;
     drawMainPicture(scene, pixelRatio, editor, log);
+    const bool counting = editor.settings.view.compare.mode == ui::CompareMode::Difference ||
+                          isShown(editor, ui::PanelId::Compare);
+    drawCompared(editor.compare, editor.viewport, editor.settings.view, editor.focus, counting, log);
     drawObserverPicture(scene, pixelRatio, editor, log);
     const ui::CrackKnobs& cracks = editor.settings.view.cracks;
     const auto every = static_cast<std::uint64_t>(cracks.everyFrames);
@@ -277,7 +286,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     pick(editor.viewport.observer, scene, observerSelection(scene, editor), commands);
     ui::FrameStats stats = statsOf(scene);
     stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
-    stats.targetBytes = gpuBytes(editor.viewport);
+    stats.targetBytes = gpuBytes(editor.viewport) + gpuBytes(editor.compare);
     return stats;
 }
 

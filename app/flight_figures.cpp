@@ -27,12 +27,13 @@ double meanOf(const std::vector<double>& values) {
 }
 
 Result<void> addError(const Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings,
-                      planet::FinestHeights& heights, Gathered& gathered, FlightFigures& figures) {
+                      planet::FinestHeights& heights, const std::function<bool()>& goOn, Gathered& gathered,
+                      FlightFigures& figures) {
     const planet::Planet& planet = *offscreen.scene.planet;
     const Result<planet::TrueErrorReport> report =
         planet::measureTrueError(planet::snapshotOf(planet.tree(), planet.selection().draw, view,
                                                     settings.seams.mode == planet::SeamMode::Stitched),
-                                 heights);
+                                 heights, [&](std::uint64_t, std::uint64_t) { return goOn(); });
     if (!report) return tl::unexpected(report.error());
     figures.worstPredictedPx = std::max(figures.worstPredictedPx, report->worstPredictedPx);
     figures.worstMeasuredPx = std::max(figures.worstMeasuredPx, report->worstFacingPx);
@@ -62,23 +63,32 @@ Result<void> addCost(Offscreen& offscreen, const planet::View& view, const ui::V
 
 Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path,
                                     const ui::ViewSettings& settings, int frames, FigureSet wanted,
-                                    planet::FinestHeights& heights, const KeepFlying& goOn) {
+                                    planet::FinestHeights& heights, const KeepFlying& goOn,
+                                    const AtMoment& atMoment) {
     FlightFigures figures;
     Gathered gathered;
     // Residents of another setting are not this one's memory.
     offscreen.scene.planet->dropAll();
+    const std::uint64_t readBefore = offscreen.scene.planet->paging().bytesRead;
     for (int i = 0; i < frames; ++i) {
-        if (!goOn()) return planet::cancelled();
+        const std::function<bool()> goOnHere = [&] { return goOn(i); };
+        if (!goOnHere()) return planet::cancelled();
         const double share = frames > 1 ? static_cast<double>(i) / (frames - 1) : 0;
         const double timeS = path.keys.front().timeS + share * durationS(path);
-        const SettledView at = settleAt(offscreen, poseAt(path, timeS), settings);
+        const SettledView at = settleAt(offscreen, poseAt(path, timeS), settings, goOnHere);
+        if (!at.settled && !goOnHere()) return planet::cancelled();
         if (!at.settled) return planet::ioError("the data that a view wants could not all be loaded in time");
         if (const Result<void> added = addCost(offscreen, at.view, settings, gathered, figures); !added)
             return tl::unexpected(added.error());
-        if (wanted == FigureSet::Cost) continue;
-        if (const auto added = addError(offscreen, at.view, settings, heights, gathered, figures); !added)
-            return tl::unexpected(added.error());
+        if (wanted == FigureSet::CostAndError) {
+            const auto added = addError(offscreen, at.view, settings, heights, goOnHere, gathered, figures);
+            if (!added) return tl::unexpected(added.error());
+        }
+        if (!atMoment) continue;
+        if (const Result<void> looked = atMoment(offscreen, at); !looked)
+            return tl::unexpected(looked.error());
     }
+    figures.bytesRead = offscreen.scene.planet->paging().bytesRead - readBefore;
     figures.frames = frames;
     figures.meanTriangles = meanOf(gathered.triangles);
     figures.mostTriangles = *std::max_element(gathered.triangles.begin(), gathered.triangles.end());

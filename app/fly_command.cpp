@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <functional>
@@ -16,6 +15,7 @@
 #include "app/output_file.h"
 #include "app/report.h"
 #include "app/stopwatch.h"
+#include "planet/percentile.h"
 
 namespace worldy {
 
@@ -65,13 +65,11 @@ struct Spread {
     double maximum = 0;
 };
 
-// The nearest-rank percentiles.
 Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity) {
     std::vector<double> values;
     for (const FlownFrame& frame : frames) values.push_back(quantity.of(frame.stats));
-    std::sort(values.begin(), values.end());
-    const auto rank = [&](std::size_t percent) { return values[(values.size() * percent + 99) / 100 - 1]; };
-    return {rank(50), rank(99), values.back()};
+    return {planet::percentileOf(values, 0.5), planet::percentileOf(values, 0.99),
+            planet::percentileOf(values, 1)};
 }
 
 // elapsedS: of the flight, since the frame before.

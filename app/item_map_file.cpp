@@ -39,7 +39,15 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("recorded", editor.desk.recorder ? editor.desk.recorder->encoded().frames() : 0);
     add("replayed", editor.desk.replay ? editor.desk.replay->replay.next() : 0);
     add("different", editor.desk.replay ? editor.desk.replay->replay.framesDifferent() : 0);
+    const CompareDesk& compare = editor.compare;
+    add("compared", compare.other ? 1 : 0);
+    add("triangles_b", compare.other ? compare.other->stats.render.triangles : 0);
+    add("pixels_differ", compare.difference ? static_cast<long long>(compare.difference->pixels) : -1);
+    add("compare_flown", compare.flown ? 1 : 0);
     add("baking", session.bake ? 1 : 0);
+    add("sweeping", editor.sweep.job ? 1 : 0);
+    add("swept", editor.sweep.table ? editor.sweep.table->points.size() : 0);
+    add("suggested", editor.sweep.suggestions.size());
     return counters;
 }
 

@@ -28,6 +28,18 @@ planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, c
     return {};
 }
 
+// In short stretches, between which it can be given up.
+bool settleWhile(Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
+                 const std::function<bool()>& goOn) {
+    if (!goOn) return settleScene(scene, view, settings, settleTimeoutS);
+    constexpr double stretchS = 0.2;
+    for (double waitedS = 0; waitedS < settleTimeoutS; waitedS += stretchS) {
+        if (settleScene(scene, view, settings, stretchS)) return true;
+        if (!goOn()) return false;
+    }
+    return false;
+}
+
 // Nothing where chunks are not coloured by it.
 planet::Result<std::optional<ui::ErrorMeasurement>> measuredFor(const planet::Planet& planet,
                                                                 const ui::ViewSettings& settings) {
@@ -82,7 +94,8 @@ Picture readPicture(const Offscreen& offscreen) {
     return {offscreen.target.widthPx(), offscreen.target.heightPx(), offscreen.target.readRgb()};
 }
 
-SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings) {
+SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings,
+                     const std::function<bool()>& goOn) {
     Scene& scene = offscreen.scene;
     const double radiusM = scene.planet->shape().radiusM;
     Camera camera = cameraFromPose(pose, radiusM);
@@ -91,11 +104,11 @@ SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const
         result.view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                              offscreen.target.heightPx());
         result.pose = planet::poseFromView(result.view, radiusM);
-        result.settled = settleScene(scene, result.view, settings, settleTimeoutS);
+        result.settled = settleWhile(scene, result.view, settings, goOn);
     };
     settle();
     // The ground below is known as finely as the view needs only now; lifted, it may become finer still.
-    for (int attempt = 0; attempt < 4; ++attempt) {
+    for (int attempt = 0; attempt < 4 && (result.settled || !goOn); ++attempt) {
         const Ground ground = groundBelow(scene, camera.eyeM);
         if (altitudeM(camera, ground) >= ground.heightM + minGroundClearanceM - 1e-3) break;
         camera = keepInRange(camera, ground);

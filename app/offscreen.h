@@ -1,6 +1,7 @@
 // Drawing a planet without a window: what shot, fly and a machine without a display share.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "app/scene.h"
@@ -28,13 +29,15 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
 
 Picture readPicture(const Offscreen& offscreen);
 
-// The view from a pose, once everything for it is loaded. A camera below the ground is lifted above it.
+// The view from a pose, once everything for it is loaded. A camera below the ground is lifted above it. goOn
+// is asked several times a second; where it says no, the view is left unsettled.
 struct SettledView {
     planet::View view;
     planet::CameraPose pose;
     bool lifted = false;
     bool settled = false;  // false: the time ran out
 };
-SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings);
+SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings,
+                     const std::function<bool()>& goOn = {});
 
 }  // namespace worldy

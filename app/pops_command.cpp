@@ -4,23 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <vector>
 
-#include "app/camera_control.h"
-#include "app/flight_path.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/pops_flight.h"
 #include "app/report.h"
 #include "app/scene.h"
-#include "app/stopwatch.h"
 #include "planet/percentile.h"
-#include "planet/pop_meter.h"
 
 namespace worldy {
 
@@ -31,79 +25,11 @@ using planet::percentileOf;
 using planet::PopEvent;
 using planet::Result;
 
-constexpr double settleTimeoutS = 120;
 constexpr std::size_t worstTold = 20;
 constexpr std::array shares = {0.5, 0.9, 0.99, 1.0};
 constexpr std::array<const char*, shares.size()> shareNames = {"p50", "p90", "p99", "maximum"};
 
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
-planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double timeS,
-                    const PopsOptions& options) {
-    const double radiusM = planet.shape().radiusM;
-    const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
-    const Ground ground{radiusM, planet::residentHeightM(planet.tree(), wanted.eyeM)};
-    return viewOf(keepInRange(wanted, ground), glm::radians(options.view.camera.fovDeg), options.size.widthPx,
-                  options.size.heightPx);
-}
-
-// One frame of so many seconds, in which all that it wants arrives.
-Result<void> stepOnTime(planet::Planet& planet, const planet::ViewInput& view, double elapsedS,
-                        const InterruptWatch& watch) {
-    const Stopwatch waited;
-    planet.step({&view, 1}, noUpload, elapsedS);
-    while (!planet.settled()) {
-        if (watch.interrupted()) return planet::cancelled();
-        if (waited.elapsedMs() > 1000 * settleTimeoutS)
-            return planet::ioError(
-                fmt::format("what a view wants was not loaded within {:.0f} s", settleTimeoutS));
-        std::this_thread::sleep_for(std::chrono::microseconds(100));
-        planet.step({&view, 1}, noUpload, 0);
-    }
-    return {};
-}
-
-struct Flown {
-    std::vector<PopEvent> events;
-    planet::PopTotals totals;
-    double usPerSwitch = 0;
-    int frames = 0;
-};
-
-Result<Flown> fly(planet::Planet& planet, const FlightPath& path, const PopsOptions& options) {
-    const InterruptWatch watch;
-    const planet::LodSettings lod = lodSettingsOf(options.view);
-    const double startS = path.keys.front().timeS;
-    Flown flown;
-    flown.frames = static_cast<int>(std::floor(durationS(path) / options.stepS)) + 1;
-    planet::PopMeter meter;
-    for (int i = 0; i < flown.frames; ++i) {
-        const double timeS = startS + i * options.stepS;
-        const planet::View view = viewAt(planet, path, timeS, options);
-        const Result<void> stepped = stepOnTime(planet, {view, lod, 1}, i == 0 ? 0 : options.stepS, watch);
-        if (!stepped) return tl::unexpected(stepped.error());
-        meter.add(planet.tree(), planet.selection(), view, lod, i * options.stepS);
-        // It forgets what is minutes old.
-        const auto& events = meter.events();
-        for (auto event = events.rbegin();
-             event != events.rend() && event->frame == static_cast<std::uint64_t>(i); ++event)
-            flown.events.push_back(*event);
-    }
-    flown.totals = meter.totals();
-    flown.usPerSwitch = meter.measuredUsPerSwitch();
-    return flown;
-}
-
-// Of the switches in the picture.
-std::vector<double> jumpsOf(const Flown& flown) {
-    std::vector<double> jumps;
-    for (const PopEvent& event : flown.events) {
-        if (event.jump.places > 0) jumps.push_back(event.jump.largestPx);
-    }
-    return jumps;
-}
-
-std::vector<const PopEvent*> worstOf(const Flown& flown) {
+std::vector<const PopEvent*> worstOf(const PopsFlight& flown) {
     std::vector<const PopEvent*> worst;
     for (const PopEvent& event : flown.events) worst.push_back(&event);
     const auto count = std::min(worst.size(), worstTold);
@@ -130,7 +56,7 @@ Json jsonOf(const PopEvent& event, double radiusM) {
             {"camera", worldy::jsonOf(planet::poseFromView(event.view, radiusM))}};
 }
 
-Json jsonOf(const PopsOptions& options, const FlightPath& path, const Flown& flown, double radiusM) {
+Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight& flown, double radiusM) {
     Json report = {{"flight", path.name},
                    {"file", options.file.string()},
                    {"frames", flown.frames},
@@ -154,7 +80,7 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const Flown& flo
     return report;
 }
 
-void printSummary(const FlightPath& path, const PopsOptions& options, const Flown& flown) {
+void printSummary(const FlightPath& path, const PopsOptions& options, const PopsFlight& flown) {
     std::vector<double> jumps = jumpsOf(flown);
     fmt::print("{}: {} frames, {:.4g} s apart\n", path.name, flown.frames, options.stepS);
     fmt::print("{} switches of level, {} of them outside the picture; {:.0f} us to measure one\n",
@@ -188,7 +114,9 @@ Result<void> runPops(const PopsOptions& options) {
     auto planet = planet::Planet::open(options.file, pagingSettingsOf(options.view));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(options.view.surface.exaggeration);
-    const Result<Flown> flown = fly(**planet, *path, options);
+    const InterruptWatch watch;
+    const Result<PopsFlight> flown = flyForPops(**planet, *path, options.view, options.size, options.stepS,
+                                                [&](double) { return !watch.interrupted(); });
     if (!flown) return tl::unexpected(flown.error());
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printSummary(*path, options, *flown);

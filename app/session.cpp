@@ -33,6 +33,16 @@ std::optional<Picture> readColour(const fs::path& file, const Log& log) {
     return std::nullopt;
 }
 
+// What is known of a planet that was just opened.
+OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
+    // As stored; the planet's own shape has the exaggeration counted in.
+    const planet::PlanetShape shape = scene.planet->file().info().shape;
+    OpenPlanet open{data, requestOf(shape), false, false, std::move(scene)};
+    if (data.source != data.chunkFile) open.baked.source = data.source;
+    open.sourceIsThere = planet::heightSourceExists(open.baked.source);
+    return open;
+}
+
 Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::ViewSettings& settings,
                               const Log& log) {
     const bool sameColour = data.colourImage == session.colourFile;
@@ -43,11 +53,8 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::V
     if (!scene) return tl::unexpected(scene.error());
     if (!sameColour) session.colour = std::move(fresh);
     session.colourFile = data.colourImage;
-    // As stored; the planet's own shape has the exaggeration counted in.
-    const planet::ChunkFile& file = scene->planet->file();
-    OpenPlanet open{data, requestOf(file.info().shape), false, false, std::move(*scene)};
-    if (data.source != data.chunkFile) open.baked.source = data.source;
-    open.sourceIsThere = planet::heightSourceExists(open.baked.source);
+    OpenPlanet open = openedAs(data, std::move(*scene));
+    const planet::ChunkFile& file = open.scene.planet->file();
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
               ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
     log->debug("Depth buffer: {}", open.scene.renderer.capabilities().reversedZ
@@ -251,6 +258,28 @@ void startBake(Session& session, const Log& log) {
     startBake(session, request, log);
 }
 
+void openBake(Session& session, const ui::BakeRequest& request, const fs::path& chunkFile,
+              const ui::ViewSettings& settings, const Log& log) {
+    if (session.bake && !session.bake->stopping()) {
+        log->warn("A bake is running; cancel it, or wait for its end");
+        return;
+    }
+    DataSet data = session.data;
+    data.chunkFile = chunkFile;
+    if (!request.source.empty()) data.source = request.source;
+    Result<OpenPlanet> open = openPlanet(session, data, settings, log);
+    if (!open && planet::heightSourceExists(request.source)) return startBake(session, request, log);
+    if (!open) {
+        log->error("{}", open.error().message);
+        return;
+    }
+    const bool sourceIsThere = planet::heightSourceExists(request.source);
+    open->baked.source = request.source;
+    open->baked.sourceSettings = request.sourceSettings;
+    open->sourceIsThere = sourceIsThere;
+    show(session, std::move(*open), true);
+}
+
 void cancelBake(Session& session) {
     if (!session.bake) return;
     if (session.bake->job) return session.bake->job->cancel();
@@ -281,6 +310,40 @@ void showPreviousBake(Session& session, bool shown) {
 void dismissPreviousBake(Session& session) {
     session.showsPrevious = false;
     session.previous.reset();
+}
+
+Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const ui::ViewSettings& settings) {
+    if (data.needsBake) {
+        return planet::badInput(fmt::format(
+            "{}: has no bake yet; opening it once in the window would be right", data.source.string()));
+    }
+    std::optional<Picture> colour;
+    // Without its picture it is coloured by height.
+    if (data.colourImage != session.colourFile && !data.colourImage.empty()) {
+        if (Result<Picture> read = readPicture(data.colourImage)) colour = std::move(*read);
+    } else if (data.colourImage == session.colourFile) {
+        colour = session.colour;
+    }
+    Result<Scene> scene =
+        openScene({data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr}, settings);
+    if (!scene) return tl::unexpected(scene.error());
+    return openedAs(data, std::move(*scene));
+}
+
+Result<OpenPlanet> openBeside(const Session& session, const fs::path& file,
+                              const ui::ViewSettings& settings) {
+    const Result<DataSet> data = findDataSet(file, {});
+    if (!data) return tl::unexpected(data.error());
+    return openBeside(session, *data, settings);
+}
+
+void exchangeShown(Session& session, OpenPlanet& other, const Log& log) {
+    std::swap(session.showsPrevious ? *session.previous : *session.open, other);
+    const DataSet& shown = shownPlanet(session)->data;
+    if (!session.showsPrevious) session.data = shown;
+    if (shown.colourImage == session.colourFile) return;
+    session.colour = readColour(shown.colourImage, log);
+    session.colourFile = shown.colourImage;
 }
 
 void requestEstimate(Session& session, const ui::BakeRequest& request) {
@@ -343,10 +406,10 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     return view;
 }
 
-void reloadChangedShaders(Session& session, const Log& log) {
-    if (!session.open || session.shaderFolder.empty()) return;
+bool reloadChangedShaders(Session& session, const Log& log) {
+    if (!session.open || session.shaderFolder.empty()) return false;
     const fs::file_time_type newest = newestIn(session.shaderFolder);
-    if (newest == session.shadersChanged) return;
+    if (newest == session.shadersChanged) return false;
     session.shadersChanged = newest;
     Result<void> reloaded = session.open->scene.renderer.reloadShaders();
     if (reloaded && session.previous) reloaded = session.previous->scene.renderer.reloadShaders();
@@ -354,6 +417,7 @@ void reloadChangedShaders(Session& session, const Log& log) {
         log->info("Shaders of {} reloaded", session.shaderFolder.string());
     else
         log->error("{}", reloaded.error().message);
+    return reloaded.has_value();
 }
 
 }  // namespace worldy

@@ -78,12 +78,26 @@ void startBake(Session& session, const ui::BakeRequest& request, const Log& log)
 void startBake(Session& session, const Log& log);
 void cancelBake(Session& session);
 
+// Shows a bake of a request that lies in a file, at once; the planet becomes the previous one. Where the file
+// is not there any more, it is baked anew if its source is known.
+void openBake(Session& session, const ui::BakeRequest& request, const std::filesystem::path& chunkFile,
+              const ui::ViewSettings& settings, const Log& log);
+
 // At a frame's start: opens what has been baked, starts what waits, and passes the planets' problems to the
 // log.
 void advanceSession(Session& session, const ui::ViewSettings& settings, const Log& log);
 
 void showPreviousBake(Session& session, bool shown);
 void dismissPreviousBake(Session& session);
+
+// A second planet beside the one that is shown, from a chunk file or from what one is baked from. Nothing of
+// the session changes. The Error says what cannot be opened, and of a source that it has to be baked first.
+planet::Result<OpenPlanet> openBeside(const Session& session, const std::filesystem::path& file,
+                                      const ui::ViewSettings& settings);
+planet::Result<OpenPlanet> openBeside(const Session& session, const DataSet& data,
+                                      const ui::ViewSettings& settings);
+// Exchanges it for the one that is shown; only while one is.
+void exchangeShown(Session& session, OpenPlanet& other, const Log& log);
 
 // Replaces what was asked before. What is estimated is in bakeViewOf.
 void requestEstimate(Session& session, const ui::BakeRequest& request);
@@ -96,7 +110,7 @@ const Scene* shownScene(const Session& session);
 ui::BakeView bakeViewOf(const Session& session);
 ui::DataView dataViewOf(const Session& session, std::span<const std::filesystem::path> recent);
 
-// Compiles the shaders of the folder again once one of them has changed.
-void reloadChangedShaders(Session& session, const Log& log);
+// Compiles the shaders of the folder again once one of them has changed. True: other renderers should too.
+bool reloadChangedShaders(Session& session, const Log& log);
 
 }  // namespace worldy

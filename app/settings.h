@@ -28,6 +28,8 @@ inline constexpr std::array<std::string_view, 4> chunkLabelsNames = {"none", "le
                                                                      "level_and_error"};
 inline constexpr std::array<std::string_view, 3> cameraModeNames = {"fly", "orbit", "follow_flight"};
 inline constexpr std::array<std::string_view, 3> observerModeNames = {"off", "split", "alone"};
+inline constexpr std::array<std::string_view, 4> compareModeNames = {"side_by_side", "wipe", "difference",
+                                                                     "flip"};
 inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
 inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};
 

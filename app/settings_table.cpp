@@ -223,6 +223,17 @@ void addCracks(Fields& fields, ui::CrackKnobs& cracks) {
                    {"cracks", "mark", "Show the crack pixels in the viewport.", Flag{&cracks.mark}}});
 }
 
+void addCompare(Fields& fields, ui::CompareKnobs& compare) {
+    fields.insert(
+        fields.end(),
+        {{"compare", "mode", "Two pictures as side_by_side, wipe, difference or flip.",
+          Choice{asByte(compare.mode), compareModeNames}},
+         {"compare", "gain", "By which the difference is multiplied.", Number{&compare.gain, {1, 255, ""}}},
+         {"compare", "wipe", "Where the divider stands, as a share of the width.",
+          Number{&compare.wipe, {0, 1, ""}}},
+         {"compare", "show_b", "Flip shows B.", Flag{&compare.showB}}});
+}
+
 // What a setting was called before version 0.2. Files that hold these names go on to be read, without a
 // word: they mean the same, and the next save writes the present ones.
 struct FormerName {
@@ -425,6 +436,7 @@ std::vector<Field> fieldsOf(Settings& settings) {
     addWindow(fields, settings);
     addPanels(fields, settings.workspace);
     addCracks(fields, settings.view.cracks);
+    addCompare(fields, settings.view.compare);
     return fields;
 }
 

@@ -53,6 +53,14 @@ void leave(const Targets& targets) {
         ask(targets, ui::SelectChunk{});
 }
 
+// From A's picture to B's and back, whatever the two were shown as.
+void flipCompared(const Targets& targets) {
+    if (!targets.view.compare.on) return;
+    ui::CompareKnobs& compare = targets.settings.compare;
+    compare.showB = compare.mode != ui::CompareMode::Flip || !compare.showB;
+    compare.mode = ui::CompareMode::Flip;
+}
+
 constexpr std::array shortcuts = {
     Shortcut{GLFW_KEY_F1, noModifier,
              [](const Targets& t) { t.settings.overlay.wireframe = !t.settings.overlay.wireframe; }},
@@ -65,6 +73,7 @@ constexpr std::array shortcuts = {
     Shortcut{GLFW_KEY_F6, noModifier, [](const Targets& t) { ask(t, ui::StepFrame{}); }},
     Shortcut{GLFW_KEY_F7, noModifier, [](const Targets& t) { advance(t.settings.camera.observer, 3); }},
     Shortcut{GLFW_KEY_F8, noModifier, [](const Targets& t) { advance(t.settings.overlay.colourBy, 8); }},
+    Shortcut{GLFW_KEY_F9, noModifier, flipCompared},
     Shortcut{GLFW_KEY_F10, noModifier, [](const Targets& t) { t.menu.showKeys = !t.menu.showKeys; }},
     Shortcut{GLFW_KEY_F11, noModifier, toggleAllPanels},
     Shortcut{GLFW_KEY_F12, noModifier, [](const Targets& t) { ask(t, ui::TakeScreenshot{false}); }},

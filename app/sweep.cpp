@@ -18,6 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planet::Result;
 
+constexpr double knownTo = 1.02;  // a suggested tau, as a factor
+
 struct Column {
     const char* name;
     double (*of)(const SweepPoint&);
@@ -42,46 +44,7 @@ std::string_view metricName(planet::ErrorMetric metric) {
     return errorMetricNames[static_cast<std::size_t>(metric)];
 }
 
-bool isBeaten(const SweepPoint& point, const SweepPoint& by, SweepCost cost) {
-    const double costs = costOf(point.figures, cost);
-    const double otherCosts = costOf(by.figures, cost);
-    const double error = point.figures.worstMeasuredPx;
-    const double otherError = by.figures.worstMeasuredPx;
-    return otherCosts <= costs && otherError <= error && (otherCosts < costs || otherError < error);
-}
-
 }  // namespace
-
-double costOf(const FlightFigures& figures, SweepCost cost) {
-    switch (cost) {
-        case SweepCost::Triangles:
-            return figures.meanTriangles;
-        case SweepCost::FrameMs:
-            return figures.medianFrameMs;
-        case SweepCost::MemoryMiB:
-            return figures.mostResidentMiB;
-    }
-    return 0;
-}
-
-const char* costName(SweepCost cost) {
-    switch (cost) {
-        case SweepCost::Triangles:
-            return "mean triangles";
-        case SweepCost::FrameMs:
-            return "median frame, ms";
-        case SweepCost::MemoryMiB:
-            return "most resident, MiB";
-    }
-    return "";
-}
-
-void markFront(std::vector<SweepPoint>& points, SweepCost cost) {
-    for (SweepPoint& point : points) {
-        point.onFront = std::none_of(points.begin(), points.end(),
-                                     [&](const SweepPoint& other) { return isBeaten(point, other, cost); });
-    }
-}
 
 std::string sweepCsv(std::span<const SweepPoint> points) {
     std::string text = "metric";
@@ -126,14 +89,16 @@ Result<TauGoal> tauGoalFromText(const std::string& text) {
     return goal;
 }
 
+int mostSuggestFlights() {
+    const double range = std::log(ui::largestTauPx / ui::smallestTauPx);
+    return 2 + static_cast<int>(std::ceil(std::log2(range / std::log(knownTo))));
+}
+
 Result<TauSuggestion> suggestTau(const TauGoal& goal, const MeasureTau& measure) {
-    constexpr double smallestPx = 0.1;
-    constexpr double largestPx = 64;
-    constexpr double knownTo = 1.02;
     TauSuggestion best;
     // Goals are kept on one side of some tau: an error by small ones, a cost by large ones.
-    double keeps = goal.limitsError ? smallestPx : largestPx;
-    double breaks = goal.limitsError ? largestPx : smallestPx;
+    double keeps = goal.limitsError ? ui::smallestTauPx : ui::largestTauPx;
+    double breaks = goal.limitsError ? ui::largestTauPx : ui::smallestTauPx;
     const auto tryTau = [&](double tauPx) -> Result<bool> {
         const Result<double> value = measure(tauPx);
         if (!value) return tl::unexpected(value.error());

@@ -10,6 +10,7 @@
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/sweep_plot.h"
+#include "app/sweep_run.h"
 #include "planet/chunk_file.h"
 
 namespace worldy {
@@ -20,48 +21,6 @@ using planet::Result;
 
 constexpr int usualChunkSize = 33;
 
-// The chunk file of a size: the named one, or a bake that is made where there is none yet.
-Result<std::filesystem::path> chunkFileOf(const SweepOptions& options, int chunkSize) {
-    planet::BakeSettings settings;
-    settings.chunkSize = chunkSize;
-    const Result<DataSet> data = findDataSet(options.file, settings, options.sourceSettings);
-    if (!data) return tl::unexpected(data.error());
-    if (!data->needsBake) return data->chunkFile;
-    const Result<planet::HeightSource> source =
-        planet::openHeightSource(data->source, options.sourceSettings);
-    if (!source) return tl::unexpected(source.error());
-    std::error_code problem;
-    std::filesystem::create_directories(data->chunkFile.parent_path(), problem);  // if not, the bake says so
-    const auto report = bakeOnTerminal(*source, settings, data->chunkFile);
-    if (!report) return tl::unexpected(report.error());
-    return data->chunkFile;
-}
-
-// An open planet of one chunk size.
-struct SweptPlanet {
-    int chunkSize = usualChunkSize;
-    Offscreen offscreen;
-    std::unique_ptr<planet::FinestHeights> heights;
-};
-
-Result<SweptPlanet> openSwept(const SweepOptions& options, int chunkSize) {
-    const Result<std::filesystem::path> chunkFile = chunkFileOf(options, chunkSize);
-    if (!chunkFile) return tl::unexpected(chunkFile.error());
-    Result<planet::ChunkFile> file = planet::ChunkFile::open(*chunkFile);
-    if (!file) return tl::unexpected(file.error());
-    const int size = planet::chunkSize(file->info().shape);
-    if (size != chunkSize) {
-        return planet::badInput(
-            fmt::format("{}: its chunks are {} a side; for chunks of {} name what it was baked from",
-                        chunkFile->string(), size, chunkSize));
-    }
-    Result<Offscreen> offscreen = openOffscreen({.chunkFile = *chunkFile}, options.view, options.size, 1);
-    if (!offscreen) return tl::unexpected(offscreen.error());
-    return SweptPlanet{
-        size, std::move(*offscreen),
-        std::make_unique<planet::FinestHeights>(std::make_shared<const planet::ChunkFile>(std::move(*file)))};
-}
-
 // Those asked for; else the chunk file's own, or the usual one.
 Result<std::vector<int>> wantedSizes(const SweepOptions& options) {
     if (!options.chunkSizes.empty()) return options.chunkSizes;
@@ -71,11 +30,27 @@ Result<std::vector<int>> wantedSizes(const SweepOptions& options) {
     return std::vector{planet::chunkSize(file->info().shape)};
 }
 
-ui::ViewSettings settingsAt(const SweepOptions& options, planet::ErrorMetric metric, double tauPx) {
-    ui::ViewSettings settings = options.view;
-    settings.lod.metric = metric;
-    settings.lod.tauPx = tauPx;
-    return settings;
+Result<SweepPlan> planOf(const SweepOptions& options) {
+    const Result<std::vector<int>> sizes = wantedSizes(options);
+    if (!sizes) return tl::unexpected(sizes.error());
+    SweepPlan plan{.source = options.file,
+                   .sourceSettings = options.sourceSettings,
+                   .files = {},
+                   .flight = options.flight,
+                   .tausPx = options.tausPx,
+                   .metrics = options.metrics,
+                   .frames = options.frames,
+                   .goal = options.goal,
+                   .size = options.size,
+                   .view = options.view};
+    for (const int chunkSize : *sizes) {
+        planet::BakeSettings settings;
+        settings.chunkSize = chunkSize;
+        const Result<DataSet> data = findDataSet(options.file, settings, options.sourceSettings);
+        if (!data) return tl::unexpected(data.error());
+        plan.files.push_back({chunkSize, data->chunkFile, data->needsBake, settings});
+    }
+    return plan;
 }
 
 void printHead() {
@@ -83,12 +58,17 @@ void printHead() {
                "triangles", "chunks", "MiB", "frame ms", "predicted", "measured", "p99", "violations");
 }
 
+// Where an eye stands in a chunk's bounds its prediction has next to no end.
+std::string predictedText(double px) {
+    return px < 1e5 ? fmt::format("{:.3f}", px) : fmt::format("{:.2e}", px);
+}
+
 void print(const SweepPoint& point) {
     const FlightFigures& f = point.figures;
-    fmt::print("{:>6} {:<9}{:>7g}{:>14.0f}{:>9.0f}{:>10.1f}{:>10.1f}{:>12.3f}{:>11.3f}{:>9.3f}{:>11}\n",
+    fmt::print("{:>6} {:<9}{:>7g}{:>14.0f}{:>9.0f}{:>10.1f}{:>10.1f}{:>12}{:>11.3f}{:>9.3f}{:>11}\n",
                point.chunkSize, errorMetricNames[static_cast<std::size_t>(point.metric)], point.tauPx,
-               f.meanTriangles, f.meanChunks, f.mostResidentMiB, f.medianFrameMs, f.worstPredictedPx,
-               f.worstMeasuredPx, f.p99MeasuredPx, f.violations);
+               f.meanTriangles, f.meanChunks, f.mostResidentMiB, f.medianFrameMs,
+               predictedText(f.worstPredictedPx), f.worstMeasuredPx, f.p99MeasuredPx, f.violations);
     std::fflush(stdout);
 }
 
@@ -108,62 +88,46 @@ Result<void> write(const SweepOptions& options, std::vector<SweepPoint> points, 
     return writePicture(*plot, options.plotOutput);
 }
 
-Result<void> sweepOver(const SweepOptions& options, const FlightPath& path, const std::vector<int>& sizes,
-                       const KeepFlying& goOn) {
-    std::vector<SweepPoint> points;
-    for (const int chunkSize : sizes) {
-        Result<SweptPlanet> planet = openSwept(options, chunkSize);
-        if (!planet) return tl::unexpected(planet.error());
-        if (points.empty()) printHead();
-        for (const planet::ErrorMetric metric : options.metrics) {
-            for (const double tauPx : options.tausPx) {
-                const Result<FlightFigures> figures =
-                    measureFlight(planet->offscreen, path, settingsAt(options, metric, tauPx), options.frames,
-                                  FigureSet::CostAndError, *planet->heights, goOn);
-                if (!figures) return tl::unexpected(figures.error());
-                points.push_back({chunkSize, metric, tauPx, *figures});
-                print(points.back());
-            }
-        }
-    }
-    return write(options, std::move(points), path.name);
-}
-
-Result<void> suggest(const SweepOptions& options, const FlightPath& path, int chunkSize,
-                     const KeepFlying& goOn) {
-    Result<SweptPlanet> planet = openSwept(options, chunkSize);
-    if (!planet) return tl::unexpected(planet.error());
-    const TauGoal& goal = *options.goal;
-    const char* what = goal.limitsError ? "worst measured error, px" : costName(goal.cost);
-    for (const planet::ErrorMetric metric : options.metrics) {
-        const Result<TauSuggestion> found = suggestTau(goal, [&](double tauPx) -> Result<double> {
-            const FigureSet wanted = goal.limitsError ? FigureSet::CostAndError : FigureSet::Cost;
-            const Result<FlightFigures> figures =
-                measureFlight(planet->offscreen, path, settingsAt(options, metric, tauPx), options.frames,
-                              wanted, *planet->heights, goOn);
-            if (!figures) return tl::unexpected(figures.error());
-            return goal.limitsError ? figures->worstMeasuredPx : costOf(*figures, goal.cost);
-        });
-        if (!found) return tl::unexpected(found.error());
-        fmt::print("{}: tau {:.3g} px, {} {:.6g}, {} {:g}{}\n",
-                   errorMetricNames[static_cast<std::size_t>(metric)], found->tauPx, what, found->value,
-                   found->met ? "within" : "over", goal.limit,
-                   found->met ? "" : ", and no tau from 0.1 to 64 keeps it");
-    }
-    return {};
+void print(const ui::SweepSuggestion& suggestion) {
+    const TauGoal& goal = suggestion.goal;
+    const TauSuggestion& found = suggestion.found;
+    fmt::print("{}: tau {:.3g} px, {} {:.6g}, {} {:g}{}\n",
+               errorMetricNames[static_cast<std::size_t>(suggestion.metric)], found.tauPx,
+               goal.limitsError ? "worst measured error, px" : costName(goal.cost), found.value,
+               found.met ? "within" : "over", goal.limit,
+               found.met ? "" : ", and no tau from 0.1 to 64 keeps it");
+    std::fflush(stdout);
 }
 
 }  // namespace
 
 Result<void> runSweep(const SweepOptions& options) {
+    // Before anything is baked for it.
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
-    const Result<std::vector<int>> sizes = wantedSizes(options);
-    if (!sizes) return tl::unexpected(sizes.error());
+    const Result<SweepPlan> plan = planOf(options);
+    if (!plan) return tl::unexpected(plan.error());
     const InterruptWatch watch;
-    const KeepFlying goOn = [&] { return !watch.interrupted(); };
-    return options.goal ? suggest(options, *path, sizes->front(), goOn)
-                        : sweepOver(options, *path, *sizes, goOn);
+    std::optional<TerminalProgress> line;
+    std::vector<SweepPoint> points;
+    SweepWatcher watcher;
+    watcher.baking = [&](int, const planet::BakeProgress& progress) {
+        if (!line || progress.samplesDone == 0) line.emplace();
+        line->show(progress);
+        return !watch.interrupted();
+    };
+    watcher.flying = [&](const SweepLeg&, int) {
+        line.reset();
+        return !watch.interrupted();
+    };
+    watcher.flown = [&](const SweepPoint& point) {
+        if (points.empty()) printHead();
+        points.push_back(point);
+        print(point);
+    };
+    watcher.suggested = [](const ui::SweepSuggestion& suggestion) { print(suggestion); };
+    if (Result<void> swept = runSweepPlan(*plan, watcher); !swept) return swept;
+    return options.goal ? Result<void>() : write(options, std::move(points), path->name);
 }
 
 }  // namespace worldy

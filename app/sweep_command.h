@@ -16,7 +16,7 @@ namespace worldy {
 struct SweepOptions {
     std::filesystem::path file;  // a chunk file, or what one is baked from
     planet::HeightSourceSettings sourceSettings;
-    std::filesystem::path flight;  // .toml
+    std::filesystem::path flight;  // .toml or .flight
     std::vector<double> tausPx = {0.5, 1, 2, 4, 8};
     std::vector<int> chunkSizes;  // none: 33, or the chunk file's own
     std::vector<planet::ErrorMetric> metrics = {planet::ErrorMetric::Additive, planet::ErrorMetric::Tight};

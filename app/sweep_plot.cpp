@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/settings.h"
+#include "ui/plot_scale.h"
 
 namespace worldy {
 
@@ -41,41 +42,6 @@ constexpr std::array<Colour, 6> seriesColours = {{{0.00f, 0.45f, 0.70f, 1},
                                                   {0.34f, 0.71f, 0.91f, 1},
                                                   {0.90f, 0.62f, 0.00f, 1}}};
 
-// A logarithmic axis from one round number to another.
-struct Axis {
-    double lowest = 1;
-    double highest = 10;
-    std::vector<double> ticks{1, 10};
-
-    double share(double value) const { return std::log(value / lowest) / std::log(highest / lowest); }
-};
-
-// Of a decade: the wider the axis, the fewer.
-std::vector<double> roundSteps(double ratio) {
-    if (ratio > 500) return {1};
-    if (ratio > 5) return {1, 2, 5};
-    return {1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9};
-}
-
-// Round numbers from the last one not over the least to the first one not under the most.
-Axis axisOver(const std::vector<double>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    constexpr double rounding = 1e-9;
-    Axis axis;
-    axis.ticks.clear();
-    for (double decade = std::pow(10, std::floor(std::log10(*least)));; decade *= 10) {
-        for (const double step : roundSteps(*most / *least)) {
-            const double tick = decade * step;
-            if (tick <= *least * (1 + rounding)) axis.ticks.clear();
-            axis.ticks.push_back(tick);
-            if (tick < *most * (1 - rounding) || axis.ticks.size() < 2) continue;
-            axis.lowest = axis.ticks.front();
-            axis.highest = axis.ticks.back();
-            return axis;
-        }
-    }
-}
-
 std::string tickText(double value) {
     if (value >= 1e6) return fmt::format("{:g} M", value / 1e6);
     if (value >= 1e4) return fmt::format("{:g} k", value / 1e3);
@@ -84,11 +50,11 @@ std::string tickText(double value) {
 
 struct Plot {
     ImageBuf image{OIIO::ImageSpec(width, height, 4, OIIO::TypeDesc::FLOAT)};
-    Axis errors;
-    Axis costs;
+    ui::LogAxis errors;
+    ui::LogAxis costs;
 
-    int x(double error) const { return left + static_cast<int>(errors.share(error) * (right - left)); }
-    int y(double cost) const { return bottom - static_cast<int>(costs.share(cost) * (bottom - top)); }
+    int x(double error) const { return left + static_cast<int>(errors.position(error) * (right - left)); }
+    int y(double cost) const { return bottom - static_cast<int>(costs.position(cost) * (bottom - top)); }
 
     bool text(int atX, int atY, const std::string& words, draw::TextAlignX align = draw::TextAlignX::Left,
               const Colour& colour = ink, int size = textSize) {
@@ -135,12 +101,12 @@ void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const FlightFigures& a = points[i].figures;
             const FlightFigures& b = points[i + 1].figures;
-            plot.line(plot.x(a.worstMeasuredPx), plot.y(costOf(a, cost)), plot.x(b.worstMeasuredPx),
-                      plot.y(costOf(b, cost)), colour);
+            plot.line(plot.x(a.worstMeasuredPx), plot.y(ui::plottedCost(a, cost)), plot.x(b.worstMeasuredPx),
+                      plot.y(ui::plottedCost(b, cost)), colour);
         }
         for (const SweepPoint& point : points) {
             const int x = plot.x(point.figures.worstMeasuredPx);
-            const int y = plot.y(costOf(point.figures, cost));
+            const int y = plot.y(ui::plottedCost(point.figures, cost));
             if (point.onFront) {
                 plot.disc(x, y, 9 * finer, ink);
                 plot.disc(x, y, 8 * finer, {1, 1, 1, 1});
@@ -180,12 +146,10 @@ planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost 
     std::vector<double> errors;
     std::vector<double> costs;
     Series series;
-    // A logarithm has no 0: a point without any error, as where all leaves are drawn, stands at a hundredth.
-    constexpr double leastErrorPx = 0.01;
     for (SweepPoint point : points) {
-        point.figures.worstMeasuredPx = std::max(point.figures.worstMeasuredPx, leastErrorPx);
+        point.figures.worstMeasuredPx = ui::plottedErrorPx(point.figures);
         errors.push_back(point.figures.worstMeasuredPx);
-        costs.push_back(costOf(point.figures, cost));
+        costs.push_back(ui::plottedCost(point.figures, cost));
         series[{point.chunkSize, point.metric}].push_back(point);
     }
     for (auto& [key, own] : series) {
@@ -193,8 +157,8 @@ planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost 
                   [](const SweepPoint& a, const SweepPoint& b) { return a.tauPx < b.tauPx; });
     }
     Plot plot;
-    plot.errors = axisOver(errors);
-    plot.costs = axisOver(costs);
+    plot.errors = ui::logAxisOver(errors);
+    plot.costs = ui::logAxisOver(costs);
     draw::fill(plot.image, Colour{1, 1, 1, 1});
     if (!drawAxes(plot, cost, title))
         return planet::ioError(fmt::format("{}: the plot cannot be labelled without this font", font));

@@ -10,6 +10,7 @@
 #include "app/scene.h"
 #include "planet/debug_shapes.h"
 #include "planet/gl/debug_lines.h"
+#include "planet/gl/picture_comparer.h"
 #include "planet/gl/render_target.h"
 #include "ui/layout.h"
 
@@ -25,7 +26,13 @@ struct PlanetPicture {
     PointerInput pointer;                              // over it, in the last frame
     planet::View view;                                 // that it was drawn for
     std::optional<planet::gl::RenderTarget> target{};  // as large as the rectangle, once drawn
+    // While comparing: what is shown in its place, not owned and as large, and where in it its columns lie.
+    const planet::gl::RenderTarget* instead = nullptr;
+    planet::gl::PictureMix mix{};
 
+    const planet::gl::RenderTarget* shownTarget() const {
+        return instead ? instead : target ? &*target : nullptr;
+    }
     bool shown() const { return rect.width > 0 && rect.height > 0; }
 };
 

@@ -14,6 +14,7 @@
 #include "planet/height_source.h"
 #include "planet/view.h"
 #include "ui/replay_controls.h"
+#include "ui/sweep_points.h"
 #include "ui/view_settings.h"
 
 namespace ui {
@@ -158,6 +159,34 @@ struct SetReplay {
 };
 struct StopReplay {};  // gives back what was before
 
+// Sweeps over the planet that is shown.
+struct StartSweep {  // in the background; or looks for a tau, where the request has a goal
+    SweepRequest request;
+};
+struct CancelSweep {};
+struct SaveSweep {  // table and plot, beside the screenshots
+    SweepCost cost = SweepCost::Triangles;
+};
+struct OpenSweptChunks {  // shows the chunks of a size that the last sweep has flown
+    int chunkSize = 33;
+};
+
+// Comparing. What is shown is A; B is a second planet.
+struct StartCompare {  // or takes another B
+    enum class With : std::uint8_t { SettingsKept, Preset, PreviousBake, File };
+    With with = With::SettingsKept;
+    std::string preset;          // of Preset
+    std::filesystem::path file;  // of File
+};
+struct StopCompare {};
+struct SwapCompare {};
+struct MeasureCompare {};  // true error and cracks of this view, of both
+struct CompareOverFlight {
+    std::filesystem::path flight;
+    int moments = 12;  // of it, [1, 100000]
+};
+struct CancelCompareFlight {};
+
 using Command =
     std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
                  AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
@@ -166,7 +195,9 @@ using Command =
                  Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit,
                  MeasureCracks, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop, ShowPopSide,
                  MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording, DeleteRecording,
-                 StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay>;
+                 StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
+                 SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare,
+                 CompareOverFlight, CancelCompareFlight>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

@@ -13,6 +13,7 @@
 #include "planet/lod_changes.h"
 #include "planet/planet.h"
 #include "ui/commands.h"
+#include "ui/compare_view.h"
 #include "ui/cracks_view.h"
 #include "ui/errors_view.h"
 #include "ui/frame_stats.h"
@@ -20,6 +21,8 @@
 #include "ui/pops_view.h"
 #include "ui/probe_view.h"
 #include "ui/recording_view.h"
+#include "ui/setting_difference.h"
+#include "ui/sweep_view.h"
 #include "ui/view_settings.h"
 
 namespace ui {
@@ -83,11 +86,6 @@ struct CameraView {
     std::optional<FlightView> flight;                // being followed
 };
 
-struct SettingDifference {
-    std::string setting;  // "lod.tau_px"
-    std::string here;
-    std::string there;
-};
 struct PresetView {
     std::string name;
     std::filesystem::path file;
@@ -120,6 +118,8 @@ struct EditorView {
     PopsView pops{};
     ProbeView probe{};
     RecordingView recording{};
+    CompareView compare{};
+    SweepView sweep{};
 };
 
 }  // namespace ui

@@ -160,6 +160,7 @@ constexpr std::array keyHelp = {
     KeyHelp{"F5, F6", "pause frames, step one frame"},
     KeyHelp{"F7", "observer: off, beside, alone"},
     KeyHelp{"F8", "next colouring of the chunks"},
+    KeyHelp{"F9", "while comparing: flip between A and B"},
     KeyHelp{"F11", "hide and show all panels"},
     KeyHelp{"F12, Shift+F12", "screenshot, with panels"},
     KeyHelp{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},

@@ -24,9 +24,11 @@ enum class PanelId : std::uint8_t {
     Cracks,
     Pops,
     Probe,
-    Flight
+    Flight,
+    Compare,
+    Sweep
 };
-inline constexpr std::size_t panelCount = 17;
+inline constexpr std::size_t panelCount = 19;
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
 inline constexpr std::size_t dockCount = 3;
@@ -57,6 +59,8 @@ inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
     {PanelId::Pops, "Pops", "pops", "Ctrl+Shift+3", Dock::Bottom, false},
     {PanelId::Probe, "Precision", "probe", "Ctrl+Shift+4", Dock::Left, false},
     {PanelId::Flight, "Flight", "flight", "Ctrl+Shift+5", Dock::Bottom, false},
+    {PanelId::Compare, "Compare", "compare", "Ctrl+Shift+6", Dock::Left, false},
+    {PanelId::Sweep, "Sweep", "sweep", "Ctrl+Shift+7", Dock::Bottom, false},
 }};
 
 }  // namespace ui

@@ -39,6 +39,10 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return probePanel(view, states.probe, settings, commands);
         case PanelId::Flight:
             return flightPanel(view, states.flight, settings, commands);
+        case PanelId::Compare:
+            return comparePanel(view, states.compare, settings, commands);
+        case PanelId::Sweep:
+            return sweepPanel(view, states.sweep, settings, commands);
     }
 }
 

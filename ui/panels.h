@@ -4,6 +4,7 @@
 #include "ui/bake_panel.h"
 #include "ui/camera_panel.h"
 #include "ui/chunk_panel.h"
+#include "ui/compare_panel.h"
 #include "ui/cracks_panel.h"
 #include "ui/editor_view.h"
 #include "ui/errors_panel.h"
@@ -20,6 +21,7 @@
 #include "ui/quadtree_panel.h"
 #include "ui/seams_panel.h"
 #include "ui/surface_panel.h"
+#include "ui/sweep_panel.h"
 
 namespace ui {
 
@@ -38,6 +40,8 @@ struct PanelStates {
     PopsPanelState pops;
     ProbePanelState probe;
     FlightPanelState flight;
+    ComparePanelState compare;
+    SweepPanelState sweep;
 };
 
 // Fills the current window with a panel.

@@ -53,6 +53,37 @@ std::vector<float> summed(std::span<const std::span<const float>> rows) {
     return sums;
 }
 
+namespace {
+
+// Of a decade: the wider the axis, the fewer.
+std::vector<double> roundSteps(double ratio) {
+    if (ratio > 500) return {1};
+    if (ratio > 5) return {1, 2, 5};
+    return {1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9};
+}
+
+}  // namespace
+
+LogAxis logAxisOver(std::span<const double> values) {
+    LogAxis axis;
+    if (values.empty()) return axis;
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    assert(*least > 0);
+    constexpr double rounding = 1e-9;
+    axis.ticks.clear();
+    for (double decade = std::pow(10, std::floor(std::log10(*least)));; decade *= 10) {
+        for (const double step : roundSteps(*most / *least)) {
+            const double tick = decade * step;
+            if (tick <= *least * (1 + rounding)) axis.ticks.clear();
+            axis.ticks.push_back(tick);
+            if (tick < *most * (1 - rounding) || axis.ticks.size() < 2) continue;
+            axis.lowest = axis.ticks.front();
+            axis.highest = axis.ticks.back();
+            return axis;
+        }
+    }
+}
+
 double linearPosition(double value, double lowest, double highest) {
     if (!(highest > lowest)) return 0;
     return std::clamp((value - lowest) / (highest - lowest), 0.0, 1.0);

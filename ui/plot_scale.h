@@ -31,6 +31,18 @@ double logarithmicPosition(double value, double lowest, double highest);
 // The value at a position.
 double logarithmicValue(double position, double lowest, double highest);
 
+// A logarithmic axis between round numbers.
+struct LogAxis {
+    double lowest = 1;
+    double highest = 10;
+    std::vector<double> ticks{1, 10};  // ascending, the ends among them
+
+    double position(double value) const { return logarithmicPosition(value, lowest, highest); }
+};
+// From the last round number not over the least of some values, all over 0, to the first one not under the
+// most; [1, 10] for none.
+LogAxis logAxisOver(std::span<const double> values);
+
 // How many of the positions in [0, 1] fall into each of so many equal buckets; the last one holds 1 too.
 std::vector<float> bucketCounts(std::span<const float> positions, std::size_t buckets);
 

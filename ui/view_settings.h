@@ -108,6 +108,18 @@ struct CrackKnobs {
     bool operator==(const CrackKnobs&) const = default;
 };
 
+// How two pictures are shown while comparing.
+enum class CompareMode : std::uint8_t { SideBySide, Wipe, Difference, Flip };
+
+struct CompareKnobs {
+    CompareMode mode = CompareMode::SideBySide;
+    double gain = 8;     // of the difference, [1, 255]
+    double wipe = 0.5;   // where the divider stands, share of the width, [0, 1]
+    bool showB = false;  // of Flip
+
+    bool operator==(const CompareKnobs&) const = default;
+};
+
 struct ViewSettings {
     LodKnobs lod;
     SeamKnobs seams;
@@ -116,6 +128,7 @@ struct ViewSettings {
     SurfaceSettings surface;
     CameraSettings camera;
     CrackKnobs cracks;
+    CompareKnobs compare;
 
     bool operator==(const ViewSettings&) const = default;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/chunk_labels.h"
+#include "ui/compare_overlay.h"
 #include "ui/overlay_colours.h"
 #include "ui/paging_text.h"
 #include "ui/theme.h"
@@ -107,9 +108,9 @@ struct Picture {
     std::vector<Rect> taken;  // in the window
 };
 
-void drawLabels(ImDrawList& drawList, const EditorView& view, const OverlaySettings& overlay,
+void drawLabels(ImDrawList& drawList, const planet::Planet* planet, const OverlaySettings& overlay,
                 const Picture& picture) {
-    if (!view.planet || overlay.labels == ChunkLabels::None) return;
+    if (!planet || overlay.labels == ChunkLabels::None) return;
     const float pad = std::round(ImGui::GetFontSize() * 0.2f);
     const auto textSize = [&](std::string_view text) {
         const ImVec2 size = ImGui::CalcTextSize(text.data(), text.data() + text.size());
@@ -120,9 +121,9 @@ void drawLabels(ImDrawList& drawList, const EditorView& view, const OverlaySetti
                                     .gapPx = std::round(ImGui::GetFontSize() * 0.25f),
                                     .cube = overlay.cube,
                                     .taken = fromCorner(picture.taken, picture.rect)};
-    const planet::Selection& drawn = view.planet->selection(picture.selection);
+    const planet::Selection& drawn = planet->selection(picture.selection);
     for (const ChunkLabel& label :
-         chunkLabels(picture.through, view.planet->tree(), drawn.draw, wanted, textSize)) {
+         chunkLabels(picture.through, planet->tree(), drawn.draw, wanted, textSize)) {
         const ImVec2 at(picture.rect.x + label.topLeft.x, picture.rect.y + label.topLeft.y);
         drawList.AddRectFilled(at, {at.x + label.size.x, at.y + label.size.y}, boxColour(), pad);
         drawList.AddText({at.x + pad, at.y}, ImGui::GetColorU32(palette().text), label.text.c_str());
@@ -203,6 +204,25 @@ void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const
     }
 }
 
+Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
+    if (!planet) return {};
+    return legendOf(overlay, planet->lodSettings().tauPx, planet->selection().counters.deepestLevel);
+}
+
+// While comparing that of A, or of B where only its chunks are coloured.
+Legend shownLegend(const EditorView& view, const OverlaySettings& overlay) {
+    Legend legend = legendFor(view.planet, overlay);
+    if (!view.compare.on) return legend;
+    const bool ofA = !legend.entries.empty();
+    if (!ofA) legend = legendFor(view.compare.planetB, view.compare.settingsB->overlay);
+    legend.title = (ofA ? "A: " : "B: ") + legend.title;
+    return legend;
+}
+
+void pushClip(const Rect& rect) {
+    ImGui::PushClipRect({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height}, true);
+}
+
 }  // namespace
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
@@ -242,13 +262,14 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
     ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
                         true);
-    if (showsMarks(view, settings)) drawCrackMarks(drawList, view.cracks.measured->map, viewport);
-    Legend legend;
-    if (view.planet) {
-        const planet::Planet& planet = *view.planet;
-        legend =
-            legendOf(settings.overlay, planet.lodSettings().tauPx, planet.selection().counters.deepestLevel);
+    const std::vector<ShownPart> parts = shownParts(view.compare, settings.compare, viewport);
+    for (const ShownPart& one : parts) {
+        if (one.isB || !showsMarks(view, settings)) continue;
+        pushClip(one.part);
+        drawCrackMarks(drawList, view.cracks.measured->map, one.whole);
+        ImGui::PopClipRect();
     }
+    const Legend legend = shownLegend(view, settings.overlay);
     const bool hasHelp = viewport.height > 9 * badgeStepPx();
     const float bottom = viewport.y + viewport.height - (hasHelp ? badgeStepPx() + marginPx() : marginPx());
     const LegendLayout layout = layoutOf(legend, bottom - viewport.y - marginPx());
@@ -258,7 +279,14 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
     std::vector<Rect> taken = {{viewport.x + viewport.width - marginPx() - layout.size.x,
                                 viewport.y + marginPx(), layout.size.x, layout.size.y}};
     for (const PlacedBadge& one : badges) taken.push_back(one.rect);
-    drawLabels(drawList, view, settings.overlay, {view.renderView, 0, viewport, taken});
+    for (const ShownPart& one : parts) {
+        pushClip(one.part);
+        drawLabels(drawList, one.isB ? view.compare.planetB : view.planet,
+                   one.isB ? view.compare.settingsB->overlay : settings.overlay,
+                   {view.renderView, 0, one.whole, taken});
+        ImGui::PopClipRect();
+    }
+    compareOverlay(view.compare, settings.compare, viewport);
     drawLegend(drawList, legend, layout, taken.front());
     for (const PlacedBadge& one : badges) {
         badge(drawList, {one.rect.x, one.rect.y}, one.badge.text.c_str(), one.badge.colour);
@@ -276,7 +304,7 @@ void observerOverlay(const EditorView& view, const ViewSettings& settings, const
                 palette().accent},
                viewport.x + marginPx(), viewport.y + marginPx());
     const bool ownSelection = settings.camera.observerOwnLod && view.planet && view.planet->viewCount() > 1;
-    drawLabels(drawList, view, settings.overlay,
+    drawLabels(drawList, view.planet, settings.overlay,
                {observer, ownSelection ? std::size_t{1} : std::size_t{0}, viewport, {name.rect}});
     badge(drawList, {name.rect.x, name.rect.y}, name.badge.text.c_str(), name.badge.colour);
     ImGui::PopClipRect();

@@ -15,8 +15,8 @@ TEST(CommandLine, HelpAndVersionEndWell) {
     const TemporaryFolder folder;
     const Ran help = runWorldy(folder, "--help");
     EXPECT_EQ(help.exitCode, 0);
-    for (const char* command :
-         {"bake", "info", "verify", "probe", "shot", "fly", "cracks", "pops", "sweep", "bench", "audit"}) {
+    for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "cracks", "pops", "sweep",
+                                "bench", "audit", "compare"}) {
         EXPECT_THAT(help.output, HasSubstr(command));
         const Ran own = runWorldy(folder, std::string(command) + " --help");
         EXPECT_EQ(own.exitCode, 0) << command;
@@ -99,7 +99,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"audit junk.chk --camera 1,2", "--camera"},
         BadCommand{"audit junk.chk --metric best", "--metric"},
         BadCommand{"audit junk.chk --step-s 2", "--flight"},
-        BadCommand{"audit junk.chk --flight a.toml --step-s 0", "--step-s"}));
+        BadCommand{"audit junk.chk --flight a.toml --step-s 0", "--step-s"},
+        BadCommand{"compare junk.chk", "--flight is required"},
+        BadCommand{"compare junk.chk --flight none.toml", "none.toml"},
+        BadCommand{"compare junk.chk --flight none.toml --set-b lod.tua_px=3",
+                   "the nearest one is lod.tau_px"},
+        BadCommand{"compare junk.chk --flight none.toml --settings-a bad.toml",
+                   "bad.toml: line 2: lod.tau_px is 0"},
+        BadCommand{"compare junk.chk --flight none.toml --frames 0", "--frames"},
+        BadCommand{"compare junk.chk --flight none.toml --size 5x5", "--size"}));
 
 }  // namespace
 }  // namespace worldy

@@ -56,7 +56,7 @@ Presets ctrl+p presets/Name
 Log ctrl+l log/Filter
 END
 # Another set of panels has the same digits with Shift.
-for panel in "True error:1" Cracks:2 Pops:3 Precision:4; do
+for panel in "True error:1" Cracks:2 Pops:3 Precision:4 Compare:6 Sweep:7; do
     title=${panel%:*}
     key ctrl+shift+${panel#*:}; expect shown "tab/$title"; shown tab/LOD || echo "$title hides LOD"
     key ctrl+shift+${panel#*:}; expect hidden "tab/$title"
@@ -303,6 +303,88 @@ key ctrl+shift+c; expect says 'Copied: worldy shot '
     // And other settings draw another one.
     ASSERT_EQ(runWorldy(folder, line + " --samples 1 --set surface.exaggeration=1").exitCode, 0);
     EXPECT_GT(meanDifference(*picture, *readPicture(folder.path() / "shot.png")), 1);
+}
+
+TEST_F(PanelsWindowTest, ASweepRunsBesideTheWindowAndItsSettingsAreTakenOverAndSaved) {
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+key ctrl+shift+7; tab Sweep
+enter sweep/Tolerances "2 none"; click sweep/Run; frames; counts swept -eq 0 || echo "it runs on wrong tolerances"
+enter sweep/Tolerances "1 32"
+choose sweep/Picture "640 x 400"
+slide sweep/Moments 0.01
+click sweep/Run; expect counts swept -eq 4; expect counts sweeping -eq 0
+fine=$(counter triangles)
+click "sweep/Row 3"; click "sweep/Use these settings"
+expect counts triangles -lt $fine
+key ctrl+z; expect counts triangles -eq $fine
+click "sweep/Save table and plot"; expect says "and its table beside it"
+# A long one is cancelled, and is no whole table.
+slide sweep/Moments 0.99; click sweep/Run; expect counts sweeping -eq 1
+click sweep/Cancel; expect counts sweeping -eq 0; expect says "The sweep was cancelled"
+slide sweep/Moments 0.01
+enter sweep/Limit 20
+click sweep/Suggest; expect counts suggested -eq 2; expect counts sweeping -eq 0
+reach sweep/Suggest "sweep/Use it: additive"
+click "sweep/Use it: additive"; expect counts triangles -lt $fine
+)sh",
+                                "1600x1000");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+    std::size_t tables = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        if (entry.path().extension() != ".csv") continue;
+        ++tables;
+        const std::string csv = contentOf(entry.path());
+        EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5) << csv;
+        std::filesystem::path beside = entry.path();
+        EXPECT_TRUE(std::filesystem::exists(beside.replace_extension(".json")));
+        EXPECT_TRUE(readPicture(beside.replace_extension(".png")));
+    }
+    EXPECT_EQ(tables, 1u);
+}
+
+TEST_F(PanelsWindowTest, ComparingShowsTwoSettingsAndEnds) {
+    drive(R"sh(
+slide "lod/Tolerance τ" 0; settle; plain=$(viewport)
+key ctrl+shift+6; click "compare/Keep settings as B"; expect counts compared -eq 1; settle
+expect counts pixels_differ -eq 0
+slide "lod/Tolerance τ" 1; settle
+expect counts pixels_differ -gt 1000
+[ $(counter triangles) -lt $(counter triangles_b) ] || echo "A has $(counter triangles) triangles, B $(counter triangles_b)"
+coarse=$(counter triangles); fine=$(counter triangles_b)
+choose compare/Show flip; alone=$(viewport)
+key F9; expect differs "$alone"; expect same "$plain"; key F9; expect same "$alone"
+choose compare/Show wipe; expect shown viewport/Wipe
+# Dragged to the right all is A's, to the left B's.
+drag() { point viewport/Wipe 0.5 0.3 && press && xdotool mousemove $(at viewport/picture $1 0.3) && frames && release; }
+drag 0.999; xdotool mousemove 600 5; expect same "$alone"
+drag 0.001; xdotool mousemove 600 5; expect same "$plain"
+choose compare/Show difference; expect differs "$plain"
+click "compare/Swap A and B"; expect counts triangles -eq $fine; expect counts triangles_b -eq $coarse
+click "compare/End comparing"; expect counts compared -eq 0; expect hidden viewport/Wipe
+settle; expect same "$plain"
+)sh");
+    EXPECT_THAT(settingsOf(folder), HasSubstr("mode = \"difference\""));
+}
+
+TEST_F(PanelsWindowTest, BothSidesAreMeasuredOverAFlightBesideTheWindow) {
+    std::filesystem::create_directories(folder.path() / "config" / "worldy" / "flights");
+    std::ofstream(folder.path() / "config" / "worldy" / "flights" / "aaa.toml")
+        << "name = \"Short\"\n[[key]]\ntime_s = 0\nlatitude_deg = 10\nlongitude_deg = 20\n"
+           "altitude_m = 200000\nheading_deg = 0\npitch_deg = -80\n[[key]]\ntime_s = 0.5\n"
+           "latitude_deg = 12\nlongitude_deg = 21\naltitude_m = 50000\nheading_deg = 0\npitch_deg = -60\n";
+    writeWindowSettings(folder, "[window]\nbottom_height = 60\n");
+    drive(R"sh(
+slide "lod/Tolerance τ" 0
+key ctrl+shift+6; click "compare/Keep settings as B"; expect counts compared -eq 1
+slide "lod/Tolerance τ" 1
+reach "compare/Swap A and B" "compare/Measure over the flight"
+choose compare/Flight aaa
+click "compare/Measure over the flight"; expect shown compare/Cancel
+expect counts compare_flown -eq 1
+click "compare/Measure over the flight"; click compare/Cancel; expect hidden compare/Cancel
+expect counts compare_flown -eq 0
+)sh");
 }
 
 }  // namespace

@@ -1,0 +1,26 @@
+// worldy compare: flies the same flight with two settings or two bakes, without a display, and sets their
+// figures side by side.
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "app/view_options.h"
+#include "ui/view_settings.h"
+
+namespace worldy {
+
+struct CompareOptions {
+    std::filesystem::path file;
+    std::filesystem::path fileOfB;  // empty: the same
+    std::filesystem::path flight;   // .toml, or a recorded .flight
+    int moments = 12;               // of the flight, >= 1
+    PictureSize size;
+    std::array<ui::ViewSettings, 2> settings;  // A and B
+    std::filesystem::path report;              // JSON; empty: none
+    std::filesystem::path pictures;            // a folder; empty: none
+};
+
+planet::Result<void> runCompare(const CompareOptions& options);
+
+}  // namespace worldy

@@ -1,0 +1,88 @@
+#include "app/pops_flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <thread>
+
+#include "app/camera_control.h"
+#include "app/scene.h"
+#include "app/stopwatch.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::PopEvent;
+using planet::Result;
+
+constexpr double settleTimeoutS = 120;
+
+void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
+
+planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double timeS, double fovDeg,
+                    const PictureSize& size) {
+    const double radiusM = planet.shape().radiusM;
+    const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
+    const Ground ground{radiusM, planet::residentHeightM(planet.tree(), wanted.eyeM)};
+    return viewOf(keepInRange(wanted, ground), glm::radians(fovDeg), size.widthPx, size.heightPx);
+}
+
+// One frame of so many seconds, in which all that it wants arrives.
+Result<void> stepOnTime(planet::Planet& planet, const planet::ViewInput& view, double elapsedS,
+                        const std::function<bool()>& goOn) {
+    const Stopwatch waited;
+    planet.step({&view, 1}, noUpload, elapsedS);
+    while (!planet.settled()) {
+        if (!goOn()) return planet::cancelled();
+        if (waited.elapsedMs() > 1000 * settleTimeoutS)
+            return planet::ioError(
+                fmt::format("what a view wants was not loaded within {:.0f} s", settleTimeoutS));
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+        planet.step({&view, 1}, noUpload, 0);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
+                              const ui::ViewSettings& settings, const PictureSize& size, double stepS,
+                              const PopsFlightWatch& goOn) {
+    const planet::LodSettings lod = lodSettingsOf(settings);
+    const double startS = path.keys.front().timeS;
+    PopsFlight flown;
+    flown.frames = static_cast<int>(std::floor(durationS(path) / stepS)) + 1;
+    planet::PopMeter meter;
+    for (int i = 0; i < flown.frames; ++i) {
+        const auto share = static_cast<double>(i) / flown.frames;
+        if (!goOn(share)) return planet::cancelled();
+        const planet::View view = viewAt(planet, path, startS + i * stepS, settings.camera.fovDeg, size);
+        const Result<void> stepped =
+            stepOnTime(planet, {view, lod, 1}, i == 0 ? 0 : stepS, [&] { return goOn(share); });
+        if (!stepped) return tl::unexpected(stepped.error());
+        meter.add(planet.tree(), planet.selection(), view, lod, i * stepS);
+        // It forgets what is minutes old.
+        const auto& events = meter.events();
+        for (auto event = events.rbegin();
+             event != events.rend() && event->frame == static_cast<std::uint64_t>(i); ++event)
+            flown.events.push_back(*event);
+    }
+    flown.totals = meter.totals();
+    flown.usPerSwitch = meter.measuredUsPerSwitch();
+    return flown;
+}
+
+std::vector<double> jumpsOf(const PopsFlight& flown) {
+    std::vector<double> jumps;
+    for (const PopEvent& event : flown.events) {
+        if (event.jump.places > 0) jumps.push_back(event.jump.largestPx);
+    }
+    std::sort(jumps.begin(), jumps.end());
+    return jumps;
+}
+
+}  // namespace worldy

@@ -1,0 +1,33 @@
+// A flight flown with all loads on time, and how far the surface jumps at each change of level: what `worldy
+// pops` and comparisons share. Draws nothing.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "app/flight_path.h"
+#include "app/view_options.h"
+#include "planet/planet.h"
+#include "planet/pop_meter.h"
+
+namespace worldy {
+
+struct PopsFlight {
+    std::vector<planet::PopEvent> events;  // of the whole flight
+    planet::PopTotals totals;
+    double usPerSwitch = 0;  // time that measuring one takes
+    int frames = 0;
+};
+
+// Told again and again what share of a flight is done, [0, 1]; false ends it with an Error of kind Cancelled.
+using PopsFlightWatch = std::function<bool(double share)>;
+
+// stepS: of the flight's time between two frames, > 0. The Error says what could not be loaded.
+planet::Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
+                                      const ui::ViewSettings& settings, const PictureSize& size, double stepS,
+                                      const PopsFlightWatch& goOn);
+
+// The largest jumps, pixels, of the switches in the picture, smallest first.
+std::vector<double> jumpsOf(const PopsFlight& flown);
+
+}  // namespace worldy

@@ -1,0 +1,64 @@
+// worldy compare on a small planet.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/picture.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(CompareCommand, SetsBothSidesBesideEachOtherAndTakesPictures) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::ofstream(folder.path() / "down.toml")
+        << "name = \"Down\"\n"
+           "[[key]]\ntime_s = 0\nlatitude_deg = 10\nlongitude_deg = 20\naltitude_m = 200000\n"
+           "heading_deg = 0\npitch_deg = -80\n"
+           "[[key]]\ntime_s = 1\nlatitude_deg = 12\nlongitude_deg = 21\naltitude_m = 20000\n"
+           "heading_deg = 0\npitch_deg = -60\n";
+    std::ofstream(folder.path() / "coarse.toml") << "[lod]\ntau_px = 8\n";
+    const Ran ran = runWorldy(folder,
+                              "compare planet.chk --flight down.toml --set-a lod.tau_px=1 --settings-b "
+                              "coarse.toml --set-b seams.mode=stitched --frames 2 --size 320x200 -o out.json "
+                              "--pictures made/here");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    for (const char* text : {"lod.tau_px: A 1, B 8", "seams.mode: A skirts, B stitched", "Triangles", "x 0."})
+        EXPECT_THAT(ran.output, HasSubstr(text));
+    const nlohmann::json report = nlohmann::json::parse(contentOf(folder.path() / "out.json"));
+    EXPECT_LT(report["b"]["triangles"], report["a"]["triangles"]);
+    EXPECT_GT(report["b"]["worst_error_px"], report["a"]["worst_error_px"]);
+    EXPECT_EQ(report["b"]["crack_px"], 0);
+    EXPECT_EQ(report["settings"].size(), 2u);
+    EXPECT_GT(report["most_different"]["pixels"], 0);
+    const auto beside = readPicture(folder.path() / "made" / "here" / "side_by_side.png");
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->width, 640);
+    const auto difference = readPicture(folder.path() / "made" / "here" / "difference.png");
+    ASSERT_TRUE(difference);
+    EXPECT_EQ(difference->width, 320);
+}
+
+TEST(CompareCommand, SaysWhatIsWrongWithItsFiles) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::ofstream(folder.path() / "still.toml")
+        << "name = \"Still\"\n[[key]]\ntime_s = 0\nlatitude_deg = 10\nlongitude_deg = 20\naltitude_m = 2e5\n"
+           "heading_deg = 0\npitch_deg = -80\n[[key]]\ntime_s = 0.1\nlatitude_deg = 10\n"
+           "longitude_deg = 20\naltitude_m = 2e5\nheading_deg = 0\npitch_deg = -80\n";
+    const Ran none = runWorldy(folder, "compare planet.chk --flight still.toml --with none.chk");
+    EXPECT_EQ(none.exitCode, 2);
+    EXPECT_THAT(none.errors, HasSubstr("none.chk"));
+    ASSERT_EQ(runWorldy(folder, "bake hills.pgm -o moon.chk --chunk-size 17 --radius 50000").exitCode, 0);
+    const Ran moon = runWorldy(folder, "compare planet.chk --flight still.toml --with moon.chk");
+    EXPECT_EQ(moon.exitCode, 2);
+    EXPECT_THAT(moon.errors, HasSubstr("radius"));
+    EXPECT_EQ(moon.output, "");
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,14 @@
+// Where two sets of settings differ, as text.
+#pragma once
+
+#include <string>
+
+namespace ui {
+
+struct SettingDifference {
+    std::string setting;  // "lod.tau_px"
+    std::string here;
+    std::string there;
+};
+
+}  // namespace ui
