@@ -42,7 +42,8 @@ slow_disk() { printf 'bad_disk.latency_ms = %s\nbad_disk.failure_rate = %s\n' "$
 # A panel alone in a dock of this width.
 only() {
     echo "window.left_width = $2"
-    for panel in lod seams overlay surface camera presets quadtree chunk paging frame bake log; do
+    for panel in lod seams overlay surface camera presets quadtree chunk paging frame bake log \
+        errors cracks pops probe flight compare sweep; do
         [ "$panel" = "$1" ] && echo "panels.$panel = \"left\"" && echo "panels.${panel}_shown = true" && continue
         echo "panels.${panel}_shown = false"
     done
@@ -162,7 +163,50 @@ picture_log() {
     dock log
 }
 
+picture_true_error() {
+    start < <(above_india; window 1400 1000; only errors 420; echo 'lod.tau_px = 0.4')
+    settle; click errors/Measure; sleep 6; aside
+    dock true_error
+}
+picture_cracks() {
+    start < <(above_india; window 1400 1000; only cracks 420; echo 'lod.tau_px = 0.4'; echo 'lod.morph = false')
+    settle; click cracks/Measure; sleep 3; click "cracks/Find smallest skirts"; sleep 6; aside
+    dock cracks
+}
+picture_pops() {
+    start < <(himalaya; window 1820 520; only pops 1000; echo 'lod.tau_px = 0.4'; echo 'lod.morph = false'; slow_disk 200 0
+        echo 'view.mode = "follow_flight"'; echo "view.flight = \"$here/data/flights/andes_low_fast.toml\"")
+    sleep 40; aside
+    dock pops
+}
+picture_precision() {
+    start < <(himalaya; window 1400 700; only probe 380; echo 'lod.tau_px = 0.4')
+    settle; point viewport/picture 0.5 0.6; frames 5
+    dock precision
+}
+picture_flight() {
+    start < <(above_india; window 1820 420; only flight 1000; echo 'lod.tau_px = 0.4'; slow_disk 100 0)
+    settle; click flight/Record; sleep 1
+    point viewport/picture 0.5 0.5; xdotool keydown w; sleep 6; xdotool keyup w; xdotool keydown s; sleep 4; xdotool keyup s
+    click "flight/Stop and keep"; click "flight/flight 1"; click flight/Replay; sleep 5; click flight/Play; aside
+    dock flight
+}
+picture_sweep() {
+    start < <(above_india; window 1820 460; only sweep 1000)
+    settle; choose sweep/Flight "orbit to ground"; click "sweep/Chunk 17"; choose sweep/Picture "640 x 400"; click sweep/Run
+    until_true counts swept -eq 20 || until_true counts swept -eq 20; click sweep/Suggest
+    until_true counts suggested -eq 2; sleep 2; click "sweep/Row 4"; aside
+    dock sweep
+}
+
 # The whole window.
+picture_compare() {
+    start < <(himalaya; window 1440 900; echo 'lod.tau_px = 0.4'; echo 'panels.compare_shown = true'
+        echo 'overlay.colour_by = "level"'; echo 'overlay.opacity = 0.4'; echo 'overlay.outlines = true'; echo 'panels.left_front = "compare"')
+    settle; click "compare/Keep settings as B"; slide "lod/Tolerance τ" 0.6; settle
+    choose compare/Show wipe; click "compare/Measure this view"; sleep 6; aside
+    whole compare
+}
 picture_editor() {
     start < <(above_india; window 1440 900; echo 'lod.tau_px = 0.4'; echo 'overlay.outlines = true')
     settle; click viewport/picture 0.5 0.7; aside
@@ -194,8 +238,9 @@ until_true says 'Baked' || cat .stderr
 settle
 stop
 
-for name in editor errors observer light \
-    lod seams overlay surface camera presets quadtree chunk paging frame bake log; do
+for name in editor errors observer light compare \
+    lod seams overlay surface camera presets quadtree chunk paging frame bake log \
+    true_error cracks pops precision flight sweep; do
     asked $name || continue
     echo "$name"
     picture_$name

@@ -91,7 +91,7 @@ void drawAxes(const Scale& scale) {
     // Lines that fall to the right leave room there.
     const char* name = "worst measured error, px";
     if (ImGui::CalcTextSize(name).x + 2 * gap > scale.end.x - scale.start.x) name = "error, px";
-    list.AddText({scale.start.x + gap, scale.end.y - 2 * half - gap / 2}, dim, name);
+    list.AddText({scale.end.x - ImGui::CalcTextSize(name).x - gap, scale.start.y + gap / 2}, dim, name);
 }
 
 // In the lines above the plot, from where the last item has left room.
