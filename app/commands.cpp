@@ -40,7 +40,9 @@ struct CommandHandler {
     void operator()(const ui::HoverChunk& command) const { editor.focus.hovered = command.id; }
     void operator()(const ui::SelectChunk& command) const { editor.focus.selected = command.id; }
     void operator()(const ui::LookAtChunk& command) const;
-    void operator()(const ui::FreezeLod& command) const { editor.lodFrozen = command.frozen; }
+    void operator()(const ui::FreezeLod& command) const {
+        if (maySet()) editor.lodFrozen = command.frozen;
+    }
     void operator()(const ui::MoveCamera& command) const {
         if (shownScene(session)) moveCamera(cameraFromPose(command.pose, radiusM()));
     }
@@ -74,6 +76,11 @@ struct CommandHandler {
     void operator()(const ui::RetryFailed&) const {
         call(FlightCall::RetryFailed, &planet::Planet::retryFailed);
     }
+    // Settings of a replay are given back at its end.
+    bool maySet() const {
+        if (editor.desk.replay) log->warn("While a flight is replayed its settings are the recording's");
+        return !editor.desk.replay;
+    }
     bool mayTouchPaging() const {
         if (editor.desk.replay) log->warn("While a flight is replayed its paging is the recording's");
         return !editor.desk.replay;
@@ -97,9 +104,11 @@ struct CommandHandler {
     void operator()(const ui::DismissPreviousBake&) const { dismissPreviousBake(session); }
 
     void operator()(const ui::Undo&) const {
+        if (!maySet()) return;
         if (const auto settings = editor.undo.undo()) editor.settings.view = *settings;
     }
     void operator()(const ui::Redo&) const {
+        if (!maySet()) return;
         if (const auto settings = editor.undo.redo()) editor.settings.view = *settings;
     }
     void operator()(const ui::SavePreset& command) const {
@@ -218,13 +227,12 @@ void CommandHandler::operator()(const ui::StartRecording& command) const {
     endReplay(editor, scene);
     if (succeeded(startRecording(editor.desk, *scene->planet, command.name)))
         log->info("Recording {}: the planet starts with its six root chunks", editor.desk.recorder->name());
-    editor.changes.clear();
-    forgetPops(editor.pops);
+    forgetChanges(editor);
     editor.stepOneFrame = true;  // nothing is chosen any more
 }
 
 void CommandHandler::operator()(const ui::SwapCompare&) const {
-    if (editor.desk.replay) return log->warn("While a flight is replayed its settings are the recording's");
+    if (!maySet()) return;
     const ui::ViewSettings settings = swapCompared(editor.compare, session, editor.settings.view, log);
     editor.undo.add(editor.settings.view, settings, "swap of A and B");
     editor.settings.view = settings;
@@ -233,13 +241,14 @@ void CommandHandler::operator()(const ui::SwapCompare&) const {
 
 void CommandHandler::operator()(const ui::StartReplay& command) const {
     Scene* scene = shownScene(session);
-    if (!scene || !editor.rig) return;
+    if (!scene || !editor.rig)
+        return log->warn("{}: no planet is open to be flown over", command.file.string());
     stopRecording(editor.desk, scene->planet.get(), log);
     endReplay(editor, scene);
-    const BeforeReplay before{editor.settings.view, editor.rig->camera, editor.pagingPaused};
-    succeeded(startReplay(editor.desk, command.file, *scene, before));
-    editor.changes.clear();
-    forgetPops(editor.pops);
+    const BeforeReplay before{editor.settings.view, editor.rig->camera, editor.pagingPaused, editor.lodView,
+                              editor.lodFrozen};
+    if (succeeded(startReplay(editor.desk, command.file, *scene, before))) editor.lodFrozen = false;
+    forgetChanges(editor);
     editor.stepOneFrame = true;
 }
 
@@ -260,6 +269,7 @@ void CommandHandler::operator()(const ui::RemoveBookmark& command) const {
 }
 
 void CommandHandler::openPreset(const std::filesystem::path& file) const {
+    if (!maySet()) return;
     const Result<ui::ViewSettings> loaded = loadViewSettings(file, editor.settings.view);
     if (!loaded) {
         log->error("{}", loaded.error().message);
@@ -274,6 +284,7 @@ void CommandHandler::openPreset(const std::filesystem::path& file) const {
 bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
     const Result<ScreenshotNote> note = readScreenshotNote(file);
     if (!note) return false;
+    if (!maySet()) return true;
     const Result<Settings> settings = settingsFromText(note->settings, file, editor.settings);
     if (!settings) {
         log->error("{}", settings.error().message);
@@ -301,6 +312,7 @@ void CommandHandler::operator()(const ui::OpenFile& command) const {
 }
 
 void CommandHandler::operator()(const ui::LoadPreset& command) const {
+    if (!maySet()) return;
     const Result<ui::ViewSettings> loaded = editor.presets.load(command.name, editor.settings.view);
     if (!loaded) {
         log->error("{}", loaded.error().message);

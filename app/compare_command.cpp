@@ -20,10 +20,11 @@ using planet::Result;
 
 constexpr double pictureGain = 8;
 
-std::vector<ui::SettingDifference> differencesOf(const CompareOptions& options) {
+// Of what is flown: what is left out of that makes no difference.
+std::vector<ui::SettingDifference> differencesOf(const ComparisonPlan& plan) {
     Settings a, b;
-    a.view = options.settings[0];
-    b.view = options.settings[1];
+    a.view = flownSide(plan, 0).settings;
+    b.view = flownSide(plan, 1).settings;
     return differences(a, b);
 }
 
@@ -103,7 +104,7 @@ Result<void> runCompare(const CompareOptions& options) {
     const auto goOn = [&](double) { return !watch.interrupted(); };
     const Result<ComparedPair> pair = compareOverFlight(*plan, goOn);
     if (!pair) return tl::unexpected(pair.error());
-    const std::vector<ui::SettingDifference> different = differencesOf(options);
+    const std::vector<ui::SettingDifference> different = differencesOf(*plan);
     printTable(*plan, different, *pair);
     std::optional<ComparedPictures> pictures;
     if (!options.pictures.empty()) {

@@ -231,6 +231,10 @@ void stopCompare(CompareDesk& desk) {
     desk.comparer.reset();
 }
 
+void forgetPopsOfA(CompareDesk& desk) {
+    desk.meters[0].pops.clear();
+}
+
 ui::ViewSettings swapCompared(CompareDesk& desk, Session& session, const ui::ViewSettings& settings,
                               const Log& log) {
     if (!desk.other || !shownScene(session)) return settings;

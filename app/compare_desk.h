@@ -72,6 +72,8 @@ planet::Result<void> startCompare(CompareDesk& desk, const Session& session, con
                                   const ui::ViewSettings& settings, const ui::StartCompare& wanted);
 // Gives back B's planet, its memory and its files. A flight that is measured goes on.
 void stopCompare(CompareDesk& desk);
+// A's planet has begun anew or gone to another frame of a replay: what it does then is no change of level.
+void forgetPopsOfA(CompareDesk& desk);
 // A gets B's settings, but for those of the camera and of the comparison, and its planet; and the other way
 // round. Returns A's.
 ui::ViewSettings swapCompared(CompareDesk& desk, Session& session, const ui::ViewSettings& settings,

@@ -91,12 +91,11 @@ Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, const
     return {};
 }
 
-// The camera is one for both, and no disk is bad: loads are waited for.
-ComparedSide sideOf(const ComparisonPlan& plan, std::size_t index) {
-    ComparedSide side = plan.sides[index];
-    side.settings.camera = plan.sides[0].settings.camera;
-    side.settings.paging.badDisk = {};
-    side.settings.paging.simulated = false;
+// Without the tint that measures the true error for each picture anew.
+ComparedSide timedSide(const ComparisonPlan& plan, std::size_t index) {
+    ComparedSide side = flownSide(plan, index);
+    if (side.settings.overlay.colourBy == ui::ColourBy::Measured)
+        side.settings.overlay.colourBy = ui::ColourBy::None;
     return side;
 }
 
@@ -168,8 +167,8 @@ Result<double> frameMs(Offscreen& offscreen, const planet::View& view, const ui:
 // In turn at each moment, so that what else the machine does meets both: the best of some rounds, and of
 // those the median.
 Result<std::array<double, 2>> measureFrameMs(const ComparisonPlan& plan, const PartWatch& goOn) {
-    const ComparedSide a = sideOf(plan, 0);
-    const ComparedSide b = sideOf(plan, 1);
+    const ComparedSide a = timedSide(plan, 0);
+    const ComparedSide b = timedSide(plan, 1);
     Result<BothScenes> both = openBoth(a, b, plan.size);
     if (!both) return tl::unexpected(both.error());
     std::array<std::vector<double>, 2> bests;
@@ -205,6 +204,14 @@ Result<Picture> pictureAt(Offscreen& offscreen, const planet::CameraPose& pose,
 
 }  // namespace
 
+ComparedSide flownSide(const ComparisonPlan& plan, std::size_t index) {
+    ComparedSide side = plan.sides[index];
+    side.settings.camera = plan.sides[0].settings.camera;
+    side.settings.paging.badDisk = {};
+    side.settings.paging.simulated = false;
+    return side;
+}
+
 Result<void> checkSameRadius(double radiusM, double radiusOfBM) {
     if (radiusM == radiusOfBM) return {};
     return planet::badInput(
@@ -217,7 +224,7 @@ Result<ComparedPair> compareOverFlight(const ComparisonPlan& plan, const Compari
     if (const Result<void> good = checkFiles(plan); !good) return tl::unexpected(good.error());
     ComparedPair pair;
     for (std::size_t i = 0; i < pair.size(); ++i) {
-        const ComparedSide side = sideOf(plan, i);
+        const ComparedSide side = timedSide(plan, i);
         const double from = (momentsShare + popsShare) * static_cast<double>(i);
         Result<ui::ComparedFigures> figures = measureMoments(side, plan, {goOn, from, momentsShare});
         if (!figures) return tl::unexpected(figures.error());
@@ -235,8 +242,8 @@ Result<ComparedPair> compareOverFlight(const ComparisonPlan& plan, const Compari
 
 Result<ComparedPictures> compareInPictures(const ComparisonPlan& plan, const ComparisonWatch& goOn) {
     if (const Result<void> good = checkFiles(plan); !good) return tl::unexpected(good.error());
-    const ComparedSide a = sideOf(plan, 0);
-    const ComparedSide b = sideOf(plan, 1);
+    const ComparedSide a = flownSide(plan, 0);
+    const ComparedSide b = flownSide(plan, 1);
     Result<BothScenes> both = openBoth(a, b, plan.size);
     if (!both) return tl::unexpected(both.error());
     ComparedPictures worst;

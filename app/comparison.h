@@ -31,6 +31,10 @@ struct ComparisonPlan {
     PictureSize size;
 };
 
+// What is flown of a side, 0 or 1: the camera is one for both, and no disk is bad, since loads are waited
+// for.
+ComparedSide flownSide(const ComparisonPlan& plan, std::size_t index);
+
 // Told again and again what share is done, [0, 1], by any thread, one at a time; false ends it with an Error
 // of kind Cancelled.
 using ComparisonWatch = std::function<bool(double share)>;

@@ -41,13 +41,21 @@ Editor openEditor(const Settings& settings, const Log& log) {
     return editor;
 }
 
+void forgetChanges(Editor& editor) {
+    editor.changes.clear();
+    forgetPops(editor.pops);
+    forgetPopsOfA(editor.compare);
+}
+
 void endReplay(Editor& editor, Scene* scene) {
     if (!editor.desk.replay) return;
     const BeforeReplay before = stopReplay(editor.desk, scene);
     editor.settings.view = before.settings;
     editor.pagingPaused = before.pagingPaused;
     if (editor.rig) editor.rig->camera = before.camera;
-    forgetPops(editor.pops);
+    editor.lodView = before.lodView;
+    editor.lodFrozen = before.lodFrozen;
+    forgetChanges(editor);
     editor.stepOneFrame = true;
 }
 

@@ -78,6 +78,10 @@ struct Editor {
 
 Editor openEditor(const Settings& settings, const Log& log);
 
+// The planet has begun anew or gone back in a replay: what differs from the frame before is no change of
+// level.
+void forgetChanges(Editor& editor);
+
 // Ends the replay, if one runs, and gives back the settings and the camera of before. scene: null where its
 // planet is gone.
 void endReplay(Editor& editor, Scene* scene);

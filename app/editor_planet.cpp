@@ -106,12 +106,13 @@ std::size_t observerSelection(const Scene& scene, const Editor& editor) {
     return observerChooses(editor) && scene.planet->viewCount() > 1 ? 1 : 0;
 }
 
-void chooseChunks(Scene& scene, float pixelRatio, Editor& editor) {
+// elapsedS: in place of the clock's, for single steps.
+void chooseChunks(Scene& scene, float pixelRatio, Editor& editor, std::optional<double> elapsedS) {
     if (!editor.lodFrozen) editor.lodView = mainView(editor, pixelRatio);
     if (observerChooses(editor))
-        stepScene(scene, editor.lodView, observerView(editor, pixelRatio), editor.settings.view);
+        stepScene(scene, editor.lodView, observerView(editor, pixelRatio), editor.settings.view, elapsedS);
     else
-        stepScene(scene, editor.lodView, editor.settings.view);
+        stepScene(scene, editor.lodView, editor.settings.view, elapsedS);
     editor.changes.add(scene.planet->selection(), editor.timeS);
     measurePops(scene, mainView(editor, pixelRatio), editor.timeS, editor.pops);
 }
@@ -142,6 +143,7 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
     const FlightReplay& replayed = editor.desk.replay->replay;
     const std::size_t frameBefore = replayed.next();
     const ReplayWatcher watcher{[&](const planet::Selection& selection) {
+                                    if (replayed.next() == 1) forgetChanges(editor);
                                     editor.changes.add(selection, editor.timeS);
                                     measurePops(scene, replayed.view(), replayed.timeS(), editor.pops);
                                 },
@@ -264,7 +266,8 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     if (editor.desk.replay) {
         replay(scene, editor, log, goesOn ? frameS : 0);
     } else if (goesOn) {
-        chooseChunks(scene, pixelRatio, editor);
+        chooseChunks(scene, pixelRatio, editor,
+                     editor.framesPaused ? std::optional(frameS) : std::nullopt);
         record(*scene.planet, editor, log);
     }
     advanceErrorMeter(*scene.planet, editor.frames, editor.timeS, editor.errors);

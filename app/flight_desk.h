@@ -23,6 +23,8 @@ struct BeforeReplay {
     ui::ViewSettings settings;
     Camera camera;
     bool pagingPaused = false;
+    planet::View lodView{};
+    bool lodFrozen = false;
 };
 
 struct RunningReplay {

@@ -156,24 +156,30 @@ planet::UploadChunk uploadInto(Scene& scene) {
     return uploadInto(scene.renderer);
 }
 
-void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
+namespace {
+
+void step(Scene& scene, std::span<const planet::ViewInput> views, std::optional<double> elapsedS) {
     beginFrame(scene);
-    scene.planet->step(lodView, lodSettingsOf(settings), uploadInto(scene.renderer));
+    if (elapsedS)
+        scene.planet->step(views, uploadInto(scene.renderer), *elapsedS);
+    else
+        scene.planet->step(views, uploadInto(scene.renderer));
 }
 
-void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings, double elapsedS) {
-    beginFrame(scene);
+}  // namespace
+
+void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
+               std::optional<double> elapsedS) {
     const planet::ViewInput only{lodView, lodSettingsOf(settings)};
-    scene.planet->step(std::span(&only, 1), uploadInto(scene.renderer), elapsedS);
+    step(scene, std::span(&only, 1), elapsedS);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
-               const ui::ViewSettings& settings) {
-    beginFrame(scene);
+               const ui::ViewSettings& settings, std::optional<double> elapsedS) {
     const planet::LodSettings lod = lodSettingsOf(settings);
     const std::array<planet::ViewInput, 2> views = {
         {{lodView, lod}, {observerView, lod, observerPriorityFactor}}};
-    scene.planet->step(views, uploadInto(scene.renderer));
+    step(scene, views, elapsedS);
 }
 
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,

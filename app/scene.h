@@ -56,13 +56,13 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& set
                                        std::optional<planet::PagingTime> time = std::nullopt);
 
 // One frame in two stages: choose and load by the lod view, then draw as the render view sees it.
-void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings);
-// Fades go on by so many seconds, whatever the clock says.
-void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings, double elapsedS);
+// elapsedS: what fades and simulated paging go on by; none: by the clock.
+void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
+               std::optional<double> elapsedS = std::nullopt);
 // The same for an observer who has a selection of its own, number 1; what it wants comes after what the lod
 // view wants.
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
-               const ui::ViewSettings& settings);
+               const ui::ViewSettings& settings, std::optional<double> elapsedS = std::nullopt);
 
 // Makes chunks drawable, for stepping the planet itself. The scene must outlive it.
 planet::UploadChunk uploadInto(Scene& scene);

@@ -18,13 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-ui::ViewSettings sweptSettings(ui::ViewSettings settings) {
-    settings.overlay = {};
-    settings.paging.badDisk = {};
-    settings.paging.simulated = false;
-    return settings;
-}
-
 // Those of the open planet's bake. A bake by the defaults has brothers by the defaults: other sizes then have
 // the names by which worldy sweep and opening the source know them too.
 planet::BakeSettings bakeSettingsOf(const OpenPlanet& open) {
@@ -79,7 +72,7 @@ Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const ui::SweepRequest& re
                    .frames = request.frames,
                    .goal = request.goal,
                    .size = {request.widthPx, request.heightPx},
-                   .view = sweptSettings(settings)};
+                   .view = settings};
     std::vector<int> sizes = request.chunkSizes;
     if (sizes.empty()) sizes.push_back(planet::chunkSize(open.scene.planet->shape()));
     for (const int size : sizes) {

@@ -15,8 +15,17 @@ namespace {
 
 using planet::Result;
 
+// Overlays cost time that is not the setting's, and loads are waited for.
+ui::ViewSettings sweptSettings(ui::ViewSettings settings) {
+    settings.overlay = {};
+    settings.paging.badDisk = {};
+    settings.paging.simulated = false;
+    return settings;
+}
+
 Result<void> bakeIfNeeded(const SweepPlan& plan, const SweptFile& file, const SweepWatcher& watcher) {
-    if (!file.needsBake) return {};
+    // Somebody else may have baked it since it was planned.
+    if (!file.needsBake || planet::ChunkFile::open(file.chunkFile)) return {};
     std::error_code problem;
     std::filesystem::create_directories(file.chunkFile.parent_path(), problem);  // if not, the bake says so
     return planet::openHeightSource(plan.source, plan.sourceSettings)
@@ -96,7 +105,9 @@ Result<void> suggest(SweptPlanet& planet, int chunkSize, const SweepPlan& plan, 
 
 }  // namespace
 
-Result<void> runSweepPlan(const SweepPlan& plan, const SweepWatcher& watcher) {
+Result<void> runSweepPlan(const SweepPlan& wanted, const SweepWatcher& watcher) {
+    SweepPlan plan = wanted;
+    plan.view = sweptSettings(wanted.view);
     const Result<FlightPath> path = loadFlightPath(plan.flight);
     if (!path) return tl::unexpected(path.error());
     for (const SweptFile& file : plan.files) {

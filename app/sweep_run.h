@@ -32,7 +32,7 @@ struct SweepPlan {
     int frames = 12;  // moments of the flight, >= 1
     std::optional<TauGoal> goal;
     PictureSize size;
-    ui::ViewSettings view;  // all but tau and metric
+    ui::ViewSettings view;  // all but tau, metric, overlays and bad disks
 };
 
 // What is flown: one setting over one chunk file.
@@ -55,6 +55,6 @@ struct SweepWatcher {
 
 // Makes a GL context of its own on the calling thread for each file, and leaves none current. The Error names
 // the file that could not be read or baked; no unfinished bake is left behind. Bakes that were finished stay.
-planet::Result<void> runSweepPlan(const SweepPlan& plan, const SweepWatcher& watcher);
+planet::Result<void> runSweepPlan(const SweepPlan& wanted, const SweepWatcher& watcher);
 
 }  // namespace worldy

@@ -33,8 +33,8 @@ void add(VertexBlend& blend, glm::ivec2 vertex, double share) {
     if (share > 0) blend.parts[blend.count++] = {vertex, share};
 }
 
-// The ends are equally far to either side. They come first, so that sums are the same to the last bit whichever
-// of them comes before: chunks beside each other may count an edge in opposite directions.
+// The ends are equally far to either side. They come first, so that sums are the same to the last bit
+// whichever of them comes before: chunks beside each other may count an edge in opposite directions.
 void addBetween(VertexBlend& blend, glm::ivec2 vertex, glm::ivec2 aside, double amount, double share) {
     add(blend, vertex - aside, 0.5 * amount * share);
     add(blend, vertex + aside, 0.5 * amount * share);

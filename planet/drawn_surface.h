@@ -43,9 +43,10 @@ glm::dvec3 pointOn(const DrawnGrid& grid, double x, double y);
 //
 // Where edges are stitched, vertices are gathered along them: level by level each odd one, counted along the
 // face's edge, joins its neighbour that is a multiple of four. Beside a coarser chunk those it lacks are
-// gathered for good. On any other edge the odd ones are on their way while its morph is over 3/4, and there
-// at 1; the outermost triangles are then those that they will be beside a coarser chunk, and no switch cuts
-// them anew. The order is such that what is gathered for one level more is what was gathered before.
+// gathered for good. On any edge the odd ones of those that are left, as both sides count them, are on their
+// way while its morph is over 3/4, and there at 1; the outermost triangles are then those that they will be
+// beside a coarser chunk, and no switch cuts them anew. The order is such that what is gathered for one level
+// more is what was gathered before.
 struct VertexBlend {
     struct Part {
         glm::ivec2 vertex{0, 0};

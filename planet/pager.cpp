@@ -190,6 +190,7 @@ std::vector<PagingRequest> Pager::giveUpReads() {
     virtualReadings_.clear();
     taken_.clear();
     nowS_ = 0;
+    letThrough_ = 0;
     ++epoch_;
     return givenUp;
 }

@@ -67,6 +67,7 @@ void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload) {
 }
 
 void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload, double elapsedS) {
+    state_->lastStep = State::Clock::now();
     state_->step(views, upload, elapsedS, elapsedS);
 }
 
@@ -131,16 +132,17 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
     // Where no read is under way there may still be blocks that yield; where reads take no time, time goes
     // on.
     constexpr double idleStepS = 1.0 / 60, leastStepS = 1e-3;
-    double waitedS = 0;
+    double leftS = timeoutS;
     double stepS = 0;
     while (true) {
+        state_->lastStep = State::Clock::now();
         state_->step(views, upload, stepS, std::numeric_limits<double>::infinity());
         if (settled()) return true;
         const PagerStatus status = state_->pager->status();
-        if (status.queued > 0 && status.atRest()) return false;  // paused
-        stepS = std::max(state_->pager->untilNextEnd().value_or(idleStepS), leastStepS);
-        waitedS += stepS;
-        if (waitedS > timeoutS) return false;
+        if ((status.queued > 0 && status.atRest()) || leftS <= 0) return false;  // paused, or too late
+        // The last step goes to the end of the time, so that settling on goes on from there.
+        stepS = std::min(std::max(state_->pager->untilNextEnd().value_or(idleStepS), leastStepS), leftS);
+        leftS -= stepS;
     }
 }
 
@@ -162,8 +164,9 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     const bool otherTime = settings.time != state.settings.time;
     state.settings = settings;
     state.changed = true;
-    if (otherTime) state.putBack(state.pager->setTime(settings.time));
+    // First what holds for the reads that the other time begins with.
     applyTo(*state.pager, settings);
+    if (otherTime) state.putBack(state.pager->setTime(settings.time));
     const bool resized = *slots != state.slotCapacity;
     if (resized) state.resize(*slots);
     state.count();
@@ -181,6 +184,7 @@ void Planet::dropAll() {
 }
 
 void Planet::startAnew() {
+    state_->lastStep = State::Clock::now();
     state_->startAnew();
     state_->count();
 }

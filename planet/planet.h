@@ -171,7 +171,8 @@ public:
 
     // Whether moves are kept for takeMoves(); at first they are not.
     void keepMoves(bool kept);
-    // Those since the last call.
+    // Those since the last call. To be called after each step and each other call while moves are kept: a
+    // call that gives reads up begins them anew.
     PagingMoves takeMoves();
     // By recorded time: does again what takeMoves() told of a call, before that call, or of a step, before
     // that step. False where something in it has no request to be about, because what went before was not

@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-// The shader's positionOf and its slides, in floats as there.
+// The shader's positionOf in floats as there, and its slides in an order of their own.
 struct ShaderVertices {
     const PlanetShape& shape;
     const VertexFrame& frame;
@@ -23,10 +23,12 @@ struct ShaderVertices {
         const auto index = static_cast<std::size_t>(vertex.y * chunkSize(shape) + vertex.x);
         return vertexFromEyeM(frame, id.face, gridU, gridV, heights[index]);
     }
+    // From one part on, since shares are rounded too and do not come to just 1.
     glm::vec3 blended(const VertexBlend& blend) const {
-        glm::vec3 sum(0);
-        for (std::size_t i = 0; i < blend.count; ++i)
-            sum += static_cast<float>(blend.parts[i].share) * own(blend.parts[i].vertex);
+        const glm::vec3 last = own(blend.parts[blend.count - 1].vertex);
+        glm::vec3 sum = last;
+        for (std::size_t i = 0; i + 1 < blend.count; ++i)
+            sum += static_cast<float>(blend.parts[i].share) * (own(blend.parts[i].vertex) - last);
         return sum;
     }
 };

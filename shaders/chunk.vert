@@ -179,23 +179,50 @@ vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
     return positionOnSphere(faces[face], place, float(heightStep - grid.x) * planet.y - drop);
 }
 
-vec3 ownPosition(ivec3 corner, ivec2 vertex, float drop) {
+// What is drawn of a vertex, or of several in shares.
+struct Drawn {
+    vec3 position;
+    vec2 place;    // on the face's grid, in its finest cells
+    float height;  // steps
+};
+
+Drawn ownDrawn(ivec3 corner, ivec2 vertex, float drop) {
     vec3 up;
-    return positionOf(vertex, stepAt(corner, vertex), drop, up);
+    int heightStep = stepAt(corner, vertex);
+    return Drawn(positionOf(vertex, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
+}
+
+Drawn middleOf(Drawn a, Drawn b) {
+    return Drawn(0.5 * (a.position + b.position), 0.5 * (a.place + b.place), 0.5 * (a.height + b.height));
+}
+
+void slideTo(inout Drawn drawn, Drawn to, float amount) {
+    drawn.position += amount * (to.position - drawn.position);
+    drawn.place += amount * (to.place - drawn.place);
+    drawn.height += amount * (to.height - drawn.height);
+}
+
+// The same, but exactly there at 1, so that nothing parts.
+void gatherTo(inout Drawn drawn, Drawn to, float amount) {
+    float kept = 1.0 - amount;
+    drawn.position = kept * drawn.position + amount * to.position;
+    drawn.place = kept * drawn.place + amount * to.place;
+    drawn.height = kept * drawn.height + amount * to.height;
 }
 
 // Where the coarser chunk would draw one of its vertices: on a stitched edge not where it lies.
-vec3 coarserPosition(ivec3 corner, ivec2 vertex, int last, float drop) {
+Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
     bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
-    if (inside || !isOn(switchGather)) return ownPosition(corner, vertex, drop);
+    if (inside || !isOn(switchGather)) return ownDrawn(corner, vertex, drop);
     Slide slide = slideOf(vertex, last);
-    vec3 position = ownPosition(corner, slide.vertex, drop);
-    if (slide.aside == ivec2(0)) return position;
-    vec3 middle = 0.5 * (ownPosition(corner, slide.vertex - slide.aside, drop) +
-                         ownPosition(corner, slide.vertex + slide.aside, drop));
-    position += slide.amount * (middle - position);
-    return (1.0 - slide.gathered) * position +
-           slide.gathered * ownPosition(corner, slide.vertex + slide.onto, drop);
+    vertex = slide.vertex;
+    Drawn drawn = ownDrawn(corner, vertex, drop);
+    if (slide.aside == ivec2(0)) return drawn;
+    slideTo(drawn, middleOf(ownDrawn(corner, vertex - slide.aside, drop),
+                            ownDrawn(corner, vertex + slide.aside, drop)), slide.amount);
+    if (slide.gathered > 0.0)
+        gatherTo(drawn, ownDrawn(corner, vertex + slide.onto, drop), slide.gathered);
+    return drawn;
 }
 
 void main() {
@@ -204,39 +231,30 @@ void main() {
     Slide slide = Slide(ivec2(gridVertex.xy), ivec2(0), 0.0, ivec2(0), 0.0);
     if (isOn(switchSlide)) slide = slideOf(slide.vertex, last);
     ivec2 vertex = slide.vertex;
-    vec2 gridPlaceOnFace = vec2(gridPointOf(vertex));
 
     ivec3 corner = slotCorner(chunk.w, last);
     int heightStep = stepAt(corner, vertex);
     float drop = gridVertex.z == 0u ? 0.0 : skirtAndMorph.x;
     float rise = float(heightStep - grid.x) * planet.y - drop;
-    float height = heights.x + float(heightStep) * planet.y;
 
     vec3 up;
-    vec3 position = positionOf(vertex, heightStep, drop, up);
-    int before = heightStep;
-    int after = heightStep;
+    Drawn drawn = Drawn(positionOf(vertex, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
+    ivec2 before = vertex - slide.aside;
+    ivec2 after = vertex + slide.aside;
     if (isOn(switchSlide)) {
-        before = stepAt(corner, vertex - slide.aside);
-        after = stepAt(corner, vertex + slide.aside);
-        vec3 middle = 0.5 * (coarserPosition(corner, vertex - slide.aside, last, drop) +
-                             coarserPosition(corner, vertex + slide.aside, last, drop));
-        position += slide.amount * (middle - position);
-        height += slide.amount * (0.5 * float(before + after) - float(heightStep)) * planet.y;
+        Drawn drawnBefore = coarserDrawn(corner, before, last, drop);
+        Drawn drawnAfter = coarserDrawn(corner, after, last, drop);
+        slideTo(drawn, middleOf(drawnBefore, drawnAfter), slide.amount);
     }
     ivec2 gatherVertex = vertex + slide.onto;
-    int gatherStep = heightStep;
     if (slide.gathered > 0.0) {
-        gatherStep = stepAt(corner, gatherVertex);
+        gatherTo(drawn, ownDrawn(corner, gatherVertex, drop), slide.gathered);
         vec3 gatherUp;
-        vec3 there = positionOf(gatherVertex, gatherStep, drop, gatherUp);
-        // Exactly there at 1, so that nothing parts.
-        float kept = 1.0 - slide.gathered;
-        position = kept * position + slide.gathered * there;
-        up = kept * up + slide.gathered * gatherUp;
-        height = kept * height + slide.gathered * (heights.x + float(gatherStep) * planet.y);
-        gridPlaceOnFace = kept * gridPlaceOnFace + slide.gathered * vec2(gridPointOf(gatherVertex));
+        positionOf(gatherVertex, stepAt(corner, gatherVertex), drop, gatherUp);
+        up += slide.gathered * (gatherUp - up);
     }
+    vec3 position = drawn.position;
+    float height = heights.x + drawn.height * planet.y;
     vec3 normal = up;
     float rough = 0.0;
     sunLit = skyLit = airLit = vec3(0.0);
@@ -246,15 +264,16 @@ void main() {
         mat2 steps = slopes(corner, vertex, last, heightStep, 1);
         // The light turns into the coarser mesh's too, between the same two vertices of it.
         if (isOn(switchMorph) && slide.amount > 0.0) {
-            mat2 coarser = 0.5 * (slopes(corner, vertex - slide.aside, last, before, 2) +
-                                  slopes(corner, vertex + slide.aside, last, after, 2));
+            mat2 coarser = 0.5 * (slopes(corner, before, last, stepAt(corner, before), 2) +
+                                  slopes(corner, after, last, stepAt(corner, after), 2));
             steps += slide.amount * (coarser - steps);
             if (slide.gathered > 0.0)
-                steps += slide.gathered * (slopes(corner, gatherVertex, last, gatherStep, 1) - steps);
+                steps += slide.gathered *
+                         (slopes(corner, gatherVertex, last, stepAt(corner, gatherVertex), 1) - steps);
         }
         float stepsPerSlope = planet.y / (float(1 << (fineGridLog2 - grid.y - int(chunk.x >> 3u))) * fineCell);
         vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * heights.z);
-        vec2 coordinates = gridPlaceOnFace * fineCell - 1.0;
+        vec2 coordinates = drawn.place * fineCell - 1.0;
         normal = isOn(switchCube) ? frame.normal.xyz * planet.w - heightSlope.x * frame.u.xyz -
                                         heightSlope.y * frame.v.xyz
                                   : normalOnSphere(frame, coordinates, up, planet.z + rise, heightSlope);
@@ -267,7 +286,7 @@ void main() {
     }
 
     surface = position;
-    facePlace = vec4(gridPlaceOnFace * (0.5 * fineCell), height, float(chunk.x & 7u));
+    facePlace = vec4(drawn.place * (0.5 * fineCell), height, float(chunk.x & 7u));
     surfaceNormal = vec4(normal, rough);
     gridCoordinate = vec2(gridVertex.xy);
     onSkirt = float(gridVertex.z);

@@ -111,6 +111,7 @@ struct Tally {
     std::size_t edgesSlid = 0;
     std::size_t edgesJumped = 0;
     double largestJumpPx = 0;
+    std::size_t stitchedEdgesAtRest = 0;  // of what switched: their cells were looked at too
 };
 
 // Looks at all that differs between two frames.
@@ -181,6 +182,9 @@ private:
     void jump(const DrawItem& parent, const DrawItem& child, Tally& tally) const {
         const double px = largestJumpPx(view_, parent, child, stitched_);
         EXPECT_LT(px, 1e-3) << toString(child.id);
+        for (const Edge edge : allEdges)
+            tally.stitchedEdgesAtRest += stitched_ && child.coarserBy[static_cast<std::size_t>(edge)] > 0 &&
+                                         edgeRests(parent, child, edge);
         tally.largestJumpPx = std::max(tally.largestJumpPx, px);
     }
 
@@ -246,6 +250,9 @@ TEST_P(LodFadeFlight, NoSwitchMovesAnything) {
     }
     EXPECT_GT(tally.splits, 100u);
     EXPECT_GT(tally.merges, 20u);
+    if (lod.seams == SeamMode::Stitched) {
+        EXPECT_GT(tally.stitchedEdgesAtRest, 20u);
+    }
     EXPECT_GT(tally.slid, 1000u);
     EXPECT_LE(tally.edgesJumped, tally.edgesSlid / 1000);
     RecordProperty("splits", static_cast<int>(tally.splits));

@@ -222,6 +222,29 @@ TEST(SimulatedPaging, SettlesToWhatTheClockSettlesTo) {
     EXPECT_LE(slow->seconds(), 1);
 }
 
+TEST(SimulatedPaging, SettlingInShortStretchesGoesOnFromTheLast) {
+    const auto planet = openWith(simulated({.latencyMs = 500}));
+    int stretches = 0;
+    while (!planet->settle(viewAt(10, 20), fineSettings(), noUpload, 0.2) && stretches < 10'000) ++stretches;
+    EXPECT_GT(stretches, 2);
+    EXPECT_LT(stretches, 10'000);
+    EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
+}
+
+TEST(SimulatedPaging, SwitchedOnWithAPauseNothingIsTaken) {
+    PagingSettings settings = simulated({}, 4);
+    settings.paused = true;
+    Gated gated;
+    const auto planet = openWith({}, gated.source());
+    stepOnce(*planet, viewAt(10, 20));
+    gated.gate.waitForArrivals(1);
+    EXPECT_FALSE(planet->setPaging(settings).value());
+    EXPECT_TRUE(planet->loadingNow().empty());
+    gated.gate.open();
+    for (int frame = 0; frame < 4; ++frame) stepOnce(*planet, viewAt(10, 20));
+    EXPECT_EQ(planet->paging().loaded, 0u);
+}
+
 TEST(SimulatedPaging, PausesLetsOneThroughAndDropsAll) {
     PagingSettings settings = simulated({.latencyMs = 10});
     settings.paused = true;
@@ -281,6 +304,30 @@ TEST(Planet, StartedAnewItIsAsIfJustOpened) {
     EXPECT_EQ(used->tree().residentChunks, 6u);
     EXPECT_TRUE(used->pendingRequests(PagingType::PageIn).empty());
     EXPECT_EQ(simulatedFlight(*used), simulatedFlight(*fresh));
+}
+
+TEST(Planet, StartedAnewWhilePausedNothingIsLetThrough) {
+    PagingSettings settings = simulated({.latencyMs = 1000});
+    settings.paused = true;
+    const auto planet = openWith(settings);
+    stepOnce(*planet, viewAt(10, 20));
+    for (int i = 0; i < 3; ++i) planet->loadOne();
+    planet->startAnew();
+    for (int frame = 0; frame < 200; ++frame) stepOnce(*planet, viewAt(10, 20));
+    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_TRUE(planet->loadingNow().empty());
+}
+
+TEST(Planet, AStepByTheClockGoesOnFromAStepOfAGivenLength) {
+    const auto planet = openWith({});
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const auto since = std::chrono::steady_clock::now();
+    stepOnce(*planet, viewAt(10, 20), 3);
+    EXPECT_EQ(planet->elapsedS(), 3);
+    const ViewInput only{viewAt(10, 20), fineSettings()};
+    planet->step(std::span(&only, 1), noUpload);
+    const std::chrono::duration<double> atMost = std::chrono::steady_clock::now() - since;
+    EXPECT_LE(planet->elapsedS(), atMost.count());  // without what was before the given one
 }
 
 TEST(Planet, StartedAnewWhatThreadsAreReadingComesToNothing) {

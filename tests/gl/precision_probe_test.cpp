@@ -39,10 +39,10 @@ TEST_F(PrecisionProbeOnGpu, ItsFloatsAreTheShaders) {
                                                               {i % chunkSize(shape), i / chunkSize(shape)});
                 const glm::dvec3 drawn(positions[static_cast<std::size_t>(i)]);
                 const double apartM = glm::length(drawn - (probe.shader.positionM - view.eyeM));
-                ASSERT_LT(apartM, 4e-7 * probe.distanceM) << i;
+                ASSERT_LT(apartM, 2e-7 * probe.distanceM) << i;
                 // And so is the error that it tells.
                 const double errorM = glm::length(drawn + view.eyeM - probe.positionM);
-                ASSERT_NEAR(probe.shader.errorM, errorM, 4e-7 * probe.distanceM) << i;
+                ASSERT_NEAR(probe.shader.errorM, errorM, 2e-7 * probe.distanceM) << i;
             }
         }
     }
