@@ -16,6 +16,7 @@
 
 #include "app/flight_replay.h"
 #include "app/recorder.h"
+#include "app/replay_command.h"
 #include "app/scene.h"
 #include "planet/bake.h"
 #include "planet/little_endian.h"
@@ -558,6 +559,19 @@ TEST_F(FlightRecordTest, SplitsAndMergesAreToldFromIt) {
     }
     EXPECT_GT(splits, 10);
     EXPECT_GT(merges, 3);
+}
+
+// Names of files may be any bytes; JSON is UTF-8.
+TEST_F(FlightRecordTest, AReportOfAFileWhoseNameIsNotUtf8IsWritten) {
+    const std::filesystem::path copy = folder_ / "h\xE9.chk";
+    std::filesystem::copy_file(folder_ / "hills.chk", copy);
+    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
+    ReplayOptions options;
+    options.flight = written(flyAbout(*planet, troubled(true), 5));
+    options.output = folder_ / "out.json";
+    const planet::Result<bool> exact = replayFlight(options);
+    ASSERT_TRUE(exact) << exact.error().message;
+    EXPECT_GT(std::filesystem::file_size(options.output), 100u);
 }
 
 TEST_F(FlightRecordTest, WithoutAFrameNothingIsWritten) {

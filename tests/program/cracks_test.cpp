@@ -62,6 +62,16 @@ TEST(CracksCommand, BadInputEndsWithTwo) {
     }
 }
 
+TEST(CracksCommand, AFileWhoseNameIsNotUtf8IsReported) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::filesystem::rename(folder.path() / "planet.chk", folder.path() / "pl\xE9net.chk");
+    const Ran ran = runWorldy(folder, "cracks pl\xE9net.chk " + view + "--seams stitched -o report.json");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(nlohmann::json::parse(contentOf(folder.path() / "report.json"))["file"],
+              "pl\xEF\xBF\xBDnet.chk");
+}
+
 TEST(CracksCommand, TooManyViewsEndWithTwo) {
     const TemporaryFolder folder;
     bakePlanet(folder);
