@@ -24,6 +24,7 @@ using Json = nlohmann::ordered_json;
 using planet::Result;
 
 constexpr std::size_t mostListed = 20;  // of a view's gaps and spots in the report
+constexpr double mostFlightViews = 100'000;
 
 struct MeasuredView {
     double timeS = 0;  // of the flight
@@ -166,6 +167,11 @@ Totals totalsOf(const std::vector<MeasuredView>& views) {
     return totals;
 }
 
+// A file's name may be any bytes, and JSON is UTF-8.
+std::string textOf(const Json& report) {
+    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 constexpr std::array<const char*, 3> seamNames = {"none", "skirts", "stitched"};
 
 Json reportOf(const CracksOptions& options, const Measured& all) {
@@ -247,8 +253,14 @@ Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Meas
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
     const InterruptWatch watch;
-    const auto steps = static_cast<int>(std::floor(durationS(*path) / options.stepS + 1e-9));
-    for (int i = 0; i <= steps; ++i) {
+    const double steps = std::floor(durationS(*path) / options.stepS + 1e-9);
+    if (!(steps < mostFlightViews)) {
+        return planet::badInput(
+            fmt::format("--step-s: {} s over a flight of {} s are more than {} views; a longer step would be "
+                        "right",
+                        options.stepS, durationS(*path), mostFlightViews));
+    }
+    for (int i = 0; i <= static_cast<int>(steps); ++i) {
         if (watch.interrupted()) return planet::cancelled();
         const double timeS = path->keys.front().timeS + i * options.stepS;
         if (Result<void> done = measureView(offscreen, poseAt(*path, timeS), timeS, options, all); !done)
@@ -285,7 +297,7 @@ Result<bool> runCracks(const CracksOptions& options) {
             return tl::unexpected(written.error());
     }
     if (options.report.empty()) return tight;
-    return writeTextFile(options.report, reportOf(options, all).dump(1) + "\n").map([&] { return tight; });
+    return writeTextFile(options.report, textOf(reportOf(options, all))).map([&] { return tight; });
 }
 
 }  // namespace worldy

@@ -19,6 +19,8 @@ using planet::Result;
 // So long may a frame of the window be busy with replaying, so that it can still be used.
 constexpr double busyMs = 25;
 
+constexpr const char* ending = ".flight";
+
 bool hasFlight(const FlightDesk& desk, const std::string& name) {
     return std::any_of(desk.flights.begin(), desk.flights.end(),
                        [&](const ui::RecordedFlight& flight) { return flight.name == name; });
@@ -28,6 +30,38 @@ std::string freeName(const FlightDesk& desk) {
     for (int number = 1;; ++number) {
         std::string name = fmt::format("flight {}", number);
         if (!hasFlight(desk, name)) return name;
+    }
+}
+
+// The name itself, or with the next number: "flight 2" after "flight 1", "canyon 2" after "canyon".
+std::string freeNameLike(const fs::path& folder, const std::string& name) {
+    const auto isFree = [&](const std::string& one) {
+        std::error_code status;
+        return !fs::exists(fs::symlink_status(folder / (one + ending), status));
+    };
+    if (isFree(name)) return name;
+    const std::size_t space = name.rfind(' ');
+    const std::string digits = space == std::string::npos ? "" : name.substr(space + 1);
+    const bool numbered =
+        !digits.empty() && digits.size() < 7 &&
+        std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const std::string stem = numbered ? name.substr(0, space) : name;
+    for (int number = numbered ? std::stoi(digits) + 1 : 2;; ++number) {
+        std::string next = fmt::format("{} {}", stem, number);
+        if (isFree(next)) return next;
+    }
+}
+
+// Another window may have taken the name since the recording began, or take it just now.
+Result<fs::path> writeUnderFreeName(const fs::path& folder, Recorder& recorder) {
+    constexpr int mostTries = 10;
+    for (int tries = 1;; ++tries) {
+        recorder.rename(freeNameLike(folder, recorder.name()));
+        fs::path file = folder / (recorder.name() + ending);
+        const Result<void> written = recorder.write(file, IfThere::Fail);
+        if (written) return file;
+        std::error_code status;
+        if (tries == mostTries || !fs::exists(file, status)) return tl::unexpected(written.error());
     }
 }
 
@@ -44,9 +78,12 @@ Result<void> rewind(RunningReplay& running, Scene& scene) {
     ui::ViewSettings settings;
     for (const CalledInFlight& called : running.replay.record().frames[0].calls)
         static_cast<void>(applyFlightSettings(called.settings, settings));
-    Result<void> applied = applyLiveSettings(scene, settings, false, timeOf(running));
+    // What was refused before is refused again rather than passed over, and then the planet stays as it is.
+    scene.refusedPaging.reset();
+    if (Result<void> applied = applyLiveSettings(scene, settings, false, timeOf(running)); !applied)
+        return applied;
     running.replay.rewind(*scene.planet);
-    return applied;
+    return {};
 }
 
 std::string textOf(const char* sign, const std::vector<planet::ChunkId>& ids) {
@@ -94,6 +131,12 @@ Result<void> startRecording(FlightDesk& desk, planet::Planet& planet, std::strin
     listRecordings(desk);
     if (name.empty()) name = freeName(desk);
     if (Result<void> good = checkPresetName(name); !good) return good;
+    if (desk.unwritten) {
+        return planet::badInput(
+            fmt::format("The recording \"{}\" is not written yet; stopping it again, which tries it once "
+                        "more, would be right",
+                        desk.unwritten->name()));
+    }
     if (hasFlight(desk, name)) {
         return planet::badInput(
             fmt::format("There is a recorded flight \"{}\" already; another name would be right", name));
@@ -103,18 +146,28 @@ Result<void> startRecording(FlightDesk& desk, planet::Planet& planet, std::strin
 }
 
 void stopRecording(FlightDesk& desk, planet::Planet* planet, const Log& log) {
-    if (!desk.recorder) return;
-    if (planet) desk.recorder->stop(*planet);
+    if (desk.recorder) {
+        if (planet) desk.recorder->stop(*planet);
+        desk.unwritten = std::move(desk.recorder);
+        desk.recorder.reset();
+    }
+    if (!desk.unwritten) return;
+    Recorder& recorder = *desk.unwritten;
     std::error_code status;
     fs::create_directories(desk.folder, status);
-    const fs::path file = desk.folder / (desk.recorder->name() + ".flight");
-    const FlightEncoder& encoded = desk.recorder->encoded();
-    if (const Result<void> written = desk.recorder->write(file); !written) {
-        log->error("{}", written.error().message);
-    } else {
-        log->info("Recorded {}: {} frames over {:.1f} s", file.string(), encoded.frames(), encoded.seconds());
-    }
-    desk.recorder.reset();
+    const std::string name = recorder.name();
+    const FlightEncoder& encoded = recorder.encoded();
+    const Result<fs::path> file = writeUnderFreeName(desk.folder, recorder);
+    if (file && recorder.name() != name)
+        log->warn("There is a recorded flight \"{}\" by now; this one is \"{}\"", name, recorder.name());
+    if (file)
+        log->info("Recorded {}: {} frames over {:.1f} s", file->string(), encoded.frames(),
+                  encoded.seconds());
+    else if (encoded.frames() > 0)
+        log->error("{}; the recording is kept: make room, and stop it again", file.error().message);
+    else
+        log->error("{}", file.error().message);
+    if (file || encoded.frames() == 0) desk.unwritten.reset();
     listRecordings(desk);
 }
 
@@ -153,9 +206,15 @@ Result<void> setReplay(FlightDesk& desk, Scene& scene, const ui::ReplayControls&
     if (fromTheEnd) moveReplay(desk, 1);
     if (!otherPaging) return {};
     const std::size_t frame = std::max<std::size_t>(running.seek.value_or(running.replay.next()), 1);
-    running.replay = FlightReplay::create(running.replay.sharedRecord(), pagingOf(controls)).value();
+    FlightReplay other = FlightReplay::create(running.replay.sharedRecord(), pagingOf(controls)).value();
+    std::swap(running.replay, other);
+    if (Result<void> begun = rewind(running, scene); !begun) {
+        std::swap(running.replay, other);
+        running.controls.simulated = !controls.simulated;
+        return begun;
+    }
     running.seek = frame;
-    return rewind(running, scene);
+    return {};
 }
 
 void moveReplay(FlightDesk& desk, std::size_t frame) {
@@ -221,9 +280,10 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
 ui::RecordingView recordingViewOf(const FlightDesk& desk, const ui::ViewSettings& settings) {
     ui::RecordingView view;
     view.flights = desk.flights;
-    if (desk.recorder) {
-        const FlightEncoder& encoded = desk.recorder->encoded();
-        view.recording = ui::RecordingNow{desk.recorder->name(), encoded.seconds(), encoded.frames(),
+    const std::optional<Recorder>& recorder = desk.recorder ? desk.recorder : desk.unwritten;
+    if (recorder && !desk.replay) {
+        const FlightEncoder& encoded = recorder->encoded();
+        view.recording = ui::RecordingNow{recorder->name(), encoded.seconds(), encoded.frames(),
                                           static_cast<double>(encoded.bytes()), settings.paging.simulated};
     }
     if (desk.replay) {

@@ -43,6 +43,7 @@ struct FlightDesk {
     std::filesystem::path folder;  // of the recordings; need not exist yet
     std::vector<ui::RecordedFlight> flights;
     std::optional<Recorder> recorder;
+    std::optional<Recorder> unwritten;  // has ended, and its file could not be written yet
     std::optional<RunningReplay> replay;
 };
 
@@ -52,9 +53,11 @@ FlightDesk openFlightDesk(const std::filesystem::path& folder);
 void listRecordings(FlightDesk& desk);
 
 // A name as a preset's, or empty for the next free "flight 1", "flight 2" ... The Error says what is wrong
-// with it, or that there is one of that name.
+// with it, or that there is one of that name, or that the one before is not written yet.
 planet::Result<void> startRecording(FlightDesk& desk, planet::Planet& planet, std::string name);
-// Writes what was recorded and says so. planet: null where it is gone.
+// Writes what was recorded and says so: under its name, or the next that is free where there is a file of
+// that name by now. What cannot be written is kept, and tried again at the next call; of no frames it is
+// dropped. planet: null where it is gone.
 void stopRecording(FlightDesk& desk, planet::Planet* planet, const Log& log);
 planet::Result<void> deleteRecording(FlightDesk& desk, const std::filesystem::path& file);
 

@@ -133,9 +133,14 @@ glm::dvec3 along(const glm::dvec3& from, const glm::dvec3& arc) {
     return std::cos(angle) * from + std::sin(angle) * (arc / angle);
 }
 
+// Of the whole way, or of what lies between jumps.
+bool isEnd(const std::vector<FlightKey>& keys, std::size_t i) {
+    return i == 0 || i + 1 == keys.size() || keys[i].jumpedTo || keys[i + 1].jumpedTo;
+}
+
 // The velocity over the ground at a key, radians a second; none at the ends.
 glm::dvec3 velocityAt(const std::vector<FlightKey>& keys, std::size_t i) {
-    if (i == 0 || i + 1 == keys.size()) return {0, 0, 0};
+    if (isEnd(keys, i)) return {0, 0, 0};
     const glm::dvec3 here = directionOf(keys[i]);
     const glm::dvec3 span =
         arcTowards(here, directionOf(keys[i + 1])) - arcTowards(here, directionOf(keys[i - 1]));
@@ -158,7 +163,7 @@ using ValueOfKey = std::function<double(std::size_t)>;
 
 // Slope at a key that lets no cubic overshoot it (Fritsch and Butland, 1984).
 double slopeAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std::size_t i) {
-    if (i == 0 || i + 1 == keys.size()) return 0;
+    if (isEnd(keys, i)) return 0;
     const double before = (value(i) - value(i - 1)) / (keys[i].timeS - keys[i - 1].timeS);
     const double after = (value(i + 1) - value(i)) / (keys[i + 1].timeS - keys[i].timeS);
     return before * after <= 0 ? 0 : 2 * before * after / (before + after);
@@ -213,7 +218,8 @@ Pose poseAt(const FlightPath& path, double timeS) {
     const auto after = std::upper_bound(keys.begin() + 1, keys.end() - 1, time,
                                         [](double value, const FlightKey& key) { return value < key.timeS; });
     const std::size_t i = static_cast<std::size_t>(after - keys.begin()) - 1;
-    const double t = (time - keys[i].timeS) / (keys[i + 1].timeS - keys[i].timeS);
+    const double share = (time - keys[i].timeS) / (keys[i + 1].timeS - keys[i].timeS);
+    const double t = keys[i + 1].jumpedTo ? std::floor(share) : share;
 
     // Headings counted on from key to key, each the shorter way from the one before.
     std::vector<double> headings = {keys.front().pose.headingDeg};

@@ -22,6 +22,8 @@ namespace worldy {
 struct FlightKey {
     double timeS = 0;  // strictly increasing from key to key
     planet::CameraPose pose;
+    bool jumpedTo =
+        false;  // the pose of the key before is held until then, and the camera is put here at once
 };
 
 struct FlightPath {

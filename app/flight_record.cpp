@@ -9,10 +9,15 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <new>
+#include <numbers>
 #include <optional>
+#include <set>
 
 #include "app/settings_table.h"
+#include "app/toml_file.h"
 #include "planet/atomic_file.h"
 #include "planet/chunk_file_format.h"
 #include "planet/little_endian.h"
@@ -32,7 +37,6 @@ constexpr std::array<char, 8> magic = {'W', 'Y', 'F', 'L', 'I', 'G', 'H', 'T'};
 constexpr std::size_t headerBytes = 28;
 constexpr std::size_t mostTextBytes = 1 << 16;
 constexpr int mostSidePx = 1 << 16;
-constexpr double mostElapsedS = 1e6;
 constexpr int compressionLevel = 9;
 
 // What of a frame is not as in the one before.
@@ -104,6 +108,13 @@ void putCalls(ByteWriter& out, const std::vector<CalledInFlight>& calls) {
     }
 }
 
+// Of a frame's calls, and their settings.
+std::size_t callsIn(const FlightFrame& frame) {
+    std::size_t calls = frame.calls.size();
+    for (const CalledInFlight& called : frame.calls) calls += called.settings.size();
+    return calls;
+}
+
 std::uint64_t hashOf(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
 }
@@ -145,12 +156,22 @@ public:
                              wanted));
         return ok() ? static_cast<std::size_t>(wanted) : 0;
     }
+    std::size_t countUpTo(std::size_t most, const char* what, std::size_t bytesEach) {
+        const std::size_t wanted = count(bytesEach);
+        if (wanted > most) fail(fmt::format("holds {} {}; {} at most would be right", wanted, what, most));
+        return ok() ? wanted : 0;
+    }
     std::string text() {
-        const std::size_t size = count(1);
-        if (size > mostTextBytes) fail(fmt::format("holds a text of {} bytes", size));
+        const std::size_t size = countUpTo(mostTextBytes, "bytes of one text", 1);
         std::string text;
         for (std::size_t i = 0; i < size && ok(); ++i) text.push_back(get<char>());
         return text;
+    }
+    // As reports and messages need it.
+    std::string utf8(const char* what) {
+        std::string value = text();
+        if (!isUtf8(value)) fail(fmt::format("holds a {} that is not UTF-8; UTF-8 would be right", what));
+        return ok() ? value : std::string();
     }
     double number(double low, double high) {
         const auto value = get<double>();
@@ -170,16 +191,16 @@ public:
                 static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
     }
     std::vector<ChunkId> ids() {
-        std::vector<ChunkId> all(count(3));
-        for (ChunkId& one : all) one = id();
+        std::vector<ChunkId> all;
+        for (std::size_t left = count(3); left > 0 && ok(); --left) all.push_back(id());
         return all;
     }
     PagingMoves moves() {
         PagingMoves moves;
         moves.gaveUp = get<std::uint8_t>() != 0;
         moves.taken = ids();
-        moves.arrived.resize(count(4));
-        for (PagingMoves::Arrival& arrival : moves.arrived) {
+        for (std::size_t left = count(4); left > 0 && ok(); --left) {
+            PagingMoves::Arrival& arrival = moves.arrived.emplace_back();
             const auto outcome = get<std::uint8_t>();
             arrival.outcome = static_cast<planet::PagingOutcome>(outcome);
             if (outcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled) ||
@@ -261,42 +282,96 @@ void putData(ByteWriter& out, const FlightData& data) {
 
 // Views without what was drawn.
 std::vector<FlownView> readViews(Reader& in) {
-    std::vector<FlownView> views(in.get<std::uint8_t>());
-    if (views.empty() || views.size() > planet::maxViews) {
-        in.fail(fmt::format("holds a frame of {} views", views.size()));
+    const std::size_t count = in.get<std::uint8_t>();
+    if (count == 0 || count > planet::maxViews) {
+        in.fail(fmt::format("holds a frame of {} views; 1 to {} would be right", count, planet::maxViews));
         return {};
     }
+    std::vector<FlownView> views(count);
     for (FlownView& view : views) view = readView(in);
     return views;
 }
 
-// settings: as of then, for what is wrong with a change.
-CalledInFlight readCall(Reader& in, ui::ViewSettings& settings) {
+// What a frame is checked against.
+struct FlightSoFar {
+    std::vector<std::set<ChunkId>> drawn;  // by view
+    ui::ViewSettings settings;
+    double seconds = 0;
+    std::size_t calls = 0;  // and their settings
+    std::size_t settingsACall = flightSettings(ui::ViewSettings{}).size();
+};
+
+CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
     CalledInFlight called;
     const auto call = in.get<std::uint8_t>();
     if (call > static_cast<std::uint8_t>(FlightCall::Settings)) in.fail("holds a call that there is not");
     called.call = static_cast<FlightCall>(call);
     if (in.ok() && called.call == FlightCall::Settings) {
         called.pagingPaused = in.get<std::uint8_t>() != 0;
-        called.settings.resize(in.count(1));
-        for (std::string& assignment : called.settings) assignment = in.text();
-        if (const Result<void> good = applyFlightSettings(called.settings, settings); in.ok() && !good)
+        for (std::size_t left = in.countUpTo(soFar.settingsACall, "settings in a call", 1);
+             left > 0 && in.ok(); --left)
+            called.settings.push_back(in.utf8("setting"));
+        if (!in.ok()) return called;
+        if (const Result<void> good = applyFlightSettings(called.settings, soFar.settings); !good)
             in.fail("holds a setting that is wrong: " + good.error().message);
     }
     called.moves = in.moves();
     return called;
 }
 
+void readCalls(Reader& in, FlightFrame& frame, FlightSoFar& soFar) {
+    for (std::size_t left = in.countUpTo(maxCallsAFrame, "calls in a frame", 5); left > 0 && in.ok();
+         --left) {
+        frame.calls.push_back(readCall(in, soFar));
+        soFar.calls += 1 + frame.calls.back().settings.size();
+        if (soFar.calls > maxFlightCalls) {
+            in.fail(fmt::format("holds more than {} calls and their settings in all; no more would be right",
+                                maxFlightCalls));
+        }
+    }
+}
+
+void checkAscending(Reader& in, const std::vector<ChunkId>& ids, const char* what) {
+    const auto wrong = std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>());
+    if (wrong != ids.end()) {
+        in.fail(fmt::format("says twice or out of order that {} {}; each once, ascending, would be right",
+                            toString(*(wrong + 1)), what));
+    }
+}
+
+// Follows what is drawn, so that nothing appears or vanishes which cannot.
+void followDrawn(Reader& in, const FlownView& view, std::set<ChunkId>& drawn) {
+    checkAscending(in, view.appeared, "appeared");
+    checkAscending(in, view.vanished, "vanished");
+    for (const ChunkId& id : view.appeared) {
+        if (!in.ok()) return;
+        if (drawn.count(id) > 0)
+            in.fail(
+                fmt::format("says that {} appeared, which was drawn before; a chunk that was not would be "
+                            "right",
+                            toString(id)));
+    }
+    for (const ChunkId& id : view.vanished) {
+        if (!in.ok()) return;
+        if (drawn.erase(id) == 0)
+            in.fail(fmt::format("says that {} vanished, which was not drawn; a chunk that was would be right",
+                                toString(id)));
+    }
+    if (drawn.size() + view.appeared.size() > maxFlightChunks)
+        in.fail(fmt::format("draws more than {} chunks in a view; fewer would be right", maxFlightChunks));
+    if (in.ok()) drawn.insert(view.appeared.begin(), view.appeared.end());
+}
+
 // before: null for the first frame.
-FlightFrame readFrame(Reader& in, const FlightFrame* before, ui::ViewSettings& settings) {
+FlightFrame readFrame(Reader& in, const FlightFrame* before, FlightSoFar& soFar) {
     FlightFrame frame;
     const auto parts = in.get<std::uint8_t>();
-    frame.elapsedS = in.number(0, mostElapsedS);
+    frame.elapsedS = in.number(0, maxFlightS);
+    soFar.seconds += frame.elapsedS;
+    if (soFar.seconds > maxFlightS)
+        in.fail(fmt::format("comes after more than {} s; no more would be right", maxFlightS));
     if (before) frame.selectionHash = before->selectionHash;
-    if (parts & callsPart) {
-        frame.calls.resize(in.count(5));
-        for (CalledInFlight& called : frame.calls) called = readCall(in, settings);
-    }
+    if (parts & callsPart) readCalls(in, frame, soFar);
     if (parts & viewsPart) {
         frame.views = readViews(in);
     } else if (before) {
@@ -308,10 +383,12 @@ FlightFrame readFrame(Reader& in, const FlightFrame* before, ui::ViewSettings& s
     } else {
         in.fail("begins with a frame without a view");
     }
+    soFar.drawn.resize(frame.views.size());
     if (parts & drawnPart) {
-        for (FlownView& view : frame.views) {
-            view.appeared = in.ids();
-            view.vanished = in.ids();
+        for (std::size_t v = 0; v < frame.views.size() && in.ok(); ++v) {
+            frame.views[v].appeared = in.ids();
+            frame.views[v].vanished = in.ids();
+            followDrawn(in, frame.views[v], soFar.drawn[v]);
         }
     }
     if (parts & movesPart) frame.moves = in.moves();
@@ -321,17 +398,17 @@ FlightFrame readFrame(Reader& in, const FlightFrame* before, ui::ViewSettings& s
 
 FlightRecord readContent(Reader& in) {
     FlightRecord record;
-    record.name = in.text();
+    record.name = in.utf8("name");
     record.data = readData(in);
     if (!in.ok()) return record;
     in.setDeepest(std::min(planet::leafLevel(record.data.shape), planet::maxLevel));
     const auto frames = in.get<std::uint32_t>();
     if (frames == 0 || frames > maxFlightFrames)
         in.fail(fmt::format("says that it holds {} frames; 1 to {} would be right", frames, maxFlightFrames));
-    ui::ViewSettings settings;
+    FlightSoFar soFar;
     for (std::uint32_t i = 0; i < frames && in.ok(); ++i) {
         const FlightFrame* before = record.frames.empty() ? nullptr : &record.frames.back();
-        FlightFrame frame = readFrame(in, before, settings);
+        FlightFrame frame = readFrame(in, before, soFar);
         record.frames.push_back(std::move(frame));
     }
     if (in.ok() && !in.atEnd()) in.fail("goes on after its end");
@@ -465,6 +542,11 @@ Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ui
     return {};
 }
 
+bool FlightEncoder::fits(const FlightFrame& frame) const {
+    return frame.calls.size() <= maxCallsAFrame && calls_ + callsIn(frame) <= maxFlightCalls &&
+           seconds_ + frame.elapsedS <= maxFlightS;
+}
+
 void FlightEncoder::add(const FlightFrame& frame) {
     const bool newViews = frames_ == 0 || !std::equal(frame.views.begin(), frame.views.end(), views_.begin(),
                                                       views_.end(), sameView);
@@ -492,13 +574,14 @@ void FlightEncoder::add(const FlightFrame& frame) {
     if (parts & movesPart) putMoves(out, frame.moves);
     if (newHash) out.put(frame.selectionHash);
     ++frames_;
+    calls_ += callsIn(frame);
     seconds_ += frame.elapsedS;
     hash_ = frame.selectionHash;
     views_ = frame.views;
 }
 
-Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
-                                  const FlightData& data) const {
+Result<void> FlightEncoder::write(const fs::path& file, const std::string& name, const FlightData& data,
+                                  IfThere ifThere) const {
     std::vector<std::byte> content;
     ByteWriter out(content);
     putText(out, name);
@@ -522,12 +605,20 @@ Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
     head.put(hashOf(content));
     Result<planet::AtomicFile> target = planet::AtomicFile::create(file);
     if (!target) return tl::unexpected(target.error());
+    // From here on no other may write it.
+    std::error_code status;
+    if (ifThere == IfThere::Fail && fs::exists(fs::symlink_status(file, status))) {
+        return planet::ioError(
+            fmt::format("{}: is there already; another name would be right", file.string()));
+    }
     return target->append(header).and_then([&] { return target->append(packed); }).and_then([&] {
         return target->commit();
     });
 }
 
-Result<FlightRecord> loadFlightRecord(const fs::path& file) {
+namespace {
+
+Result<FlightRecord> readRecord(const fs::path& file) {
     const Result<std::vector<std::byte>> content = readContentBytes(file);
     if (!content) return tl::unexpected(content.error());
     Reader in(*content, 0);
@@ -539,24 +630,70 @@ Result<FlightRecord> loadFlightRecord(const fs::path& file) {
         fmt::format("{}: {}: it {}; record it again", file.string(), where, in.problem()));
 }
 
+}  // namespace
+
+Result<FlightRecord> loadFlightRecord(const fs::path& file) {
+    try {
+        return readRecord(file);
+    } catch (const std::bad_alloc&) {
+        return planet::badInput(fmt::format(
+            "{}: is too large for the memory there is; a shorter recording would be right", file.string()));
+    }
+}
+
+namespace {
+
+constexpr double leastGapS = 0.1;
+
+planet::CameraPose flownPose(const FlightRecord& record, std::size_t frame) {
+    planet::CameraPose pose =
+        planet::poseFromView(record.frames[frame].views[0].view, record.data.shape.radiusM);
+    pose.altitudeM = std::max(pose.altitudeM, 1.0);  // the least that a flight has
+    return pose;
+}
+
+// Whether the camera comes to a frame faster than any flight: within a tenth of a second over 5 degrees of
+// arc, ten times as high or as low, or ten times as far as it is high. Close to the ground its height says
+// little.
+bool isJump(const FlightRecord& record, std::size_t frame) {
+    if (frame == 0) return false;
+    constexpr double mostArcRad = 5 * std::numbers::pi / 180;
+    const double radiusM = record.data.shape.radiusM;
+    const auto eyeM = [&](std::size_t i) { return record.frames[i].views[0].view.eyeM; };
+    const glm::dvec3 from = eyeM(frame - 1), to = eyeM(frame);
+    const double arcRad = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+    const auto heightM = [&](const glm::dvec3& eye) {
+        return std::max(glm::length(eye) - radiusM, radiusM / 1000);
+    };
+    const double low = std::min(heightM(from), heightM(to)), high = std::max(heightM(from), heightM(to));
+    const double gaps = std::max(record.frames[frame].elapsedS / leastGapS, 1.0);
+    return arcRad > gaps * mostArcRad || std::log(high / low) > gaps * std::log(10) ||
+           arcRad * radiusM > gaps * 10 * high;
+}
+
+}  // namespace
+
 Result<FlightPath> pathOf(const FlightRecord& record, const fs::path& file) {
-    constexpr double leastGapS = 0.1;
     FlightPath path;
     path.name = record.name;
+    std::vector<FlightKey>& keys = path.keys;
+    const auto isLater = [&](double timeS) { return keys.empty() || timeS > keys.back().timeS; };
     double timeS = 0;
+    bool jumped = false;  // since the last key
     for (std::size_t i = 0; i < record.frames.size(); ++i) {
+        if (isJump(record, i)) {
+            if (!jumped && isLater(timeS)) keys.push_back({timeS, flownPose(record, i - 1)});
+            jumped = true;
+        }
         timeS += record.frames[i].elapsedS;
         const bool last = i + 1 == record.frames.size();
-        if (!path.keys.empty() && timeS - path.keys.back().timeS < leastGapS &&
-            !(last && path.keys.size() == 1))
-            continue;
-        if (!path.keys.empty() && timeS <= path.keys.back().timeS) continue;
-        planet::CameraPose pose =
-            planet::poseFromView(record.frames[i].views[0].view, record.data.shape.radiusM);
-        pose.altitudeM = std::max(pose.altitudeM, 1.0);  // the least that a flight has
-        path.keys.push_back({timeS, pose});
+        const bool due =
+            keys.empty() || jumped || timeS - keys.back().timeS >= leastGapS || (last && keys.size() == 1);
+        if (!due || !isLater(timeS)) continue;
+        keys.push_back({timeS, flownPose(record, i), jumped});
+        jumped = false;
     }
-    if (path.keys.size() >= 2) return path;
+    if (keys.size() >= 2) return path;
     return planet::badInput(fmt::format(
         "{}: is a single moment; a recording of two frames or more would be right", file.string()));
 }

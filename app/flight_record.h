@@ -28,6 +28,11 @@ inline constexpr std::uint32_t flightRecordVersion = 1;
 // A recording ends by itself at either.
 inline constexpr std::size_t maxFlightFrames = 216'000;   // an hour at 60 a second
 inline constexpr std::size_t maxFlightBytes = 64u << 20;  // of the content
+// And at these, of which a file that holds more is refused.
+inline constexpr double maxFlightS = 1e6;
+inline constexpr std::size_t maxCallsAFrame = 1000;
+inline constexpr std::size_t maxFlightCalls = 2 * maxFlightFrames;  // of all frames, and their settings
+inline constexpr std::size_t maxFlightChunks = 1u << 20;            // drawn at once in a view
 
 // Which chunk file was flown over; equal for copies of the same file.
 struct FlightData {
@@ -84,24 +89,32 @@ std::vector<std::string> flightSettings(const ui::ViewSettings& before, const ui
 planet::Result<void> applyFlightSettings(const std::vector<std::string>& assignments,
                                          ui::ViewSettings& settings);
 
+// What becomes of a file that is there already.
+enum class IfThere : std::uint8_t { Replace, Fail };
+
 // Encodes frames as they come, so that memory holds no more than the file will.
 class FlightEncoder {
 public:
     void add(const FlightFrame& frame);
+    // Whether a file may hold it after those before.
+    bool fits(const FlightFrame& frame) const;
+    void end() { ended_ = true; }
 
     std::size_t frames() const { return frames_; }
     std::size_t bytes() const { return bytes_.size(); }  // before compression
     double seconds() const { return seconds_; }
-    bool full() const { return frames_ >= maxFlightFrames || bytes_.size() >= maxFlightBytes; }
+    bool full() const { return ended_ || frames_ >= maxFlightFrames || bytes_.size() >= maxFlightBytes; }
 
     // The whole file appears at once, or not at all.
     planet::Result<void> write(const std::filesystem::path& file, const std::string& name,
-                               const FlightData& data) const;
+                               const FlightData& data, IfThere ifThere = IfThere::Replace) const;
 
 private:
     std::vector<std::byte> bytes_;
     std::size_t frames_ = 0;
+    std::size_t calls_ = 0;  // and their settings
     double seconds_ = 0;
+    bool ended_ = false;
     std::vector<FlownView> views_;  // of the frame before
     std::uint64_t hash_ = 0;
 };
@@ -109,6 +122,8 @@ private:
 planet::Result<FlightRecord> loadFlightRecord(const std::filesystem::path& file);
 
 // Its camera's way, to be flown by cameras that follow flights: ten keys a second at most, and at least two.
+// Where the camera was put elsewhere at once, by a bookmark, say, the way jumps too, with a key on either
+// side.
 planet::Result<FlightPath> pathOf(const FlightRecord& record, const std::filesystem::path& file);
 
 // Whether a file is called one.

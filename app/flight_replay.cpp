@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "app/recorder.h"
 #include "app/scene.h"
-#include "planet/lod_changes.h"
 
 namespace worldy {
 
@@ -151,31 +151,61 @@ void FlightReplay::compare(planet::Planet& planet, const FlightFrame& frame) {
     ++different_;
 }
 
+namespace {
+
+// Follows what is drawn from frame to frame at the cost of what changes alone. A chunk is split where one
+// below it is drawn. Splits and merges are those of planet::LodChanges, which is given whole selections.
+class DrawnBelow {
+public:
+    FlightChange change(std::size_t frame, const FlownView& view) {
+        std::unordered_map<planet::ChunkId, std::int64_t> moved;
+        for (const planet::ChunkId& id : view.vanished) addAbove(id, -1, moved);
+        for (const planet::ChunkId& id : view.appeared) addAbove(id, 1, moved);
+        FlightChange found{frame, 0, 0};
+        Ids ended;
+        for (const auto& [id, by] : moved) {
+            std::int64_t& below = below_[id];
+            const bool was = below > 0, is = below + by > 0;
+            below += by;
+            if (!was && is && coversOne(id)) ++found.splits;
+            if (was && !is) ended.push_back(id);
+            if (below == 0) below_.erase(id);
+        }
+        for (const planet::ChunkId& id : view.vanished) drawn_.erase(id);
+        drawn_.insert(view.appeared.begin(), view.appeared.end());
+        for (const planet::ChunkId& id : ended) found.merges += coversOne(id);
+        return found;
+    }
+
+private:
+    static void addAbove(planet::ChunkId id, int by, std::unordered_map<planet::ChunkId, std::int64_t>& to) {
+        while (id.level > 0) {
+            id = planet::parentOf(id);
+            to[id] += by;
+        }
+    }
+    // The chunk itself is drawn, or one above it.
+    bool coversOne(planet::ChunkId id) const {
+        while (drawn_.count(id) == 0) {
+            if (id.level == 0) return false;
+            id = planet::parentOf(id);
+        }
+        return true;
+    }
+
+    std::unordered_set<planet::ChunkId> drawn_;
+    std::unordered_map<planet::ChunkId, std::int64_t> below_;  // drawn chunks below each
+};
+
+}  // namespace
+
 std::vector<FlightChange> changesIn(const FlightRecord& record) {
     std::vector<FlightChange> all;
-    planet::LodChanges changes;
-    Ids drawn;
+    DrawnBelow drawn;
     for (std::size_t i = 0; i < record.frames.size(); ++i) {
         const FlownView& view = record.frames[i].views[0];
         if (view.appeared.empty() && view.vanished.empty()) continue;
-        change(drawn, view);
-        planet::Selection selection;
-        std::set<planet::ChunkId> above;
-        for (const planet::ChunkId& id : drawn) {
-            selection.draw.emplace_back().id = id;
-            for (planet::ChunkId up = id; up.level > 0;) {
-                up = planet::parentOf(up);
-                if (!above.insert(up).second) break;
-            }
-        }
-        for (const planet::ChunkId& id : above) selection.splits.push_back({planet::noNode, id, 0});
-        // By frame, not by time: changes of one frame are then those that bear its number.
-        changes.add(selection, static_cast<double>(i));
-        FlightChange found{i, 0, 0};
-        for (auto it = changes.recent().rbegin(); it != changes.recent().rend(); ++it) {
-            if (it->timeS != static_cast<double>(i)) break;
-            ++(it->type == planet::LodChangeType::Split ? found.splits : found.merges);
-        }
+        const FlightChange found = drawn.change(i, view);
         if (found.splits + found.merges > 0 && i > 0) all.push_back(found);
     }
     return all;

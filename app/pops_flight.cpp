@@ -20,6 +20,7 @@ using planet::PopEvent;
 using planet::Result;
 
 constexpr double settleTimeoutS = 120;
+constexpr double mostFrames = 1e7;
 
 void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
 
@@ -55,7 +56,14 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
     const planet::LodSettings lod = lodSettingsOf(settings);
     const double startS = path.keys.front().timeS;
     PopsFlight flown;
-    flown.frames = static_cast<int>(std::floor(durationS(path) / stepS)) + 1;
+    const double steps = std::floor(durationS(path) / stepS);
+    if (!(steps < mostFrames)) {
+        return planet::badInput(fmt::format(
+            "--step-s: {} s over a flight of {} s are more than {} frames; a longer step would be "
+            "right",
+            stepS, durationS(path), mostFrames));
+    }
+    flown.frames = static_cast<int>(steps) + 1;
     planet::PopMeter meter;
     for (int i = 0; i < flown.frames; ++i) {
         const auto share = static_cast<double>(i) / flown.frames;

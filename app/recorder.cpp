@@ -18,6 +18,17 @@ Ids without(const Ids& from, const Ids& what) {
     return rest;
 }
 
+// As set, but for what the planet has of paging.
+ui::ViewSettings heldSettings(const planet::Planet& planet, ui::ViewSettings settings) {
+    const planet::PagingSettings held = planet.pagingSettings();
+    settings.paging.budgetMB = static_cast<int>(held.budgetBytes >> 20);
+    settings.paging.loaderThreads = held.loaderThreads;
+    settings.paging.uploadLimitMs = held.uploadLimitMs;
+    settings.paging.badDisk = held.badDisk;
+    settings.paging.simulated = held.time == planet::PagingTime::Simulated;
+    return settings;
+}
+
 }  // namespace
 
 Ids drawnIds(const planet::Selection& selection) {
@@ -42,7 +53,8 @@ void Recorder::called(planet::Planet& planet, FlightCall call) {
     frame_.calls.push_back({.call = call, .moves = planet.takeMoves()});
 }
 
-void Recorder::givenSettings(planet::Planet& planet, const ui::ViewSettings& settings, bool pagingPaused) {
+void Recorder::givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused) {
+    const ui::ViewSettings settings = heldSettings(planet, asked);
     if (settings_ == settings && pagingPaused == pagingPaused_) return;
     CalledInFlight call{.call = FlightCall::Settings, .pagingPaused = pagingPaused};
     call.settings = settings_ ? flightSettings(*settings_, settings) : flightSettings(settings);
@@ -66,7 +78,12 @@ void Recorder::stepped(planet::Planet& planet, std::span<const double> priorityF
     }
     frame_.moves = planet.takeMoves();
     frame_.selectionHash = selectionHashOf(planet);
-    encoder_.add(frame_);
+    const bool drawnFit = std::all_of(drawn_.begin(), drawn_.end(),
+                                      [](const Ids& ids) { return ids.size() <= maxFlightChunks; });
+    if (drawnFit && encoder_.fits(frame_))
+        encoder_.add(frame_);
+    else
+        encoder_.end();
     frame_ = {};
 }
 
@@ -74,10 +91,10 @@ void Recorder::stop(planet::Planet& planet) const {
     planet.keepMoves(false);
 }
 
-planet::Result<void> Recorder::write(const std::filesystem::path& file) const {
+planet::Result<void> Recorder::write(const std::filesystem::path& file, IfThere ifThere) const {
     if (encoder_.frames() == 0)
         return planet::badInput(fmt::format("{}: not written, since no frame was recorded", file.string()));
-    return encoder_.write(file, name_, data_);
+    return encoder_.write(file, name_, data_, ifThere);
 }
 
 }  // namespace worldy

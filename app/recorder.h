@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/flight_record.h"
@@ -21,18 +22,20 @@ public:
     // stop(). The planet must be of a chunk file.
     Recorder(planet::Planet& planet, std::string name);
 
-    // After each call, in the order of the calls; settings may be told of in every frame.
+    // After each call, in the order of the calls; settings may be told of in every frame. Of paging what the
+    // planet has is recorded, which is not what was asked for where the GPU had no room for it.
     void called(planet::Planet& planet, FlightCall call);
-    void givenSettings(planet::Planet& planet, const ui::ViewSettings& settings, bool pagingPaused);
-    // priorityFactors: of the step's views.
+    void givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused);
+    // priorityFactors: of the step's views. A frame that no file may hold is left out, and encoded() is full.
     void stepped(planet::Planet& planet, std::span<const double> priorityFactors);
 
     const std::string& name() const { return name_; }
+    void rename(std::string name) { name_ = std::move(name); }
     const FlightEncoder& encoded() const { return encoder_; }
     // The planet keeps no more moves.
     void stop(planet::Planet& planet) const;
     // The Error also says that there is no frame to write.
-    planet::Result<void> write(const std::filesystem::path& file) const;
+    planet::Result<void> write(const std::filesystem::path& file, IfThere ifThere = IfThere::Replace) const;
 
 private:
     std::string name_;

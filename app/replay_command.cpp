@@ -112,7 +112,9 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printReport(*replay);
     if (!options.output.empty()) {
-        const std::string text = jsonOf(options, fileName, *replay).dump(1) + "\n";
+        // A file's name may be any bytes, and JSON is UTF-8.
+        const std::string text =
+            jsonOf(options, fileName, *replay).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
         if (const Result<void> written = writeTextFile(options.output, text); !written)
             return tl::unexpected(written.error());
     }

@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <epoxy/egl.h>
+
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "tests/app/session_fixture.h"
@@ -82,6 +85,52 @@ TEST_F(FlightDeskTest, WhatIsRecordedIsListedAndDeleted) {
     EXPECT_EQ(desk_.flights.size(), 1u);
 }
 
+// Two windows record at the same time.
+TEST_F(FlightDeskTest, AFileThatHasTakenTheNameMeanwhileStays) {
+    for (const std::string name : {"flight 1", "canyon"}) {
+        ASSERT_TRUE(startRecording(desk_, *scene_->planet, name));
+        flyFrames(0, 3);
+        const std::filesystem::path taken = desk_.folder / (name + ".flight");
+        std::filesystem::create_directories(desk_.folder);
+        std::ofstream(taken) << "another's";
+        stopRecording(desk_, scene_->planet.get(), log_);
+        std::ifstream stream(taken);
+        EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "another's");
+        EXPECT_FALSE(desk_.unwritten);
+    }
+    EXPECT_EQ(loadFlightRecord(desk_.folder / "flight 2.flight").value().name, "flight 2");
+    EXPECT_EQ(loadFlightRecord(desk_.folder / "canyon 2.flight").value().name, "canyon 2");
+}
+
+TEST_F(FlightDeskTest, WhatCannotBeWrittenIsKeptUntilItCan) {
+    std::ofstream(desk_.folder) << "no folder";
+    ASSERT_TRUE(startRecording(desk_, *scene_->planet, "a"));
+    flyFrames(0, 3);
+    stopRecording(desk_, scene_->planet.get(), log_);
+    EXPECT_FALSE(desk_.recorder);  // nothing more is recorded
+    ASSERT_TRUE(desk_.unwritten);
+    EXPECT_EQ(recordingViewOf(desk_, settings_).recording->frames, 3u);  // to be stopped again
+    const auto other = startRecording(desk_, *scene_->planet, "b");
+    ASSERT_FALSE(other);
+    EXPECT_THAT(other.error().message, HasSubstr("\"a\" is not written yet"));
+    stopRecording(desk_, scene_->planet.get(), log_);
+    EXPECT_TRUE(desk_.unwritten);
+
+    std::filesystem::remove(desk_.folder);
+    stopRecording(desk_, nullptr, log_);
+    EXPECT_FALSE(desk_.unwritten);
+    EXPECT_FALSE(recordingViewOf(desk_, settings_).recording);
+    EXPECT_EQ(loadFlightRecord(desk_.folder / "a.flight").value().frames.size(), 3u);
+    EXPECT_EQ(desk_.flights.size(), 1u);
+}
+
+TEST_F(FlightDeskTest, ARecordingOfNothingIsNotKept) {
+    ASSERT_TRUE(startRecording(desk_, *scene_->planet, "a"));
+    stopRecording(desk_, scene_->planet.get(), log_);
+    EXPECT_FALSE(desk_.unwritten);
+    EXPECT_TRUE(desk_.flights.empty());
+}
+
 TEST_F(FlightDeskTest, AReplayPlaysToItsEndAndIsExact) {
     settings_.paging.simulated = true;  // so that blocks come within these frames for sure
     startReplayOf(recordOne("a"));
@@ -141,6 +190,36 @@ TEST_F(FlightDeskTest, SimulatedFlightsAreExactBothWays) {
                   simulated ? planet::PagingTime::Simulated : planet::PagingTime::Recorded);
         EXPECT_EQ(desk_.replay->replay.framesDifferent(), 0u);
     }
+}
+
+// OpenGL gives no memory where no context is current.
+TEST_F(FlightDeskTest, ThePlanetGoesOnWhereItRefusesAReplaysSettings) {
+    auto large =
+        openScene({.chunkFile = bakeTo("large.chk", {.faceSize = 1025, .chunkSize = 17})}, settings_);
+    ASSERT_TRUE(large) << large.error().message;
+    *scene_ = std::move(*large);
+    const ui::ViewSettings before = settings_;
+    settings_.paging.budgetMB = 16;
+    const std::filesystem::path file = recordOne("small budget");
+    settings_ = before;
+    ASSERT_TRUE(applyLiveSettings(*scene_, settings_));
+    ASSERT_TRUE(settleScene(*scene_, viewAt(40), settings_, 60));
+    const std::size_t resident = scene_->planet->paging().residentChunks;
+    ASSERT_GT(resident, 6u);
+
+    const EGLDisplay display = eglGetCurrentDisplay();
+    const EGLContext context = eglGetCurrentContext();
+    const EGLSurface surface = eglGetCurrentSurface(EGL_DRAW);
+    for (int tries = 0; tries < 2; ++tries) {
+        ASSERT_TRUE(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT));
+        const auto started = startReplay(desk_, file, *scene_, {});
+        ASSERT_TRUE(eglMakeCurrent(display, surface, surface, context));
+        EXPECT_FALSE(started);
+        EXPECT_FALSE(desk_.replay);
+        EXPECT_EQ(scene_->planet->paging().residentChunks, resident);
+    }
+    startReplayOf(file);
+    EXPECT_TRUE(desk_.replay);
 }
 
 TEST_F(FlightDeskTest, AFlightOverAnotherFileIsRefused) {

@@ -9,14 +9,18 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <set>
 #include <thread>
 
 #include "app/flight_replay.h"
 #include "app/recorder.h"
+#include "app/replay_command.h"
 #include "app/scene.h"
 #include "planet/bake.h"
 #include "planet/little_endian.h"
+#include "planet/lod_changes.h"
 #include "tests/temporary_folder.h"
 
 namespace worldy {
@@ -119,6 +123,56 @@ protected:
         replay.rewind(*planet);
         while (!replay.atEnd()) EXPECT_TRUE(replay.step(headless(*planet)));
         return replay;
+    }
+    // A record of one frame after another, each for so long with a view, over the planet's radius.
+    static FlightRecord recordOf(const std::vector<planet::CameraPose>& poses, double elapsedS = 1.0 / 60) {
+        FlightRecord record;
+        record.data.shape.radiusM = 1e5;
+        for (const planet::CameraPose& pose : poses) {
+            FlightFrame& frame = record.frames.emplace_back();
+            frame.elapsedS = elapsedS;
+            frame.views.resize(1);
+            frame.views[0].view = planet::viewFromPose(pose, 1e5, 1.1, 1280, 720);
+        }
+        return record;
+    }
+    // By whole selections, one a frame.
+    static std::vector<FlightChange> changesOfLevelIn(const FlightRecord& record) {
+        std::vector<FlightChange> expected;
+        planet::LodChanges changes;
+        std::set<planet::ChunkId> drawn;
+        for (std::size_t i = 0; i < record.frames.size(); ++i) {
+            const FlownView& view = record.frames[i].views[0];
+            for (const planet::ChunkId& id : view.vanished) drawn.erase(id);
+            drawn.insert(view.appeared.begin(), view.appeared.end());
+            planet::Selection selection;
+            std::set<planet::ChunkId> above;
+            for (const planet::ChunkId& id : drawn) {
+                selection.draw.emplace_back().id = id;
+                for (planet::ChunkId up = id; up.level > 0;) above.insert(up = planet::parentOf(up));
+            }
+            for (const planet::ChunkId& id : above) selection.splits.push_back({planet::noNode, id, 0});
+            changes.add(selection, static_cast<double>(i));
+            FlightChange change{i, 0, 0};
+            for (const planet::LodChange& one : changes.recent()) {
+                if (one.timeS != static_cast<double>(i)) continue;
+                ++(one.type == planet::LodChangeType::Split ? change.splits : change.merges);
+            }
+            if (i > 0 && change.splits + change.merges > 0) expected.push_back(change);
+        }
+        return expected;
+    }
+    // What is wrong with a file of these frames, each with a view of its own.
+    std::string errorOfFrames(std::vector<FlightFrame> frames, const std::string& name = "made") const {
+        FlightEncoder encoder;
+        for (FlightFrame& frame : frames) {
+            if (frame.views.empty()) frame.views.resize(1);
+            for (FlownView& view : frame.views) view.view = viewAt(0);
+            encoder.add(frame);
+        }
+        const FlightData data = flightDataOf(planet::ChunkFile::open(folder_ / "hills.chk").value());
+        EXPECT_TRUE(encoder.write(folder_ / "made.flight", name, data));
+        return errorOf(folder_ / "made.flight");
     }
     static std::string firstOf(const FlightReplay& replay) {
         const auto& first = replay.firstDifference();
@@ -314,6 +368,97 @@ TEST_F(FlightRecordTest, NumbersThatAreNoneAreRefused) {
     EXPECT_THAT(errorWith(bad), HasSubstr("no setting of the view"));
 }
 
+TEST_F(FlightRecordTest, MoreCallsThanARecorderWritesAreRefused) {
+    FlightFrame most;
+    most.calls.resize(maxCallsAFrame);
+    EXPECT_EQ(errorOfFrames({most}), "no error");
+    FlightFrame more = most;
+    more.calls.emplace_back();
+    EXPECT_THAT(errorOfFrames({more}), HasSubstr("made.flight: frame 1: it holds 1001 calls in a frame; "
+                                                 "1000 at most would be right"));
+    EXPECT_THAT(errorOfFrames(std::vector<FlightFrame>(maxFlightCalls / maxCallsAFrame + 1, most)),
+                HasSubstr("holds more than 432000 calls"));
+    FlightFrame settings;
+    settings.calls.push_back({.call = FlightCall::Settings});
+    settings.calls[0].settings = flightSettings(ui::ViewSettings{});
+    EXPECT_EQ(errorOfFrames({settings}), "no error");
+    settings.calls[0].settings.push_back("lod.tau_px=3");
+    EXPECT_THAT(errorOfFrames({settings}), HasSubstr("settings in a call"));
+}
+
+TEST_F(FlightRecordTest, ChunksThatCannotAppearOrVanishAreRefused) {
+    const planet::ChunkId a{planet::Face::PosX, 1, 0, 0}, b{planet::Face::PosX, 1, 0, 1};
+    const auto frameOf = [](std::vector<planet::ChunkId> appeared, std::vector<planet::ChunkId> vanished) {
+        FlightFrame frame;
+        frame.views.resize(1);
+        frame.views[0].appeared = std::move(appeared);
+        frame.views[0].vanished = std::move(vanished);
+        return frame;
+    };
+    EXPECT_EQ(errorOfFrames({frameOf({a, b}, {}), frameOf({}, {a, b}), frameOf({b}, {})}), "no error");
+    EXPECT_THAT(errorOfFrames({frameOf({a, a}, {})}), HasSubstr("twice or out of order"));
+    EXPECT_THAT(errorOfFrames({frameOf({b, a}, {})}), HasSubstr("twice or out of order"));
+    EXPECT_THAT(errorOfFrames({frameOf({a}, {}), frameOf({a}, {})}),
+                HasSubstr("frame 2: it says that " + toString(a) + " appeared, which was drawn before"));
+    EXPECT_THAT(errorOfFrames({frameOf({a}, {}), frameOf({}, {b})}),
+                HasSubstr(toString(b) + " vanished, which was not drawn"));
+    EXPECT_THAT(errorOfFrames({frameOf({a}, {}), frameOf({}, {a, a})}), HasSubstr("twice or out of order"));
+    EXPECT_THAT(errorOfFrames({frameOf({a}, {}), frameOf({a}, {a})}), HasSubstr("appeared, which was drawn"));
+}
+
+TEST_F(FlightRecordTest, MoreThanAMillionSecondsAreRefused) {
+    FlightFrame half;
+    half.elapsedS = 5e5;
+    EXPECT_EQ(errorOfFrames({half, half}), "no error");
+    EXPECT_THAT(errorOfFrames({half, half, half}), HasSubstr("comes after more than 1000000 s"));
+    half.elapsedS = -1;
+    EXPECT_THAT(errorOfFrames({half}), HasSubstr("holds -1 where 0 to 1000000 would be right"));
+}
+
+TEST_F(FlightRecordTest, TextsThatAreNotUtf8AreRefused) {
+    EXPECT_THAT(errorOfFrames(std::vector<FlightFrame>(1), "caf\xE9"),
+                HasSubstr("a name that is not UTF-8; UTF-8 would be right"));
+    FlightFrame frame;
+    frame.calls.push_back({.call = FlightCall::Settings, .settings = {"lod.tau_px=\xFF"}});
+    EXPECT_THAT(errorOfFrames({frame}), HasSubstr("a setting that is not UTF-8"));
+}
+
+TEST_F(FlightRecordTest, ARecorderEndsBeforeAFrameThatNoFileMayHold) {
+    const auto planet = openPlanet({});
+    Recorder recorder(*planet, "a");
+    step(*planet, recorder, {}, 0);
+    for (std::size_t i = 0; i <= maxCallsAFrame; ++i) recorder.called(*planet, FlightCall::RetryFailed);
+    EXPECT_FALSE(recorder.encoded().full());
+    step(*planet, recorder, {}, 1);
+    EXPECT_TRUE(recorder.encoded().full());
+    EXPECT_EQ(loadFlightRecord(written(recorder)).value().frames.size(), 1u);
+
+    Recorder slow(*planet, "slow");
+    for (int frame = 0; frame < 3; ++frame) step(*planet, slow, {}, frame, false, false, 4e5);
+    EXPECT_TRUE(slow.encoded().full());
+    EXPECT_EQ(loadFlightRecord(written(slow)).value().frames.size(), 2u);
+}
+
+// As where the GPU had no room for a budget.
+TEST_F(FlightRecordTest, WhatThePlanetHasOfPagingIsRecorded) {
+    ui::ViewSettings settings;
+    settings.paging.budgetMB = 300;
+    const auto planet = openPlanet(settings);
+    Recorder recorder(*planet, "a");
+    ui::ViewSettings asked = settings;
+    asked.paging.budgetMB = 60'000;
+    asked.lod.tauPx = 3;
+    recorder.givenSettings(*planet, asked, false);
+    planet->step(viewAt(0), lodSettingsOf(asked), headless(*planet).upload);
+    constexpr std::array<double, 1> factors = {1};
+    recorder.stepped(*planet, factors);
+    const FlightRecord record = loadFlightRecord(written(recorder)).value();
+    ui::ViewSettings recorded;
+    EXPECT_TRUE(applyFlightSettings(record.frames[0].calls[0].settings, recorded));
+    EXPECT_EQ(recorded.paging.budgetMB, 300);
+    EXPECT_EQ(recorded.lod.tauPx, 3);
+}
+
 TEST_F(FlightRecordTest, AnotherFileIsToldApart) {
     bakeTo("other.chk", 129);
     std::filesystem::copy_file(folder_ / "hills.chk", folder_ / "copy.chk");
@@ -346,6 +491,61 @@ TEST_F(FlightRecordTest, ACameraMayFollowIt) {
     EXPECT_FALSE(loadFlightPath(written(moment)));
 }
 
+// Half round the planet and down, as to a bookmark, halfway through two seconds.
+TEST_F(FlightRecordTest, ACameraThatFollowsItJumpsWhereItJumped) {
+    std::vector<planet::CameraPose> poses;
+    for (int i = 0; i < 120; ++i) {
+        poses.push_back({.latitudeDeg = 10 + 0.01 * i, .longitudeDeg = 20, .altitudeM = 30'000});
+        if (i >= 63) poses.back() = {.latitudeDeg = -5, .longitudeDeg = 150 + 0.01 * i, .altitudeM = 2'000};
+    }
+    const FlightPath path = pathOf(recordOf(poses), "a.flight").value();
+    EXPECT_LE(path.keys.size(), 23u);
+    const double jumpS = 64.0 / 60;
+    for (double timeS = path.keys.front().timeS; timeS < 2; timeS += 1.0 / 977) {
+        const planet::CameraPose pose = poseAt(path, timeS);
+        const bool before = timeS < jumpS - 1e-9;
+        EXPECT_NEAR(pose.latitudeDeg, before ? std::min(10 + 0.01 * (60 * timeS - 1), 10.62) : -5, 0.02)
+            << timeS;
+        EXPECT_NEAR(pose.longitudeDeg, before ? 20 : 150 + 0.01 * (60 * timeS - 1), 0.03) << timeS;
+        EXPECT_NEAR(pose.altitudeM, before ? 30'000 : 2'000, 1) << timeS;
+    }
+    EXPECT_NEAR(poseAt(path, jumpS - 1e-6).latitudeDeg, 10.62, 1e-9);
+    EXPECT_NEAR(poseAt(path, jumpS + 1e-12).longitudeDeg, 150.63, 1e-9);
+}
+
+TEST_F(FlightRecordTest, AJumpIsToldByArcByHeightAndByBoth) {
+    const auto jumpsIn = [](const planet::CameraPose& from, const planet::CameraPose& to, double elapsedS) {
+        const FlightPath path = pathOf(recordOf({from, from, to, to}, elapsedS), "a.flight").value();
+        return std::count_if(path.keys.begin(), path.keys.end(),
+                             [](const FlightKey& key) { return key.jumpedTo; });
+    };
+    const auto poseAt = [](double latitudeDeg, double altitudeM) {
+        return planet::CameraPose{.latitudeDeg = latitudeDeg, .altitudeM = altitudeM};
+    };
+    const planet::CameraPose high = poseAt(0, 50'000), low = poseAt(0, 500);
+    EXPECT_EQ(jumpsIn(high, poseAt(5.1, 50'000), 0.1), 1);
+    EXPECT_EQ(jumpsIn(high, poseAt(4.9, 50'000), 0.1), 0);
+    EXPECT_EQ(jumpsIn(high, poseAt(5.1, 50'000), 0.2), 0);
+    EXPECT_EQ(jumpsIn(high, poseAt(0, 4'900), 0.1), 1);
+    EXPECT_EQ(jumpsIn(high, poseAt(0, 5'100), 0.1), 0);
+    EXPECT_EQ(jumpsIn(low, poseAt(3, 500), 0.1), 1);
+    EXPECT_EQ(jumpsIn(low, poseAt(2.8, 500), 0.1), 0);
+}
+
+TEST_F(FlightRecordTest, SplitsAndMergesAreThoseOfTheChangesOfLevel) {
+    const auto planet = openPlanet(troubled(true));
+    const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 150))).value();
+    const std::vector<FlightChange> expected = changesOfLevelIn(record);
+    const std::vector<FlightChange> found = changesIn(record);
+    ASSERT_EQ(found.size(), expected.size());
+    EXPECT_GT(found.size(), 10u);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].frame, expected[i].frame);
+        EXPECT_EQ(found[i].splits, expected[i].splits) << expected[i].frame;
+        EXPECT_EQ(found[i].merges, expected[i].merges) << expected[i].frame;
+    }
+}
+
 TEST_F(FlightRecordTest, SplitsAndMergesAreToldFromIt) {
     const auto planet = openPlanet(troubled(true));
     const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 120))).value();
@@ -359,6 +559,19 @@ TEST_F(FlightRecordTest, SplitsAndMergesAreToldFromIt) {
     }
     EXPECT_GT(splits, 10);
     EXPECT_GT(merges, 3);
+}
+
+// Names of files may be any bytes; JSON is UTF-8.
+TEST_F(FlightRecordTest, AReportOfAFileWhoseNameIsNotUtf8IsWritten) {
+    const std::filesystem::path copy = folder_ / "h\xE9.chk";
+    std::filesystem::copy_file(folder_ / "hills.chk", copy);
+    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
+    ReplayOptions options;
+    options.flight = written(flyAbout(*planet, troubled(true), 5));
+    options.output = folder_ / "out.json";
+    const planet::Result<bool> exact = replayFlight(options);
+    ASSERT_TRUE(exact) << exact.error().message;
+    EXPECT_GT(std::filesystem::file_size(options.output), 100u);
 }
 
 TEST_F(FlightRecordTest, WithoutAFrameNothingIsWritten) {

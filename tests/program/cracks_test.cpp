@@ -62,5 +62,33 @@ TEST(CracksCommand, BadInputEndsWithTwo) {
     }
 }
 
+TEST(CracksCommand, AFileWhoseNameIsNotUtf8IsReported) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::filesystem::rename(folder.path() / "planet.chk", folder.path() / "pl\xE9net.chk");
+    const Ran ran = runWorldy(folder, "cracks pl\xE9net.chk " + view + "--seams stitched -o report.json");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(nlohmann::json::parse(contentOf(folder.path() / "report.json"))["file"],
+              "pl\xEF\xBF\xBDnet.chk");
+}
+
+TEST(CracksCommand, TooManyViewsEndWithTwo) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::ofstream flight(folder.path() / "long.toml");
+    for (const int timeS : {0, 1'000'000}) {
+        flight << "[[key]]\ntime_s = " << timeS
+               << "\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = 90000\nheading_deg = 0\npitch_deg = "
+                  "-40\n";
+    }
+    flight.close();
+    for (const char* step : {"1", "0.001"}) {
+        const Ran ran =
+            runWorldy(folder, std::string("cracks planet.chk --flight long.toml --step-s ") + step);
+        EXPECT_EQ(ran.exitCode, 2) << step;
+        EXPECT_THAT(ran.errors, HasSubstr("more than 100000 views; a longer step would be right")) << step;
+    }
+}
+
 }  // namespace
 }  // namespace worldy
