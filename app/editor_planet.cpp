@@ -266,8 +266,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     if (editor.desk.replay) {
         replay(scene, editor, log, goesOn ? frameS : 0);
     } else if (goesOn) {
-        chooseChunks(scene, pixelRatio, editor,
-                     editor.framesPaused ? std::optional(frameS) : std::nullopt);
+        chooseChunks(scene, pixelRatio, editor, editor.framesPaused ? std::optional(frameS) : std::nullopt);
         record(*scene.planet, editor, log);
     }
     advanceErrorMeter(*scene.planet, editor.frames, editor.timeS, editor.errors);

@@ -137,22 +137,18 @@ std::optional<glm::dvec3> pointInCell(const DrawnGrid& grid, int column, int row
     return std::nullopt;
 }
 
-// Stitched edges move the vertices on them and those beside them, along the edge: so far in from it the
-// triangle over a place may belong to a cell further along.
-constexpr int ringCells = 2;
-
 bool isInRing(int cell, int last) {
-    return cell < ringCells || cell > last - ringCells;
+    return cell < stitchedRingCells || cell > last - stitchedRingCells;
 }
 
 std::optional<glm::dvec3> pointInStrip(const DrawnGrid& grid, bool upright, int across, int along,
                                        glm::dvec2 place) {
     const int last = grid.cells - 1;
-    const int first = across < ringCells ? 0 : last - ringCells + 1;
+    const int first = across < stitchedRingCells ? 0 : last - stitchedRingCells + 1;
     for (int away = 0; away < grid.cells; ++away) {
         for (const int at : {along - away, along + away}) {
             if (at < 0 || at > last) continue;
-            for (int i = first; i < first + ringCells; ++i) {
+            for (int i = first; i < first + stitchedRingCells; ++i) {
                 const auto point =
                     upright ? pointInCell(grid, i, at, place) : pointInCell(grid, at, i, place);
                 if (point) return point;

@@ -65,6 +65,10 @@ struct DrawnVertex {
 DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
                         bool stitched, int column, int row);
 
+// Stitched edges move the vertices on them and those beside them, along the edge: so far in from it the
+// triangle over a place may belong to a cell further along.
+inline constexpr int stitchedRingCells = 2;
+
 // Where stitched: whether vertices of an edge lie elsewhere than on their own places.
 bool gathersVertices(const DrawItem& item, Edge edge);
 

@@ -1,6 +1,7 @@
 #include "planet/surface_jump.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -73,17 +74,29 @@ glm::dvec3 drawnAt(const DrawnGrid& grid, int column, int row) {
     return grid.place[index] == glm::dvec2(column, row) ? grid.positionM[index] : pointOn(grid, column, row);
 }
 
+// In cells, from a cell's south-west corner: within either triangle, however its cell is cut.
+constexpr std::array<glm::dvec2, 2> triangleMiddles = {{{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}}};
+
 void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAfter, Sum& sum) {
     assert(finer.id.face == coarser.id.face && finer.id.level > coarser.id.level);
     const int levels = finer.id.level - coarser.id.level;
     const double scale = 1.0 / (1 << levels);
     const double firstColumn = (finer.id.x - (coarser.id.x << levels)) * scale * finer.cells;
     const double firstRow = (finer.id.y - (coarser.id.y << levels)) * scale * finer.cells;
+    const auto add = [&](glm::dvec2 place, const glm::dvec3& fine) {
+        const glm::dvec3 coarse = pointOn(coarser, firstColumn + place.x * scale, firstRow + place.y * scale);
+        sum.add(finer.id, coarserIsAfter ? fine : coarse, coarserIsAfter ? coarse : fine);
+    };
     for (int row = 0; row <= finer.cells; ++row) {
-        for (int column = 0; column <= finer.cells; ++column) {
-            const glm::dvec3 coarse = pointOn(coarser, firstColumn + column * scale, firstRow + row * scale);
-            const glm::dvec3 fine = drawnAt(finer, column, row);
-            sum.add(finer.id, coarserIsAfter ? fine : coarse, coarserIsAfter ? coarse : fine);
+        for (int column = 0; column <= finer.cells; ++column) add({column, row}, drawnAt(finer, column, row));
+    }
+    if (!coarser.stitched && !finer.stitched) return;
+    for (int row = 0; row < finer.cells; ++row) {
+        for (int column = 0; column < finer.cells; ++column) {
+            for (const glm::dvec2& middle : triangleMiddles) {
+                const glm::dvec2 place = glm::dvec2(column, row) + middle;
+                add(place, pointOn(finer, place.x, place.y));
+            }
         }
     }
 }
@@ -104,27 +117,35 @@ SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const D
     assert(before.item.id == after.item.id);
     const Screen screen{view, screenScalePx(view)};
     const bool upright = edge == Edge::West || edge == Edge::East;
+    const bool isFar = edge == Edge::East || edge == Edge::North;
     const int cells = chunkCells(shape);
-    const int across = edge == Edge::East || edge == Edge::North ? cells : 0;
     Sum sum{screen};
-    const auto addAll = [&](const auto& from, const auto& to) {
+    if (before.stitched || after.stitched) {
+        // What else of the chunk morphs in these rows is no doing of the edge's.
+        const auto index = static_cast<std::size_t>(edge);
+        DrawnChunk edgeAfter = before;
+        edgeAfter.stitched = after.stitched;
+        edgeAfter.item.coarserBy[index] = after.item.coarserBy[index];
+        edgeAfter.item.edgeMorph[index] = after.item.edgeMorph[index];
+        const DrawnGrid from = gridOf(shape, before);
+        const DrawnGrid to = gridOf(shape, edgeAfter);
+        for (int inward = 0; inward <= 2 * stitchedRingCells; ++inward) {
+            const double across = isFar ? cells - 0.5 * inward : 0.5 * inward;
+            for (int i = 0; i <= 2 * cells; ++i) {
+                const double along = 0.5 * i;
+                const glm::dvec2 at = upright ? glm::dvec2(across, along) : glm::dvec2(along, across);
+                sum.add(before.item.id, pointOn(from, at.x, at.y), pointOn(to, at.x, at.y));
+            }
+        }
+    } else {
+        const int across = isFar ? cells : 0;
+        const auto vertexOf = [&](const DrawnChunk& chunk, glm::ivec2 at) {
+            return drawnVertex(shape, chunk.item, *chunk.heights, false, at.x, at.y).positionM;
+        };
         for (int along = 0; along <= cells; ++along) {
             const glm::ivec2 at = upright ? glm::ivec2(across, along) : glm::ivec2(along, across);
-            sum.add(before.item.id, from(at), to(at));
+            sum.add(before.item.id, vertexOf(before, at), vertexOf(after, at));
         }
-    };
-    if (before.stitched || after.stitched) {
-        const DrawnGrid from = gridOf(shape, before);
-        const DrawnGrid to = gridOf(shape, after);
-        addAll([&](glm::ivec2 at) { return drawnAt(from, at.x, at.y); },
-               [&](glm::ivec2 at) { return drawnAt(to, at.x, at.y); });
-    } else {
-        const auto vertexOf = [&](const DrawnChunk& chunk) {
-            return [&](glm::ivec2 at) {
-                return drawnVertex(shape, chunk.item, *chunk.heights, false, at.x, at.y).positionM;
-            };
-        };
-        addAll(vertexOf(before), vertexOf(after));
     }
     return sum.done();
 }

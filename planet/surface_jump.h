@@ -2,8 +2,10 @@
 //
 // Both surfaces are linear on the triangles of nested grids, so they part most at a vertex of one of the two.
 // All grid points of the finer chunks are compared, each with the point of the coarser surface at the same
-// place; where a stitched edge has moved vertices away, with what is drawn there instead. Screen distance is
-// no linear function of where points are, but across one triangle it hardly differs from one.
+// place. Stitched edges move vertices and so cut their triangles anew: there what is drawn at the grid points
+// is compared instead, and between them too, in the middle of every triangle of the grid; a jump may be
+// larger elsewhere, by so much as those triangles bend between the places looked at. Screen distance is no
+// linear function of where points are, but across one triangle it hardly differs from one.
 //
 // Pure functions, any thread.
 #pragma once
@@ -42,7 +44,8 @@ struct DrawnChunk {
 SurfaceJump surfaceJump(const PlanetShape& shape, const DrawnChunk& coarser,
                         std::span<const DrawnChunk> finer, bool coarserIsAfter, const View& view);
 
-// Of one chunk that is drawn before and after, along one of its edges.
+// Of one chunk that is drawn before and after, what one of its edges does: at the edge's vertices, or where
+// either is stitched, at every half cell of the rows whose triangles the edge moves.
 SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const DrawnChunk& after, Edge edge,
                      const View& view);
 

@@ -186,6 +186,34 @@ TEST(PopMeter, NoPlaceJumpsFartherThanTheLargest) {
     }
 }
 
+// A spike in the second row stands still while the edge's odd vertices are drawn away under it, along a level
+// edge: only the triangles between them change, by half of its height in the middle of one's longest side.
+TEST(PopMeter, AStitchedEdgeThatIsCutAnewIsSeenBetweenItsVertices) {
+    const PlanetShape& shape = fakePyramid().shape;
+    DrawItem item;
+    item.id = {Face::PosX, 9, 200, 300};
+    std::vector<std::int16_t> steps(17 * 17, 0);
+    steps[17 + 3] = 30'000;
+    const auto heights = std::make_shared<const std::vector<std::int16_t>>(steps);
+    DrawItem gathered = item;
+    gathered.edgeMorph[static_cast<std::size_t>(Edge::South)] = 1;
+    View view = fromBeside(mountain);
+    const DrawnGrid ground = drawnGrid(shape, item, *heights, false);
+    const double spikeM = heightM(shape, 30'000) - heightM(shape, 0);
+    view.up = glm::normalize(ground.positionM[3]);
+    view.right = glm::normalize(glm::cross(view.up, glm::dvec3(0.3, 0.2, 0.9)));
+    view.back = glm::cross(view.right, view.up);
+    view.eyeM = ground.positionM[3] + farM * view.back;
+    const double expectedPx = 0.5 * spikeM * screenScalePx(view) / farM;
+    ASSERT_GT(expectedPx, 0.5);
+    const SurfaceJump atEdge =
+        edgeJump(shape, {item, heights, true}, {gathered, heights, true}, Edge::South, view);
+    EXPECT_NEAR(atEdge.largestPx, expectedPx, 0.01 * expectedPx);
+    EXPECT_LT(
+        edgeJump(shape, {item, heights, false}, {gathered, heights, false}, Edge::South, view).largestPx,
+        0.01 * expectedPx);
+}
+
 TEST(PopMeter, WhatLiesOutsideThePictureIsNotMeasured) {
     View view = fromBeside(mountain);
     view.back = -view.back;
@@ -445,7 +473,7 @@ TEST(PopMeter, ASlowCameraWithMorphHardlyJumps) {
         // What morphs slides to its parent's own surface. Beside a coarser chunk the parent is drawn stitched
         // to that, and skirts leave an edge to its own chunk: there the one jumps a little, and the other.
         if (seams == SeamMode::Stitched) {
-            EXPECT_LT(smooth.worstBesidePx, 0.005);
+            EXPECT_LT(smooth.worstBesidePx, 0.01);
             EXPECT_LT(smooth.worstPx, 0.4 * hard.worstPx);
         } else {
             EXPECT_LT(smooth.worstPx, 0.1);

@@ -293,16 +293,32 @@ TEST_F(Sweeping, AWholeTableIsSavedThreeTimesUnderOneName) {
 }
 
 TEST_F(Sweeping, HasNoPartInOverlaysNorInABadDisk) {
+    const std::filesystem::path file = bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17});
+    SweepPlan plan = planOver(file, 17);
+    plan.tausPx = {4};
+    const auto pointsOf = [&] {
+        std::vector<SweepPoint> points;
+        SweepWatcher watcher;
+        watcher.flying = [](const SweepLeg&, int) { return true; };
+        watcher.flown = [&](const SweepPoint& point) { points.push_back(point); };
+        const planet::Result<void> result = runSweepPlan(plan, watcher);
+        EXPECT_TRUE(result) << result.error().message;
+        return withoutTimes(points);
+    };
+    const std::vector<SweepPoint> undisturbed = pointsOf();
+    ASSERT_EQ(undisturbed.size(), 2u);
+    plan.view.overlay.colourBy = ui::ColourBy::Measured;
+    plan.view.paging.badDisk.failureRate = 1;
+    plan.view.paging.simulated = true;
+    EXPECT_EQ(pointsOf(), undisturbed);
+}
+
+TEST_F(Sweeping, KeepsTheWindowsOtherSettingsAndItsChunkSize) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
     ui::ViewSettings settings;
-    settings.overlay.colourBy = ui::ColourBy::Measured;
-    settings.paging.badDisk.latencyMs = 500;
-    settings.paging.simulated = true;
     settings.lod.morph = false;
     const auto plan = sweepPlanOf(*shownPlanet(session), request(), settings);
     ASSERT_TRUE(plan);
-    EXPECT_EQ(plan->view.overlay, ui::OverlaySettings{});
-    EXPECT_EQ(plan->view.paging, ui::PagingKnobs{});
     EXPECT_FALSE(plan->view.lod.morph);
     EXPECT_EQ(plan->files[0].chunkSize, 17);
 }
