@@ -301,7 +301,7 @@ Result<void> writeAudit(const AuditOptions& options, const Audit& audit) {
     addFigures(totalsOf(audit), json);
     json["view"] = Json::array();
     for (const AuditedView& view : audit.views) json["view"].push_back(jsonOf(view));
-    return writeTextFile(options.jsonOutput, json.dump(1) + "\n");
+    return writeTextFile(options.jsonOutput, textOf(json));
 }
 
 Result<bool> runAudit(const AuditOptions& options) {

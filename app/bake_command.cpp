@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bake_progress.h"
+#include "app/report.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -35,7 +36,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"root_delta_c_m", report.largestDeltaCM},
                                          {"root_tight_m", report.largestDeltaTightM},
                                          {"seconds", report.seconds}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", textOf(json));
 }
 
 void printText(const planet::HeightSource& source, const BakeOptions& options,

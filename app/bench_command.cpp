@@ -16,6 +16,7 @@
 #include "app/bench_parts.h"
 #include "app/data_set.h"
 #include "app/output_file.h"
+#include "app/report.h"
 #include "app/stopwatch.h"
 #include "planet/gl/offscreen_context.h"
 #include "planet/percentile.h"
@@ -221,7 +222,7 @@ Result<void> runBench(const BenchOptions& options) {
     if (!done) return done;
     if (options.jsonOutput.empty()) return {};
     return writeTextFile(options.jsonOutput,
-                         jsonOf(options, source->description, *machine, sections).dump(1) + "\n");
+                         textOf(jsonOf(options, source->description, *machine, sections)));
 }
 
 }  // namespace worldy

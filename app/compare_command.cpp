@@ -9,6 +9,7 @@
 #include "app/comparison.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/report.h"
 #include "app/settings.h"
 
 namespace worldy {
@@ -116,7 +117,7 @@ Result<void> runCompare(const CompareOptions& options) {
         if (const Result<void> written = writePictures(options.pictures, *pictures); !written) return written;
     }
     if (options.report.empty()) return {};
-    return writeTextFile(options.report, reportOf(*plan, different, *pair, pictures).dump(1) + "\n");
+    return writeTextFile(options.report, textOf(reportOf(*plan, different, *pair, pictures)));
 }
 
 }  // namespace worldy

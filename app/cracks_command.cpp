@@ -167,11 +167,6 @@ Totals totalsOf(const std::vector<MeasuredView>& views) {
     return totals;
 }
 
-// A file's name may be any bytes, and JSON is UTF-8.
-std::string textOf(const Json& report) {
-    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 constexpr std::array<const char*, 3> seamNames = {"none", "skirts", "stitched"};
 
 Json reportOf(const CracksOptions& options, const Measured& all) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/interrupt.h"
+#include "app/report.h"
 #include "planet/chunk_file.h"
 #include "planet/file_report.h"
 #include "ui/text.h"
@@ -84,7 +85,7 @@ void printVerified(const FileCommandOptions& options, const planet::VerifyReport
                            {"leaf_samples", report.leafSamples},
                            {"problem_count", report.problemCount},
                            {"problems", report.problems}};
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}", textOf(json));
         return;
     }
     for (const std::string& problem : report.problems) fmt::print("{}\n", problem);
@@ -136,7 +137,7 @@ Result<void> runInfo(const FileCommandOptions& options) {
     const Result<planet::FileReport> report = planet::reportFile(*file);
     if (!report) return tl::unexpected(report.error());
     if (options.json)
-        fmt::print("{}\n", infoJson(*file, *report).dump(2));
+        fmt::print("{}", textOf(infoJson(*file, *report)));
     else
         printInfo(*file, *report);
     return {};
@@ -171,7 +172,7 @@ Result<void> runProbe(const FileCommandOptions& options) {
         {glm::radians(options.latitudeDeg), glm::radians(std::remainder(options.longitudeDeg, 360.0))});
     if (!report) return tl::unexpected(report.error());
     if (options.json)
-        fmt::print("{}\n", probeJson(options, *report).dump(2));
+        fmt::print("{}", textOf(probeJson(options, *report)));
     else
         printProbe(options, *report);
     return {};

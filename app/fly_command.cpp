@@ -151,7 +151,7 @@ Result<void> flyPath(const FlyOptions& options) {
     }
     printSummary(*path, frames);
     if (options.jsonOutput.empty()) return {};
-    return writeTextFile(options.jsonOutput, jsonOf(options, *path, frames).dump(1) + "\n");
+    return writeTextFile(options.jsonOutput, textOf(jsonOf(options, *path, frames)));
 }
 
 }  // namespace worldy

@@ -121,8 +121,7 @@ Result<void> runPops(const PopsOptions& options) {
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printSummary(*path, options, *flown);
     if (options.output.empty()) return {};
-    return writeTextFile(options.output,
-                         jsonOf(options, *path, *flown, (*planet)->shape().radiusM).dump(1) + "\n");
+    return writeTextFile(options.output, textOf(jsonOf(options, *path, *flown, (*planet)->shape().radiusM)));
 }
 
 }  // namespace worldy

@@ -10,6 +10,7 @@
 
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/report.h"
 #include "app/scene.h"
 
 namespace worldy {
@@ -112,11 +113,9 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printReport(*replay);
     if (!options.output.empty()) {
-        // A file's name may be any bytes, and JSON is UTF-8.
-        const std::string text =
-            jsonOf(options, fileName, *replay).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-        if (const Result<void> written = writeTextFile(options.output, text); !written)
-            return tl::unexpected(written.error());
+        const Result<void> written =
+            writeTextFile(options.output, textOf(jsonOf(options, fileName, *replay)));
+        if (!written) return tl::unexpected(written.error());
     }
     return !replay->firstDifference() || !options.assignments.empty();
 }

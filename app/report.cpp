@@ -6,6 +6,10 @@ namespace worldy {
 
 using Json = nlohmann::ordered_json;
 
+std::string textOf(const Json& report) {
+    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json jsonOf(const planet::CameraPose& pose) {
     return {{"latitude_deg", pose.latitudeDeg},
             {"longitude_deg", pose.longitudeDeg},

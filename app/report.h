@@ -1,11 +1,16 @@
-// What was drawn, as JSON.
+// What was drawn, as JSON, and JSON as text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "app/scene.h"
 
 namespace worldy {
+
+// In lines, the last one ended too. A file's name may be any bytes, and JSON is UTF-8: what is not is
+// replaced by U+FFFD.
+std::string textOf(const nlohmann::ordered_json& report);
 
 nlohmann::ordered_json jsonOf(const planet::CameraPose& pose);
 

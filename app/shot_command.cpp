@@ -60,7 +60,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
         drawn.erase("frame_ms");
         for (const char* key : {"draw_gpu_ms", "chunks_gpu_ms", "sky_gpu_ms"}) drawn.erase(key);
         report.update(drawn);
-        fmt::print("{}\n", report.dump(2));
+        fmt::print("{}", textOf(report));
         return;
     }
     fmt::print("{}: {} chunks, {} triangles, worst error {:.2f} px, {} read\n", options.output.string(),

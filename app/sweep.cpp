@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "app/report.h"
 #include "app/settings.h"
 
 namespace worldy {
@@ -66,7 +67,7 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
         for (const Column& column : columns) entry[column.name] = column.of(point);
         report["points"].push_back(std::move(entry));
     }
-    return report.dump(1) + "\n";
+    return textOf(report);
 }
 
 Result<TauGoal> tauGoalFromText(const std::string& text) {
