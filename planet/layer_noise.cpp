@@ -1,0 +1,45 @@
+#include "planet/layer_noise.h"
+
+#include <cassert>
+#include <glm/common.hpp>
+
+namespace planet {
+
+std::uint32_t layerHash(const glm::ivec3& cell) {
+    std::uint32_t h = static_cast<std::uint32_t>(cell.x) * 0x8DA6B343u +
+                      static_cast<std::uint32_t>(cell.y) * 0xD8163841u +
+                      static_cast<std::uint32_t>(cell.z) * 0xCB1AB31Fu;
+    h = (h ^ (h >> 16)) * 0x7FEB352Du;
+    h = (h ^ (h >> 15)) * 0x846CA68Bu;
+    return h ^ (h >> 16);
+}
+
+namespace {
+
+glm::dvec4 latticeValue(const glm::ivec3& cell) {
+    const std::uint32_t h = layerHash(cell);
+    return glm::dvec4(h & 0xFFu, (h >> 8) & 0xFFu, (h >> 16) & 0xFFu, h >> 24) / 127.5 - 1.0;
+}
+
+}  // namespace
+
+glm::dvec4 valueNoise(const glm::dvec3& place) {
+    const glm::dvec3 floor = glm::floor(place);
+    const glm::ivec3 cell(floor);
+    const glm::dvec3 inside = place - floor;
+    const glm::dvec3 t = inside * inside * (3.0 - 2.0 * inside);
+    const auto alongX = [&](int y, int z) {
+        return glm::mix(latticeValue(cell + glm::ivec3(0, y, z)), latticeValue(cell + glm::ivec3(1, y, z)),
+                        t.x);
+    };
+    return glm::mix(glm::mix(alongX(0, 0), alongX(1, 0), t.y), glm::mix(alongX(0, 1), alongX(1, 1), t.y),
+                    t.z);
+}
+
+glm::dvec4 layerNoise(const glm::dvec3& positionM, double sizeM) {
+    assert(sizeM > 0);
+    return layerNoiseCoarse * valueNoise(positionM / sizeM) +
+           layerNoiseFine * valueNoise(positionM * (layerNoiseOctave / sizeM));
+}
+
+}  // namespace planet

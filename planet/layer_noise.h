@@ -1,0 +1,27 @@
+// The noise that breaks up the borders of texture layers: value noise on an integer lattice, which is hashed
+// in whole numbers, so that shaders/layers.glsl has the same to within float rounding. Pure functions, any
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace planet {
+
+// The second octave's cells are so many times smaller than the first's, and the shares of both.
+inline constexpr double layerNoiseOctave = 3.17;
+inline constexpr double layerNoiseCoarse = 0.65;
+inline constexpr double layerNoiseFine = 0.35;
+
+// Of a lattice point; all 32 bits are mixed. Coordinates may wrap.
+std::uint32_t layerHash(const glm::ivec3& cell);
+
+// Four noises at once, each of a byte of the hash; in [-1, 1], over cells one unit a side.
+glm::dvec4 valueNoise(const glm::dvec3& place);
+
+// Both octaves at a place on the planet, metres from its centre; sizeM: a side of the coarse cells, > 0.
+// Layer i of a set takes component i % 4.
+glm::dvec4 layerNoise(const glm::dvec3& positionM, double sizeM);
+
+}  // namespace planet
