@@ -21,6 +21,7 @@
 #include "app/exit_code.h"
 #include "app/file_commands.h"
 #include "app/fly_command.h"
+#include "app/layer_materials.h"
 #include "app/pops_command.h"
 #include "app/replay_command.h"
 #include "app/shot_command.h"
@@ -95,6 +96,16 @@ void addBake(CLI::App& app, BakeOptions& options) {
                        "Also write each level of each face there as PNG");
     command.add_flag("--json", options.json, "Report as JSON");
     addSourceOptions(command, options.sourceSettings);
+}
+
+void addMakeLayers(CLI::App& app, MakeLayersOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "make-layers",
+        "Make the six materials of the texture layers, and the sets that use them, from noise");
+    command.add_option("FOLDER", options.folder, "Where to write them")->required();
+    command.add_option("--size", options.size, "Texels a side, a power of two (512)")
+        ->check(CLI::IsMember(std::vector<int>{16, 32, 64, 128, 256, 512, 1024, 2048, 4096}));
+    command.add_option("--seed", options.seed, "The same seed makes the same textures (1)");
 }
 
 void addViewOptions(CLI::App& command, ViewTexts& view) {
@@ -486,6 +497,7 @@ struct CommandLine {
     ReplayOptions replay;
     CompareOptions compare;
     CompareTexts compareTexts;
+    MakeLayersOptions makeLayers;
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
@@ -507,6 +519,7 @@ struct CommandLine {
         addAudit(app, audit, auditTexts);
         addReplay(app, replay);
         addCompare(app, compare, compareTexts);
+        addMakeLayers(app, makeLayers);
         app.require_subcommand(0, 1);
     }
     CommandLine(const CommandLine&) = delete;
@@ -557,6 +570,7 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
         {"pops", view(line.pops, line.popsView, runPops)},
         {"audit", view(line.audit, line.auditTexts, runAudit)},
         {"compare", view(line.compare, line.compareTexts, runCompare)},
+        {"make-layers", [&] { return exitCodeOf(makeLayers(line.makeLayers)); }},
     };
     for (const auto& [name, run] : commands) {
         if (app.got_subcommand(name)) return run();

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,6 +77,10 @@ tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::stri
 std::string tomlText(const Field& field);
 // The same in one line, without the quotes of words: "level".
 std::string plainText(const Field& field);
+
+// A colour as "#rrggbb"; none where the text is no colour.
+std::optional<glm::vec3> colourFromText(std::string_view text);
+std::string colourText(const glm::vec3& colour);
 
 // Both of the same setting.
 void copyValue(const Field& from, const Field& to);

@@ -144,8 +144,9 @@ bool isDrawn(const LayerSet& set, std::size_t layer) {
 }
 
 RangeLines rangeLines(const SoftRange& range, const SoftRange& all) {
-    const double width = std::max(range.softEdge, leastSoftEdge);
     RangeLines lines{-openEnd, 1, openEnd, 1};
+    if (!(range.lowest <= range.highest)) return lines;
+    const double width = std::max(range.softEdge, leastSoftEdge);
     if (range.lowest > all.lowest) {
         lines.lowest = range.lowest - width / 2;
         lines.rise = 1 / width;

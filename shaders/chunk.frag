@@ -207,10 +207,19 @@ vec3 lightByPixel() {
     Material material = materialAt(up, height, steepness(normal, up), detail, ragged);
     if (isOn(switchDetail))
         material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - material.water) * detail.height;
+    float glint = 0.0;
+    if (isOn(switchLayers)) {
+        Layered layered = layeredGround(position, up, normalize(surfaceNormal.xyz), facePlace.z - heights.w, material.albedo);
+        float amount = layered.amount * (1.0 - material.water);
+        material.albedo = mix(material.albedo, layered.albedo, amount);
+        vec3 tilt = layered.tilt - normal * dot(layered.tilt, normal);
+        normal = normalize(normal - amount * tilt);
+        glint = amount * layerGlint(normal, -ray, layered.roughness);
+    }
     material = tinted(material);
     vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
     vec3 light = material.albedo * (sunLit * max(dot(facing, sun.xyz), 0.0) + skyLit) +
-                 sunLit * (material.water * seaGlint(facing, -ray));
+                 sunLit * (material.water * seaGlint(facing, -ray) + glint);
     return throughAir(light, ray, up);
 }
 
@@ -223,7 +232,12 @@ vec3 lightByVertex() {
 
 vec3 flatSurface() {
     vec3 up = normalize(eye.xyz + surface);
-    vec3 albedo = materialAt(up, facePlace.z - heights.w, 0.0, noDetail(), 0.0).albedo;
+    Material material = materialAt(up, facePlace.z - heights.w, 0.0, noDetail(), 0.0);
+    vec3 albedo = material.albedo;
+    if (isOn(switchLayers)) {
+        Layered layered = layeredGround(surface, up, normalize(surfaceNormal.xyz), facePlace.z - heights.w, albedo);
+        albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - material.water));
+    }
     if (isOn(switchTint)) albedo = mix(albedo, decodeSrgb(tint.rgb), tint.a);
     return encodeSrgb(clamp(albedo, 0.0, 1.0));
 }
@@ -237,6 +251,9 @@ vec3 litSurface() {
 
 void main() {
     vec3 colour = isOn(switchLighting) ? litSurface() : flatSurface();
+    if (isOn(switchLayerPreview))
+        colour = layerPreview(colour, surface, normalize(eye.xyz + surface), normalize(surfaceNormal.xyz),
+                              facePlace.z - heights.w);
     if (isOn(switchWireframe)) {
         vec3 lineColour = isOn(switchTint) ? tint.rgb : vec3(0.92, 0.96, 1.0);
         colour = mix(colour * 0.35, lineColour, meshLine());

@@ -260,7 +260,7 @@ void main() {
     sunLit = skyLit = airLit = vec3(0.0);
     groundArriving = airArriving = vec4(0.0);
     steep = 0.0;
-    if (isOn(switchLighting)) {
+    if (isOn(switchLighting) || isOn(switchLayers) || isOn(switchLayerPreview)) {
         mat2 steps = slopes(corner, vertex, last, heightStep, 1);
         // The light turns into the coarser mesh's too, between the same two vertices of it.
         if (isOn(switchMorph) && slide.amount > 0.0) {

@@ -54,6 +54,8 @@ const int switchLoudSkirts = 8192;
 const int switchSlide = 16384;         // some vertices morph, or move onto a coarser neighbour's
 const int switchMorph = 32768;         // some morph: light does, too
 const int switchGather = 65536;        // edges that morph let vertices go as a coarser chunk's stitched edge does
+const int switchLayers = 16777216;       // texture layers (layers.glsl)
+const int switchLayerPreview = 33554432;
 
 bool isOn(int bit) {
     return (variant & bit) != 0;

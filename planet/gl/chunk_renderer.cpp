@@ -21,7 +21,9 @@
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/gpu_timer.h"
 #include "planet/gl/height_pool.h"
+#include "planet/gl/layer_uniforms.h"
 #include "planet/gl/shader_source.h"
+#include "planet/gl/software_renderer.h"
 
 namespace planet::gl {
 
@@ -29,8 +31,8 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 5> chunkFragmentFiles = {"frame.glsl", "atmosphere.glsl",
-                                                                "ground.glsl", "tone.glsl", "chunk.frag"};
+constexpr std::array<std::string_view, 6> chunkFragmentFiles = {
+    "frame.glsl", "atmosphere.glsl", "ground.glsl", "tone.glsl", "layers.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
@@ -38,9 +40,13 @@ constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.ve
 constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
 
 constexpr GLuint frameBinding = 0;
+constexpr GLuint layersBinding = 4;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
+constexpr GLint layerAlbedoUnit = 8;
+constexpr GLint layerSurfaceUnit = 9;
+constexpr int checkerSize = 64;  // until pictures are given
 
 // One drawn chunk, as shaders/chunk.vert reads it.
 struct Instance {
@@ -67,10 +73,14 @@ struct Programs {
 void connect(const Program& program) {
     const GLuint block = glGetUniformBlockIndex(program.name(), "Frame");
     if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, frameBinding);
+    const GLuint layers = glGetUniformBlockIndex(program.name(), "Layers");
+    if (layers != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), layers, layersBinding);
     glUseProgram(program.name());
     glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
     glUniform1i(glGetUniformLocation(program.name(), "detailNoise"), noiseUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
     glUseProgram(0);
 }
 
@@ -122,6 +132,7 @@ RenderCapabilities findCapabilities() {
     GLint samples = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &samples);
     capabilities.samples = std::max(samples, 1);
+    capabilities.software = isSoftwareRenderer();
     return capabilities;
 }
 
@@ -218,7 +229,7 @@ struct ChunkRenderer::State {
     int captureVariant = 0;
     Texture noise;
     VertexArray chunkArray, skyArray;
-    Buffer gridVertices, gridIndices, instances, frame;
+    Buffer gridVertices, gridIndices, instances, frame, layersFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
     std::vector<Instance> instanceData;
@@ -226,6 +237,7 @@ struct ChunkRenderer::State {
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
+    LayerTextures layers;
     GpuTimer chunksTimer, skyTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
@@ -258,7 +270,9 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       gridVertices(makeBuffer()),
       gridIndices(makeBuffer()),
       instances(makeBuffer()),
-      frame(makeBuffer()) {
+      frame(makeBuffer()),
+      layersFrame(makeBuffer()),
+      layers({}, checkerSize) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
     makeGrid();
@@ -315,9 +329,13 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
     const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
     const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
     const int variant = switchesFor(config.shape, view, settings, image, tinted, nearestGroundM);
+    const int layersSeen =
+        settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
+                          (layersSeen & switchLayers) == 0 &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
-    return variant | (byVertex ? switchLightByVertex : 0) | slidingSwitches(items, settings.stitched);
+    return variant | layersSeen | (byVertex ? switchLightByVertex : 0) |
+           slidingSwitches(items, settings.stitched);
 }
 
 // Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
@@ -359,10 +377,19 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
     const FrameUniforms uniforms = frameUniforms(config.shape, view, projection, settings, image);
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
+    const LayersUniforms layerUniforms =
+        layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), layers.means());
+    glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
 }
 
 void ChunkRenderer::State::bindInputs() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, layersBinding, layersFrame.name());
+    glActiveTexture(GL_TEXTURE0 + layerAlbedoUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.albedo());
+    glActiveTexture(GL_TEXTURE0 + layerSurfaceUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.surface());
     glActiveTexture(GL_TEXTURE0 + imageUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
     glActiveTexture(GL_TEXTURE0 + noiseUnit);
@@ -450,6 +477,10 @@ void ChunkRenderer::setShape(const PlanetShape& shape) {
 
 void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
     state_->image = ColourImage(rgb, width, height, state_->programs.faceImage.name());
+}
+
+void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
+    state_->layers = LayerTextures(pictures, size);
 }
 
 Result<void> ChunkRenderer::reloadShaders() {
@@ -544,8 +575,9 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
 }
 
 GpuMemory ChunkRenderer::gpuMemory() const {
-    return {state_->pool.layout().bytes(), state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms),
-            state_->image.bytes() + detailNoiseBytes};
+    return {state_->pool.layout().bytes(),
+            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms),
+            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes()};
 }
 
 }  // namespace planet::gl

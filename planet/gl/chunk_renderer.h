@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "planet/gl/layer_drawing.h"
+#include "planet/gl/layer_textures.h"
 #include "planet/gl/projection.h"
 #include "planet/lod_select.h"
 #include "planet/planet_shape.h"
@@ -61,6 +63,8 @@ struct RenderSettings {
     // lighting, nor where the samples are finer than two pixels.
     bool detail = true;
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
+    // Materials painted on near ground that is not sea; their heights count from seaLevelM.
+    LayerDrawing layers;
 };
 
 struct RenderCounters {
@@ -77,7 +81,8 @@ struct RenderCapabilities {
     // GL_ARB_clip_control. Without it, or with a depth buffer that is not float, the near plane follows the
     // height above the highest ground drawn.
     bool reversedZ = false;
-    int samples = 1;  // the most that a RenderTarget can have
+    int samples = 1;        // the most that a RenderTarget can have
+    bool software = false;  // the CPU draws
 };
 
 // What the renderer holds on the GPU, bytes.
@@ -109,6 +114,9 @@ public:
     // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Keeps what is
     // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off.
     void setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
+
+    // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096].
+    void setLayers(std::span<const LayerPicture> pictures, int size);
 
     // A pool of another size; what it held is gone. On an Error the old one stays.
     Result<void> setSlotCapacity(std::uint32_t slotCapacity);

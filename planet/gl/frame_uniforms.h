@@ -34,7 +34,9 @@ enum Switch : int {
     switchLoudSkirts = 8192,
     switchSlide = 16384,
     switchMorph = 32768,
-    switchGather = 65536
+    switchGather = 65536,
+    switchLayers = 16777216,
+    switchLayerPreview = 33554432
 };
 
 // std140: only members of 16 bytes, so that C++ and GLSL agree without padding.

@@ -1,0 +1,21 @@
+// worldy make-layers: the materials that come with Worldy, and the sets that use them, into a folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "planet/layer_material.h"
+#include "planet/result.h"
+
+namespace worldy {
+
+struct MakeLayersOptions {
+    std::filesystem::path folder;  // made where it is missing
+    int size = planet::shippedMaterialSize;
+    std::uint32_t seed = planet::shippedMaterialSeed;
+};
+
+// Six materials of three PNG files each, earth.toml and two_layer_height_blend.toml.
+planet::Result<void> makeLayers(const MakeLayersOptions& options);
+
+}  // namespace worldy

@@ -1,0 +1,42 @@
+// The pictures of texture layers on the GPU: two arrays with a slice a picture, mipmaps and anisotropy. Slice
+// 0 is a checker pattern that shows where a picture is missing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "planet/gl/gl_objects.h"
+
+namespace planet::gl {
+
+// size x size texels, row 0 at the top.
+struct LayerPicture {
+    std::vector<std::uint8_t> albedo;   // RGBA: sRGB and relief
+    std::vector<std::uint8_t> surface;  // RGBA: the normal's x and y, 128 is 0; roughness; unused
+};
+
+// Magenta and black squares, eight a side, level and rough.
+LayerPicture checkerPicture(int size);
+
+class LayerTextures {
+public:
+    // size: a power of two, [8, 4096].
+    LayerTextures(std::span<const LayerPicture> pictures, int size);
+
+    GLuint albedo() const { return albedo_.name(); }
+    GLuint surface() const { return surface_.name(); }
+    // Linear light of each slice on average, the checker's first.
+    std::span<const glm::vec3> means() const { return means_; }
+    std::size_t bytes() const { return bytes_; }  // mipmaps included
+
+private:
+    Texture albedo_;
+    Texture surface_;
+    std::vector<glm::vec3> means_;
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace planet::gl

@@ -1,0 +1,208 @@
+// Texture layers: how much of each lies at a pixel, and what they look like there. The weights are those of
+// planet/layer_set.h, whose doubles are the reference.
+
+const int mostLayers = 8;
+const int repeatLevels = 10;
+const float repeatLevelStep = 3.2360680;  // irrational, so that two levels' repeats never meet
+
+struct Layer {
+    vec4 heightLines;    // lowest; rise; highest; fall
+    vec4 slopeLines;
+    vec4 latitudeLines;
+    vec4 tint;           // linear light; opacity
+    vec4 noise;          // amount; field; component; slice of the textures
+    vec4 mean;           // linear albedo on average, tinted; metres a repeat
+};
+
+layout(std140) uniform Layers {
+    ivec4 layerCounts;   // layers that are drawn; noise fields; the previewed one or -1; 1: preview as a mask
+    vec4 layerMix;       // metres from the eye to where they begin to fade; 1 / metres from there to their end;
+                         // opacity; sharpness of the blend by height, 0: by weight
+    vec4 layerTruth;     // true over drawn height; true over lit slope; how much of the colour below shows; pixels
+    Layer layers[mostLayers];
+    ivec4 noiseCells[2 * mostLayers];   // of each field, coarse and fine: the eye's cell; unused
+    vec4 noiseInside[2 * mostLayers];   // the eye's place in it; cells a metre
+    vec4 repeatPlaces[mostLayers * repeatLevels];  // the eye's place in the repeat; repeats a metre
+};
+
+uniform sampler2DArray layerAlbedo;   // sRGB; relief
+uniform sampler2DArray layerSurface;  // normal's x and y; roughness; unused
+
+// planet/layer_noise.h, with the eye's cell in whole numbers: on an Earth floats would tell cells apart no more.
+vec4 latticeValue(ivec3 cell) {
+    uint h = uint(cell.x) * 0x8DA6B343u + uint(cell.y) * 0xD8163841u + uint(cell.z) * 0xCB1AB31Fu;
+    h = (h ^ (h >> 16u)) * 0x7FEB352Du;
+    h = (h ^ (h >> 15u)) * 0x846CA68Bu;
+    h ^= h >> 16u;
+    return vec4(uvec4(h, h >> 8u, h >> 16u, h >> 24u) & 0xFFu) / 127.5 - 1.0;
+}
+
+vec4 valueNoise(ivec3 eyeCell, vec3 place) {
+    vec3 whole = floor(place);
+    ivec3 cell = eyeCell + ivec3(whole);
+    vec3 inside = place - whole;
+    vec3 t = inside * inside * (3.0 - 2.0 * inside);
+    vec4 row00 = mix(latticeValue(cell), latticeValue(cell + ivec3(1, 0, 0)), t.x);
+    vec4 row10 = mix(latticeValue(cell + ivec3(0, 1, 0)), latticeValue(cell + ivec3(1, 1, 0)), t.x);
+    vec4 row01 = mix(latticeValue(cell + ivec3(0, 0, 1)), latticeValue(cell + ivec3(1, 0, 1)), t.x);
+    vec4 row11 = mix(latticeValue(cell + ivec3(0, 1, 1)), latticeValue(cell + ivec3(1, 1, 1)), t.x);
+    return mix(mix(row00, row10, t.y), mix(row01, row11, t.y), t.z);
+}
+
+vec4 fieldNoise(int field, vec3 position) {
+    vec4 coarse = noiseInside[2 * field];
+    vec4 fine = noiseInside[2 * field + 1];
+    return 0.65 * valueNoise(noiseCells[2 * field].xyz, coarse.xyz + position * coarse.w) +
+           0.35 * valueNoise(noiseCells[2 * field + 1].xyz, fine.xyz + position * fine.w);
+}
+
+float alongRange(vec4 lines, float value, float shift) {
+    return clamp((value - lines.x) * lines.y + shift, 0.0, 1.0) * clamp((lines.z - value) * lines.w + shift, 0.0, 1.0);
+}
+
+// Of each layer that is drawn; what they leave to 1 is the ground below them. height: above the sea, as drawn.
+// normal: unit, as it is lit.
+void layerWeightsAt(vec3 position, vec3 up, vec3 normal, float height, out float weights[mostLayers]) {
+    vec4 noises[mostLayers];
+    for (int field = 0; field < layerCounts.y; ++field) noises[field] = fieldNoise(field, position);
+    float upright = max(dot(normal, up), 1e-4);
+    float slope = degrees(atan(length(normal - up * dot(normal, up)) / upright * layerTruth.y));
+    float latitude = degrees(atan(up.z, length(up.xy)));
+    float open = 1.0;
+    for (int i = mostLayers - 1; i >= 0; --i) weights[i] = 0.0;
+    for (int i = layerCounts.x - 1; i >= 0; --i) {
+        vec4 noise = layers[i].noise;
+        float shift = noise.x > 0.0 ? noise.x * noises[int(noise.y)][int(noise.z)] : 0.0;
+        float covers = layers[i].tint.a * alongRange(layers[i].heightLines, height * layerTruth.x, shift) *
+                       alongRange(layers[i].slopeLines, slope, shift) *
+                       alongRange(layers[i].latitudeLines, latitude, shift);
+        weights[i] = covers * open;
+        open *= 1.0 - covers;
+    }
+}
+
+struct Layered {
+    vec3 albedo;
+    vec3 tilt;        // slope of the relief, world axes
+    float roughness;
+    float amount;     // [0, 1] over the ground below
+};
+
+// What has been laid down so far, times shares.
+struct LayerSum {
+    vec3 albedo;
+    vec3 mean;
+    vec3 tilt;
+    float roughness;
+    float shares;
+};
+
+vec2 onPlane(vec3 v, int plane) {
+    return plane == 0 ? v.yz : plane == 1 ? v.zx : v.xy;
+}
+
+vec3 offPlane(vec2 v, int plane) {
+    return plane == 0 ? vec3(0.0, v) : plane == 1 ? vec3(v.y, 0.0, v.x) : vec3(v, 0.0);
+}
+
+// A layer's textures laid along one of the planet's three planes, at the two repeats that suit the distance: a repeat
+// covers as many pixels from near and far, and what is seen of one is broken up by the other.
+void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 steps, inout LayerSum sum) {
+    float slice = layers[i].noise.w;
+    float wanted = max(layerTruth.w * length(position) / layers[i].mean.w, 1.0);
+    float level = min(log2(wanted) / log2(repeatLevelStep), float(repeatLevels) - 1.001);
+    int first = i * repeatLevels + int(level);
+    vec4 albedo[2];
+    vec4 detail[2];
+    for (int k = 0; k < 2; ++k) {
+        vec4 repeat = repeatPlaces[first + k];
+        vec3 at = vec3(onPlane(repeat.xyz + position * repeat.w, plane), slice);
+        vec2 alongX = onPlane(steps[0] * repeat.w, plane);
+        vec2 alongY = onPlane(steps[1] * repeat.w, plane);
+        albedo[k] = textureGrad(layerAlbedo, at, alongX, alongY);
+        detail[k] = textureGrad(layerSurface, at, alongX, alongY);
+    }
+    float coarse = smoothstep(0.0, 1.0, fract(level));
+    vec4 colour = mix(albedo[0], albedo[1], coarse);
+    vec4 normal = mix(detail[0], detail[1], coarse);
+    vec2 bent = (normal.xy * 255.0 - 128.0) / 127.0;
+    // Green points up the picture, against its rows.
+    vec2 slope = vec2(-bent.x, bent.y) * inversesqrt(max(1.0 - dot(bent, bent), 0.05));
+    float part = share * exp(layerMix.w * (colour.a + weight - 1.0));
+    sum.albedo += part * colour.rgb * layers[i].tint.rgb;
+    sum.mean += part * layers[i].mean.rgb;
+    sum.tilt += part * offPlane(slope, plane);
+    sum.roughness += part * normal.z;
+    sum.shares += part;
+}
+
+// Shares of the three planes: sharp, so that flat ground mostly needs one.
+vec3 planeShares(vec3 normal) {
+    vec3 steep = normal * normal;
+    steep *= steep;
+    steep *= steep;
+    vec3 shares = max(steep / (steep.x + steep.y + steep.z) - 0.02, 0.0);
+    return shares / (shares.x + shares.y + shares.z);
+}
+
+// below: the colour that the layers are painted on.
+Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 below) {
+    mat2x3 steps = mat2x3(dFdx(position), dFdy(position));
+    float away = length(position);
+    float weights[mostLayers];
+    layerWeightsAt(position, up, normal, height, weights);
+    vec3 planes = planeShares(normal);
+    float total = 0.0;
+    LayerSum sum = LayerSum(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
+    // One after the other what is there at all, so that a pixel with one layer on one plane takes one round.
+    int wanted[3 * mostLayers];
+    int count = 0;
+    for (int i = 0; i < layerCounts.x; ++i) {
+        total += weights[i];
+        for (int plane = 0; plane < 3; ++plane) {
+            if (weights[i] * planes[plane] > 0.004) wanted[count++] = 3 * i + plane;
+        }
+    }
+    for (int k = 0; k < count; ++k) {
+        int i = wanted[k] / 3;
+        int plane = wanted[k] - 3 * i;
+        layDown(i, plane, weights[i], weights[i] * planes[plane], position, steps, sum);
+    }
+    float fade = 1.0 - clamp((away - layerMix.x) * layerMix.y, 0.0, 1.0);
+    float each = 1.0 / max(sum.shares, 1e-30);
+    vec3 albedo = sum.albedo * each;
+    vec3 coloured = below * albedo / max(sum.mean * each, vec3(0.01));
+    albedo = mix(albedo, min(coloured, vec3(1.0)), layerTruth.z);
+    return Layered(albedo, sum.tilt * each, sum.roughness * each,
+                   sum.shares > 0.0 ? total * fade * layerMix.z : 0.0);
+}
+
+// The sun mirrored in what is not quite rough, over its light: Blinn and Phong's lobe, as wide as the roughness, and
+// Schlick's Fresnel from 0.04.
+float layerGlint(vec3 normal, vec3 toEye, float roughness) {
+    vec3 middle = normalize(toEye + sun.xyz);
+    float wide = max(roughness * roughness, 0.02);
+    float power = 2.0 / (wide * wide) - 2.0;
+    float aside = 1.0 - max(dot(middle, toEye), 0.0);
+    float squared = aside * aside;
+    float fresnel = 0.04 + 0.96 * squared * squared * aside;
+    float facing = max(dot(normal, sun.xyz), 0.0);
+    return facing * fresnel * (power + 2.0) / 8.0 * pow(max(dot(normal, middle), 0.0), max(power, 0.01));
+}
+
+// From dark violet over green to yellow.
+vec3 heatOf(float weight) {
+    vec3 low = vec3(0.15, 0.03, 0.30);
+    vec3 middle = vec3(0.10, 0.56, 0.50);
+    vec3 high = vec3(0.99, 0.91, 0.15);
+    return weight < 0.5 ? mix(low, middle, 2.0 * weight) : mix(middle, high, 2.0 * weight - 1.0);
+}
+
+// The previewed layer's weight over the picture, or alone as a mask.
+vec3 layerPreview(vec3 colour, vec3 position, vec3 up, vec3 normal, float height) {
+    float weights[mostLayers];
+    layerWeightsAt(position, up, normal, height, weights);
+    float weight = layerCounts.z < 0 ? 0.0 : weights[layerCounts.z];
+    if (layerCounts.w != 0) return vec3(weight);
+    return mix(colour, heatOf(weight), 0.45 + 0.35 * weight);
+}
