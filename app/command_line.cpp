@@ -118,6 +118,9 @@ void addViewOptions(CLI::App& command, ViewTexts& view) {
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
+    command.add_option(
+        "--layers", view.layerSet,
+        "A set of texture layers, .toml; draw them where the CPU draws with --set surface.layer_use=on");
     command.add_option("--size", view.size, "Picture size, WIDTHxHEIGHT (1280x720)");
     command.add_option("--tau", view.tauPx, "Tolerance on screen, pixels (2)")->check(number(1e-6, 1000));
     command.add_option("--budget", view.budgetMB, "Memory for resident chunks, MiB (256)")

@@ -54,6 +54,9 @@ tl::unexpected<planet::Error> wrong(const fs::path& file, const toml::node& node
     return planet::badInput(fmt::format("{}: {}", placeOf(file, node), message));
 }
 
+// Longer ones would not fit into a recorded flight.
+constexpr std::size_t mostTextBytes = 1000;
+
 struct ReadKey {
     const fs::path& file;
     const std::string name;
@@ -61,7 +64,15 @@ struct ReadKey {
     NumberRange range;
 
     Result<void> operator()(std::string* text) const {
-        return readText(file, name, node).map([&](const std::string& v) { *text = v; });
+        Result<std::string> read = readText(file, name, node);
+        if (!read) return tl::unexpected(read.error());
+        if (read->size() > mostTextBytes) {
+            return wrong(file, node,
+                         fmt::format("{} is {} bytes long; at most {} would be right", name, read->size(),
+                                     mostTextBytes));
+        }
+        *text = std::move(*read);
+        return {};
     }
     Result<void> operator()(double* number) const {
         return readNumber(file, name, node, range).map([&](double v) { *number = v; });

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/layer_file.h"
 #include "app/stopwatch.h"
 #include "planet/cube_sphere.h"
 
@@ -58,6 +59,28 @@ planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wan
         applied = fitPool(scene, before);
     scene.refusedPaging = applied ? std::nullopt : std::optional(wanted);
     return applied;
+}
+
+planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers, double exaggeration) {
+    return {.use = layers.use,
+            .set = layers.set,
+            .pictures = {},
+            .beginM = layers.beginM,
+            .endM = layers.endM,
+            .opacity = layers.opacity,
+            .colourBelow = layers.colourBelow,
+            .preview = layers.preview,
+            .previewed = layers.previewed - 1,
+            .exaggeration = exaggeration};
+}
+
+// Only where layers are drawn: most of the time it is nothing to do.
+void fitLayers(Scene& scene, const ui::LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
+    const bool software = scene.renderer.capabilities().software;
+    if (layers.use == planet::gl::LayerUse::Off) return;
+    if (layers.use == planet::gl::LayerUse::Automatic && software) return;
+    fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer, scene.layers);
+    drawing.pictures = picturesOf(layers.set, scene.layers);
 }
 
 void beginFrame(Scene& scene) {
@@ -139,6 +162,7 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
                               ? morningSun(view.eyeM)
                               : planet::directionFromGeographic({glm::radians(surface.sunLatitudeDeg),
                                                                  glm::radians(surface.sunLongitudeDeg)});
+    render.layers = layerDrawingOf(surface.layers, tree.exaggeration);
     return render;
 }
 
@@ -194,6 +218,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     const Stopwatch watch;
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
+    fitLayers(scene, settings.surface.layers, render.layers);
     scene.renderer.draw(renderView, items, render, tints);
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
@@ -202,6 +227,10 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     scene.drawn.uploads += counters.uploads;
     scene.drawn.chunksMs += counters.chunksMs;
     scene.drawn.skyMs += counters.skyMs;
+}
+
+std::vector<std::string> takeLayerProblems(Scene& scene) {
+    return std::exchange(scene.layers.untold, {});
 }
 
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,

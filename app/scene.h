@@ -8,6 +8,7 @@
 #include <span>
 
 #include "app/camera_control.h"
+#include "app/layer_pictures.h"
 #include "app/picture.h"
 #include "planet/gl/chunk_renderer.h"
 #include "planet/planet.h"
@@ -26,6 +27,7 @@ struct Scene {
     double exaggeration = 1;  // last asked for
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
+    LayerPictures layers{};  // read when they are first drawn
 };
 
 struct SceneConfig {
@@ -70,6 +72,9 @@ planet::UploadChunk uploadInto(Scene& scene);
 // Draws a selection of the last step, with a tint for each of its items or none, into what is bound.
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
                std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {});
+
+// What is wrong with the texture layers that were drawn, each once.
+std::vector<std::string> takeLayerProblems(Scene& scene);
 
 // The same for any chunks whose slots hold them.
 void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,

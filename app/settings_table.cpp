@@ -12,6 +12,8 @@
 #include <sstream>
 #include <type_traits>
 
+#include "app/layer_file.h"
+
 namespace worldy {
 
 namespace {
@@ -144,6 +146,34 @@ void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
           Number{&surface.sunLatitudeDeg, {-90, 90, "degrees"}}},
          {"surface", "sun_longitude_deg", "Where the sun stands in the zenith, degrees east.",
           Number{&surface.sunLongitudeDeg, {-180, 180, "degrees"}}}});
+}
+
+void addLayers(Fields& fields, ui::LayerSettings& layers) {
+    fields.insert(
+        fields.end(),
+        {{"surface", "layer_use",
+          "Texture layers on near ground: automatic (off where the CPU draws), on or off.",
+          Choice{asByte(layers.use), layerUseNames}},
+         {"surface", "layer_opacity", "Of the layers over the image or ramp.",
+          Number{&layers.opacity, {0, 1, ""}}},
+         {"surface", "layer_begin_m", "Metres from the eye where they begin to give way to it,",
+          Number{&layers.beginM, {0, 1e7, "metres"}}},
+         {"surface", "layer_end_m", "and where nothing is left of them.",
+          Number{&layers.endM, {1, 1e7, "metres"}}},
+         {"surface", "layer_colour_below", "How much of its colour goes through them.",
+          Number{&layers.colourBelow, {0, 1, ""}}},
+         {"surface", "layer_preview", "A layer's weight over the planet: off, heat, or mask alone.",
+          Choice{asByte(layers.preview), layerPreviewNames}},
+         {"surface", "layer_previewed", "Which layer's, counted from the lowest.",
+          Integer{&layers.previewed, {1, static_cast<double>(planet::maxLayers), ""}}},
+         {"surface", "layer_blend", "Layers share a place by weight, or by height: the higher relief wins,",
+          Choice{asByte(layers.set.blend), layerBlendNames}},
+         {"surface", "layer_blend_depth", "within this depth.",
+          Number{&layers.set.blendDepth, {0.05, 2, ""}}},
+         {"surface", "layer_set", "File beside which the layers' textures lie; empty: those of Worldy.",
+          Text{&layers.file}},
+         {"surface", "layers", "The layers, lowest first; data/layers/earth.toml says what they are made of.",
+          LayerStack{&layers.set.layers}}});
 }
 
 void addView(Fields& fields, ui::CameraSettings& camera) {
@@ -326,6 +356,12 @@ struct ReadField {
         return {};
     }
 
+    Result<void> operator()(const LayerStack& layers) const {
+        return layersFromToml(file, name, node).map([&](std::vector<planet::TextureLayer> read) {
+            *layers.value = std::move(read);
+        });
+    }
+
     Result<void> readStop(const toml::node& stop, std::vector<planet::gl::RampStop>& stops) const {
         const std::string stopName = fmt::format("{}: stop {}", name, stops.size() + 1);
         const toml::table* table = stop.as_table();
@@ -379,6 +415,12 @@ struct FieldText {
         }
         return ramp.value->empty() ? "[]" : fmt::format("[{}{}]", text, lineEnd);
     }
+    std::string operator()(const LayerStack& layers) const {
+        std::string text;
+        for (const planet::TextureLayer& layer : *layers.value)
+            text += fmt::format("{}{}{}", text.empty() ? "" : ",", lineBreak, layerLine(layer));
+        return layers.value->empty() ? "[]" : fmt::format("[{}{}]", text, lineEnd);
+    }
     std::string operator()(const Choice& choice) const {
         return fmt::format("\"{}\"", choice.names[*choice.value]);
     }
@@ -424,13 +466,14 @@ std::string Field::name() const {
 
 std::vector<Field> fieldsOf(Settings& settings) {
     Fields fields;
-    fields.reserve(90);
+    fields.reserve(110);
     addData(fields, settings);
     addLod(fields, settings.view.lod);
     addSeams(fields, settings.view.seams);
     addPaging(fields, settings.view.paging);
     addOverlay(fields, settings.view.overlay);
     addSurface(fields, settings.view.surface);
+    addLayers(fields, settings.view.surface.layers);
     addView(fields, settings.view.camera);
     addCamera(fields, settings.camera);
     addWindow(fields, settings);

@@ -39,6 +39,9 @@ struct Text {
 struct Ramp {
     std::vector<planet::gl::RampStop>* value;
 };
+struct LayerStack {
+    std::vector<planet::TextureLayer>* value;
+};
 // An enumerator, by its name's place in a list.
 struct Choice {
     std::uint8_t* value;
@@ -50,7 +53,7 @@ struct Field {
     std::string_view table;
     std::string key;
     std::string_view meaning;
-    std::variant<Number, Integer, Seed, Flag, Text, Ramp, Choice> value;
+    std::variant<Number, Integer, Seed, Flag, Text, Ramp, LayerStack, Choice> value;
 
     std::string name() const;  // "lod.tau_px"
 };

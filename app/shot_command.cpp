@@ -90,6 +90,8 @@ Result<void> takeShot(const ShotOptions& options) {
         fmt::print(stderr, "worldy: {}\n", problem);
     }
     if (Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view); !drawn) return drawn;
+    for (const std::string& problem : takeLayerProblems(offscreen->scene))
+        fmt::print(stderr, "worldy: {}\n", problem);
     if (Result<void> written = writeShot(readPicture(*offscreen), view.pose, options); !written)
         return written;
     printReport(*offscreen, view, options);

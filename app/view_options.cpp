@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/layer_file.h"
 #include "app/screenshot.h"
 
 namespace worldy {
@@ -93,6 +94,14 @@ planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
     if (texts.noSkirts) view.seams.mode = planet::SeamMode::None;
     if (texts.wireframe) view.overlay.wireframe = true;
     if (texts.cube) view.overlay.cube = true;
+    if (!texts.layerSet.empty()) {
+        planet::Result<planet::LayerSet> set = loadLayerSet(texts.layerSet);
+        if (!set) return tl::unexpected(set.error());
+        view.surface.layers.set = std::move(*set);
+        // A picture's note of it must hold wherever it is read.
+        std::error_code status;
+        view.surface.layers.file = std::filesystem::absolute(texts.layerSet, status).string();
+    }
     std::vector<std::string> assignments;
     if (!texts.colourBy.empty()) assignments.push_back("overlay.colour_by=" + texts.colourBy);
     if (!texts.surface.empty()) assignments.push_back("surface.colour=" + texts.surface);

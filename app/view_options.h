@@ -28,10 +28,11 @@ struct ViewTexts {
     std::filesystem::path settingsFile;    // settings, a preset or a screenshot
     std::vector<std::string> assignments;  // "lod.tau_px=3"
     std::string size = "1280x720";
-    std::string camera;    // poseFromText's
-    std::string colourBy;  // one of colourByNames
-    std::string surface;   // one of surfaceNames
-    std::string seams;     // none, skirts or stitched
+    std::string camera;              // poseFromText's
+    std::string colourBy;            // one of colourByNames
+    std::string surface;             // one of surfaceNames
+    std::filesystem::path layerSet;  // a set of texture layers
+    std::string seams;               // none, skirts or stitched
     std::optional<double> tauPx;
     std::optional<double> fovDeg;
     std::optional<int> budgetMB;

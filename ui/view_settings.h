@@ -7,6 +7,7 @@
 
 #include "planet/bad_disk.h"
 #include "planet/gl/chunk_renderer.h"
+#include "planet/layer_set.h"
 #include "planet/lod_select.h"
 
 namespace ui {
@@ -65,6 +66,21 @@ struct OverlaySettings {
     bool operator==(const OverlaySettings&) const = default;
 };
 
+// Materials painted on near ground.
+struct LayerSettings {
+    planet::gl::LayerUse use = planet::gl::LayerUse::Automatic;
+    double opacity = 1;        // over the image or ramp, [0, 1]
+    double beginM = 3000;      // metres from the eye where they begin to give way to it, [0, 1e7]
+    double endM = 60000;       // and where nothing is left of them, [1, 1e7]
+    double colourBelow = 0.4;  // how much of its colour goes through them, [0, 1]
+    planet::gl::LayerPreview preview = planet::gl::LayerPreview::Off;
+    int previewed = 1;  // whose weight, counted from the lowest, [1, 8]
+    std::string file;   // of the set, beside which its textures lie; empty: those that come with Worldy
+    planet::LayerSet set = planet::earthLayers();
+
+    bool operator==(const LayerSettings&) const = default;
+};
+
 struct SurfaceSettings {
     planet::gl::SurfaceColour surface = planet::gl::SurfaceColour::Image;
     double imageOpacity = 1;                 // of the colour image over the ramp, [0, 1]
@@ -78,6 +94,7 @@ struct SurfaceSettings {
     bool sunFollows = true;       // the sun keeps to the camera's east, so that it is always day there
     double sunLatitudeDeg = 29;   // else: where the sun stands in the zenith, [-90, 90]
     double sunLongitudeDeg = 31;  // [-180, 180]
+    LayerSettings layers;
 
     bool operator==(const SurfaceSettings&) const = default;
 };

@@ -53,6 +53,11 @@ void change(const Field& field) {
         void operator()(const Ramp& r) const {
             *r.value = {{-11000.5, {0, 0, 1}}, {0, {0, 0.2f, 1}}, {8848, {1, 1, 1}}};
         }
+        void operator()(const LayerStack& l) const {
+            l.value->resize(2);
+            l.value->back().name = "a \"quoted\" name";
+            l.value->back().heightM = {-17.5, 0.1, 3};
+        }
         void operator()(const Choice& c) const {
             *c.value = static_cast<std::uint8_t>((*c.value + 1) % c.names.size());
         }
