@@ -124,6 +124,9 @@ struct CommandHandler {
     void operator()(const ui::CopyText& command) const { window.setClipboard(command.text); }
     void operator()(const ui::TakeScreenshot& command) const;
     void operator()(const ui::Quit&) const { window.close(); }
+    void operator()(const ui::LoadLayerSet& command) const;
+    void operator()(const ui::SaveLayerSet& command) const;
+    void operator()(const ui::ReloadLayerTextures&) const { forgetLayerPictures(shownScene(session)); }
     void operator()(const ui::MeasureCracks&) const {
         Scene* scene = shownScene(session);
         if (!scene || !editor.rig) return;
@@ -320,6 +323,22 @@ void CommandHandler::operator()(const ui::LoadPreset& command) const {
     }
     editor.undo.add(editor.settings.view, *loaded, "preset " + command.name);
     editor.settings.view = *loaded;
+}
+
+void CommandHandler::operator()(const ui::LoadLayerSet& command) const {
+    if (!maySet()) return;
+    ui::ViewSettings loaded = editor.settings.view;
+    if (!succeeded(loadInto(editor.layers, command.file, loaded.surface.layers))) return;
+    editor.undo.add(editor.settings.view, loaded, "layer set " + command.file.stem().string());
+    editor.settings.view = std::move(loaded);
+}
+
+void CommandHandler::operator()(const ui::SaveLayerSet& command) const {
+    if (!maySet()) return;
+    ui::ViewSettings saved = editor.settings.view;
+    if (!succeeded(saveAs(editor.layers, command.name, saved.surface.layers))) return;
+    editor.undo.add(editor.settings.view, saved, "layer set saved");
+    editor.settings.view = std::move(saved);
 }
 
 std::string lineOf(const Session& session, const Editor& editor) {

@@ -13,6 +13,7 @@
 #include "app/cracks.h"
 #include "app/error_job.h"
 #include "app/flight_desk.h"
+#include "app/layer_desk.h"
 #include "app/log.h"
 #include "app/pops.h"
 #include "app/presets.h"
@@ -74,6 +75,7 @@ struct Editor {
     FlightDesk desk;
     SweepDesk sweep;
     CompareDesk compare;
+    LayerDesk layers = openLayerDesk();
 };
 
 Editor openEditor(const Settings& settings, const Log& log);

@@ -107,6 +107,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.sweep = sweepViewOf(editor.sweep);
     view.compare =
         compareViewOf(editor.compare, session, editor.settings.view, editor.stats, editor.viewport.main.view);
+    view.layers = layersViewOf(editor.layers, scene, editor.settings.view.surface.layers);
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

@@ -241,6 +241,20 @@ void probe(const Scene& scene, Editor& editor) {
     if (editor.focus.selected) editor.probe.selected = probeWorst(input, *editor.focus.selected);
 }
 
+// What the layers make of the ground under the pointer.
+void readLayers(const Scene& scene, Editor& editor) {
+    if (!isShown(editor, ui::PanelId::Surface)) return;
+    const PlanetPicture& picture = editor.viewport.main;
+    editor.layers.overGround = false;
+    if (!picture.shown() || !picture.pointer.over) return;
+    const planet::ChunkTree& tree = scene.planet->tree();
+    const std::optional<planet::SurfaceHit> hit =
+        planet::pickSurface(tree, scene.planet->selection().draw, picture.view.eyeM,
+                            rayThrough(picture.view, picture.pointer.positionPx));
+    editor.layers.overGround = hit.has_value();
+    if (hit) editor.layers.under = layerReadout(tree, *hit, editor.settings.view.surface);
+}
+
 // The chunk under the pointer is lit; a click selects it, or nothing where there is only sky.
 void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selection, ui::Commands& commands) {
     if (!picture.shown() || !picture.pointer.over) return;
@@ -284,6 +298,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     const auto every = static_cast<std::uint64_t>(cracks.everyFrames);
     if (cracks.live && editor.frames % every == 0) commands.emplace_back(ui::MeasureCracks{});
     probe(scene, editor);
+    readLayers(scene, editor);
     pick(editor.viewport.main, scene, 0, commands);
     pick(editor.viewport.observer, scene, observerSelection(scene, editor), commands);
     ui::FrameStats stats = statsOf(scene);

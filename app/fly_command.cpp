@@ -146,6 +146,8 @@ Result<void> flyPath(const FlyOptions& options) {
         if (!frame) return tl::unexpected(frame.error());
         frames.push_back(*frame);
     }
+    for (const std::string& problem : takeLayerProblems(offscreen->scene))
+        fmt::print(stderr, "worldy: {}\n", problem);
     for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
         fmt::print(stderr, "worldy: {}\n", problem);
     }

@@ -110,9 +110,18 @@ std::optional<std::size_t> placeOfFiles(const planet::TextureLayer& layer, const
     return static_cast<std::size_t>(found - pictures.files.begin());
 }
 
+glm::vec3 meanColour(const planet::gl::LayerPicture& picture) {
+    glm::dvec3 sum(0);
+    const std::vector<std::uint8_t>& albedo = picture.albedo;
+    for (std::size_t i = 0; i < albedo.size(); i += 4)
+        sum += glm::dvec3(albedo[i], albedo[i + 1], albedo[i + 2]);
+    return sum / (255.0 * std::max(static_cast<double>(albedo.size() / 4), 1.0));
+}
+
 void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, LayerPictures& pictures) {
     pictures.files.clear();
     pictures.problems.clear();
+    pictures.colours.clear();
     std::vector<LayerTexels> read;
     pictures.size = 64;
     for (const planet::TextureLayer& layer : set.layers) {
@@ -122,6 +131,7 @@ void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, L
         pictures.problems.push_back(texels ? std::string() : texels.error().message);
         // In its place, so that the others keep their numbers; it is not drawn.
         read.push_back(texels ? std::move(*texels) : LayerTexels{8, planet::gl::checkerPicture(8)});
+        pictures.colours.push_back(meanColour(read.back().picture));
         pictures.size = std::max(pictures.size, read.back().size);
     }
     std::vector<planet::gl::LayerPicture> all;
@@ -199,6 +209,15 @@ std::vector<int> picturesOf(const planet::LayerSet& set, const LayerPictures& pi
         of.push_back(place && pictures.problems[*place].empty() ? static_cast<int>(*place) : -1);
     }
     return of;
+}
+
+std::vector<glm::vec3> coloursOf(const planet::LayerSet& set, const LayerPictures& pictures) {
+    std::vector<glm::vec3> colours;
+    for (const planet::TextureLayer& layer : set.layers) {
+        const std::optional<std::size_t> place = placeOfFiles(layer, pictures);
+        colours.push_back(place ? pictures.colours[*place] : glm::vec3(0.5f));
+    }
+    return colours;
 }
 
 std::vector<std::string> problemsOf(const planet::LayerSet& set, const LayerPictures& pictures) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct LayerPictures {
     std::filesystem::path folder;
     std::vector<LayerFiles> files;      // read, each once
     std::vector<std::string> problems;  // of each; empty: it is there
+    std::vector<glm::vec3> colours;     // of each, the albedo on average, sRGB
     int size = 0;                       // of all of them on the GPU, texels a side
     std::vector<std::string> told;      // what was last told
     std::vector<std::string> untold;    // since
@@ -44,6 +46,8 @@ void fitLayerPictures(const planet::LayerSet& set, const std::filesystem::path& 
 
 // Which picture each layer is drawn with; -1: the checker pattern.
 std::vector<int> picturesOf(const planet::LayerSet& set, const LayerPictures& pictures);
+// Each layer's colour on average; none before it has been read.
+std::vector<glm::vec3> coloursOf(const planet::LayerSet& set, const LayerPictures& pictures);
 // What is wrong with each layer, its ranges or its textures; empty: nothing.
 std::vector<std::string> problemsOf(const planet::LayerSet& set, const LayerPictures& pictures);
 

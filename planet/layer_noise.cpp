@@ -38,8 +38,13 @@ glm::dvec4 valueNoise(const glm::dvec3& place) {
 
 glm::dvec4 layerNoise(const glm::dvec3& positionM, double sizeM) {
     assert(sizeM > 0);
-    return layerNoiseCoarse * valueNoise(positionM / sizeM) +
-           layerNoiseFine * valueNoise(positionM * (layerNoiseOctave / sizeM));
+    glm::dvec4 sum(0);
+    double cellsPerM = 1 / sizeM;
+    for (const double share : layerNoiseShares) {
+        sum += share * valueNoise(positionM * cellsPerM);
+        cellsPerM *= layerNoiseOctave;
+    }
+    return sum;
 }
 
 }  // namespace planet

@@ -3,16 +3,16 @@
 // thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace planet {
 
-// The second octave's cells are so many times smaller than the first's, and the shares of both.
+// Each octave's cells are so many times smaller than those of the one before; and the octaves' shares.
 inline constexpr double layerNoiseOctave = 3.17;
-inline constexpr double layerNoiseCoarse = 0.65;
-inline constexpr double layerNoiseFine = 0.35;
+inline constexpr std::array<double, 3> layerNoiseShares = {0.56, 0.28, 0.16};
 
 // Of a lattice point; all 32 bits are mixed. Coordinates may wrap.
 std::uint32_t layerHash(const glm::ivec3& cell);
@@ -20,7 +20,7 @@ std::uint32_t layerHash(const glm::ivec3& cell);
 // Four noises at once, each of a byte of the hash; in [-1, 1], over cells one unit a side.
 glm::dvec4 valueNoise(const glm::dvec3& place);
 
-// Both octaves at a place on the planet, metres from its centre; sizeM: a side of the coarse cells, > 0.
+// All octaves at a place on the planet, metres from its centre; sizeM: a side of the coarse cells, > 0.
 // Layer i of a set takes component i % 4.
 glm::dvec4 layerNoise(const glm::dvec3& positionM, double sizeM);
 

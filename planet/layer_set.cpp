@@ -63,7 +63,7 @@ LayerSet earthLayers() {
     TextureLayer seaBed = material("sea bed", 14);
     seaBed.heightM = {allHeightsM.lowest, 0, 6};
     seaBed.noiseAmount = 1;
-    seaBed.noiseSizeM = 300;
+    seaBed.noiseSizeM = 900;
 
     // Under all land; grass, forest and snow leave open what is steep or high.
     TextureLayer rock = material("rock", 40);
@@ -74,7 +74,7 @@ LayerSet earthLayers() {
     grass.slopeDeg = {0, 27, 12};
     grass.latitudeDeg = {-58, 71, 6};
     grass.noiseAmount = 1.2;
-    grass.noiseSizeM = 2500;
+    grass.noiseSizeM = 4000;
 
     TextureLayer sand = material("sand", 9);
     sand.heightM = {-4, 12, 12};
@@ -89,13 +89,13 @@ LayerSet earthLayers() {
     forest.latitudeDeg = {-55, 66, 6};
     forest.opacity = 0.95;
     forest.noiseAmount = 1.5;
-    forest.noiseSizeM = 6000;
+    forest.noiseSizeM = 4000;
 
     TextureLayer snow = material("snow", 30);
     snow.heightM = {4900, allHeightsM.highest, 1000};
     snow.slopeDeg = {0, 40, 18};
     snow.noiseAmount = 0.9;
-    snow.noiseSizeM = 2500;
+    snow.noiseSizeM = 4000;
 
     TextureLayer northernIce = snow;
     northernIce.name = "northern ice";

@@ -20,8 +20,8 @@ layout(std140) uniform Layers {
                          // opacity; sharpness of the blend by height, 0: by weight
     vec4 layerTruth;     // true over drawn height; true over lit slope; how much of the colour below shows; pixels
     Layer layers[mostLayers];
-    ivec4 noiseCells[2 * mostLayers];   // of each field, coarse and fine: the eye's cell; unused
-    vec4 noiseInside[2 * mostLayers];   // the eye's place in it; cells a metre
+    ivec4 noiseCells[3 * mostLayers];   // of each field, an octave each: the eye's cell; unused
+    vec4 noiseInside[3 * mostLayers];   // the eye's place in it; cells a metre
     vec4 repeatPlaces[mostLayers * repeatLevels];  // the eye's place in the repeat; repeats a metre
 };
 
@@ -49,11 +49,14 @@ vec4 valueNoise(ivec3 eyeCell, vec3 place) {
     return mix(mix(row00, row10, t.y), mix(row01, row11, t.y), t.z);
 }
 
+vec4 octaveNoise(int at, vec3 position) {
+    vec4 inside = noiseInside[at];
+    return valueNoise(noiseCells[at].xyz, inside.xyz + position * inside.w);
+}
+
 vec4 fieldNoise(int field, vec3 position) {
-    vec4 coarse = noiseInside[2 * field];
-    vec4 fine = noiseInside[2 * field + 1];
-    return 0.65 * valueNoise(noiseCells[2 * field].xyz, coarse.xyz + position * coarse.w) +
-           0.35 * valueNoise(noiseCells[2 * field + 1].xyz, fine.xyz + position * fine.w);
+    return 0.56 * octaveNoise(3 * field, position) + 0.28 * octaveNoise(3 * field + 1, position) +
+           0.16 * octaveNoise(3 * field + 2, position);
 }
 
 float alongRange(vec4 lines, float value, float shift) {
@@ -128,6 +131,8 @@ void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 
     vec2 bent = (normal.xy * 255.0 - 128.0) / 127.0;
     // Green points up the picture, against its rows.
     vec2 slope = vec2(-bent.x, bent.y) * inversesqrt(max(1.0 - dot(bent, bent), 0.05));
+    // What stands for wider ground is flatter, as ground is.
+    slope *= exp2(-0.35 * level);
     float part = share * exp(layerMix.w * (colour.a + weight - 1.0));
     sum.albedo += part * colour.rgb * layers[i].tint.rgb;
     sum.mean += part * layers[i].mean.rgb;
@@ -169,9 +174,12 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
         layDown(i, plane, weights[i], weights[i] * planes[plane], position, steps, sum);
     }
     float fade = 1.0 - clamp((away - layerMix.x) * layerMix.y, 0.0, 1.0);
-    float each = 1.0 / max(sum.shares, 1e-30);
+    // Shares may be as small as e^-80.
+    float each = sum.shares > 0.0 ? 1.0 / sum.shares : 0.0;
     vec3 albedo = sum.albedo * each;
-    vec3 coloured = below * albedo / max(sum.mean * each, vec3(0.01));
+    // The layers' light and dark on the colour below: its hue stays.
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+    vec3 coloured = below * dot(albedo, luminance) / max(dot(sum.mean * each, luminance), 0.01);
     albedo = mix(albedo, min(coloured, vec3(1.0)), layerTruth.z);
     return Layered(albedo, sum.tilt * each, sum.roughness * each,
                    sum.shares > 0.0 ? total * fade * layerMix.z : 0.0);
@@ -180,7 +188,8 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
 // The sun mirrored in what is not quite rough, over its light: Blinn and Phong's lobe, as wide as the roughness, and
 // Schlick's Fresnel from 0.04.
 float layerGlint(vec3 normal, vec3 toEye, float roughness) {
-    vec3 middle = normalize(toEye + sun.xyz);
+    vec3 middle = toEye + sun.xyz;
+    middle *= inversesqrt(max(dot(middle, middle), 1e-6));
     float wide = max(roughness * roughness, 0.02);
     float power = 2.0 / (wide * wide) - 2.0;
     float aside = 1.0 - max(dot(middle, toEye), 0.0);

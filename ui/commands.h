@@ -116,6 +116,15 @@ struct TakeScreenshot {
 };
 struct Quit {};
 
+// Texture layers.
+struct LoadLayerSet {
+    std::filesystem::path file;
+};
+struct SaveLayerSet {  // as one of the user's own
+    std::string name;
+};
+struct ReloadLayerTextures {};
+
 // Instruments.
 struct MeasureCracks {};       // of the view as it is
 struct FindSmallestSkirts {};  // that leave none of the cracks measured open
@@ -197,7 +206,7 @@ using Command =
                  MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording, DeleteRecording,
                  StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
                  SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare,
-                 CompareOverFlight, CancelCompareFlight>;
+                 CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

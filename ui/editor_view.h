@@ -17,6 +17,7 @@
 #include "ui/cracks_view.h"
 #include "ui/errors_view.h"
 #include "ui/frame_stats.h"
+#include "ui/layers_view.h"
 #include "ui/log_panel.h"
 #include "ui/pops_view.h"
 #include "ui/probe_view.h"
@@ -120,6 +121,7 @@ struct EditorView {
     RecordingView recording{};
     CompareView compare{};
     SweepView sweep{};
+    LayersView layers{};
 };
 
 }  // namespace ui

@@ -239,7 +239,8 @@ void lightKnobs(SurfaceSettings& surface) {
 
 }  // namespace
 
-void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings& settings, Commands&) {
+void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings& settings,
+                  Commands& commands) {
     SurfaceSettings& surface = settings.surface;
     const SurfaceSettings defaults;
     if (section("Colour")) colourKnobs(view, surface);
@@ -253,6 +254,7 @@ void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings
     }
     if (section("Sun")) sunKnobs(view, surface);
     if (section("Light and air")) lightKnobs(surface);
+    layersSections(view, state.layers, surface.layers, commands);
 }
 
 }  // namespace ui

@@ -1,12 +1,14 @@
-// Surface: height ramp, sea, colour image, sun, vertical exaggeration.
+// Surface: texture layers, height ramp, sea, colour image, sun, vertical exaggeration.
 #pragma once
 
 #include "ui/editor_view.h"
+#include "ui/layers_panel.h"
 
 namespace ui {
 
 struct SurfacePanelState {
     int selectedStop = -1;  // of the ramp; -1: none
+    LayersPanelState layers{};
 };
 
 // Fills the current window.

@@ -39,8 +39,9 @@ int fieldOf(double sizeM, const View& view, std::vector<double>& sizes, LayersUn
     const auto field = static_cast<std::size_t>(found - sizes.begin());
     if (found != sizes.end()) return static_cast<int>(field);
     sizes.push_back(sizeM);
-    setNoise(view, 1 / sizeM, 2 * field, uniforms);
-    setNoise(view, layerNoiseOctave / sizeM, 2 * field + 1, uniforms);
+    double cellsPerM = 1 / sizeM;
+    for (std::size_t octave = 0; octave < layerNoiseShares.size(); ++octave, cellsPerM *= layerNoiseOctave)
+        setNoise(view, cellsPerM, layerNoiseShares.size() * field + octave, uniforms);
     return static_cast<int>(field);
 }
 

@@ -27,12 +27,12 @@ struct LayersUniforms {
     glm::ivec4 counts;
     glm::vec4 mix, truth;
     std::array<LayerUniform, maxLayers> layers;
-    std::array<glm::ivec4, 2 * maxLayers> noiseCells;
-    std::array<glm::vec4, 2 * maxLayers> noiseInside;
+    std::array<glm::ivec4, 3 * maxLayers> noiseCells;  // an octave each
+    std::array<glm::vec4, 3 * maxLayers> noiseInside;
     std::array<glm::vec4, maxLayers * layerRepeatLevels> repeatPlaces;
 };
 static_assert(sizeof(LayerUniform) == 6 * 16 &&
-              sizeof(LayersUniforms) == (3 + 6 * 8 + 2 * 16 + 8 * layerRepeatLevels) * 16);
+              sizeof(LayersUniforms) == (3 + 6 * 8 + 2 * 24 + 8 * layerRepeatLevels) * 16);
 
 // The switches of shaders/frame.glsl for layers. software: Automatic leaves them off.
 int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM);

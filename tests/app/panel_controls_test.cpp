@@ -181,6 +181,58 @@ TEST_F(PanelControls, aRampSpansTrueHeightsUnderAnyExaggeration) {
     EXPECT_EQ(settings_.surface.ramp, ramp);
 }
 
+TEST_F(PanelControls, layersAreAddedCopiedMovedAndRemoved) {
+    const planet::LayerSet earth = settings_.surface.layers.set;
+    const auto& layers = settings_.surface.layers.set.layers;
+    ASSERT_EQ(layers.size(), planet::maxLayers);
+    click(PanelId::Surface, "layer rock");
+    EXPECT_EQ(states_.surface.layers.chosen, 1u);
+    click(PanelId::Surface, "/Add");
+    click(PanelId::Surface, "/Copy");
+    EXPECT_EQ(layers.size(), planet::maxLayers) << "no more fit";
+    click(PanelId::Surface, "/Up");
+    EXPECT_EQ(layers[2], earth.layers[1]);
+    click(PanelId::Surface, "/Down");
+    EXPECT_EQ(settings_.surface.layers.set, earth);
+    click(PanelId::Surface, "/Remove");
+    EXPECT_EQ(layers[1], earth.layers[2]);
+    click(PanelId::Surface, "/Copy");
+    EXPECT_EQ(layers[2].name, "grass 2");
+    EXPECT_EQ(layers[2].albedo, layers[1].albedo);
+    while (!layers.empty()) click(PanelId::Surface, "/Remove");
+    EXPECT_FALSE(window_.isShown("/Scale"));
+    click(PanelId::Surface, "/Add");
+    EXPECT_EQ(layers.size(), 1u);
+    EXPECT_TRUE(window_.isShown("/Scale"));
+}
+
+TEST_F(PanelControls, layersAreMutedAndMadeSoloInTheirRow) {
+    click(PanelId::Surface, "mute grass");
+    EXPECT_TRUE(settings_.surface.layers.set.layers[2].muted);
+    click(PanelId::Surface, "mute grass");
+    EXPECT_FALSE(settings_.surface.layers.set.layers[2].muted);
+    click(PanelId::Surface, "solo snow");
+    EXPECT_TRUE(settings_.surface.layers.set.layers[5].solo);
+    EXPECT_FALSE(planet::isDrawn(settings_.surface.layers.set, 2));
+}
+
+TEST_F(PanelControls, thePreviewFollowsTheChosenLayer) {
+    click(PanelId::Surface, "layer forest");
+    EXPECT_EQ(settings_.surface.layers.previewed, 1) << "nothing to undo while it is off";
+    settings_.surface.layers.preview = planet::gl::LayerPreview::Heat;
+    click(PanelId::Surface, "layer snow");
+    EXPECT_EQ(settings_.surface.layers.previewed, 6);
+}
+
+TEST_F(PanelControls, aLayerSetIsSavedUnderItsName) {
+    const std::string_view name = "mine";
+    name.copy(states_.surface.layers.newName.data(), name.size());
+    const Commands save = click(PanelId::Surface, "/Save##set");
+    ASSERT_TRUE(only<SaveLayerSet>(save));
+    EXPECT_EQ(only<SaveLayerSet>(save)->name, "mine");
+    EXPECT_TRUE(click(PanelId::Surface, "/Save##set").empty()) << "a name is saved once";
+}
+
 TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
     log_.push_back({LogLevel::Info, "14:03:22", "opened"});
     log_.push_back({LogLevel::Error, "14:03:23", "broken"});

@@ -46,6 +46,21 @@ TEST(Undo, AllChangesWhileAControlIsHeldAreOneStep) {
     EXPECT_EQ(history.undo(), std::nullopt);
 }
 
+TEST(Undo, TakesBackWhatWasDoneToALayer) {
+    UndoHistory history;
+    const ui::ViewSettings before;
+    ui::ViewSettings muted = before;
+    muted.surface.layers.set.layers[2].muted = true;
+    ui::ViewSettings removed = muted;
+    removed.surface.layers.set.layers.pop_back();
+    history.record(before, muted, false, 1);
+    history.record(muted, removed, false, 2);
+    EXPECT_EQ(history.undoName(), "layers");
+    EXPECT_EQ(history.undo(), muted);
+    EXPECT_EQ(history.undo(), before);
+    EXPECT_EQ(history.redo(), muted);
+}
+
 TEST(Undo, AControlThatIsHeldWithoutAChangeKeepsItsStepOpen) {
     UndoHistory history;
     history.record(withTau(2), withTau(3), true, 0);

@@ -16,7 +16,7 @@ TEST(CommandLine, HelpAndVersionEndWell) {
     const Ran help = runWorldy(folder, "--help");
     EXPECT_EQ(help.exitCode, 0);
     for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "cracks", "pops", "sweep",
-                                "bench", "audit", "compare"}) {
+                                "bench", "audit", "compare", "make-layers"}) {
         EXPECT_THAT(help.output, HasSubstr(command));
         const Ran own = runWorldy(folder, std::string(command) + " --help");
         EXPECT_EQ(own.exitCode, 0) << command;
@@ -76,6 +76,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"shot junk.chk -o o.png --colour-by mood", "--colour-by"},
         BadCommand{"shot junk.chk -o o.png --set lod.tua_px=3",
                    "--set lod.tua_px=3: lod.tua_px is not a setting; the nearest one is lod.tau_px"},
+        BadCommand{"shot junk.chk -o o.png --layers none.toml", "none.toml: no such file"},
+        BadCommand{"shot junk.chk -o o.png --layers bad.toml",
+                   "bad.toml: line 2: lod is no part of a layer set"},
+        BadCommand{"shot junk.chk -o o.png --set surface.layers=3",
+                   "surface.layers is 3; layers, as [[layer]]"},
+        BadCommand{"shot junk.chk -o o.png --set surface.layer_use=maybe", "\"automatic\", \"on\", \"off\""},
+        BadCommand{"make-layers", "FOLDER is required"}, BadCommand{"make-layers junk.chk", "junk.chk"},
+        BadCommand{"make-layers made --size 100", "--size"},
         BadCommand{"shot junk.chk -o o.png --set lod.tau_px=0", "a number of pixels from 0.1 to 64"},
         BadCommand{"shot junk.chk -o o.png --set", "--set"},
         BadCommand{"shot junk.chk -o o.png --settings none.toml", "none.toml: no such file"},
