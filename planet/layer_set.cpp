@@ -92,7 +92,7 @@ LayerSet earthLayers() {
     forest.noiseSizeM = 4000;
 
     TextureLayer snow = material("snow", 30);
-    snow.heightM = {4900, allHeightsM.highest, 1000};
+    snow.heightM = {5300, allHeightsM.highest, 900};
     snow.slopeDeg = {0, 40, 18};
     snow.noiseAmount = 0.9;
     snow.noiseSizeM = 4000;

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "--set lod.tua_px=3: lod.tua_px is not a setting; the nearest one is lod.tau_px"},
         BadCommand{"shot junk.chk -o o.png --layers none.toml", "none.toml: no such file"},
         BadCommand{"shot junk.chk -o o.png --layers bad.toml",
-                   "bad.toml: line 2: lod is no part of a layer set"},
+                   "bad.toml: line 1: lod is no part of a layer set"},
         BadCommand{"shot junk.chk -o o.png --set surface.layers=3",
                    "surface.layers is 3; layers, as [[layer]]"},
         BadCommand{"shot junk.chk -o o.png --set surface.layer_use=maybe", "\"automatic\", \"on\", \"off\""},

@@ -33,13 +33,14 @@ class LayersProgram : public testing::Test {
 protected:
     void SetUp() override {
         bakePlanet(folder_);
-        ASSERT_EQ(runWorldy(folder_, "make-layers layers --size 64").exitCode, 0);
+        ASSERT_EQ(runWorldy(folder_, "make-layers layers --size 16").exitCode, 0);
     }
 
     Ran shot(const std::string& name, const std::string& more) {
         return runWorldy(folder_, "shot planet.chk -o " + name +
-                                      " --size 160x120 --samples 1 --camera=10,20,3000,0,-60 "
-                                      "--set surface.lighting=false --set surface.layer_colour_below=0 " +
+                                      " --size 160x120 --samples 1 --camera=10,20,9000,0,-60 "
+                                      "--set surface.lighting=false --set surface.layer_colour_below=0 --set "
+                                      "surface.layer_begin_m=30000 " +
                                       more);
     }
     std::vector<std::uint8_t> pixels(const std::string& name) { return pixelsOf(folder_.path() / name); }
@@ -57,7 +58,7 @@ TEST_F(LayersProgram, AShotShowsThemAndItsNoteShowsThemAgain) {
     EXPECT_LT(magentaShare(pixels("on.png")), 0.001);
     const Ran again =
         runWorldy(folder_,
-                  "shot planet.chk -o again.png --size 160x120 --samples 1 --camera=10,20,3000,0,-60 "
+                  "shot planet.chk -o again.png --size 160x120 --samples 1 --camera=10,20,9000,0,-60 "
                   "--settings on.png");
     ASSERT_EQ(again.exitCode, 0) << again.errors;
     EXPECT_EQ(pixels("on.png"), pixels("again.png"));
