@@ -137,9 +137,10 @@ Result<TextureLayer> layerFromToml(const fs::path& file, const std::string& name
     TextureLayer layer;
     const std::vector<LayerKey> keys = keysOf(layer);
     for (const auto& [key, value] : *table) {
-        const auto found = std::find_if(keys.begin(), keys.end(),
-                                        [&](const LayerKey& known) { return known.key == key.str(); });
-        const std::string keyName = fmt::format("{}: {:.40}", name, key.str());
+        const std::string_view word = key.str();
+        const auto found =
+            std::find_if(keys.begin(), keys.end(), [&](const LayerKey& known) { return known.key == word; });
+        const std::string keyName = fmt::format("{}: {:.40}", name, word);
         if (found == keys.end()) {
             std::string known;
             for (const LayerKey& one : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", one.key);

@@ -114,6 +114,14 @@ picture_surface() {
     settle; click surface/Hypsometric; aside
     dock surface
 }
+# Grass, rock and snow below Everest, and what the layers are there.
+picture_layers() {
+    start < <(pose 27.5 86.5 20000 10 -22; window 1400 960; only surface 320; echo 'surface.layer_use = "on"')
+    settle; reach surface/Colour "surface/Noise size"; click "surface/layer snow"
+    for i in $(seq 30); do xdotool click 5; done; frames
+    point viewport/picture 0.45 0.72
+    whole layers
+}
 picture_camera() {
     start < <(himalaya; window 1400 1000; only camera 300; echo 'view.mode = "follow_flight"'
         echo "view.flight = \"$here/data/flights/andes_low_fast.toml\"")
@@ -238,7 +246,7 @@ until_true says 'Baked' || cat .stderr
 settle
 stop
 
-for name in editor errors observer light compare \
+for name in editor errors observer light compare layers \
     lod seams overlay surface camera presets quadtree chunk paging frame bake log \
     true_error cracks pops precision flight sweep; do
     asked $name || continue

@@ -523,12 +523,19 @@ TEST_F(ChunkRendererTest, GpuMemoryIsWhatWasAllocated) {
     EXPECT_EQ(before.heightPool, 170u * 170 * 2);  // ten slots of 17 a side, squared
     EXPECT_GE(before.meshes, grid);
     EXPECT_LE(before.meshes, grid + 8192);
-    EXPECT_EQ(before.textures, (64u * 64 * 64 * 8 - 1) / 7 * 4);  // noise and its mipmaps
+    const auto withMipmaps = [](std::size_t side) { return (4 * side * side - 1) / 3; };
+    // Noise and the layers' checker pattern, with mipmaps.
+    EXPECT_EQ(before.textures, (64u * 64 * 64 * 8 - 1) / 7 * 4 + 2 * 4 * withMipmaps(64));
     EXPECT_EQ(before.total(), before.heightPool + before.meshes + before.textures);
     const std::vector<std::uint8_t> rgb(16 * 8 * 3, 128);
     planet.renderer().setColourImage(rgb, 16, 8);
     EXPECT_EQ(planet.renderer().gpuMemory().textures - before.textures,
               6u * 4u * (5 * 5 + 2 * 2 + 1));  // six faces
+    const std::size_t withImage = planet.renderer().gpuMemory().textures;
+    const LayerPicture picture = checkerPicture(128);
+    planet.renderer().setLayers(std::array{picture, picture}, 128);
+    EXPECT_EQ(planet.renderer().gpuMemory().textures,
+              withImage + 2 * 4 * (3 * withMipmaps(128) - withMipmaps(64)));
     ASSERT_TRUE(planet.renderer().setSlotCapacity(25));
     EXPECT_EQ(planet.renderer().gpuMemory().heightPool, 85u * 85 * 2);
 }
