@@ -99,6 +99,8 @@ ui::LayersView layersViewOf(const LayerDesk& desk, const Scene* scene, const ui:
     view.setProblem = desk.setProblem;
     view.overGround = desk.overGround;
     view.under = desk.under;
+    // The place stays where the pointer was last; the layers may have changed since.
+    if (view.under) view.under->weights = planet::layerWeights(layers.set, view.under->place);
     const LayerPictures none;
     const LayerPictures& pictures = scene ? scene->layers : none;
     view.software = scene && scene->renderer.capabilities().software;

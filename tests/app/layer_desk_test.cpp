@@ -66,6 +66,17 @@ TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     EXPECT_EQ(desk.setProblem, "");
 }
 
+TEST(LayerDesk, TheReadoutFollowsTheLayersWhileThePointerIsAway) {
+    LayerDesk desk;
+    desk.under = ui::LayerReadout{{{0, 0, 6.371e6}, 51, 0, 90}, {}};
+    ui::LayerSettings layers;
+    layers.set = planet::twoLayerHeightBlend();
+    EXPECT_NEAR(layersViewOf(desk, nullptr, layers).under->weights[1], 0.2, 1e-12);
+    layers.set.layers[1].muted = true;
+    EXPECT_EQ(layersViewOf(desk, nullptr, layers).under->weights[1], 0);
+    EXPECT_EQ(layersViewOf(desk, nullptr, layers).under->weights[0], 1);
+}
+
 TEST(LayerPictures, AreReadEnlargedToTheLargest) {
     const tests::TemporaryFolder folder;
     writePng(folder.path() / "albedo.png", 16, 16, 3, 100);
