@@ -14,8 +14,10 @@ namespace planet {
 inline constexpr double layerNoiseOctave = 3.17;
 inline constexpr std::array<double, 3> layerNoiseShares = {0.56, 0.28, 0.16};
 
-// Of a lattice point; all 32 bits are mixed. Coordinates may wrap.
-std::uint32_t layerHash(const glm::ivec3& cell);
+// The lattice point of whole coordinates of any size: they wrap at 2^32, as the shader's do.
+glm::uvec3 latticeCell(const glm::dvec3& whole);
+// Of a lattice point; all 32 bits are mixed.
+std::uint32_t layerHash(const glm::uvec3& cell);
 
 // Four noises at once, each of a byte of the hash; in [-1, 1], over cells one unit a side.
 glm::dvec4 valueNoise(const glm::dvec3& place);

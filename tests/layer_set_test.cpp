@@ -186,6 +186,14 @@ TEST(LayerSet, TheShippedSetsAreInOrder) {
     }
 }
 
+TEST(LayerNoise, GoesOnBeyondWhereWholeNumbersWrap) {
+    const double wrap = 4294967296.0;
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 place(0.25 * i, 100 - 0.5 * i, 7);
+        EXPECT_EQ(valueNoise(place), valueNoise(place + glm::dvec3(wrap, -wrap, 2 * wrap)));
+    }
+}
+
 TEST(LayerNoise, IsSmoothAndCentredAndItsFourPartsDiffer) {
     double sum = 0, products = 0, squares = 0;
     const int count = 4000;

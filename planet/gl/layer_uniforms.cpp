@@ -29,7 +29,7 @@ glm::vec3 linearFromSrgb(const glm::vec3& colour) {
 void setNoise(const View& view, double cellsPerM, std::size_t at, LayersUniforms& uniforms) {
     const glm::dvec3 place = view.eyeM * cellsPerM;
     const glm::dvec3 cell = glm::floor(place);
-    uniforms.noiseCells[at] = glm::ivec4(glm::ivec3(cell), 0);
+    uniforms.noiseCells[at] = glm::ivec4(glm::ivec3(latticeCell(cell)), 0);
     uniforms.noiseInside[at] = glm::dvec4(place - cell, cellsPerM);
 }
 
