@@ -61,14 +61,9 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     }
     Result<HeightSource> source = openHeightSource(terrain->of, settings);
     if (!source) return source;
-    // Whoever has only the description should find the file again.
-    std::error_code problem;
-    const bool isFile = !isTerrainText(terrain->of);
-    const std::filesystem::path of = isFile
-                                         ? std::filesystem::absolute(terrain->of, problem).lexically_normal()
-                                         : std::filesystem::path(source->description);
     Result<HeightSource> result = amplified(*std::move(source), *detail);
-    if (result) result->description = terrainText({*detail, of});
+    // Whoever has only the description should find the file again.
+    if (result) result->description = wholeTerrainText(text).value_or(result->description);
     return result;
 }
 

@@ -29,11 +29,20 @@ constexpr TerrainField field(std::string_view name, std::string_view label, std:
         unit,
         least,
         most,
+        least,
+        most,
         std::is_integral_v<Value>,
         logarithmic,
         about,
         [](const TerrainSettings& s) { return static_cast<double>(std::get<Settings>(s).*member); },
         [](TerrainSettings& s, double value) { std::get<Settings>(s).*member = static_cast<Value>(value); }};
+}
+
+// The same with a slider that spans less.
+constexpr TerrainField usually(double least, double most, TerrainField field) {
+    field.usualLeast = least;
+    field.usualMost = most;
+    return field;
 }
 
 template <class S>
@@ -59,18 +68,21 @@ constexpr TerrainField gainField() {
 }
 template <class S>
 constexpr TerrainField amplitudeField(std::string_view about) {
-    return field<&S::amplitudeM>("amplitude_m", "Amplitude", "m", 0, 1e6, true, about);
+    return usually(0, 20000, field<&S::amplitudeM>("amplitude_m", "Amplitude", "m", 0, 1e6, true, about));
 }
 template <class S>
 constexpr TerrainField featureField() {
-    return field<&S::featureDeg>("feature_deg", "Feature size", "deg of arc", 0.01, 180, true,
-                                 "Width of the largest hills: the first octave's lattice cell. On Earth a "
-                                 "degree is 111 km. Too small: the planet looks like a golf ball from afar.");
+    return usually(
+        0.5, 180,
+        field<&S::featureDeg>("feature_deg", "Feature size", "deg of arc", 0.01, 180, true,
+                              "Width of the largest hills: the first octave's lattice cell. On Earth a "
+                              "degree is 111 km. Too small: the planet looks like a golf ball from afar."));
 }
 template <class S>
 constexpr TerrainField offsetField() {
-    return field<&S::offsetM>("offset_m", "Offset", "m", -1e6, 1e6, false,
-                              "Added to every height. Below 0: more sea, above: more land.");
+    return usually(-15000, 15000,
+                   field<&S::offsetM>("offset_m", "Offset", "m", -1e6, 1e6, false,
+                                      "Added to every height. Below 0: more sea, above: more land."));
 }
 
 constexpr std::string_view octavesAbout =
@@ -107,17 +119,22 @@ constexpr std::array ridgedFields = {
 using Fault = FaultTerrain;
 constexpr std::array faultFields = {
     seedField<Fault>(),
-    field<&Fault::count>(
-        "count", "Faults", "", 1, 20000, true,
-        "Planes that cut the sphere, n. Few: single steps show; many: the bake takes longer, "
-        "in proportion."),
-    field<&Fault::maxDeltaM>("max_delta_m", "First step", "m", 0, 1e6, true,
-                             "Height of the first fault. dt = max - (max - min) i / n."),
-    field<&Fault::minDeltaM>("min_delta_m", "Last step", "m", 0, 1e6, true,
-                             "Height that the last faults come down to, at most the first one's."),
-    field<&Fault::smoothDeg>("smooth_deg", "Smoothing", "deg of arc", 0, 30, true,
-                             "Width w of a fault's soft step, e^(-x/w): the limit of the books' filter with "
-                             "k = e^(-spacing/w). 0: cliffs of one grid step; large: gentle swells."),
+    usually(1, 3000,
+            field<&Fault::count>(
+                "count", "Faults", "", 1, 20000, true,
+                "Planes that cut the sphere, n. Few: single steps show; many: the bake takes longer, "
+                "in proportion.")),
+    usually(0, 2000,
+            field<&Fault::maxDeltaM>("max_delta_m", "First step", "m", 0, 1e6, true,
+                                     "Height of the first fault. dt = max - (max - min) i / n.")),
+    usually(0, 2000,
+            field<&Fault::minDeltaM>("min_delta_m", "Last step", "m", 0, 1e6, true,
+                                     "Height that the last faults come down to, at most the first one's.")),
+    usually(0, 10,
+            field<&Fault::smoothDeg>(
+                "smooth_deg", "Smoothing", "deg of arc", 0, 30, true,
+                "Width w of a fault's soft step, e^(-x/w): the limit of the books' filter with "
+                "k = e^(-spacing/w). 0: cliffs of one grid step; large: gentle swells.")),
     offsetField<Fault>(),
 };
 
@@ -139,10 +156,12 @@ constexpr std::array craterFields = {
         "sizes", "Crater sizes", "", 1, 16, false,
         "How often diameters halve from the largest on. More: smaller craters, and a longer "
         "bake. Those under four grid steps are left out."),
-    field<&Crater::largestDeg>("largest_deg", "Largest crater", "deg of arc", 0.01, 60, true,
-                               "Its diameter. On the Moon a degree is 30 km."),
-    field<&Crater::depthM>("depth_m", "Its depth", "m", 0, 1e5, true,
-                           "Of the largest crater, from the ground around it to its floor."),
+    usually(0.1, 60,
+            field<&Crater::largestDeg>("largest_deg", "Largest crater", "deg of arc", 0.01, 60, true,
+                                       "Its diameter. On the Moon a degree is 30 km.")),
+    usually(0, 15000,
+            field<&Crater::depthM>("depth_m", "Its depth", "m", 0, 1e5, true,
+                                   "Of the largest crater, from the ground around it to its floor.")),
     field<&Crater::depthPower>("depth_power", "Depth power", "", 0.2, 1.5, false,
                                "Depth goes with diameter to this power. 1: all of the same shape; lower: "
                                "small ones are deep for their size, as real ones are."),
@@ -167,15 +186,22 @@ constexpr std::array detailFields = {
                              "Height of the detail against the source's own relief at a place. 1: goes on as "
                              "the source ends; high: spiky mountains."),
     field<&Detail::ridged>("ridged", "Ridged", "", 0, 1, false, "0: round hills; 1: ridges."),
-    field<&Detail::limitM>("limit_m", "Limit", "m", 0, 1e5, true,
-                           "Never more than this is added or taken away. High: a coarser quantum is needed."),
-    field<&Detail::flatM>("flat_m", "Flat below", "m", 0, 1e5, true,
-                          "Relief from sample to sample up to this counts as flat, and stays as it is; up to "
-                          "three times this, detail fades in."),
-    field<&Detail::seaM>("sea_m", "Sea level", "m", -1e6, 1e6, false, "Below it detail fades out."),
-    field<&Detail::coastM>("coast_m", "Coast", "m", 0, 1e5, true,
-                           "Detail fades from all at this height above the sea to none at this depth below. "
-                           "0: to none at the coast, which shows; large: the sea floor gets detail too."),
+    usually(0, 5000,
+            field<&Detail::limitM>(
+                "limit_m", "Limit", "m", 0, 1e5, true,
+                "Never more than this is added or taken away. High: a coarser quantum is needed.")),
+    usually(0, 500,
+            field<&Detail::flatM>(
+                "flat_m", "Flat below", "m", 0, 1e5, true,
+                "Relief from sample to sample up to this counts as flat, and stays as it is; up to "
+                "three times this, detail fades in.")),
+    usually(-8000, 8000,
+            field<&Detail::seaM>("sea_m", "Sea level", "m", -1e6, 1e6, false, "Below it detail fades out.")),
+    usually(0, 2000,
+            field<&Detail::coastM>(
+                "coast_m", "Coast", "m", 0, 1e5, true,
+                "Detail fades from all at this height above the sea to none at this depth below. "
+                "0: to none at the coast, which shows; large: the sea floor gets detail too.")),
 };
 
 const std::array kinds = {

@@ -128,6 +128,8 @@ struct TerrainField {
     std::string_view unit;   // "m"; empty: a plain number
     double least = 0;
     double most = 0;
+    double usualLeast = 0;  // what a slider spans
+    double usualMost = 0;
     bool whole = false;        // a whole number
     bool logarithmic = false;  // spans powers of ten: how a slider should go
     std::string_view about;    // what it means and what gets worse
@@ -163,6 +165,9 @@ bool isTerrainText(const std::filesystem::path& path);
 Result<TerrainSource> terrainFromText(const std::filesystem::path& text);
 // The shortest text: terrainFromText gives the same back.
 std::string terrainText(const TerrainSource& source);
+
+// The same text as whoever has nothing but it needs it: the shortest, and the path of a file absolute.
+Result<std::string> wholeTerrainText(const std::filesystem::path& text);
 
 // Heights made by the settings, which must not be detail; described by their text.
 Result<HeightSource> makeTerrain(const TerrainSettings& settings);

@@ -123,6 +123,20 @@ Result<TerrainSource> terrainFromText(const std::filesystem::path& path) {
     return source;
 }
 
+Result<std::string> wholeTerrainText(const std::filesystem::path& text) {
+    Result<TerrainSource> source = terrainFromText(text);
+    if (!source) return tl::unexpected(source.error());
+    if (isTerrainText(source->of)) {
+        Result<std::string> of = wholeTerrainText(source->of);
+        if (!of) return of;
+        source->of = *std::move(of);
+    } else if (!source->of.empty()) {
+        std::error_code problem;
+        source->of = std::filesystem::absolute(source->of, problem).lexically_normal();
+    }
+    return terrainText(*source);
+}
+
 std::string terrainText(const TerrainSource& source) {
     const TerrainKind& kind = kindOf(source.settings);
     std::string text(kind.name);
