@@ -37,9 +37,10 @@ std::vector<ui::World> worlds() {
               "The same with detail below its 9 km, as rough as the land around it: at its face size down to "
               "1.2 km, down to 100 m for face sizes up to 131073.",
               planet::terrainText({planet::DetailTerrain{}, earth}), earthRadiusM, 8193),
-        // The ground is raised above the sea's level, 0, and the radius lowered by as much.
-        world("moon", "Moon", "Craters of many sizes on rolling ground, the size of our Moon.",
-              "noise:craters,seed=11,offset_m=10000", 1'727'400, 2049),
+        world("moon", "Moon",
+              "Craters of many sizes on rolling ground, the size of our Moon. Without sea and air under the "
+              "settings preset \"airless moon\".",
+              "noise:craters,seed=11", 1'737'400, 2049),
         world("ridged", "Ridged world", "Mountain chains with sharp crests, the size of Mars.",
               "noise:ridged,seed=4,offset_m=1500", 3'389'500, 2049),
     };

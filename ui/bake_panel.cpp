@@ -204,7 +204,9 @@ void requestSection(const EditorView& view, BakePanelState& state) {
     if (!section("Bake anew")) return;
     BakeRequest request = state.edited.value_or(view.bake.current);
     ImGui::BeginDisabled(view.bake.running.has_value());
-    bool changed = sourceControls(view, state.source, request);
+    const bool sourceChanged = sourceControls(view, state.source, request);
+    if (sourceChanged) state.preview.open = true;
+    bool changed = sourceChanged;
     changed |= chunkSizeControl(view.bake.current, request);
     changed |= faceSizeControl(view.bake.current, request);
     changed |= radiusControl(view.bake.current, request);
@@ -339,11 +341,13 @@ void previousSection(const DataView& data, Commands& commands) {
 
 void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& settings, Commands& commands) {
     followOpenFile(view, state);
-    previousSection(view.data, commands);
-    openFileSection(view, settings);
-    requestSection(view, state);
     sourcePreviewBox(view, state.edited.value_or(view.bake.current), state.source.problem.empty(),
                      state.preview, commands);
+    // The picture stays in sight while knobs far below are turned.
+    const bool pinned = ImGui::GetContentRegionAvail().y > ImGui::GetFontSize() * 12;
+    if (pinned) ImGui::BeginChild("below the preview");
+    previousSection(view.data, commands);
+    requestSection(view, state);
     askForEstimate(view, state, commands);
     ImGui::Spacing();
     if (view.bake.running) {
@@ -354,6 +358,8 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
         estimateValues(view, state);
     }
     outcomeLines(view.bake);
+    openFileSection(view, settings);
+    if (pinned) ImGui::EndChild();
 }
 
 }  // namespace ui

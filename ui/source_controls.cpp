@@ -224,6 +224,7 @@ bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& reque
     bool changed = worldControl(view, edit, request);
     const bool lit = request.source != view.bake.current.source;
     bool edited = kindControl(lit, edit);
+    if (edited) request.settings.quantumM.reset();  // the old source's range says nothing of the new one's
     if (edit.kind == 0) {
         edited |= fileControl(edit);
     } else {

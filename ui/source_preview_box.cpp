@@ -104,7 +104,11 @@ void captionOf(const SourcePreview& preview, PreviewBoxState& state) {
 
 void sourcePreviewBox(const EditorView& view, const BakeRequest& request, bool good, PreviewBoxState& state,
                       Commands& commands) {
-    if (!section("Preview")) return;
+    ImGui::SetNextItemOpen(state.open);
+    state.open = ImGui::CollapsingHeader("Preview");
+    noteItem("Preview of the source");
+    tooltip("A picture of what is to be baked, drawn anew when a knob is turned.");
+    if (!state.open) return;
     if (!good) {
         wrappedText("There is nothing to show yet.", palette().dim);
         return;

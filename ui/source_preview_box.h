@@ -8,6 +8,7 @@
 namespace ui {
 
 struct PreviewBoxState {
+    bool open = false;  // opens by itself once a source is changed
     planet::Face face = planet::Face::PosX;
     int zoomLog2 = 0;
     double u = 0;  // middle of what is shown, [-1, 1]
