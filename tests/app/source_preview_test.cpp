@@ -55,7 +55,7 @@ TEST(SourcePreview, NorthIsUpSeaIsBlueAndTheSunStandsUpperLeft) {
     const auto seaPixel = pixelOf(*picture, 128, 200);
     EXPECT_GT(seaPixel[2], seaPixel[0] + 40);
     const auto west = pixelOf(*picture, 124, 60), east = pixelOf(*picture, 132, 60);
-    EXPECT_GT(west[0], east[0] + 40);
+    EXPECT_GT(west[0], east[0] + 20);
     EXPECT_GE(west[0], west[2]);
 }
 

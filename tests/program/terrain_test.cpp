@@ -26,7 +26,7 @@ TEST_F(TerrainTest, EachKindIsBakedAndIsTheSameAgain) {
     for (const char* source :
          {"noise:fbm,seed=5", "noise:ridged,seed=5", "noise:faults,seed=5,count=50", "noise:midpoint,seed=5",
           "noise:craters,seed=5", "detail:seed=5,of=noise:midpoint"}) {
-        const std::string bake = std::string("bake ") + source + " --face-size 129 --chunk-size 17 -o ";
+        const std::string bake = std::string("bake ") + source + " --face-size 65 --chunk-size 17 -o ";
         const Ran baked = runWorldy(folder, bake + "a.chk --threads 1");
         ASSERT_EQ(baked.exitCode, 0) << baked.errors;
         ASSERT_EQ(runWorldy(folder, bake + "b.chk --threads 4").exitCode, 0);
