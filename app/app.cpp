@@ -14,6 +14,7 @@
 #include "app/shot_command.h"
 #include "app/window.h"
 #include "planet/height_source.h"
+#include "ui/text.h"
 
 namespace worldy {
 
@@ -71,7 +72,7 @@ Result<void> checkDataSet(const DataSet& set) {
 }
 
 int runWindow(Window& window, const AppOptions& options, DataSet data, const OpenSettings& open, Log& log) {
-    window.setTitle(fmt::format("{} - Worldy", data.source.filename().string()));
+    window.setTitle(fmt::format("{} - Worldy", ui::sourceName(data.source)));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data), options.shaderFolder, log);
     Editor editor = openEditor(open.settings, log);
@@ -97,8 +98,9 @@ Result<void> bakeIfNeeded(const DataSet& data) {
     std::error_code status;
     fs::create_directories(data.chunkFile.parent_path(), status);
     return planet::openHeightSource(data.source, {})
-        .and_then(
-            [&](const planet::HeightSource& source) { return bakeOnTerminal(source, {}, data.chunkFile); })
+        .and_then([&](const planet::HeightSource& source) {
+            return bakeOnTerminal(source, data.settings, data.chunkFile);
+        })
         .map([](const auto&) {});
 }
 

@@ -7,6 +7,8 @@
 
 #include "app/bake_progress.h"
 #include "app/report.h"
+#include "app/worlds.h"
+#include "planet/terrain.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -61,14 +63,56 @@ void printWarnings(const BakeOptions& options, const planet::BakeReport& report)
     }
 }
 
+void printField(const planet::TerrainField& field, const planet::TerrainSettings& defaults) {
+    fmt::print("    {:<14} {:>8} {:<10} {} to {}{}\n", field.name, fmt::format("{}", field.get(defaults)),
+               field.unit, field.least, field.most, field.whole ? ", whole" : "");
+}
+
+// The worlds, and the kinds of made terrain with their settings.
+void printPresets() {
+    fmt::print("Presets: worldy bake preset:NAME -o OUT.chk\n");
+    for (const ui::World& world : worlds()) {
+        const planet::BakeSettings& settings = world.request.settings;
+        fmt::print("  {:<16} {}\n{:19}{}, radius {} km{}\n", world.name, world.about, "",
+                   world.request.source.string(), settings.radiusM / 1000,
+                   settings.faceSize ? fmt::format(", faces of {}", *settings.faceSize) : "");
+    }
+    fmt::print("\nMade terrain: worldy bake KIND,NAME=VALUE,... -o OUT.chk; defaults and ranges are\n");
+    for (const planet::TerrainKind& kind : planet::terrainKinds()) {
+        const bool isDetail = kind.name == "detail";
+        fmt::print("  {:<16} {}\n", isDetail ? "detail:...,of=" : kind.name, kind.about);
+        for (const planet::TerrainField& field : kind.fields) printField(field, kind.defaults);
+    }
+}
+
+// The settings and the source that is meant, detail added.
+planet::Result<NamedSource> sourceFrom(const BakeOptions& options) {
+    planet::Result<NamedSource> named = sourceNamed(options.source, options.settings);
+    if (!named) return named;
+    if (options.radiusM) named->settings.radiusM = *options.radiusM;
+    if (!options.detail) return named;
+    const std::string knobs = options.detail->empty() ? "" : *options.detail + ",";
+    const std::string text = fmt::format("detail:{}of={}", knobs, named->source.string());
+    const planet::Result<planet::TerrainSource> good = planet::terrainFromText(text);
+    if (!good) return tl::unexpected(good.error());
+    named->source = text;
+    return named;
+}
+
 }  // namespace
 
 planet::Result<void> runBake(const BakeOptions& options) {
+    if (options.listPresets) {
+        printPresets();
+        return {};
+    }
+    const planet::Result<NamedSource> named = sourceFrom(options);
+    if (!named) return tl::unexpected(named.error());
     const planet::Result<planet::HeightSource> source =
-        planet::openHeightSource(options.source, options.sourceSettings);
+        planet::openHeightSource(named->source, options.sourceSettings);
     if (!source) return tl::unexpected(source.error());
     const planet::Result<planet::BakeReport> report =
-        bakeOnTerminal(*source, options.settings, options.output);
+        bakeOnTerminal(*source, named->settings, options.output);
     if (!report) return tl::unexpected(report.error());
     printWarnings(options, *report);
     (options.json ? printJson : printText)(*source, options, *report);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "planet/bake.h"
 #include "planet/height_source.h"
@@ -9,10 +11,13 @@
 namespace worldy {
 
 struct BakeOptions {
-    std::filesystem::path source;
+    std::filesystem::path source;       // a path, a terrain's text or a world's name
+    std::optional<std::string> detail;  // knobs of the detail that is added: "strength=0.8,octaves=4"
     std::filesystem::path output;
     planet::HeightSourceSettings sourceSettings;
-    planet::BakeSettings settings;
+    planet::BakeSettings settings;  // all but the radius
+    std::optional<double> radiusM;  // a world's own, or the Earth's
+    bool listPresets = false;       // instead: tells the worlds there are, and what made terrain can be told
     bool json = false;
 };
 

@@ -70,18 +70,24 @@ void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
 }
 
 void addBake(CLI::App& app, BakeOptions& options) {
-    CLI::App& command =
-        *app.add_subcommand("bake", "Bake an elevation image or six cube faces into a chunk file");
+    CLI::App& command = *app.add_subcommand(
+        "bake", "Bake an elevation image, six cube faces or made terrain into a chunk file");
     planet::BakeSettings& settings = options.settings;
+    command.add_option("SOURCE", options.source,
+                       "Elevation image, one of six cube faces or their common stem, a terrain as "
+                       "noise:ridged,seed=7, or a preset as preset:moon");
+    command.add_option("-o,--output", options.output, "Chunk file to write");
+    command.add_flag("--list-presets", options.listPresets,
+                     "Instead: list the presets, and the settings of all kinds of terrain");
     command
-        .add_option("SOURCE", options.source,
-                    "Elevation image, or one of six cube faces or their common stem")
-        ->required();
-    command.add_option("-o,--output", options.output, "Chunk file to write")->required();
+        .add_flag("--detail", options.detail,
+                  "Add detail below the source's own resolution; --detail=strength=0.8,octaves=4 sets its "
+                  "knobs")
+        ->type_name("KNOBS");
     command.add_option("--face-size", settings.faceSize, "Samples a face's side, 2^n + 1 (the source's own)");
     command.add_option("--chunk-size", settings.chunkSize, "Vertices a chunk's side: 17, 33, 65 or 129 (33)")
         ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
-    command.add_option("--radius", settings.radiusM, "The planet's radius, metres (6371000)")
+    command.add_option("--radius", options.radiusM, "The planet's radius, metres (the preset's, or 6371000)")
         ->check(number(1e-3, 1e9));
     command.add_option("--quantum", settings.quantumM, "Metres a stored step (the source's own)")
         ->check(number(1e-9, 1e6));
@@ -411,6 +417,17 @@ Result<CracksOptions> understand(CracksOptions options, const ViewTexts& texts) 
     return takeViewAndCamera(texts, options).map([&](const Settings&) { return options; });
 }
 
+Result<BakeOptions> understand(BakeOptions options) {
+    // A flag without a value reads "true".
+    if (options.detail == "true") options.detail->clear();
+    if (options.listPresets) return options;
+    if (options.source.empty())
+        return planet::badInput("SOURCE is required; worldy bake --help tells what would be right");
+    if (options.output.empty())
+        return planet::badInput("--output is required; worldy bake --help tells what would be right");
+    return options;
+}
+
 Result<FlyOptions> understand(FlyOptions options, const ViewTexts& texts) {
     return takeView(texts, options).map([&](const Settings&) { return options; });
 }
@@ -504,7 +521,9 @@ struct CommandLine {
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
-        app.add_option("FILE", window.file, "Chunk file (.chk), elevation image or cube faces to show");
+        app.add_option("FILE", window.file,
+                       "Chunk file (.chk), elevation image, cube faces, terrain (noise:ridged) or preset "
+                       "(preset:moon) to show");
         app.add_option("--settings", window.settingsFile, "Settings to use instead of the user's own");
         app.add_option("--shaders", window.shaderFolder,
                        "Read the shaders from this folder, and again when they change");
@@ -560,7 +579,7 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
         return [&options, &texts, run] { return exitCodeOf(understand(options, texts).and_then(run)); };
     };
     const std::vector<std::pair<const char*, std::function<int()>>> commands = {
-        {"bake", [&] { return exitCodeOf(runBake(line.bake)); }},
+        {"bake", [&] { return exitCodeOf(understand(line.bake).and_then(runBake)); }},
         {"info", [&] { return exitCodeOf(runInfo(line.file)); }},
         {"verify", [&] { return exitCodeOf(runVerify(line.file)); }},
         {"probe", [&] { return exitCodeOf(runProbe(line.file)); }},

@@ -12,6 +12,7 @@
 #include "app/recent_files.h"
 #include "app/screenshot.h"
 #include "app/shot_line.h"
+#include "planet/terrain.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -99,6 +100,9 @@ struct CommandHandler {
     void operator()(const ui::StartBake& command) const { startBake(session, command.request, log); }
     void operator()(const ui::BakeAgain&) const { startBake(session, log); }
     void operator()(const ui::EstimateBake& command) const { requestEstimate(session, command.request); }
+    void operator()(const ui::PreviewSource& command) const {
+        requestPreview(session.preview, command.request);
+    }
     void operator()(const ui::CancelBake&) const { cancelBake(session); }
     void operator()(const ui::ShowPreviousBake& command) const { showPreviousBake(session, command.shown); }
     void operator()(const ui::DismissPreviousBake&) const { dismissPreviousBake(session); }
@@ -301,9 +305,11 @@ bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
 }
 
 void CommandHandler::operator()(const ui::OpenFile& command) const {
-    if (command.file.extension() == ".toml") return openPreset(command.file);
-    if (isFlightRecord(command.file)) return (*this)(ui::StartReplay{command.file});
-    if (command.file.extension() == ".png" && openScreenshot(command.file)) return;
+    if (!planet::isTerrainText(command.file)) {
+        if (command.file.extension() == ".toml") return openPreset(command.file);
+        if (isFlightRecord(command.file)) return (*this)(ui::StartReplay{command.file});
+        if (command.file.extension() == ".png" && openScreenshot(command.file)) return;
+    }
     if (!openFile(session, command.file, editor.settings.view, log)) {
         // Why not is told there.
         ui::showPanel(ui::PanelId::Log, editor.settings.workspace);

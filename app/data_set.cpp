@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "app/places.h"
+#include "app/worlds.h"
 #include "planet/chunk_file.h"
 #include "planet/height_source.h"
+#include "planet/terrain.h"
 
 namespace worldy {
 
@@ -43,12 +45,27 @@ fs::path colourImageBeside(const fs::path& source) {
 // What a bake of the Earth that comes with Worldy says of its source.
 constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
 
-// A bake of our own Earth keeps its colours wherever it was written to.
+// The file that detail is added to; of other sources themselves.
+fs::path fileUnder(const fs::path& source) {
+    if (!planet::isTerrainText(source)) return source;
+    const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
+    return terrain && !terrain->of.empty() ? fileUnder(terrain->of) : fs::path();
+}
+
+fs::path colourImageOfSource(const fs::path& source) {
+    const fs::path file = fileUnder(source);
+    return file.empty() ? fs::path() : colourImageBeside(file);
+}
+
+// A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
 fs::path colourImageOf(const fs::path& chunkFile) {
     const fs::path beside = colourImageBeside(chunkFile);
     if (!beside.empty()) return beside;
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
-    return file && file->info().source == ourEarth ? colourImageBeside(earthElevation()) : fs::path();
+    if (!file) return {};
+    if (file->info().source == ourEarth) return colourImageBeside(earthElevation());
+    const fs::path source = sourceOf(file->info());
+    return source.empty() ? fs::path() : colourImageOfSource(source);
 }
 
 // Empty for the defaults, so that their bakes keep their names. Memory for the source changes nothing.
@@ -75,6 +92,11 @@ fs::path earthElevation() {
     return dataFolder() / "earth" / "elevation.tif";
 }
 
+fs::path sourceOf(const planet::ChunkFileInfo& info) {
+    const bool made = planet::isTerrainText(info.source) && planet::heightSourceExists(info.source);
+    return made ? fs::path(info.source) : fs::path();
+}
+
 fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settings,
                       const planet::HeightSourceSettings& sourceSettings) {
     std::string identity =
@@ -90,20 +112,32 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
                                 fs::file_size(file, status),
                                 fs::last_write_time(file, status).time_since_epoch().count());
     }
+    if (planet::isTerrainText(source))
+        identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
     return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem), hashOf(identity));
 }
 
 planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,
                                     const planet::HeightSourceSettings& sourceSettings) {
-    if (planet::heightSourceFiles(named).files.empty()) {
+    const planet::Result<NamedSource> source = sourceNamed(named, settings);
+    if (!source) return tl::unexpected(source.error());
+    if (planet::isTerrainText(source->source)) {
+        // A bad text says itself what would be right.
+        if (const auto good = planet::terrainFromText(source->source); !good)
+            return tl::unexpected(good.error());
+    } else if (planet::heightSourceFiles(source->source).files.empty()) {
         return planet::badInput(
-            fmt::format("{}: no such file; a chunk file (.chk), an elevation image or one of six cube faces "
-                        "would be right",
+            fmt::format("{}: no such file; a chunk file (.chk), an elevation image, one of six cube faces, a "
+                        "terrain as noise:ridged or a preset as preset:moon would be right",
                         named.string()));
+    } else if (named.extension() == ".chk") {
+        return DataSet{named, named, colourImageOf(named), false};
     }
-    if (named.extension() == ".chk") return DataSet{named, named, colourImageOf(named), false};
-    DataSet set{.source = named, .chunkFile = {}, .colourImage = colourImageBeside(named)};
-    set.chunkFile = cachedBakeOf(named, settings, sourceSettings);
+    DataSet set{.source = source->source,
+                .chunkFile = {},
+                .colourImage = colourImageOfSource(source->source),
+                .settings = source->settings};
+    set.chunkFile = cachedBakeOf(set.source, set.settings, sourceSettings);
     set.needsBake = !opensWhole(set.chunkFile);
     return set;
 }

@@ -5,29 +5,36 @@
 #include <string>
 
 #include "planet/bake.h"
+#include "planet/chunk_file.h"
 #include "planet/height_source.h"
 #include "planet/result.h"
 
 namespace worldy {
 
 struct DataSet {
-    std::filesystem::path source;       // as named: a chunk file, an elevation image or cube faces
+    std::filesystem::path source;       // a chunk file, an elevation image, cube faces or a terrain's text
     std::filesystem::path chunkFile;    // the source itself, or its bake in the cache folder
     std::filesystem::path colourImage;  // colour.jpg or colour.png beside the source, or our Earth's for its
                                         // bakes; empty if none
     bool needsBake = false;
+    planet::BakeSettings settings{};  // what it is to be baked with
 };
 
 // The Earth that comes with Worldy.
 std::filesystem::path earthElevation();
 
-// The Error says that nothing is there. A bake in the cache that cannot be opened is baked again.
+// A world's name stands for its source, its radius and its face size. The Error says that nothing is there. A
+// bake in the cache that cannot be opened is baked again.
 planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const planet::BakeSettings& settings,
                                     const planet::HeightSourceSettings& sourceSettings = {});
 
+// What a chunk file was made from, where it says so in a way that it can be made again: a terrain's text.
+// Empty otherwise.
+std::filesystem::path sourceOf(const planet::ChunkFileInfo& info);
+
 // Where the bake of a source is kept. The name carries a hash of the source's path, size and time of change,
-// of all six faces where it has them, and of all settings that change the file, so that a changed source is
-// baked anew.
+// of all six faces where it has them, of a terrain's text, and of all settings that change the file, so that
+// a changed source is baked anew.
 std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const planet::BakeSettings& settings,
                                    const planet::HeightSourceSettings& sourceSettings = {});
 

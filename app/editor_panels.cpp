@@ -8,6 +8,7 @@
 #include "ui/compare_overlay.h"
 #include "ui/item_map.h"
 #include "ui/status_bar.h"
+#include "ui/text.h"
 #include "ui/viewport_overlay.h"
 #include "ui/widgets.h"
 
@@ -56,7 +57,7 @@ void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& edito
 
 ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorView& view) {
     ui::BakeWindowInput input;
-    input.source = session.data.source.filename().string();
+    input.source = ui::sourceName(session.data.source);
     input.progress = view.bake.progress;
     input.stopping = view.bake.stopping;
     if (!view.bake.running) input.problem = view.data.problem;

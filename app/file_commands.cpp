@@ -10,6 +10,7 @@
 
 #include "app/interrupt.h"
 #include "app/report.h"
+#include "app/worlds.h"
 #include "planet/chunk_file.h"
 #include "planet/file_report.h"
 #include "ui/text.h"
@@ -148,8 +149,9 @@ Result<void> runVerify(const FileCommandOptions& options) {
     if (!file) return tl::unexpected(file.error());
     std::optional<planet::HeightSource> source;
     if (!options.source.empty()) {
-        Result<planet::HeightSource> opened =
-            planet::openHeightSource(options.source, options.sourceSettings);
+        const Result<NamedSource> named = sourceNamed(options.source, {});
+        if (!named) return tl::unexpected(named.error());
+        Result<planet::HeightSource> opened = planet::openHeightSource(named->source, options.sourceSettings);
         if (!opened) return tl::unexpected(opened.error());
         source = std::move(*opened);
     }

@@ -9,7 +9,9 @@
 
 #include "app/output_file.h"
 #include "app/places.h"
+#include "app/worlds.h"
 #include "planet/height_source.h"
+#include "planet/terrain.h"
 
 namespace worldy {
 
@@ -20,7 +22,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t maxFileBytes = 64u << 10;
 
 bool isThere(const fs::path& path) {
+    if (isWorldName(path)) return worldNamed(path).has_value();
+    if (planet::isTerrainText(path)) return planet::heightSourceExists(path);
     return !planet::heightSourceFiles(path).files.empty();
+}
+
+// A name of its own, which means the same in every folder.
+bool isName(const fs::path& path) {
+    return isWorldName(path) || planet::isTerrainText(path);
 }
 
 }  // namespace
@@ -40,7 +49,7 @@ std::vector<fs::path> loadRecentFiles(const fs::path& file) {
     std::istringstream lines(text);
     for (std::string line; recent.size() < maxRecentFiles && std::getline(lines, line);) {
         const fs::path path = line;
-        const bool good = line.find('\0') == std::string::npos && path.is_absolute();
+        const bool good = line.find('\0') == std::string::npos && (path.is_absolute() || isName(path));
         if (good && std::find(recent.begin(), recent.end(), path) == recent.end()) recent.push_back(path);
     }
     return recent;
@@ -48,7 +57,8 @@ std::vector<fs::path> loadRecentFiles(const fs::path& file) {
 
 void addRecentFile(std::vector<fs::path>& recent, const fs::path& opened) {
     std::error_code status;
-    const fs::path path = fs::absolute(opened, status).lexically_normal();
+    fs::path path = isWorldName(opened) ? opened : fs::absolute(opened, status).lexically_normal();
+    if (planet::isTerrainText(opened)) path = planet::wholeTerrainText(opened).value_or(opened.string());
     if (status || path.empty()) return;
     std::erase(recent, path);
     recent.insert(recent.begin(), path);

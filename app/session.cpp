@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planet/terrain.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -38,7 +39,8 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     // As stored; the planet's own shape has the exaggeration counted in.
     const planet::PlanetShape shape = scene.planet->file().info().shape;
     OpenPlanet open{data, requestOf(shape), false, false, std::move(scene)};
-    if (data.source != data.chunkFile) open.baked.source = data.source;
+    open.baked.source =
+        data.source != data.chunkFile ? data.source : sourceOf(open.scene.planet->file().info());
     open.sourceIsThere = planet::heightSourceExists(open.baked.source);
     return open;
 }
@@ -179,6 +181,16 @@ std::string summaryOf(const OpenPlanet& open) {
                        ui::bytesText(static_cast<double>(file.sizeBytes())));
 }
 
+planet::Error missingSource(const fs::path& source) {
+    if (planet::isTerrainText(source)) {
+        if (const auto good = planet::terrainFromText(source); !good) return good.error();
+    }
+    return {planet::ErrorKind::BadInput,
+            fmt::format("{}: no such source; an elevation image, one of six cube faces or a terrain as "
+                        "noise:ridged would be right",
+                        source.string())};
+}
+
 bool samePlace(const fs::path& a, const fs::path& b) {
     std::error_code status;
     return fs::absolute(a, status).lexically_normal() == fs::absolute(b, status).lexically_normal();
@@ -208,6 +220,7 @@ bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& se
         retireBake(session, log);
         SessionBake bake;
         bake.request.source = data->source;
+        bake.request.settings = data->settings;
         bake.data = *data;
         bake.needed = true;
         session.problem.reset();
@@ -230,12 +243,9 @@ void startBake(Session& session, const ui::BakeRequest& request, const Log& log)
         log->warn("A bake is running already; cancel it, or wait for its end");
         return;
     }
-    const Result<DataSet> found =
-        planet::heightSourceExists(request.source)
-            ? findDataSet(request.source, request.settings, request.sourceSettings)
-            : planet::badInput(fmt::format("{}: no such source; an elevation image or one of six cube faces "
-                                           "would be right",
-                                           request.source.string()));
+    const Result<DataSet> found = planet::heightSourceExists(request.source)
+                                      ? findDataSet(request.source, request.settings, request.sourceSettings)
+                                      : tl::unexpected(missingSource(request.source));
     if (!found) {
         log->error("{}", found.error().message);
         session.bakeProblem = found.error();
@@ -256,6 +266,7 @@ void startBake(Session& session, const ui::BakeRequest& request, const Log& log)
 void startBake(Session& session, const Log& log) {
     ui::BakeRequest request;
     request.source = session.data.source;
+    request.settings = session.data.settings;
     startBake(session, request, log);
 }
 
@@ -293,6 +304,7 @@ void advanceSession(Session& session, const ui::ViewSettings& settings, const Lo
     finishBake(session, settings, log);
     launchWaitingBake(session);
     advanceEstimate(session.estimate);
+    advancePreview(session.preview);
     if (!session.open && !session.bake && !session.problem) {
         Result<OpenPlanet> open = openPlanet(session, session.data, settings, log);
         if (open)
@@ -388,6 +400,8 @@ ui::BakeView bakeViewOf(const Session& session) {
     view.estimating = session.estimate.job || session.estimate.next;
     view.estimate = session.estimate.result;
     view.estimateProblem = session.estimate.problem;
+    view.worlds = session.worlds;
+    view.preview = previewViewOf(session.preview);
     return view;
 }
 
@@ -395,7 +409,7 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     ui::DataView view;
     const OpenPlanet* open = shownPlanet(session);
     const DataSet& data = open ? open->data : session.data;
-    view.name = data.source.filename().string();
+    view.name = ui::sourceName(data.source);
     view.source = data.source;
     view.chunkFile = data.chunkFile;
     view.hasColourImage = open && open->scene.hasColourImage;

@@ -14,6 +14,8 @@
 #include "app/log.h"
 #include "app/picture.h"
 #include "app/scene.h"
+#include "app/source_preview.h"
+#include "app/worlds.h"
 #include "ui/editor_view.h"
 
 namespace worldy {
@@ -60,6 +62,8 @@ struct Session {
     std::optional<planet::Error> bakeProblem;      // why the last bake came to nothing
     std::optional<planet::BakeReport> bakeReport;  // of the last bake
     SessionEstimate estimate;
+    PreviewDesk preview;
+    std::vector<ui::World> worlds = worldy::worlds();
 };
 
 // Bakes in the background where the data set needs it; advanceSession opens it.

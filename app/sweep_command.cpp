@@ -12,6 +12,7 @@
 #include "app/sweep_plot.h"
 #include "app/sweep_run.h"
 #include "planet/chunk_file.h"
+#include "planet/terrain.h"
 
 namespace worldy {
 
@@ -24,10 +25,33 @@ constexpr int usualChunkSize = 33;
 // Those asked for; else the chunk file's own, or the usual one.
 Result<std::vector<int>> wantedSizes(const SweepOptions& options) {
     if (!options.chunkSizes.empty()) return options.chunkSizes;
-    if (options.file.extension() != ".chk") return std::vector{usualChunkSize};
+    if (options.file.extension() != ".chk" || planet::isTerrainText(options.file))
+        return std::vector{usualChunkSize};
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(options.file);
     if (!file) return tl::unexpected(file.error());
     return std::vector{planet::chunkSize(file->info().shape)};
+}
+
+// What is baked for chunks of a size: of a chunk file of that size nothing, of another size what it says it
+// was made from, with its radius and face size.
+struct Baked {
+    std::filesystem::path source;
+    planet::BakeSettings settings;
+};
+Result<Baked> bakedFor(const SweepOptions& options, int chunkSize) {
+    Baked baked{options.file, {}};
+    baked.settings.chunkSize = chunkSize;
+    if (options.file.extension() != ".chk" || planet::isTerrainText(options.file)) return baked;
+    const Result<planet::ChunkFile> file = planet::ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    const planet::ChunkFileInfo& info = file->info();
+    const std::filesystem::path source = sourceOf(info);
+    if (chunkSize == planet::chunkSize(info.shape) || source.empty()) return baked;
+    baked.source = source;
+    baked.settings.faceSize = planet::faceCells(info.shape) + 1;
+    baked.settings.radiusM = info.shape.radiusM;
+    baked.settings.quantumM = info.shape.quantumM;
+    return baked;
 }
 
 Result<SweepPlan> planOf(const SweepOptions& options) {
@@ -44,11 +68,12 @@ Result<SweepPlan> planOf(const SweepOptions& options) {
                    .size = options.size,
                    .view = options.view};
     for (const int chunkSize : *sizes) {
-        planet::BakeSettings settings;
-        settings.chunkSize = chunkSize;
-        const Result<DataSet> data = findDataSet(options.file, settings, options.sourceSettings);
+        const Result<Baked> baked = bakedFor(options, chunkSize);
+        if (!baked) return tl::unexpected(baked.error());
+        const Result<DataSet> data = findDataSet(baked->source, baked->settings, options.sourceSettings);
         if (!data) return tl::unexpected(data.error());
-        plan.files.push_back({chunkSize, data->chunkFile, data->needsBake, settings});
+        if (data->needsBake) plan.source = data->source;
+        plan.files.push_back({chunkSize, data->chunkFile, data->needsBake, data->settings});
     }
     return plan;
 }

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "planet/height_source_kinds.h"
+#include "planet/terrain.h"
 
 namespace planet {
 
@@ -111,7 +112,31 @@ std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path) {
     return files;
 }
 
+namespace {
+
+// "noise:ridged,seed=7" is a ridged world, "detail:of=elevation.tif" elevation-detail. A bad text has no
+// files.
+HeightSourceFiles terrainFiles(const std::filesystem::path& text) {
+    const Result<TerrainSource> terrain = terrainFromText(text);
+    if (!terrain) return {"terrain", {}};
+    if (!terrain->of.empty()) {
+        HeightSourceFiles files = heightSourceFiles(terrain->of);
+        files.stem += "-detail";
+        return files;
+    }
+    const std::string_view kind = kindOf(terrain->settings).name;
+    return {std::string(kind.substr(kind.find(':') + 1)), {}};
+}
+
+bool terrainExists(const std::filesystem::path& text) {
+    const Result<TerrainSource> terrain = terrainFromText(text);
+    return terrain && (terrain->of.empty() || heightSourceExists(terrain->of));
+}
+
+}  // namespace
+
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
+    if (isTerrainText(path)) return terrainFiles(path);
     std::error_code problem;
     HeightSourceFiles found;
     const std::optional<FaceFiles> faces = findFaceFiles(path);
@@ -126,6 +151,7 @@ HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
 }
 
 bool heightSourceExists(const std::filesystem::path& path) {
+    if (isTerrainText(path)) return terrainExists(path);
     return !path.empty() && path.extension() != ".chk" && !heightSourceFiles(path).files.empty();
 }
 

@@ -11,6 +11,7 @@
 
 #include "planet/height_source_kinds.h"
 #include "planet/planet_shape.h"
+#include "planet/terrain.h"
 
 namespace planet {
 
@@ -38,6 +39,32 @@ Result<void> checkSettings(const HeightSourceSettings& settings) {
             fmt::format("rawSize is {}; a face has at least 2 samples a side", *settings.rawSize));
     }
     return {};
+}
+
+bool asRead(const HeightSourceSettings& settings) {
+    const HeightSourceSettings plain;
+    return settings.metresPerUnit == plain.metresPerUnit && settings.offsetM == plain.offsetM &&
+           !settings.noDataValue && settings.fillM == plain.fillM && !settings.rawSize && !settings.rawBits &&
+           !settings.rawSigned && !settings.rawBigEndian;
+}
+
+Result<HeightSource> openTerrain(const std::filesystem::path& text, const HeightSourceSettings& settings) {
+    const Result<TerrainSource> terrain = terrainFromText(text);
+    if (!terrain) return tl::unexpected(terrain.error());
+    const auto* const detail = std::get_if<DetailTerrain>(&terrain->settings);
+    if (!detail) {
+        if (asRead(settings)) return makeTerrain(terrain->settings);
+        return badInput(fmt::format(
+            "{}: is made, not read, so units, offset, no-data value, fill and raw formats say nothing of it; "
+            "settings in its own text, such as offset_m=100, would be right",
+            text.string()));
+    }
+    Result<HeightSource> source = openHeightSource(terrain->of, settings);
+    if (!source) return source;
+    Result<HeightSource> result = amplified(*std::move(source), *detail);
+    // Whoever has only the description should find the file again.
+    if (result) result->description = wholeTerrainText(text).value_or(result->description);
+    return result;
 }
 
 }  // namespace
@@ -72,6 +99,7 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
     if (Result<void> check = checkSettings(settings); !check) {
         return tl::unexpected(std::move(check.error()));
     }
+    if (isTerrainText(path)) return openTerrain(path, settings);
     if (const std::optional<FaceFiles> faces = findFaceFiles(path)) return openFaceSource(*faces, settings);
     std::error_code problem;
     if (!std::filesystem::exists(path, problem)) {

@@ -1,4 +1,5 @@
-// Where heights come from: an elevation image or six cube faces, behind one sampling function.
+// Where heights come from: an elevation image, six cube faces or made terrain (terrain.h), behind one
+// sampling function.
 //
 // An elevation image is equirectangular: north up, longitude -180 to 180 from left to right, samples at pixel
 // centres, one grey channel. Face images are seen as in cube_sphere.h: row 0 at v = +1, column 0 at u = -1,
@@ -32,10 +33,12 @@ struct SampleTile {
 // A value; copies share what is open. sample may be called by several threads at once.
 struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
-    int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no source resolution
-    double stepM = 0;         // an integer source's own step in metres; 0 for a float source
-    double minM = 0;          // the lowest and highest of the file's samples, fillM where it was used; every
-    double maxM = 0;          //   height that sample gives lies between them
+    int naturalFaceSize =
+        0;             // the smallest 2^n + 1 that loses no source resolution; of made terrain, which may
+                       //   go on below, one that bakes in some minutes
+    double stepM = 0;  // an integer source's own step in metres; 0 for a float source
+    double minM = 0;   // the lowest and highest of the file's samples, fillM where it was used; every
+    double maxM = 0;   //   height that sample gives lies between them
     std::uint64_t sampleCount = 0;
     std::uint64_t missingCount = 0;  // samples without data, filled
 
@@ -62,19 +65,21 @@ struct HeightSourceSettings {
     std::size_t cacheBytes = 48u << 20;
 };
 
-// The files that a path stands for, taken as openHeightSource takes it.
+// The files that a path stands for, taken as openHeightSource takes it. A terrain's text stands for those of
+// the source that it is added to, if any.
 struct HeightSourceFiles {
-    std::string stem;                          // "elevation", or "earth4097" of earth4097_z_pos.raw
+    std::string stem;  // "elevation", "earth4097" of earth4097_z_pos.raw, "ridged" of noise:ridged,seed=7
     std::vector<std::filesystem::path> files;  // one image, or those of the six faces that are there
 };
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path);
-// Whether there is something to bake: an image or a face. A chunk file is none.
+// Whether there is something to bake: an image, a face, or a good terrain's text. A chunk file is none.
 bool heightSourceExists(const std::filesystem::path& path);
 
-// Opens an elevation image, or the six cube faces that the path names one of (earth4097_z_pos.raw) or the
-// common stem of (earth4097: .raw, or an image's extension). A face's size is the number that the stem ends
-// in or, where it ends in none, what the file holds. Reads every sample once where NaN, noDataValue or the
-// range of a wide type must be looked for.
+// Opens a terrain's text ("noise:ridged,seed=7", terrain.h), an elevation image, or the six cube faces that
+// the path names one of (earth4097_z_pos.raw) or the common stem of (earth4097: .raw, or an image's
+// extension). A face's size is the number that the stem ends in or, where it ends in none, what the file
+// holds. Reads every sample once where NaN, noDataValue or the range of a wide type must be looked for.
+// Settings tell how a file is read: with made terrain any but the defaults are an Error.
 Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings);
 

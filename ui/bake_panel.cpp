@@ -31,20 +31,13 @@ bool sameFile(const BakeRequest& a, const BakeRequest& b) {
            a.settings.compressionLevel == b.settings.compressionLevel;
 }
 
-void setSource(const fs::path& source, BakePanelState& state) {
-    const std::string text = source.string();
-    state.sourceText.fill(0);
-    std::copy_n(text.begin(), std::min(text.size(), state.sourceText.size() - 1), state.sourceText.begin());
-    state.sourceIsThere = planet::heightSourceExists(source);
-}
-
 // Another file is open than the one that was edited: what was chosen for that one is over.
 void followOpenFile(const EditorView& view, BakePanelState& state) {
     if (state.editedOf == view.data.chunkFile) return;
     state.editedOf = view.data.chunkFile;
     state.edited.reset();
     state.estimateAtS.reset();
-    setSource(view.bake.current.source, state);
+    setSource(view.bake.current.source, state.source);
 }
 
 void edited(const BakeRequest& request, double timeS, BakePanelState& state) {
@@ -68,12 +61,11 @@ void parameterRow(const char* name, const std::string& value, bool live, const c
 
 void bakedRows(const EditorView& view) {
     const planet::BakeSettings& baked = view.bake.current.settings;
-    parameterRow(
-        "Source",
-        view.bake.current.source.empty() ? "not recorded" : view.bake.current.source.filename().string(),
-        false,
-        view.bake.current.source.empty() ? "The file does not say where its source lies."
-                                         : view.bake.current.source.string().c_str());
+    parameterRow("Source",
+                 view.bake.current.source.empty() ? "not recorded" : sourceName(view.bake.current.source),
+                 false,
+                 view.bake.current.source.empty() ? "The file does not say where its source lies."
+                                                  : view.bake.current.source.string().c_str());
     parameterRow("Face size", fmt::format("{} samples", baked.faceSize.value_or(0)), false,
                  "Samples along a side of each of the six faces, on the finest level.");
     parameterRow("Chunk size", fmt::format("{} vertices", baked.chunkSize), false,
@@ -111,29 +103,6 @@ void bakeControl(const char* label, bool changed, const char* explanation) {
     if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
     labelledControl(label, explanation);
     if (changed) ImGui::PopStyleColor();
-}
-
-bool sourceControl(const EditorView& view, BakePanelState& state, BakeRequest& request) {
-    constexpr const char* explanation =
-        "Path of an elevation image (equirectangular), of one of six cube faces, or of their common stem.";
-    bakeControl("Source", request.source != view.bake.current.source, explanation);
-    const bool changed = ImGui::InputTextWithHint("##source", "path of an image or of cube faces",
-                                                  state.sourceText.data(), state.sourceText.size());
-    noteItem("Source");
-    tooltip(explanation);
-    if (changed) {
-        request.source = state.sourceText.data();
-        state.sourceIsThere = planet::heightSourceExists(request.source);
-    }
-    if (state.sourceIsThere) return changed;
-    ImGui::PushTextWrapPos(0);
-    const char* problem = state.sourceText[0] ? "There is no such image, and no such faces."
-                          : view.planet
-                              ? "The file does not say what it was baked from: name its source here."
-                              : "Name what to bake.";
-    ImGui::TextColored(palette().warning, "%s", problem);
-    ImGui::PopTextWrapPos();
-    return changed;
 }
 
 bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
@@ -235,7 +204,9 @@ void requestSection(const EditorView& view, BakePanelState& state) {
     if (!section("Bake anew")) return;
     BakeRequest request = state.edited.value_or(view.bake.current);
     ImGui::BeginDisabled(view.bake.running.has_value());
-    bool changed = sourceControl(view, state, request);
+    const bool sourceChanged = sourceControls(view, state.source, request);
+    if (sourceChanged) state.preview.open = true;
+    bool changed = sourceChanged;
     changed |= chunkSizeControl(view.bake.current, request);
     changed |= faceSizeControl(view.bake.current, request);
     changed |= radiusControl(view.bake.current, request);
@@ -248,7 +219,7 @@ void requestSection(const EditorView& view, BakePanelState& state) {
 void askForEstimate(const EditorView& view, BakePanelState& state, Commands& commands) {
     if (!state.estimateAtS || view.timeS < *state.estimateAtS || view.bake.running) return;
     state.estimateAtS.reset();
-    if (state.edited && state.sourceIsThere) commands.push_back(EstimateBake{*state.edited});
+    if (state.edited && state.source.problem.empty()) commands.push_back(EstimateBake{*state.edited});
 }
 
 // What the new file's size is against the open one's: "12.3 MiB, 1.4 x the open file".
@@ -293,7 +264,7 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
 void bakeButtons(const EditorView& view, BakePanelState& state, Commands& commands) {
     const BakeRequest request = state.edited.value_or(view.bake.current);
     const bool same = sameFile(request, view.bake.current);
-    ImGui::BeginDisabled(!state.sourceIsThere);
+    ImGui::BeginDisabled(!state.source.problem.empty());
     if (button(
             same ? "Bake again" : "Bake",
             "Bakes in the background while the planet flies on; then the new one takes its place, with the "
@@ -307,7 +278,7 @@ void bakeButtons(const EditorView& view, BakePanelState& state, Commands& comman
     if (button("As the open file", "Takes back what was changed above.")) {
         state.edited.reset();
         state.estimateAtS.reset();
-        setSource(view.bake.current.source, state);
+        setSource(view.bake.current.source, state.source);
     }
 }
 
@@ -318,7 +289,7 @@ void progressSection(const BakeView& bake, Commands& commands) {
         begun ? static_cast<double>(progress.samplesDone) / static_cast<double>(progress.samplesTotal) : 0;
     usageBar(share, begun ? fmt::format("{:.0f} %", 100 * share) : std::string("opening the source"));
     if (beginValues("progress")) {
-        valueRow("Baking", bake.running->source.filename().string(), bake.running->source.string().c_str());
+        valueRow("Baking", sourceName(bake.running->source), bake.running->source.string().c_str());
         valueRow("Rate", begun ? fmt::format("{} samples/s", countText(progress.samplesPerS)) : "...",
                  "Finest-level samples a second since the bake began.");
         valueRow("Time left", begun ? durationText(progress.remainingS) : "...", "At this rate.");
@@ -370,8 +341,12 @@ void previousSection(const DataView& data, Commands& commands) {
 
 void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& settings, Commands& commands) {
     followOpenFile(view, state);
+    sourcePreviewBox(view, state.edited.value_or(view.bake.current), state.source.problem.empty(),
+                     state.preview, commands);
+    // The picture stays in sight while knobs far below are turned.
+    const bool pinned = ImGui::GetContentRegionAvail().y > ImGui::GetFontSize() * 12;
+    if (pinned) ImGui::BeginChild("below the preview");
     previousSection(view.data, commands);
-    openFileSection(view, settings);
     requestSection(view, state);
     askForEstimate(view, state, commands);
     ImGui::Spacing();
@@ -383,6 +358,8 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
         estimateValues(view, state);
     }
     outcomeLines(view.bake);
+    openFileSection(view, settings);
+    if (pinned) ImGui::EndChild();
 }
 
 }  // namespace ui

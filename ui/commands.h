@@ -90,6 +90,19 @@ struct EstimateBake {
     BakeRequest request;
 };
 struct CancelBake {};
+// A square of a face as a source gives it, before it is baked.
+struct PreviewRequest {
+    std::filesystem::path source;
+    planet::HeightSourceSettings sourceSettings;
+    double radiusM = 6'371'000;
+    planet::Face face = planet::Face::PosX;
+    int zoomLog2 = 0;  // 0: the whole face; each more halves the square's side; [0, 14]
+    double u = 0;      // the square's middle, [-1, 1]; the square is moved so that it lies on the face
+    double v = 0;
+};
+struct PreviewSource {  // in place of what was asked before
+    PreviewRequest request;
+};
 struct ShowPreviousBake {
     bool shown = false;
 };
@@ -196,17 +209,16 @@ struct CompareOverFlight {
 };
 struct CancelCompareFlight {};
 
-using Command =
-    std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
-                 AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
-                 PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile,
-                 StartBake, BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo,
-                 Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit,
-                 MeasureCracks, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop, ShowPopSide,
-                 MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording, DeleteRecording,
-                 StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
-                 SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare,
-                 CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures>;
+using Command = std::variant<
+    HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart, AddBookmark,
+    RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight, PausePaging, LoadOne, DropAll,
+    RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake, BakeAgain, EstimateBake, CancelBake,
+    ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine,
+    CopyText, TakeScreenshot, Quit, MeasureCracks, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop,
+    ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording, DeleteRecording,
+    StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep, SaveSweep,
+    OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
+    CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures, PreviewSource>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

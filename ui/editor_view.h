@@ -51,6 +51,25 @@ struct DataView {
     std::span<const std::filesystem::path> recent;  // files opened, newest first
 };
 
+// A source that comes with Worldy, by name.
+struct World {
+    std::string name;   // "earth-amplified"
+    std::string title;  // "Earth amplified"
+    std::string about;
+    BakeRequest request;  // its source, radius and face size
+};
+
+// A shaded picture of a source.
+struct SourcePreview {
+    void* texture = nullptr;              // ImTextureID, top row first; null until there is one
+    std::optional<PreviewRequest> shown;  // what it is of
+    double lowM = 0;                      // of the heights in it
+    double highM = 0;
+    double seconds = 0;    // that it took
+    bool working = false;  // another one is on its way
+    std::string problem;   // why the last one could not be made
+};
+
 struct BakeView {
     BakeRequest current;            // what the open file was baked with, as far as it is known
     bool compressionKnown = false;  // of current: only what was baked in this session
@@ -63,6 +82,8 @@ struct BakeView {
     bool estimating = false;
     std::optional<planet::BakeEstimate> estimate;  // of the request last asked about
     std::string estimateProblem;
+    std::span<const World> worlds{};
+    SourcePreview preview{};
 };
 
 struct Bookmark {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "planet/terrain.h"
+
 namespace ui {
 
 namespace {
@@ -16,6 +18,13 @@ std::string threeDigits(double value) {
 }
 
 }  // namespace
+
+std::string sourceName(const std::filesystem::path& source) {
+    if (!planet::isTerrainText(source)) return source.filename().string();
+    const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
+    if (!terrain || terrain->of.empty()) return source.string();
+    return sourceName(terrain->of) + " with detail";
+}
 
 std::string bytesText(double bytes) {
     constexpr std::array units = {"B", "KiB", "MiB", "GiB", "TiB"};

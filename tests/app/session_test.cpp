@@ -41,6 +41,29 @@ TEST_F(SessionTest, aChunkFileIsOpenInTheFirstFrame) {
     EXPECT_FALSE(bake.compressionKnown);
 }
 
+TEST_F(SessionTest, aPlanetFromNothingIsBakedAndItsFileTellsHowToMakeItAgain) {
+    const std::string text = "noise:fbm,seed=6,octaves=2,feature_deg=90";
+    Session session = sessionOf(text);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    ASSERT_NE(shownScene(session), nullptr);
+    EXPECT_EQ(bakeViewOf(session).current.source, text);
+    EXPECT_EQ(dataViewOf(session, {}).name, text);
+    const fs::path moved = session.data.chunkFile.parent_path().parent_path() / "moved.chk";
+    fs::copy_file(session.data.chunkFile, moved);
+    Session again = sessionOf(moved);
+    advanceSession(again, settings_, log_);
+    const ui::BakeView bake = bakeViewOf(again);
+    EXPECT_EQ(bake.current.source, text);
+    EXPECT_TRUE(bake.canBake);
+    EXPECT_EQ(bake.worlds.size(), 4u);
+    // A bad text is told as such, and nothing changes.
+    ui::BakeRequest request = bake.current;
+    request.source = "noise:fbm,octaves=99";
+    startBake(again, request, log_);
+    EXPECT_THAT(bakeViewOf(again).lastProblem, HasSubstr("octaves is 99"));
+    EXPECT_FALSE(bakeViewOf(again).running);
+}
+
 TEST_F(SessionTest, aSourceIsBakedAndThenShown) {
     const fs::path source = writeSource();
     Session session = sessionOf(source);

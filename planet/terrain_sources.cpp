@@ -1,0 +1,102 @@
+#include "planet/terrain_sources.h"
+
+#include <cassert>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+namespace planet {
+
+int naturalCells(double stepRad) {
+    if (!(stepRad > 0)) return mostNaturalCells;
+    const double cells = std::numbers::pi / 2 / stepRad;
+    return powerOfTwoCells(std::clamp(cells, double{leastNaturalCells}, double{mostNaturalCells}));
+}
+
+std::vector<Octave> octavesOf(std::uint32_t seed, int count, double firstCellRad, double lacunarity,
+                              double gain) {
+    std::vector<Octave> octaves;
+    double cellRad = firstCellRad;
+    double weight = 1;
+    for (int i = 0; i < count; ++i) {
+        const std::uint64_t hash = scrambled64((std::uint64_t{seed} << 8) + static_cast<std::uint64_t>(i));
+        const auto shiftBy = [&](std::uint64_t axis) { return 256 * unitOf(scrambled64(hash + axis)); };
+        octaves.push_back({1 / cellRad,
+                           cellRad,
+                           weight,
+                           static_cast<std::uint32_t>(hash),
+                           {shiftBy(1), shiftBy(2), shiftBy(3)}});
+        cellRad /= lacunarity;
+        weight *= gain;
+    }
+    return octaves;
+}
+
+std::size_t heldBy(std::span<const Octave> octaves, double stepRad) {
+    std::size_t count = 0;
+    // Lattices are often made for a grid, two of its steps wide but for rounding.
+    while (count < octaves.size() && octaves[count].cellRad * (1 + 1e-9) >= 2 * stepRad) ++count;
+    return count;
+}
+
+namespace {
+
+Face faceAlong(const glm::dvec3& normal) {
+    for (const Face face : allFaces) {
+        if (faceAxes(face).normal == normal) return face;
+    }
+    assert(false);
+    return Face::PosX;
+}
+
+// On the cube [-cells, cells]^3.
+glm::dvec3 wholePoint(const GridPlace& place, int cells) {
+    const FaceAxes& axes = faceAxes(place.face);
+    return double(cells) * axes.normal + double(2 * place.column - cells) * axes.u +
+           double(2 * place.row - cells) * axes.v;
+}
+
+}  // namespace
+
+GridPlace placeOnFace(Face face, const GridPlace& place, int cells) {
+    const glm::dvec3 point = wholePoint(place, cells);
+    const FaceAxes& axes = faceAxes(face);
+    assert(glm::dot(point, axes.normal) == cells);
+    return {face, (static_cast<int>(glm::dot(point, axes.u)) + cells) / 2,
+            (static_cast<int>(glm::dot(point, axes.v)) + cells) / 2};
+}
+
+GridPlace foldedOntoFace(Face face, int column, int row, int cells) {
+    const FaceAxes& axes = faceAxes(face);
+    const int u = 2 * column - cells;  // the cube is [-cells, cells]^3 here
+    const int v = 2 * row - cells;
+    const int overU = std::abs(u) - cells;
+    const int overV = std::abs(v) - cells;
+    if (overU <= 0 && overV <= 0) return {face, column, row};
+    assert(overU <= 0 || overV <= 0);  // beyond a corner there is nothing
+    const int over = std::max(overU, overV);
+    assert(over <= 2 * cells);
+    const glm::dvec3 outward = overU > 0 ? std::copysign(1.0, u) * axes.u : std::copysign(1.0, v) * axes.v;
+    const glm::dvec3 along = overU > 0 ? double(v) * axes.v : double(u) * axes.u;
+    const glm::dvec3 point = double(cells) * outward + along + double(cells - over) * axes.normal;
+    const Face next = faceAlong(outward);
+    const FaceAxes& nextAxes = faceAxes(next);
+    return {next, (static_cast<int>(glm::dot(point, nextAxes.u)) + cells) / 2,
+            (static_cast<int>(glm::dot(point, nextAxes.v)) + cells) / 2};
+}
+
+Result<HeightSource> makeTerrain(const TerrainSettings& settings) {
+    if (Result<void> good = checkTerrain(settings); !good) return tl::unexpected(good.error());
+    struct Make {
+        Result<HeightSource> operator()(const FractalTerrain& t) const { return fractalSource(t); }
+        Result<HeightSource> operator()(const RidgedTerrain& t) const { return ridgedSource(t); }
+        Result<HeightSource> operator()(const FaultTerrain& t) const { return faultSource(t); }
+        Result<HeightSource> operator()(const MidpointTerrain& t) const { return midpointSource(t); }
+        Result<HeightSource> operator()(const CraterTerrain& t) const { return craterSource(t); }
+        Result<HeightSource> operator()(const DetailTerrain&) const {
+            return badInput("detail is added to a source; detail:of=PATH would be right");
+        }
+    };
+    return std::visit(Make{}, settings);
+}
+
+}  // namespace planet

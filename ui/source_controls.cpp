@@ -1,0 +1,248 @@
+#include "ui/source_controls.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string_view>
+#include <utility>
+
+#include "ui/item_map.h"
+#include "ui/text.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::TerrainField;
+using planet::TerrainKind;
+using planet::TerrainSettings;
+
+// The kinds that need no other source.
+std::span<const TerrainKind> madeKinds() {
+    return planet::terrainKinds().first(planet::terrainKinds().size() - 1);
+}
+
+std::string problemOf(const fs::path& source) {
+    if (source.empty()) return "Name what to bake.";
+    if (planet::isTerrainText(source)) {
+        const auto terrain = planet::terrainFromText(source);
+        if (!terrain) return terrain.error().message;
+        if (!terrain->of.empty()) return problemOf(terrain->of);
+        return {};
+    }
+    return planet::heightSourceExists(source) ? std::string() : "There is no such image, and no such faces.";
+}
+
+void setFile(const fs::path& file, SourceEdit& edit) {
+    const std::string text = file.string();
+    edit.fileText.fill(0);
+    std::copy_n(text.begin(), std::min(text.size(), edit.fileText.size() - 1), edit.fileText.begin());
+}
+
+// A text that cannot be taken apart stands as it is where a file is typed, with what is wrong.
+void setPlain(const fs::path& source, SourceEdit& edit) {
+    const auto terrain = planet::terrainFromText(source);
+    if (!planet::isTerrainText(source) || !terrain) {
+        edit.kind = 0;
+        setFile(source, edit);
+        return;
+    }
+    const std::size_t index = terrain->settings.index();
+    edit.kind = static_cast<int>(index) + 1;
+    edit.made[index] = terrain->settings;
+}
+
+std::uint32_t newSeed() {
+    static std::random_device device;
+    return device() % 1'000'000;  // short enough to be told
+}
+
+bool seedControl(const TerrainField& field, TerrainSettings& settings) {
+    auto seed = static_cast<std::uint32_t>(field.get(settings));
+    labelledControl("Seed", std::string(field.about).c_str());
+    const float room = ImGui::CalcTextSize("New seed").x + 3 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(std::max(ImGui::GetFontSize() * 3, ImGui::GetContentRegionAvail().x - room));
+    bool changed = ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed);
+    noteItem("Seed");
+    tooltip(std::string(field.about).c_str());
+    ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
+    if (button("New seed", "Another world of the same kind.")) {
+        seed = newSeed();
+        changed = true;
+    }
+    if (changed) field.set(settings, seed);
+    return changed;
+}
+
+std::string formatOf(const TerrainField& field) {
+    const std::string unit =
+        field.unit.empty() ? "" : " " + std::string(field.unit == "deg of arc" ? "deg" : field.unit);
+    return (field.whole ? "%d" : "%.4g") + unit;
+}
+
+bool fieldControl(const TerrainField& field, const TerrainSettings& defaults, TerrainSettings& settings) {
+    if (field.name == "seed") return seedControl(field, settings);
+    const std::string label(field.label);
+    const std::string about = fmt::format("{} From {} to {}{}{}.", field.about, field.least, field.most,
+                                          field.unit.empty() ? "" : " ", field.unit);
+    const std::string format = formatOf(field);
+    const ImGuiSliderFlags flags = field.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+    if (field.whole) {
+        int value = static_cast<int>(field.get(settings));
+        const bool changed = slider(label.c_str(), value, static_cast<int>(field.get(defaults)),
+                                    static_cast<int>(field.usualLeast), static_cast<int>(field.usualMost),
+                                    format.c_str(), about.c_str(), flags);
+        if (changed) field.set(settings, value);
+        return changed;
+    }
+    double value = field.get(settings);
+    const bool changed = slider(label.c_str(), value, field.get(defaults), field.usualLeast, field.usualMost,
+                                format.c_str(), about.c_str(), flags);
+    if (changed) field.set(settings, value);
+    return changed;
+}
+
+bool fieldControls(const TerrainKind& kind, TerrainSettings& settings) {
+    bool changed = false;
+    ImGui::PushID(std::string(kind.name).c_str());
+    for (const TerrainField& field : kind.fields) changed |= fieldControl(field, kind.defaults, settings);
+    ImGui::PopID();
+    return changed;
+}
+
+// A label that is lit where the value is not that of the open file.
+void litLabel(const char* label, bool changed, const char* explanation) {
+    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    labelledControl(label, explanation);
+    if (changed) ImGui::PopStyleColor();
+}
+
+bool worldControl(const EditorView& view, SourceEdit& edit, BakeRequest& request) {
+    if (view.bake.worlds.empty()) return false;
+    constexpr const char* explanation =
+        "Sources that come with Worldy, each with its radius and face size. What is chosen can be changed "
+        "below.";
+    labelledControl("Preset", explanation);
+    const auto is = [&](const World& world) {
+        return world.request.source == request.source &&
+               world.request.settings.radiusM == request.settings.radiusM;
+    };
+    const auto now = std::find_if(view.bake.worlds.begin(), view.bake.worlds.end(), is);
+    const bool open =
+        ImGui::BeginCombo("##world", now != view.bake.worlds.end() ? now->title.c_str() : "choose");
+    if (!open) noteItem("Preset");
+    tooltip(explanation);
+    if (!open) return false;
+    bool changed = false;
+    for (const World& world : view.bake.worlds) {
+        const bool chosen = ImGui::Selectable(world.title.c_str(), is(world));
+        noteItem("Preset: " + world.title);
+        tooltip(world.about.c_str());
+        if (!chosen) continue;
+        request.source = world.request.source;
+        request.settings.radiusM = world.request.settings.radiusM;
+        request.settings.faceSize = world.request.settings.faceSize;
+        request.settings.quantumM.reset();
+        setSource(request.source, edit);
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool kindControl(bool lit, SourceEdit& edit) {
+    constexpr const char* explanation =
+        "A file: an elevation image or cube faces. The others are made from nothing, with a seed.";
+    litLabel("Source", lit, explanation);
+    std::string items("A file");
+    items += '\0';
+    for (const TerrainKind& kind : madeKinds()) (items += kind.title) += '\0';
+    const bool changed = combo("Source", edit.kind, items.c_str());
+    tooltip(edit.kind == 0 ? explanation
+                           : std::string(madeKinds()[static_cast<std::size_t>(edit.kind) - 1].about).c_str());
+    return changed;
+}
+
+bool fileControl(SourceEdit& edit) {
+    constexpr const char* explanation =
+        "Path of an elevation image (equirectangular), of one of six cube faces, or of their common stem; or "
+        "a "
+        "terrain as text, such as noise:ridged,seed=7.";
+    labelledControl("File", explanation);
+    const bool changed = ImGui::InputTextWithHint("##source", "path of an image or of cube faces",
+                                                  edit.fileText.data(), edit.fileText.size());
+    noteItem("File");
+    tooltip(explanation);
+    return changed;
+}
+
+bool detailControls(SourceEdit& edit) {
+    bool changed = checkbox("Detail below its resolution", edit.detail, false,
+                            "Noise is added below the source's own resolution, as rough as the source is at "
+                            "each place; flat ground and the sea stay as they are. It shows with a face size "
+                            "larger than the source's natural one.");
+    if (!edit.detail) return changed;
+    TerrainSettings settings = edit.detailSettings;
+    ImGui::Indent(ImGui::GetFontSize() / 2);
+    if (fieldControls(planet::terrainKinds().back(), settings)) {
+        edit.detailSettings = std::get<planet::DetailTerrain>(settings);
+        changed = true;
+    }
+    ImGui::Unindent(ImGui::GetFontSize() / 2);
+    return changed;
+}
+
+}  // namespace
+
+void setSource(const fs::path& source, SourceEdit& edit) {
+    if (edit.made.empty()) {
+        for (const TerrainKind& kind : madeKinds()) edit.made.push_back(kind.defaults);
+    }
+    const auto terrain = planet::terrainFromText(source);
+    edit.detail = planet::isTerrainText(source) && terrain && !terrain->of.empty();
+    if (edit.detail) edit.detailSettings = std::get<planet::DetailTerrain>(terrain->settings);
+    setPlain(edit.detail ? terrain->of : source, edit);
+    edit.problem = problemOf(source);
+}
+
+fs::path sourceOf(const SourceEdit& edit) {
+    const fs::path plain =
+        edit.kind == 0
+            ? fs::path(edit.fileText.data())
+            : fs::path(planet::terrainText({edit.made[static_cast<std::size_t>(edit.kind) - 1], {}}));
+    if (plain.empty() || !edit.detail) return plain;
+    return planet::terrainText({edit.detailSettings, plain});
+}
+
+bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& request) {
+    bool changed = worldControl(view, edit, request);
+    const bool lit = request.source != view.bake.current.source;
+    bool edited = kindControl(lit, edit);
+    if (edited) request.settings.quantumM.reset();  // the old source's range says nothing of the new one's
+    if (edit.kind == 0) {
+        edited |= fileControl(edit);
+    } else {
+        const auto index = static_cast<std::size_t>(edit.kind) - 1;
+        edited |= fieldControls(madeKinds()[index], edit.made[index]);
+    }
+    edited |= detailControls(edit);
+    if (edited) {
+        request.source = sourceOf(edit);
+        edit.problem = problemOf(request.source);
+    }
+    if (!edit.problem.empty()) {
+        const bool unknown = request.source.empty() && view.planet;
+        wrappedText(
+            unknown ? "The file does not say what it was baked from: name its source here." : edit.problem,
+            palette().warning);
+    }
+    return changed || edited;
+}
+
+}  // namespace ui
