@@ -13,6 +13,7 @@ struct BakeOptions {
     std::filesystem::path output;
     planet::HeightSourceSettings sourceSettings;
     planet::BakeSettings settings;
+    std::filesystem::path colour;  // an image; empty: no colours
     bool json = false;
 };
 

@@ -291,4 +291,21 @@ Result<std::array<ColourTileData, quadrantCount>> ChunkFile::readColourChildren(
     return children;
 }
 
+Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(const ChunkId& parent,
+                                                                            BlockLocation location) const {
+    assert(info_.colour && parent.level + 1 < info_.colour->leafLevel);
+    constexpr std::size_t entriesBytes = quadrantCount * colourEntryBytes;
+    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::array<ColourEntry, quadrantCount> entries;
+    for (std::size_t q = 0; q < entries.size(); ++q) {
+        entries[q] = colourEntryFrom(
+            std::span(*bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        if (!entries[q].children.exists())
+            return tl::unexpected(
+                nonsense(childOf(parent, static_cast<int>(q)), "its colours' index entry is out of range"));
+    }
+    return entries;
+}
+
 }  // namespace planet

@@ -133,6 +133,9 @@ public:
     Result<ColourTileData> readColourRoot(Face face) const;
     Result<std::array<ColourTileData, quadrantCount>> readColourChildren(const ChunkId& parent,
                                                                          BlockLocation location) const;
+    // As readEntries: where the four tiles' own children lie, of tiles above the finest level.
+    Result<std::array<ColourEntry, quadrantCount>> readColourEntries(const ChunkId& parent,
+                                                                     BlockLocation location) const;
 
 private:
     ChunkFile() = default;

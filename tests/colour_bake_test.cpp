@@ -9,6 +9,8 @@
 
 #include "planet/bake.h"
 #include "planet/chunk_file_format.h"
+#include "planet/colour_report.h"
+#include "planet/file_report.h"
 #include "tests/synthetic_colours.h"
 #include "tests/synthetic_source.h"
 #include "tests/temporary_folder.h"
@@ -150,6 +152,60 @@ TEST(ColourBake, ABlockOfHeightsIsNoneOfColours) {
     EXPECT_FALSE(file->readColourChildren(root->id, root->children));
     const auto tile = file->readColourRoot(Face::PosX);
     EXPECT_FALSE(file->readChildren(root->id, tile->children, root->heights));
+}
+
+TEST(ColourReport, TellsEachLevelsTilesAndBytes) {
+    const TemporaryFolder folder;
+    const auto report = bakeWithColours(folder / "a.chk");
+    ASSERT_TRUE(report);
+    const auto file = ChunkFile::open(folder / "a.chk");
+    ASSERT_TRUE(file);
+    const auto levels = reportColours(*file);
+    ASSERT_TRUE(levels) << levels.error().message;
+    ASSERT_EQ(levels->size(), 2u);
+    EXPECT_EQ((*levels)[0].tiles, 6u);
+    EXPECT_EQ((*levels)[1].tiles, 24u);
+    EXPECT_EQ((*levels)[0].bytes + (*levels)[1].bytes, report->colourBytes);
+    const auto heights = reportFile(*file);
+    ASSERT_TRUE(heights);
+    const double heightBytes = static_cast<double>(report->fileBytes - report->colourBytes);
+    EXPECT_NEAR(heights->bitsPerFinestSample, 8 * heightBytes / static_cast<double>(report->samples), 1e-9);
+}
+
+TEST(ColourReport, AWholeFileHasNoProblemsAndAnotherImageHas) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(bakeWithColours(folder / "a.chk"));
+    const auto file = ChunkFile::open(folder / "a.chk");
+    const ColourSource same = test::mottledColours();
+    const auto verified = verifyColours(*file, &same);
+    ASSERT_TRUE(verified) << verified.error().message;
+    EXPECT_EQ(verified->tiles, 30u);
+    EXPECT_EQ(verified->edges, 24u);  // four within each face's four finest tiles
+    EXPECT_EQ(verified->compared, 30u);
+    EXPECT_EQ(verified->problemCount, 0u);
+    const ColourSource other = test::formulaColours([](const glm::dvec3&) { return glm::dvec3(0.5); });
+    const auto compared = verifyColours(*file, &other);
+    ASSERT_TRUE(compared);
+    EXPECT_EQ(compared->problemCount, 30u);
+    const auto cancelled = verifyColours(*file, nullptr, [] { return false; });
+    ASSERT_FALSE(cancelled);
+    EXPECT_EQ(cancelled.error().kind, ErrorKind::Cancelled);
+}
+
+TEST(ColourReport, ADamagedBlockIsAProblemThatNamesItAndTheRestIsChecked) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.chk";
+    ASSERT_TRUE(bakeWithColours(path));
+    std::string bytes = contentOf(path);
+    const auto root = ChunkFile::open(path)->readColourRoot(Face::NegX);
+    ASSERT_TRUE(root);
+    bytes[root->children.offset + 400] = static_cast<char>(bytes[root->children.offset + 400] ^ 1);
+    std::ofstream(path, std::ios::binary) << bytes;
+    const auto verified = verifyColours(*ChunkFile::open(path), nullptr);
+    ASSERT_TRUE(verified);
+    EXPECT_EQ(verified->tiles, 26u);
+    ASSERT_EQ(verified->problemCount, 1u);
+    EXPECT_NE(verified->problems[0].find("x_neg/0/0/0 is damaged"), std::string::npos);
 }
 
 TEST(ColourBake, SizesThatCannotBeAreRefused) {
