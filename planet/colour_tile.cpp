@@ -8,9 +8,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <glm/vec3.hpp>
 
 #include "planet/face_fold.h"
+
+#define STB_DXT_IMPLEMENTATION
+#include <stb/stb_dxt.h>
 
 namespace planet {
 
@@ -18,7 +23,8 @@ namespace {
 
 constexpr auto side = static_cast<std::size_t>(colourTileTexels);
 constexpr std::size_t texelCount = side * side;
-constexpr std::size_t blockTexels = 16;
+constexpr std::size_t blockSide = 4;
+constexpr std::size_t blockTexels = blockSide * blockSide;
 constexpr std::size_t blockBytes = 8;
 constexpr std::size_t halfBlockBytes = blockBytes / 2;
 constexpr int zstdLevel = 9;
@@ -161,6 +167,17 @@ std::vector<std::byte> texelsOfPlanes(std::span<const std::uint8_t> residuals) {
     return texels;
 }
 
+std::array<unsigned char, 4 * blockTexels> blockAt(std::span<const std::uint8_t> rgb, std::size_t column,
+                                                   std::size_t row) {
+    std::array<unsigned char, 4 * blockTexels> rgba;
+    rgba.fill(255);
+    for (std::size_t i = 0; i < blockTexels; ++i) {
+        const std::size_t texel = (row + i / blockSide) * side + column + i % blockSide;
+        std::copy_n(&rgb[3 * texel], 3, &rgba[4 * i]);
+    }
+    return rgba;
+}
+
 // Colours first, then indices: each is more like its own kind.
 std::vector<std::uint8_t> halvesOf(std::span<const std::byte> blocks) {
     std::vector<std::uint8_t> halves(blocks.size());
@@ -209,11 +226,15 @@ std::vector<std::byte> colourTexels(ColourFormat format, std::span<const std::ui
         const auto bytes = std::as_bytes(rgb);
         return {bytes.begin(), bytes.end()};
     }
-    std::vector<squish::u8> rgba(4 * texelCount, 255);
-    for (std::size_t i = 0; i < texelCount; ++i) std::copy_n(&rgb[3 * i], 3, &rgba[4 * i]);
     std::vector<std::byte> blocks(colourTileBytes(format));
-    squish::CompressImage(rgba.data(), colourTileTexels, colourTileTexels, blocks.data(),
-                          squish::kDxt1 | squish::kColourClusterFit);
+    std::size_t block = 0;
+    for (std::size_t row = 0; row < side; row += blockSide) {
+        for (std::size_t column = 0; column < side; column += blockSide, ++block) {
+            const std::array<unsigned char, 4 * blockTexels> rgba = blockAt(rgb, column, row);
+            stb_compress_dxt_block(reinterpret_cast<unsigned char*>(&blocks[block * blockBytes]), rgba.data(),
+                                   0, STB_DXT_HIGHQUAL);
+        }
+    }
     return blocks;
 }
 
