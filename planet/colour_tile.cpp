@@ -252,6 +252,17 @@ std::vector<std::uint8_t> rgbOfColourTexels(ColourFormat format, std::span<const
     return rgb;
 }
 
+std::vector<std::byte> checkerTexels(ColourFormat format) {
+    constexpr std::size_t squareTexels = 32;
+    std::vector<std::uint8_t> rgb(3 * texelCount, 0);
+    for (std::size_t i = 0; i < texelCount; ++i) {
+        const std::size_t column = i % side + squareTexels - colourBorderBefore;
+        const std::size_t row = i / side + squareTexels - colourBorderBefore;
+        if ((column / squareTexels + row / squareTexels) % 2 == 0) rgb[3 * i] = rgb[3 * i + 2] = 255;
+    }
+    return colourTexels(format, rgb);
+}
+
 std::vector<std::byte> packColourTexels(ColourFormat format, std::span<const std::byte> texels) {
     assert(texels.size() == colourTileBytes(format));
     const std::vector<std::uint8_t> ordered =

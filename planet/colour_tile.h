@@ -27,7 +27,7 @@ inline constexpr int colourBorderBefore = 7;  // texels west of and below the ti
 inline constexpr int colourBorderAfter = 8;   // east of and above
 inline constexpr int colourTileTexels = colourBorderBefore + colourTileCells + 1 + colourBorderAfter;
 static_assert(colourTileTexels % 4 == 0 && colourTileCells % 4 == 0);
-inline constexpr int maxColourLevel = 12;  // faces of a million texels a side, 10 m on Earth
+inline constexpr int maxColourLevel = 10;  // faces of 262,145 texels a side: some 40 m on Earth
 
 enum class ColourFormat : std::uint8_t { Bc1, Lossless };
 
@@ -41,6 +41,9 @@ Result<void> sampleColourTile(const ColourSource& source, const ChunkId& tile, s
 std::vector<std::byte> colourTexels(ColourFormat format, std::span<const std::uint8_t> rgb);
 // Its colours again, as the GPU has them.
 std::vector<std::uint8_t> rgbOfColourTexels(ColourFormat format, std::span<const std::byte> texels);
+
+// A loud checker pattern, for what cannot be read.
+std::vector<std::byte> checkerTexels(ColourFormat format);
 
 // What the file holds of them: without loss, smaller. Any bytes are either unpacked or refused.
 std::vector<std::byte> packColourTexels(ColourFormat format, std::span<const std::byte> texels);
