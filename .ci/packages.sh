@@ -18,7 +18,9 @@ libexpected-dev         errors as values
 libtbb-dev              the bake on all cores
 libfmt-dev              messages
 libxxhash-dev           checksums of the chunk file
-libzstd-dev             what the benchmark compares the file with
+libzstd-dev             colour tiles and recorded flights, and what the benchmark compares the file with
+libstb-dev              colour tiles to BC1
+libsquish-dev           colour tiles from BC1
 libcli11-dev            command line
 libtomlplusplus-dev     settings
 nlohmann-json3-dev      reports

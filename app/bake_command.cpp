@@ -4,10 +4,12 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/bake_progress.h"
 #include "app/report.h"
 #include "app/worlds.h"
+#include "planet/colour_source.h"
 #include "planet/terrain.h"
 #include "ui/text.h"
 
@@ -16,9 +18,9 @@ namespace worldy {
 namespace {
 
 double bitsPerSample(const planet::BakeReport& report) {
-    return report.samples == 0
-               ? 0
-               : 8.0 * static_cast<double>(report.fileBytes) / static_cast<double>(report.samples);
+    return report.samples == 0 ? 0
+                               : 8.0 * static_cast<double>(report.fileBytes - report.colourBytes) /
+                                     static_cast<double>(report.samples);
 }
 
 void printJson(const planet::HeightSource& source, const BakeOptions& options,
@@ -37,6 +39,8 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"missing_samples", report.missingSamples},
                                          {"root_delta_c_m", report.largestDeltaCM},
                                          {"root_tight_m", report.largestDeltaTightM},
+                                         {"colour_tiles", report.colourTiles},
+                                         {"colour_bytes", report.colourBytes},
                                          {"seconds", report.seconds}};
     fmt::print("{}", textOf(json));
 }
@@ -51,6 +55,10 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
                ui::bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
                ui::durationText(report.seconds));
+    if (report.colourTiles > 0) {
+        fmt::print("{} tiles of colour, {}\n", report.colourTiles,
+                   ui::bytesText(static_cast<double>(report.colourBytes)));
+    }
     fmt::print("largest error of a root: delta_c {}, tight {}\n",
                ui::distanceText(static_cast<double>(report.largestDeltaCM)),
                ui::distanceText(static_cast<double>(report.largestDeltaTightM)));
@@ -111,8 +119,14 @@ planet::Result<void> runBake(const BakeOptions& options) {
     const planet::Result<planet::HeightSource> source =
         planet::openHeightSource(named->source, options.sourceSettings);
     if (!source) return tl::unexpected(source.error());
+    std::optional<planet::ColourSource> colour;
+    if (!options.colour.empty()) {
+        planet::Result<planet::ColourSource> opened = planet::openColourSource(options.colour);
+        if (!opened) return tl::unexpected(opened.error());
+        colour = *std::move(opened);
+    }
     const planet::Result<planet::BakeReport> report =
-        bakeOnTerminal(*source, named->settings, options.output);
+        bakeOnTerminal(*source, named->settings, options.output, colour ? &*colour : nullptr);
     if (!report) return tl::unexpected(report.error());
     printWarnings(options, *report);
     (options.json ? printJson : printText)(*source, options, *report);

@@ -18,6 +18,7 @@ struct BakeOptions {
     planet::BakeSettings settings;  // all but the radius
     std::optional<double> radiusM;  // a world's own, or the Earth's
     bool listPresets = false;       // instead: tells the worlds there are, and what made terrain can be told
+    std::filesystem::path colour;   // an image; empty: no colours
     bool json = false;
 };
 

@@ -46,13 +46,15 @@ void TerminalProgress::show(const planet::BakeProgress& progress) {
 
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
-                                                  const std::filesystem::path& output) {
+                                                  const std::filesystem::path& output,
+                                                  const planet::ColourSource* colour) {
     const InterruptWatch watch;
     TerminalProgress line;
-    return planet::bake(source, settings, output, [&](const planet::BakeProgress& progress) {
+    const auto show = [&](const planet::BakeProgress& progress) {
         line.show(progress);
         return !watch.interrupted();
-    });
+    };
+    return planet::bake(source, settings, output, show, colour);
 }
 
 }  // namespace worldy

@@ -24,6 +24,7 @@ private:
 // Bakes with progress on the terminal until it ends or is interrupted.
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
-                                                  const std::filesystem::path& output);
+                                                  const std::filesystem::path& output,
+                                                  const planet::ColourSource* colour = nullptr);
 
 }  // namespace worldy

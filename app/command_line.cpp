@@ -8,6 +8,7 @@
 #include <charconv>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,6 +101,16 @@ void addBake(CLI::App& app, BakeOptions& options) {
         ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
     command.add_option("--debug-levels", settings.debugLevelsFolder,
                        "Also write each level of each face there as PNG");
+    command.add_option("--colour", options.colour,
+                       "Colour image, of the whole planet or of six faces, to be baked in too");
+    command.add_option("--colour-face-size", settings.colour.faceSize,
+                       "Colours a face's side, 2^n + 1 from 257 on (the image's own)");
+    const std::map<std::string, planet::ColourFormat> formats = {
+        {"bc1", planet::ColourFormat::Bc1}, {"lossless", planet::ColourFormat::Lossless}};
+    command
+        .add_option("--colour-format", settings.colour.format, "bc1: half a byte a texel; or lossless (bc1)")
+        ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
+        ->option_text("bc1|lossless");
     command.add_flag("--json", options.json, "Report as JSON");
     addSourceOptions(command, options.sourceSettings);
 }
@@ -363,6 +374,8 @@ void addFileCommands(CLI::App& app, FileCommandOptions& options) {
     CLI::App& verify = add("verify", "Read the whole of a chunk file and check it");
     verify.add_option("--source", options.source,
                       "Also compare it with the source that it was baked from, given with the same options");
+    verify.add_option("--colour", options.colour,
+                      "Also compare its colours with the image that they were baked from");
     addSourceOptions(verify, options.sourceSettings);
     CLI::App& probe = add("probe", "Tell the height at a place, and which chunks hold it");
     probe.add_option("LATITUDE", options.latitudeDeg, "Degrees north")->required()->check(number(-90, 90));

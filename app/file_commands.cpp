@@ -7,11 +7,14 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "app/interrupt.h"
 #include "app/report.h"
 #include "app/worlds.h"
 #include "planet/chunk_file.h"
+#include "planet/colour_report.h"
 #include "planet/file_report.h"
 #include "ui/text.h"
 
@@ -22,6 +25,32 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planet::ChunkFile;
 using planet::Result;
+
+using ColourLevels = std::vector<planet::ColourLevelReport>;
+
+std::string_view formatName(planet::ColourFormat format) {
+    return format == planet::ColourFormat::Bc1 ? "bc1" : "lossless";
+}
+
+Json colourJson(const planet::ColourPyramid& colour, const ColourLevels& levels) {
+    Json json = {{"source", colour.source},
+                 {"format", formatName(colour.format)},
+                 {"face_size", (planet::colourTileCells << colour.leafLevel) + 1},
+                 {"levels", Json::array()}};
+    for (const planet::ColourLevelReport& level : levels)
+        json["levels"].push_back({{"level", level.level}, {"tiles", level.tiles}, {"bytes", level.bytes}});
+    return json;
+}
+
+void printColour(const planet::ColourPyramid& colour, const ColourLevels& levels) {
+    const int size = (planet::colourTileCells << colour.leafLevel) + 1;
+    fmt::print("\ncolours: {}, {}, faces of {} x {}\n", colour.source, formatName(colour.format), size, size);
+    fmt::print("{:>5}{:>10}{:>12}\n", "level", "tiles", "size");
+    for (const planet::ColourLevelReport& level : levels) {
+        fmt::print("{:>5}{:>10}{:>12}\n", level.level, level.tiles,
+                   ui::bytesText(static_cast<double>(level.bytes)));
+    }
+}
 
 Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
     const planet::ChunkFileInfo& info = file.info();
@@ -78,21 +107,48 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
     }
 }
 
-void printVerified(const FileCommandOptions& options, const planet::VerifyReport& report) {
+void printVerified(const FileCommandOptions& options, const planet::VerifyReport& report,
+                   const planet::ColourVerifyReport& colours) {
+    std::vector<std::string> problems = report.problems;
+    problems.insert(problems.end(), colours.problems.begin(), colours.problems.end());
     if (options.json) {
         const Json json = {{"file", options.file.string()},
                            {"chunks", report.chunks},
                            {"edges", report.edges},
                            {"leaf_samples", report.leafSamples},
-                           {"problem_count", report.problemCount},
-                           {"problems", report.problems}};
+                           {"colour_tiles", colours.tiles},
+                           {"colour_edges", colours.edges},
+                           {"colour_tiles_compared", colours.compared},
+                           {"problem_count", report.problemCount + colours.problemCount},
+                           {"problems", problems}};
         fmt::print("{}", textOf(json));
         return;
     }
-    for (const std::string& problem : report.problems) fmt::print("{}\n", problem);
+    for (const std::string& problem : problems) fmt::print("{}\n", problem);
     fmt::print(
         "{}: {} chunks and {} shared edges checked, {} samples compared with the source, {} problems\n",
         options.file.string(), report.chunks, report.edges, report.leafSamples, report.problemCount);
+    if (colours.tiles > 0) {
+        fmt::print(
+            "{}: {} tiles of colour and {} shared edges checked, {} compared with the image, {} problems\n",
+            options.file.string(), colours.tiles, colours.edges, colours.compared, colours.problemCount);
+    }
+}
+
+Result<planet::ColourVerifyReport> verifyColoursOf(const ChunkFile& file, const FileCommandOptions& options,
+                                                   const InterruptWatch& watch) {
+    if (!file.info().colour) {
+        if (options.colour.empty()) return planet::ColourVerifyReport();
+        return planet::badInput(fmt::format("{}: has no colours to compare with {}; bake it with --colour",
+                                            options.file.string(), options.colour.string()));
+    }
+    std::optional<planet::ColourSource> source;
+    if (!options.colour.empty()) {
+        Result<planet::ColourSource> opened = planet::openColourSource(options.colour);
+        if (!opened) return tl::unexpected(opened.error());
+        source = *std::move(opened);
+    }
+    return planet::verifyColours(file, source ? &*source : nullptr, [&] { return !watch.interrupted(); });
 }
 
 Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& report) {
@@ -137,10 +193,17 @@ Result<void> runInfo(const FileCommandOptions& options) {
     if (!file) return tl::unexpected(file.error());
     const Result<planet::FileReport> report = planet::reportFile(*file);
     if (!report) return tl::unexpected(report.error());
-    if (options.json)
-        fmt::print("{}", textOf(infoJson(*file, *report)));
-    else
-        printInfo(*file, *report);
+    const auto& colour = file->info().colour;
+    const Result<ColourLevels> colourLevels = colour ? planet::reportColours(*file) : ColourLevels();
+    if (!colourLevels) return tl::unexpected(colourLevels.error());
+    if (options.json) {
+        Json json = infoJson(*file, *report);
+        if (colour) json["colour"] = colourJson(*colour, *colourLevels);
+        fmt::print("{}", textOf(json));
+        return {};
+    }
+    printInfo(*file, *report);
+    if (colour) printColour(*colour, *colourLevels);
     return {};
 }
 
@@ -160,10 +223,13 @@ Result<void> runVerify(const FileCommandOptions& options) {
         planet::verifyFile(*file, source ? &*source : nullptr,
                            [&](std::uint64_t, std::uint64_t) { return !watch.interrupted(); });
     if (!report) return tl::unexpected(report.error());
-    printVerified(options, *report);
-    if (report->problemCount == 0) return {};
-    return planet::badInput(fmt::format("{}: has {} problems; baking it again would be right",
-                                        options.file.string(), report->problemCount));
+    const Result<planet::ColourVerifyReport> colours = verifyColoursOf(*file, options, watch);
+    if (!colours) return tl::unexpected(colours.error());
+    printVerified(options, *report, *colours);
+    const std::uint64_t problems = report->problemCount + colours->problemCount;
+    if (problems == 0) return {};
+    return planet::badInput(
+        fmt::format("{}: has {} problems; baking it again would be right", options.file.string(), problems));
 }
 
 Result<void> runProbe(const FileCommandOptions& options) {

@@ -12,7 +12,8 @@ struct FileCommandOptions {
     std::filesystem::path file;
     std::filesystem::path source;  // verify: compare with this too; empty: only the file itself
     planet::HeightSourceSettings sourceSettings;
-    double latitudeDeg = 0;  // probe
+    std::filesystem::path colour;  // verify: compare the colours with this; empty: with nothing
+    double latitudeDeg = 0;        // probe
     double longitudeDeg = 0;
     bool json = false;
 };

@@ -86,7 +86,7 @@ Result<void> rewind(RunningReplay& running, Scene& scene) {
     return {};
 }
 
-std::string textOf(const char* sign, const std::vector<planet::ChunkId>& ids) {
+std::string textOf(const char* sign, const std::vector<planet::BlockId>& ids) {
     constexpr std::size_t shown = 3;
     std::string text;
     for (std::size_t i = 0; i < std::min(ids.size(), shown); ++i)

@@ -27,6 +27,8 @@ namespace worldy {
 namespace {
 
 namespace fs = std::filesystem;
+using planet::BlockId;
+using planet::BlockKind;
 using planet::ByteReader;
 using planet::ByteWriter;
 using planet::ChunkId;
@@ -63,15 +65,30 @@ void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
     for (const ChunkId& id : ids) putId(out, id);
 }
 
+// A block of colours has the levels above those of chunks.
+constexpr int firstColourLevel = planet::maxLevel + 1;
+static_assert(firstColourLevel + planet::maxColourLevel < 32);
+
+void putBlock(ByteWriter& out, const BlockId& block) {
+    ChunkId id = block.parent;
+    if (block.kind == BlockKind::Colours) id.level = static_cast<std::uint8_t>(id.level + firstColourLevel);
+    putId(out, id);
+}
+
+void putBlocks(ByteWriter& out, const std::vector<BlockId>& blocks) {
+    putVarint(out, blocks.size());
+    for (const BlockId& block : blocks) putBlock(out, block);
+}
+
 void putMoves(ByteWriter& out, const PagingMoves& moves) {
     out.put(static_cast<std::uint8_t>(moves.gaveUp));
-    putIds(out, moves.taken);
+    putBlocks(out, moves.taken);
     putVarint(out, moves.arrived.size());
     for (const PagingMoves::Arrival& arrival : moves.arrived) {
         out.put(static_cast<std::uint8_t>(arrival.outcome));
-        putId(out, arrival.parent);
+        putBlock(out, arrival.block);
     }
-    putIds(out, moves.requested);
+    putBlocks(out, moves.requested);
 }
 
 bool empty(const PagingMoves& moves) {
@@ -180,15 +197,28 @@ public:
         return ok() ? value : low;
     }
     ChunkId id() {
+        const BlockId named = block();
+        if (named.kind != BlockKind::Heights) fail("names a tile of colour where a chunk would be right");
+        return named.parent;
+    }
+    BlockId block() {
         const auto first = get<std::uint8_t>();
         const std::uint64_t x = varint(), y = varint();
-        const int level = first % 32;
+        const bool isColours = first % 32 >= firstColourLevel;
+        const int level = first % 32 - (isColours ? firstColourLevel : 0);
+        const int deepest = isColours ? planet::maxColourLevel : deepest_;
         const std::uint64_t across = std::uint64_t{1} << level;
-        if (ok() && (first / 32 >= planet::faceCount || level > deepest_ || x >= across || y >= across))
+        if (ok() && (first / 32 >= planet::faceCount || level > deepest || x >= across || y >= across))
             fail("names a chunk that there is not");
         if (!ok()) return {};
-        return {static_cast<planet::Face>(first / 32), static_cast<std::uint8_t>(level),
-                static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+        return {{static_cast<planet::Face>(first / 32), static_cast<std::uint8_t>(level),
+                 static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)},
+                isColours ? BlockKind::Colours : BlockKind::Heights};
+    }
+    std::vector<BlockId> blocks() {
+        std::vector<BlockId> all;
+        for (std::size_t left = count(3); left > 0 && ok(); --left) all.push_back(block());
+        return all;
     }
     std::vector<ChunkId> ids() {
         std::vector<ChunkId> all;
@@ -198,7 +228,7 @@ public:
     PagingMoves moves() {
         PagingMoves moves;
         moves.gaveUp = get<std::uint8_t>() != 0;
-        moves.taken = ids();
+        moves.taken = blocks();
         for (std::size_t left = count(4); left > 0 && ok(); --left) {
             PagingMoves::Arrival& arrival = moves.arrived.emplace_back();
             const auto outcome = get<std::uint8_t>();
@@ -206,9 +236,9 @@ public:
             if (outcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled) ||
                 arrival.outcome == planet::PagingOutcome::Evicted)
                 fail("says of a read that it ended as none can");
-            arrival.parent = id();
+            arrival.block = block();
         }
-        moves.requested = ids();
+        moves.requested = blocks();
         return moves;
     }
 

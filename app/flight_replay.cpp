@@ -14,13 +14,15 @@ namespace worldy {
 namespace {
 
 using Ids = std::vector<planet::ChunkId>;
+using Blocks = std::vector<planet::BlockId>;
 using planet::PagingMoves;
 using planet::Result;
 
-Ids without(Ids from, Ids what) {
+template <class Id>
+std::vector<Id> without(std::vector<Id> from, std::vector<Id> what) {
     std::sort(from.begin(), from.end());
     std::sort(what.begin(), what.end());
-    Ids rest;
+    std::vector<Id> rest;
     std::set_difference(from.begin(), from.end(), what.begin(), what.end(), std::back_inserter(rest));
     return rest;
 }
@@ -32,10 +34,10 @@ void change(Ids& drawn, const FlownView& view) {
     drawn = std::move(rest);
 }
 
-Ids parentsOf(const std::vector<PagingMoves::Arrival>& arrivals) {
-    Ids ids;
-    for (const PagingMoves::Arrival& arrival : arrivals) ids.push_back(arrival.parent);
-    return ids;
+Blocks blocksOf(const std::vector<PagingMoves::Arrival>& arrivals) {
+    Blocks blocks;
+    for (const PagingMoves::Arrival& arrival : arrivals) blocks.push_back(arrival.block);
+    return blocks;
 }
 
 }  // namespace
@@ -130,7 +132,7 @@ void FlightReplay::compare(planet::Planet& planet, const FlightFrame& frame) {
     for (std::size_t v = 0; v < frame.views.size(); ++v) change(drawn_[v], frame.views[v]);
     const PagingMoves moves = planet.takeMoves();
     ReplayDifference difference{next_ - 1, timeS_, {}, {}, {}};
-    const auto differs = [&](const char* what, const Ids& replayed, const Ids& recorded) {
+    const auto differs = [&](const char* what, const Blocks& replayed, const Blocks& recorded) {
         difference.what = what;
         difference.onlyReplayed = without(replayed, recorded);
         difference.onlyRecorded = without(recorded, replayed);
@@ -138,13 +140,14 @@ void FlightReplay::compare(planet::Planet& planet, const FlightFrame& frame) {
     if (selectionHashOf(planet) != frame.selectionHash) {
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const Ids now = drawnIds(planet.selection(v));
-            if (v == 0 || now != drawn_[v]) differs("selection", now, drawn_[v]);
+            if (v == 0 || now != drawn_[v])
+                differs("selection", {now.begin(), now.end()}, {drawn_[v].begin(), drawn_[v].end()});
             if (now != drawn_[v]) break;
         }
     } else if (moves.requested != frame.moves.requested) {
         differs("requests", moves.requested, frame.moves.requested);
     } else if (moves.arrived != frame.moves.arrived) {
-        differs("arrivals", parentsOf(moves.arrived), parentsOf(frame.moves.arrived));
+        differs("arrivals", blocksOf(moves.arrived), blocksOf(frame.moves.arrived));
     }
     if (difference.what.empty()) return;
     if (!first_) first_ = std::move(difference);

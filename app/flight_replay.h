@@ -30,11 +30,12 @@ ReplayedPlanet headless(planet::Planet& planet);
 
 // The first frame that was not as recorded.
 struct ReplayDifference {
-    std::size_t frame = 0;                      // from 0
-    double timeS = 0;                           // from the recording's start, its end
-    std::string what;                           // "selection", "requests" or "arrivals", the first of these
-    std::vector<planet::ChunkId> onlyReplayed;  // chunks drawn, asked for or arrived; both may be empty where
-    std::vector<planet::ChunkId> onlyRecorded;  // order, morphs or outcomes alone differ
+    std::size_t frame = 0;  // from 0
+    double timeS = 0;       // from the recording's start, its end
+    std::string what;       // "selection", "requests" or "arrivals", the first of these
+    std::vector<planet::BlockId>
+        onlyReplayed;  // chunks drawn, blocks asked for or arrived; both may be empty where
+    std::vector<planet::BlockId> onlyRecorded;  // order, morphs or outcomes alone differ
 };
 
 class FlightReplay {

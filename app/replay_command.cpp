@@ -26,13 +26,13 @@ const char* nameOf(ReplayPaging paging) {
     return paging == ReplayPaging::AsRecorded ? "as recorded" : "simulated";
 }
 
-std::vector<std::string> textsOf(const std::vector<planet::ChunkId>& ids) {
+std::vector<std::string> textsOf(const std::vector<planet::BlockId>& ids) {
     std::vector<std::string> texts;
-    for (const planet::ChunkId& id : ids) texts.push_back(toString(id));
+    for (const planet::BlockId& id : ids) texts.push_back(toString(id));
     return texts;
 }
 
-void printIds(const char* what, const std::vector<planet::ChunkId>& ids) {
+void printIds(const char* what, const std::vector<planet::BlockId>& ids) {
     if (ids.empty()) return;
     std::vector<std::string> texts = textsOf(ids);
     const std::size_t shown = std::min(texts.size(), idsPrinted);

@@ -16,8 +16,10 @@ constexpr double mostWaitS = 24 * 3600;
 
 enum class Purpose : std::uint64_t { Failure, Latency, Order };
 
-std::uint64_t draw(std::uint32_t seed, Purpose purpose, const ChunkId& parent, std::uint32_t attempt) {
-    const std::array<std::uint64_t, 3> what = {keyOf(parent), attempt, static_cast<std::uint64_t>(purpose)};
+std::uint64_t draw(std::uint32_t seed, Purpose purpose, const BlockId& block, std::uint32_t attempt) {
+    const std::uint64_t kindAndPurpose =
+        static_cast<std::uint64_t>(block.kind) << 8 | static_cast<std::uint64_t>(purpose);
+    const std::array<std::uint64_t, 3> what = {keyOf(block.parent), attempt, kindAndPurpose};
     return XXH3_64bits_withSeed(what.data(), sizeof what, seed);
 }
 
@@ -51,19 +53,19 @@ Result<void> checkBadDisk(const BadDiskSettings& settings) {
     return {};
 }
 
-DiskFault diskFault(const BadDiskSettings& settings, const ChunkId& parent, std::uint32_t attempt,
+DiskFault diskFault(const BadDiskSettings& settings, const BlockId& block, std::uint32_t attempt,
                     std::uint64_t bytes) {
     DiskFault fault;
-    fault.fails = share(draw(settings.seed, Purpose::Failure, parent, attempt)) < settings.failureRate;
-    const double unevenness = 0.5 + share(draw(settings.seed, Purpose::Latency, parent, attempt));
+    fault.fails = share(draw(settings.seed, Purpose::Failure, block, attempt)) < settings.failureRate;
+    const double unevenness = 0.5 + share(draw(settings.seed, Purpose::Latency, block, attempt));
     fault.waitS = settings.latencyMs / 1000 * unevenness;
     if (settings.bandwidthMBs > 0) fault.waitS += static_cast<double>(bytes) / (settings.bandwidthMBs * 1e6);
     fault.waitS = std::min(fault.waitS, mostWaitS);
     return fault;
 }
 
-std::uint64_t shuffledPlace(const BadDiskSettings& settings, const ChunkId& parent) {
-    return draw(settings.seed, Purpose::Order, parent, 0);
+std::uint64_t shuffledPlace(const BadDiskSettings& settings, const BlockId& block) {
+    return draw(settings.seed, Purpose::Order, block, 0);
 }
 
 }  // namespace planet

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "planet/chunk_id.h"
+#include "planet/block_id.h"
 #include "planet/result.h"
 
 namespace planet {
@@ -30,11 +30,11 @@ struct DiskFault {
     double waitS = 0;  // before the read; at most a day
 };
 
-// For the attempt-th read (from 0) of the block under a chunk.
-DiskFault diskFault(const BadDiskSettings& settings, const ChunkId& parent, std::uint32_t attempt,
+// For the attempt-th read (from 0) of a block.
+DiskFault diskFault(const BadDiskSettings& settings, const BlockId& block, std::uint32_t attempt,
                     std::uint64_t bytes);
 
 // Where a block stands in the shuffled order: smaller is served first.
-std::uint64_t shuffledPlace(const BadDiskSettings& settings, const ChunkId& parent);
+std::uint64_t shuffledPlace(const BadDiskSettings& settings, const BlockId& block);
 
 }  // namespace planet

@@ -271,8 +271,12 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
     return outcome;
 }
 
-Result<void> writeRootsAndHeader(const BakeContext& bake, const Assembler& assembler, AtomicFile& file) {
-    ChunkFileInfo info;
+// What a colour tile counts in progress.
+constexpr std::uint64_t samplesPerColourTile = std::uint64_t{colourTileCells} * colourTileCells;
+
+// The header last, with whatever colours there are.
+Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, AtomicFile& file,
+                        ChunkFileInfo& info) {
     info.shape = bake.shape;
     info.missingSamples = bake.source.missingCount;
     info.source = bake.source.description;
@@ -289,19 +293,35 @@ Result<void> writeRootsAndHeader(const BakeContext& bake, const Assembler& assem
                                                               static_cast<std::uint32_t>(block.size())};
         if (auto appended = file.append(block); !appended) return appended;
     }
-    return file.overwrite(0, headerBytes(info, file.size()));
+    return {};
+}
+
+Result<void> writeColours(const ColourSource& source, const BakeSettings& settings, AtomicFile& file,
+                          ProgressMeter& meter, ChunkFileInfo& info) {
+    auto pyramid = bakeColour(source, settings.colour, bakeThreads(settings), file,
+                              [&](std::uint64_t tiles) { return meter.add(tiles * samplesPerColourTile); });
+    if (!pyramid) return tl::unexpected(std::move(pyramid.error()));
+    info.colour = *std::move(pyramid);
+    return {};
 }
 
 }  // namespace
 
 Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
-                        const std::filesystem::path& output, const BakeProgressCallback& progress) {
+                        const std::filesystem::path& output, const BakeProgressCallback& progress,
+                        const ColourSource* colour) {
     const Clock::time_point start = Clock::now();
     if (auto valid = checkBakeSettings(settings); !valid) return tl::unexpected(valid.error());
     const auto shape = chooseShape(source, settings);
     if (!shape) return tl::unexpected(shape.error());
     const int tileLevel = tileLevelOf(*shape, settings.tileLevels);
     const BakeContext context{source, *shape, settings.compressionLevel};
+    std::uint64_t colourTiles = 0;
+    if (colour) {
+        const Result<int> leaf = colourLeafLevel(*colour, settings.colour);
+        if (!leaf) return tl::unexpected(leaf.error());
+        colourTiles = colourTileCount(*leaf);
+    }
 
     auto file = AtomicFile::create(output);
     if (!file) return tl::unexpected(file.error());
@@ -310,15 +330,23 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     }
     Assembler assembler(context, tileLevel, *file);
     const auto cells = static_cast<std::uint64_t>(faceCells(*shape));
-    ProgressMeter meter(progress, faceCount * cells * cells);
+    ProgressMeter meter(progress, faceCount * cells * cells + colourTiles * samplesPerColourTile);
     const int threads = bakeThreads(settings);
     if (auto baked = bakeTiles(context, tileLevel, threads, assembler, meter); !baked)
         return tl::unexpected(baked.error());
     if (auto finished = assembler.finish(threads, [&] { return meter.add(0); }); !finished)
         return tl::unexpected(finished.error());
-    if (auto ended = writeRootsAndHeader(context, assembler, *file); !ended)
+    ChunkFileInfo info;
+    if (auto ended = writeRoots(context, assembler, *file, info); !ended)
         return tl::unexpected(ended.error());
+    const std::uint64_t bytesWithoutColours = file->size();
+    if (colour) {
+        if (auto written = writeColours(*colour, settings, *file, meter, info); !written)
+            return tl::unexpected(written.error());
+    }
     const std::uint64_t fileBytes = file->size();
+    if (auto ended = file->overwrite(0, headerBytes(info, fileBytes)); !ended)
+        return tl::unexpected(ended.error());
     if (auto committed = file->commit(); !committed) return tl::unexpected(committed.error());
 
     if (!settings.debugLevelsFolder.empty()) {
@@ -332,6 +360,8 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     report.chunks = chunkCountOf(*shape);
     report.fileBytes = fileBytes;
     report.missingSamples = source.missingCount;
+    report.colourTiles = colourTiles;
+    report.colourBytes = fileBytes - bytesWithoutColours;
     for (const BakedChunk& root : assembler.roots()) {
         report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
         report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);

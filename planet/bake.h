@@ -20,6 +20,7 @@
 #include <functional>
 #include <optional>
 
+#include "planet/colour_bake.h"
 #include "planet/height_codec.h"
 #include "planet/height_source.h"
 #include "planet/planet_shape.h"
@@ -43,11 +44,12 @@ struct BakeSettings {
     // 128 cells, but at least one: what neighbouring squares both sample is little then, and a square fits a
     // core's cache. The chunks are the same whatever it is; the order of their blocks may differ.
     std::optional<int> tileLevels{};
+    ColourBakeSettings colour{};  // of the colour source, where there is one
 };
 
 struct BakeProgress {
     std::uint64_t samplesDone = 0;
-    std::uint64_t samplesTotal = 0;  // finest-level samples
+    std::uint64_t samplesTotal = 0;  // finest-level samples, and texels of colour tiles
     double elapsedS = 0;
     double samplesPerS = 0;
     double remainingS = 0;
@@ -63,13 +65,17 @@ struct BakeReport {
     std::uint64_t missingSamples = 0;
     float largestDeltaCM = 0;  // the largest of the six roots, metres
     float largestDeltaTightM = 0;
+    std::uint64_t colourTiles = 0;
+    std::uint64_t colourBytes = 0;  // of the file
     double seconds = 0;
 };
 
 // Writes under a temporary name beside the output, syncs, and renames; on any Error, Cancelled included, an
 // existing output is untouched and nothing is left behind. The same source and settings give the same bytes
 // whatever the number of threads.
+// colour: none makes a file without colours.
 Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
-                        const std::filesystem::path& output, const BakeProgressCallback& progress = {});
+                        const std::filesystem::path& output, const BakeProgressCallback& progress = {},
+                        const ColourSource* colour = nullptr);
 
 }  // namespace planet

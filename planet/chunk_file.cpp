@@ -125,18 +125,18 @@ Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, Rea
 }
 
 Result<std::vector<std::byte>> ChunkFile::readBlock(const ChunkId& id, BlockLocation location,
-                                                    std::size_t bytesNeeded) const {
-    if (location.offset < chunkFileHeaderBytes || location.size > largestBlockBytes(info_.shape) ||
+                                                    const BlockBytes& bytes) const {
+    if (location.offset < chunkFileHeaderBytes || location.size > bytes.most ||
         location.offset > sizeBytes_ || location.size > sizeBytes_ - location.offset ||
-        location.size < bytesNeeded) {
+        location.size < bytes.least) {
         return badInput(
             fmt::format("{}: the block of chunk {} is said to be {} bytes at {}, which the file of {} bytes "
                         "cannot hold; bake it again",
                         name_, toString(id), location.size, location.offset, sizeBytes_));
     }
-    std::vector<std::byte> bytes(location.size);
-    if (auto read = readAt_(location.offset, bytes); !read) return tl::unexpected(read.error());
-    return bytes;
+    std::vector<std::byte> block(location.size);
+    if (auto read = readAt_(location.offset, block); !read) return tl::unexpected(read.error());
+    return block;
 }
 
 Result<std::span<const std::byte>> ChunkFile::checkedContent(const ChunkId& id,
@@ -161,7 +161,8 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
     root.id = {face, 0, 0, 0};
     const bool leaf = leafLevel(info_.shape) == 0;
     const std::size_t entryBytes = leaf ? 0 : chunkEntryBytes;
-    const auto block = readBlock(root.id, location, entryBytes + checksumBytes);
+    const auto block =
+        readBlock(root.id, location, {entryBytes + checksumBytes, largestBlockBytes(info_.shape)});
     if (!block) return tl::unexpected(block.error());
     const auto sum = rootChecksum(std::span(*block).first(block->size() - checksumBytes), face);
     auto content = checkedContent(root.id, *block, sum);
@@ -187,7 +188,8 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
     assert(parent.level < leafLevel(info_.shape));
     const bool leaves = parent.level + 1 == leafLevel(info_.shape);
     const std::size_t entriesBytes = leaves ? 0 : quadrantCount * chunkEntryBytes;
-    const auto block = readBlock(parent, location, entriesBytes + checksumBytes);
+    const auto block =
+        readBlock(parent, location, {entriesBytes + checksumBytes, largestBlockBytes(info_.shape)});
     if (!block) return tl::unexpected(block.error());
     const auto sum = siblingChecksum(std::span(*block).first(block->size() - checksumBytes), parent);
     const auto content = checkedContent(parent, *block, sum);
@@ -223,7 +225,7 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
                                                                      BlockLocation location) const {
     assert(parent.level + 1 < leafLevel(info_.shape));
     constexpr std::size_t entriesBytes = quadrantCount * chunkEntryBytes;
-    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, entriesBytes);
+    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
     if (!bytes) return tl::unexpected(bytes.error());
     std::array<ChunkEntry, quadrantCount> entries;
     for (std::size_t q = 0; q < entries.size(); ++q) {
@@ -233,6 +235,75 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
             return tl::unexpected(
                 nonsense(childOf(parent, static_cast<int>(q)), "its index entry is out of range"));
         }
+    }
+    return entries;
+}
+
+Result<std::vector<ColourTileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,
+                                                               std::span<const ChunkId> tiles) const {
+    const ColourPyramid& pyramid = *info_.colour;
+    const std::size_t entriesBytes = tiles.size() * colourEntryBytes;
+    const auto bytes =
+        readBlock(block, location,
+                  {entriesBytes + checksumBytes,
+                   entriesBytes + tiles.size() * largestPackedColourTile(pyramid.format) + checksumBytes});
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto summed = std::span(*bytes).first(bytes->size() - checksumBytes);
+    const auto content = checkedContent(
+        block, *bytes,
+        tiles[0].level == 0 ? colourRootChecksum(summed, block.face) : colourSiblingChecksum(summed, block));
+    if (!content) return tl::unexpected(content.error());
+    std::vector<ColourTileData> read;
+    std::span<const std::byte> packed = content->subspan(entriesBytes);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const ColourEntry entry = colourEntryFrom(
+            content->subspan(i * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        const bool mayHaveChildren = tiles[i].level < pyramid.leafLevel;
+        if (entry.children.exists() != mayHaveChildren || entry.packedBytes > packed.size())
+            return tl::unexpected(nonsense(tiles[i], "its colours' children or size are out of range"));
+        auto texels = unpackColourTexels(pyramid.format, packed.first(entry.packedBytes));
+        if (!texels) return tl::unexpected(nonsense(tiles[i], texels.error().message));
+        packed = packed.subspan(entry.packedBytes);
+        read.push_back({tiles[i], entry.children, *std::move(texels)});
+    }
+    if (!packed.empty()) return tl::unexpected(nonsense(block, "its colours are followed by other bytes"));
+    return read;
+}
+
+Result<ColourTileData> ChunkFile::readColourRoot(Face face) const {
+    assert(info_.colour);
+    const ChunkId root{face, 0, 0, 0};
+    auto tiles = readColourBlock(root, info_.colour->roots[static_cast<std::size_t>(face)], {&root, 1});
+    if (!tiles) return tl::unexpected(std::move(tiles.error()));
+    return std::move(tiles->front());
+}
+
+Result<std::array<ColourTileData, quadrantCount>> ChunkFile::readColourChildren(
+    const ChunkId& parent, BlockLocation location) const {
+    assert(info_.colour && parent.level < info_.colour->leafLevel);
+    std::array<ChunkId, quadrantCount> ids;
+    for (int quadrant = 0; quadrant < quadrantCount; ++quadrant)
+        ids[static_cast<std::size_t>(quadrant)] = childOf(parent, quadrant);
+    auto tiles = readColourBlock(parent, location, ids);
+    if (!tiles) return tl::unexpected(std::move(tiles.error()));
+    std::array<ColourTileData, quadrantCount> children;
+    std::move(tiles->begin(), tiles->end(), children.begin());
+    return children;
+}
+
+Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(const ChunkId& parent,
+                                                                            BlockLocation location) const {
+    assert(info_.colour && parent.level + 1 < info_.colour->leafLevel);
+    constexpr std::size_t entriesBytes = quadrantCount * colourEntryBytes;
+    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::array<ColourEntry, quadrantCount> entries;
+    for (std::size_t q = 0; q < entries.size(); ++q) {
+        entries[q] = colourEntryFrom(
+            std::span(*bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        if (!entries[q].children.exists())
+            return tl::unexpected(
+                nonsense(childOf(parent, static_cast<int>(q)), "its colours' index entry is out of range"));
     }
     return entries;
 }

@@ -2,6 +2,7 @@
 //
 //   header     512 bytes: magic, version, shape, where the six root blocks are, checksum
 //   blocks     children's before their parents', root blocks last
+//   colours    where there are any: the blocks of the colour quadtree (colour_tile.h), in the same order
 //
 // A sibling block holds the four children of one chunk as one refinement of that chunk's grid: of the
 // (2^(k+1) + 1)^2 samples that the four cover together, only those the parent does not have (see
@@ -10,6 +11,9 @@
 // children lie; so the index is paged with the data. Everything is little-endian; each block ends in an XXH3
 // checksum seeded with the chunk's key, so that a block read for the wrong chunk fails too. README.md has the
 // layout byte by byte.
+//
+// A colour block holds the four tiles that are the children of one tile, or a root tile alone: for each tile
+// where its own children lie and how many bytes it takes, then the packed tiles, then such a checksum.
 //
 // The file is hostile until checked: every offset, size and count is checked before use, and a bad one is an
 // Error that names the file and the chunk.
@@ -20,12 +24,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "planet/chunk_id.h"
+#include "planet/colour_tile.h"
 #include "planet/planet_shape.h"
 #include "planet/result.h"
 
@@ -63,6 +69,27 @@ struct ChunkEntry {
     BlockLocation children;
 };
 
+// One tile of the colour quadtree as the file holds it.
+struct ColourTileData {
+    ChunkId id;
+    BlockLocation children;         // none at the finest level
+    std::vector<std::byte> texels;  // as the GPU takes them: colourTileBytes
+};
+
+// What a colour block says of one of its tiles.
+struct ColourEntry {
+    BlockLocation children;
+    std::uint32_t packedBytes = 0;
+};
+
+// The colour quadtree of a file, whose levels have nothing to do with those of the chunks.
+struct ColourPyramid {
+    ColourFormat format = ColourFormat::Bc1;
+    int leafLevel = 0;  // [0, maxColourLevel]
+    std::array<BlockLocation, faceCount> roots;
+    std::string source;  // what was baked, for people; at most 60 bytes of UTF-8
+};
+
 struct ChunkFileInfo {
     PlanetShape shape;
     std::int16_t minStep = 0;  // over the whole planet
@@ -70,10 +97,12 @@ struct ChunkFileInfo {
     std::uint64_t missingSamples = 0;  // source samples without data that were filled
     std::array<BlockLocation, faceCount> roots;
     std::string source;  // what was baked, for people; at most 200 bytes of UTF-8
+    std::optional<ColourPyramid> colour;
 };
 
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
-inline constexpr std::uint32_t chunkFileVersion = 2;
+inline constexpr std::uint32_t chunkFileVersion = 3;
+inline constexpr std::uint32_t oldestChunkFileVersion = 2;  // has no colours, and is read still
 
 // Reads exactly out.size() bytes at an offset; called from any thread, several at once.
 using ReadAt = std::function<Result<void>(std::uint64_t offset, std::span<std::byte> out)>;
@@ -100,10 +129,25 @@ public:
     Result<std::array<ChunkEntry, quadrantCount>> readEntries(const ChunkId& parent,
                                                               BlockLocation location) const;
 
+    // Of a file with colours. As for chunks: where its children lie is known of a tile that has been read.
+    Result<ColourTileData> readColourRoot(Face face) const;
+    Result<std::array<ColourTileData, quadrantCount>> readColourChildren(const ChunkId& parent,
+                                                                         BlockLocation location) const;
+    // As readEntries: where the four tiles' own children lie, of tiles above the finest level.
+    Result<std::array<ColourEntry, quadrantCount>> readColourEntries(const ChunkId& parent,
+                                                                     BlockLocation location) const;
+
 private:
     ChunkFile() = default;
+    // bytes: what the block needs at least, and what no honest one exceeds.
+    struct BlockBytes {
+        std::uint64_t least;
+        std::uint64_t most;
+    };
     Result<std::vector<std::byte>> readBlock(const ChunkId& id, BlockLocation location,
-                                             std::size_t bytesNeeded) const;
+                                             const BlockBytes& bytes) const;
+    Result<std::vector<ColourTileData>> readColourBlock(const ChunkId& block, BlockLocation location,
+                                                        std::span<const ChunkId> tiles) const;
     Result<std::span<const std::byte>> checkedContent(const ChunkId& id, std::span<const std::byte> block,
                                                       std::uint64_t expectedChecksum) const;
     Error nonsense(const ChunkId& id, std::string_view what) const;

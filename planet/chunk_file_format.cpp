@@ -16,7 +16,12 @@ namespace {
 
 constexpr std::array<char, 8> magic = {'W', 'O', 'R', 'L', 'D', 'Y', 'C', 'H'};
 constexpr std::size_t maxSourceBytes = 200;
-constexpr std::uint64_t rootSeed = std::uint64_t{1} << 63;  // no face's key has this bit
+constexpr std::size_t maxColourSourceBytes = 60;
+constexpr std::uint64_t rootSeed = std::uint64_t{1} << 63;
+// No key has these bits: y is below 2^maxLevel.
+constexpr std::uint64_t colourSeed = std::uint64_t{1} << 55;
+constexpr std::uint64_t colourRootSeed = std::uint64_t{3} << 54;
+static_assert(maxLevel <= 26);
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
@@ -28,6 +33,61 @@ std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
     std::size_t end = maxBytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
     return text.substr(0, end);
+}
+
+// What a block says of its place: the distance back to it from the block that tells, 0 for none. One beyond
+// the file's start wraps to an offset that no file has; the reader refuses it.
+std::uint64_t distanceTo(const BlockLocation& location, std::uint64_t blockOffset) {
+    return location.exists() ? blockOffset - location.offset : 0;
+}
+std::uint64_t offsetAt(std::uint64_t distance, std::uint64_t blockOffset) {
+    return distance == 0 ? 0 : blockOffset - distance;
+}
+
+void putText(ByteWriter& out, std::string_view text, std::size_t maxBytes) {
+    const std::string_view kept = cutUtf8(text, maxBytes);
+    out.put(static_cast<std::uint16_t>(kept.size()));
+    for (const char c : kept) out.put(c);
+}
+
+// False where it is said to be longer than it may be.
+bool readText(ByteReader& in, std::size_t maxBytes, std::string& text) {
+    const auto bytes = in.get<std::uint16_t>();
+    if (bytes > maxBytes) return false;
+    const auto taken = in.take(bytes);
+    text.assign(reinterpret_cast<const char*>(taken.data()), taken.size());
+    return true;
+}
+
+void putColour(ByteWriter& out, const std::optional<ColourPyramid>& colour) {
+    out.put(static_cast<std::uint8_t>(colour ? static_cast<int>(colour->format) + 1 : 0));
+    if (!colour) return;
+    out.put(static_cast<std::uint8_t>(colour->leafLevel));
+    for (const BlockLocation& root : colour->roots) {
+        out.put(root.offset);
+        out.put(root.size);
+    }
+    putText(out, colour->source, maxColourSourceBytes);
+}
+
+// The Error is what contradicts itself.
+Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
+    const auto kind = in.get<std::uint8_t>();
+    if (kind == 0) return std::nullopt;
+    ColourPyramid colour;
+    colour.format = static_cast<ColourFormat>(kind - 1);
+    colour.leafLevel = in.get<std::uint8_t>();
+    for (BlockLocation& root : colour.roots) {
+        root.offset = in.get<std::uint64_t>();
+        root.size = in.get<std::uint32_t>();
+    }
+    if (kind > 2) return badInput(fmt::format("colours of kind {}, which there is none", kind));
+    if (colour.leafLevel > maxColourLevel)
+        return badInput(
+            fmt::format("{} levels of colours ({} are possible)", colour.leafLevel + 1, maxColourLevel + 1));
+    if (!readText(in, maxColourSourceBytes, colour.source))
+        return badInput("a name of colours that is too long");
+    return colour;
 }
 
 // Empty where the shape is one that this program bakes.
@@ -55,7 +115,7 @@ void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint6
     out.put(entry.minStep);
     out.put(entry.maxStep);
     out.put(entry.children.size);
-    out.put(entry.children.exists() ? blockOffset - entry.children.offset : std::uint64_t{0});
+    out.put(distanceTo(entry.children, blockOffset));
 }
 
 ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset) {
@@ -66,9 +126,23 @@ ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uin
     entry.minStep = in.get<std::int16_t>();
     entry.maxStep = in.get<std::int16_t>();
     entry.children.size = in.get<std::uint32_t>();
-    const auto distance = in.get<std::uint64_t>();
-    // A distance beyond the file's start wraps to an offset that no file has; the reader refuses it.
-    entry.children.offset = distance == 0 ? 0 : blockOffset - distance;
+    entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
+    return entry;
+}
+
+void putColourEntry(std::vector<std::byte>& block, const ColourEntry& entry, std::uint64_t blockOffset) {
+    ByteWriter out(block);
+    out.put(distanceTo(entry.children, blockOffset));
+    out.put(entry.children.size);
+    out.put(entry.packedBytes);
+}
+
+ColourEntry colourEntryFrom(std::span<const std::byte, colourEntryBytes> bytes, std::uint64_t blockOffset) {
+    ByteReader in(bytes);
+    ColourEntry entry;
+    entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
+    entry.children.size = in.get<std::uint32_t>();
+    entry.packedBytes = in.get<std::uint32_t>();
     return entry;
 }
 
@@ -78,6 +152,18 @@ std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face) {
 
 std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent) {
     return checksum(bytes, keyOf(parent));
+}
+
+std::uint64_t colourRootChecksum(std::span<const std::byte> bytes, Face face) {
+    return checksum(bytes, colourRootSeed | keyOf({face, 0, 0, 0}));
+}
+
+std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent) {
+    return checksum(bytes, colourSeed | keyOf(parent));
+}
+
+std::uint64_t headerChecksum(std::span<const std::byte> bytes) {
+    return checksum(bytes, 0);
 }
 
 std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes) {
@@ -100,15 +186,14 @@ std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& inf
         out.put(root.offset);
         out.put(root.size);
     }
-    const std::string_view source = cutUtf8(info.source, maxSourceBytes);
-    out.put(static_cast<std::uint16_t>(source.size()));
-    for (const char c : source) out.put(c);
+    putText(out, info.source, maxSourceBytes);
+    putColour(out, info.colour);
 
     std::array<std::byte, chunkFileHeaderBytes> header{};
     assert(bytes.size() <= header.size() - checksumBytes);
     std::copy(bytes.begin(), bytes.end(), header.begin());
     std::vector<std::byte> sum;
-    ByteWriter(sum).put(checksum(std::span(header).first<chunkFileHeaderBytes - checksumBytes>(), 0));
+    ByteWriter(sum).put(headerChecksum(std::span(header).first<chunkFileHeaderBytes - checksumBytes>()));
     std::copy(sum.begin(), sum.end(), header.end() - checksumBytes);
     return header;
 }
@@ -129,13 +214,13 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
                         "the source again",
                         name, version, chunkFileVersion));
     }
-    if (version < chunkFileVersion) {
+    if (version < oldestChunkFileVersion) {
         return badInput(fmt::format(
             "{}: version {} of the chunk file, which lacks what version {} holds; bake the source "
             "again with `worldy bake SOURCE -o OUT.chk`",
             name, version, chunkFileVersion));
     }
-    const std::uint64_t expected = checksum(header.first<chunkFileHeaderBytes - checksumBytes>(), 0);
+    const std::uint64_t expected = headerChecksum(header.first<chunkFileHeaderBytes - checksumBytes>());
     if (ByteReader(header.last<checksumBytes>()).get<std::uint64_t>() != expected) {
         return badInput(
             fmt::format("{}: the header is damaged: its checksum does not match; bake it again", name));
@@ -168,16 +253,20 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
         root.offset = in.get<std::uint64_t>();
         root.size = in.get<std::uint32_t>();
     }
-    const auto sourceBytes = in.get<std::uint16_t>();
+    const bool hasText = readText(in, maxSourceBytes, info.source);
     if (info.shape.radiusM + heightM(info.shape, info.minStep) <= 0) {
         return badInput(
             fmt::format("{}: the header has heights below the planet's centre; bake it again", name));
     }
-    if (sourceBytes > maxSourceBytes || info.minStep > info.maxStep) {
+    if (!hasText || info.minStep > info.maxStep) {
         return badInput(fmt::format("{}: the header contradicts itself; bake it again", name));
     }
-    const auto source = in.take(sourceBytes);
-    info.source.assign(reinterpret_cast<const char*>(source.data()), source.size());
+    // Older files have zeros there, which mean none.
+    auto colour = readColour(in);
+    if (!colour)
+        return badInput(
+            fmt::format("{}: the header asks for {}; bake it again", name, colour.error().message));
+    info.colour = *std::move(colour);
     return info;
 }
 

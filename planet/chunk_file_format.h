@@ -14,17 +14,25 @@ namespace planet {
 
 inline constexpr std::size_t chunkEntryBytes = 24;
 inline constexpr std::size_t checksumBytes = 8;
+inline constexpr std::size_t colourEntryBytes = 16;
 
 // Blocks point back to earlier ones by distance, so that a run of blocks can be made before it is known where
 // in the file it will lie.
 void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset);
 ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset);
 
+void putColourEntry(std::vector<std::byte>& block, const ColourEntry& entry, std::uint64_t blockOffset);
+ColourEntry colourEntryFrom(std::span<const std::byte, colourEntryBytes> bytes, std::uint64_t blockOffset);
+
 // XXH3 of the bytes, seeded by whose block it is: a root block is its own chunk's, a sibling block its
 // parent's.
 std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face);
 std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
+std::uint64_t colourRootChecksum(std::span<const std::byte> bytes, Face face);
+std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
 
+// Of the header, all but its last checksumBytes.
+std::uint64_t headerChecksum(std::span<const std::byte> bytes);
 std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes);
 
 // The Error names the file.

@@ -411,11 +411,13 @@ Result<FileReport> reportFile(const ChunkFile& file) {
     FileReport report;
     report.fileBytes = file.sizeBytes();
     report.finestSamples = sampleCountOf(shape);
-    report.bitsPerFinestSample =
-        8 * static_cast<double>(report.fileBytes) / static_cast<double>(report.finestSamples);
+    std::uint64_t heightBytes = chunkFileHeaderBytes;
     for (int level = 0; level <= leafLevel(shape); ++level) {
         report.levels.push_back(summarise(level, tallies[static_cast<std::size_t>(level)]));
+        heightBytes += report.levels.back().bytes;
     }
+    report.bitsPerFinestSample =
+        8 * static_cast<double>(heightBytes) / static_cast<double>(report.finestSamples);
     return report;
 }
 

@@ -30,7 +30,7 @@ struct LevelReport {
 struct FileReport {
     std::uint64_t fileBytes = 0;
     std::uint64_t finestSamples = 0;  // distinct ones
-    double bitsPerFinestSample = 0;   // the whole file, all levels together
+    double bitsPerFinestSample = 0;   // all levels of heights together
     std::vector<LevelReport> levels;
 };
 

@@ -1,6 +1,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <fstream>
@@ -67,9 +68,12 @@ std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& format) {
     }
 }
 
-// A reader decodes on the thread that asks: the bake has threads of its own.
+// A reader decodes on the thread that asks: the bake has threads of its own. Colours come as they are stored,
+// not darkened by an alpha beside them.
 ReaderPtr openReader(const std::filesystem::path& path) {
-    ReaderPtr reader = OIIO::ImageInput::open(path.string());
+    OIIO::ImageSpec wish;
+    wish.attribute("oiio:UnassociatedAlpha", 1);
+    ReaderPtr reader = OIIO::ImageInput::open(path.string(), &wish);
     if (reader) reader->threads(1);
     return reader;
 }
@@ -93,9 +97,13 @@ int pngBits(const std::filesystem::path& path) {
     return file && std::string_view(header.data(), signature.size()) == signature ? header[bitsAt] : 0;
 }
 
-Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec, bool colour) {
     const std::string file = path.string();
-    if (spec.nchannels != 1) {
+    if (colour && (spec.nchannels < 1 || spec.nchannels > 4)) {
+        return badInput(fmt::format("{}: expected a grey or an RGB image, found {} channels ({})", file,
+                                    spec.nchannels, channelNames(spec)));
+    }
+    if (!colour && spec.nchannels != 1) {
         return badInput(fmt::format("{}: expected one grey channel, found {} ({})", file, spec.nchannels,
                                     channelNames(spec)));
     }
@@ -111,6 +119,14 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
         return badInput(
             fmt::format("{}: has samples of type {}; 8, 16 or 32 bit integers, half, float or "
                         "double would be right",
+                        file, spec.format.c_str()));
+    }
+    const bool unsignedOrFloat =
+        *type != SampleType::Int8 && *type != SampleType::Int16 && *type != SampleType::Int32;
+    if (colour && !unsignedOrFloat) {
+        return badInput(
+            fmt::format("{}: has colours of type {}; 8 or 16 bits without a sign, or floats, "
+                        "would be right",
                         file, spec.format.c_str()));
     }
     const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", pngBits(path));
@@ -167,22 +183,26 @@ struct ImageFile::Readers {
     }
 };
 
-ImageFile::ImageFile(std::filesystem::path path, ImageLayout layout, std::unique_ptr<Readers> readers)
-    : path_(std::move(path)), layout_(std::move(layout)), readers_(std::move(readers)) {}
+ImageFile::ImageFile(std::filesystem::path path, ImageLayout layout, int channel,
+                     std::unique_ptr<Readers> readers)
+    : path_(std::move(path)), layout_(std::move(layout)), channel_(channel), readers_(std::move(readers)) {}
 
 ImageFile::~ImageFile() = default;
 
-Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& path) {
+Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& path,
+                                                   std::optional<int> colourChannel) {
     if (Result<void> check = checkIsFile(path); !check) return tl::unexpected(std::move(check.error()));
     ReaderPtr reader = openReader(path);
     if (!reader) {
         return badInput(fmt::format("{}: cannot be read as an image: {}", path.string(), OIIO::geterror()));
     }
-    Result<ImageLayout> layout = layoutOf(path, reader->spec());
+    Result<ImageLayout> layout = layoutOf(path, reader->spec(), colourChannel.has_value());
     if (!layout) return tl::unexpected(std::move(layout.error()));
+    // One or two channels: grey, without or with alpha.
+    const int channel = reader->spec().nchannels < 3 ? 0 : colourChannel.value_or(0);
     auto readers = std::make_unique<Readers>();
     readers->giveBack(std::move(reader));
-    return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(*layout), std::move(readers)));
+    return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(*layout), channel, std::move(readers)));
 }
 
 Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
@@ -192,7 +212,12 @@ Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
     if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
     const int tileX = layout_.originX + x / layout_.tileWidth * layout_.tileWidth;
     const int tileY = layout_.originY + y / layout_.tileHeight * layout_.tileHeight;
-    const bool read = reader->read_tile(tileX, tileY, 0, readAs(layout_.type), native.data());
+    const int endX = std::min(tileX + layout_.tileWidth, layout_.originX + layout_.width);
+    const int endY = std::min(tileY + layout_.tileHeight, layout_.originY + layout_.height);
+    const auto sampleBytes = static_cast<OIIO::stride_t>(bytesOf(layout_.type));
+    const bool read =
+        reader->read_tiles(0, 0, tileX, endX, tileY, endY, 0, 1, channel_, channel_ + 1, readAs(layout_.type),
+                           native.data(), sampleBytes, sampleBytes * layout_.tileWidth);
     if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: the tile at ({}, {}) cannot be read: {}", path_.string(), tileX,
                                    tileY, reader->geterror()));
@@ -207,8 +232,8 @@ Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> n
     ReaderPtr reader = readers_->borrow(path_);
     if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
     const int begin = layout_.originY + firstRow;
-    const bool read =
-        reader->read_scanlines(0, 0, begin, begin + count, 0, 0, 1, readAs(layout_.type), native.data());
+    const bool read = reader->read_scanlines(0, 0, begin, begin + count, 0, channel_, channel_ + 1,
+                                             readAs(layout_.type), native.data());
     // A strip that is cut off leaves an error message behind a result of true.
     if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,

@@ -32,14 +32,24 @@ bool isNoData(T value, double noDataValue) {
     }
 }
 
+// The sRGB transfer function (IEC 61966-2-1).
+double linearFromSrgb(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+template <class T>
+double converted(const HeightConversion& conversion, T value) {
+    const double scaled = conversion.offsetM + conversion.metresPerUnit * static_cast<double>(value);
+    return conversion.decodesSrgb ? linearFromSrgb(scaled) : scaled;
+}
+
 template <class T>
 HeightStatistics convertSamples(const HeightConversion& conversion, std::span<const std::byte> native,
                                 std::span<float> out) {
     HeightStatistics statistics;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const T value = loadSample<T>(native.data() + i * sizeof(T), conversion.swapBytes);
-        float height =
-            static_cast<float>(conversion.offsetM + conversion.metresPerUnit * static_cast<double>(value));
+        auto height = static_cast<float>(converted(conversion, value));
         if (!std::isfinite(height) || (conversion.noDataValue && isNoData(value, *conversion.noDataValue))) {
             height = conversion.fillM;
             ++statistics.missingCount;

@@ -26,9 +26,10 @@ std::size_t bytesOf(SampleType type);
 // How stored values become metres.
 struct HeightConversion {
     SampleType type = SampleType::Int16;
-    bool swapBytes = false;             // the other byte order than this machine's
-    double metresPerUnit = 1;           // height = offsetM + metresPerUnit * value
-    double offsetM = 0;                 // metres
+    bool swapBytes = false;    // the other byte order than this machine's
+    double metresPerUnit = 1;  // height = offsetM + metresPerUnit * value
+    double offsetM = 0;        // metres
+    bool decodesSrgb = false;  // what comes of this is a share of white in sRGB, and becomes linear light
     std::optional<double> noDataValue;  // missing, like every value that gives no finite height
     float fillM = 0;                    // height of missing samples, metres
 };
@@ -129,11 +130,13 @@ struct ImageLayout {
     std::string typeName;  // "int16"; "half" is read as Float
 };
 
-// A one-channel image, open for reading by several threads: each borrows an open reader of its own.
+// One channel of an image, open for reading by several threads: each borrows an open reader of its own.
 class ImageFile {
 public:
-    // Errors: missing, unreadable, not one grey channel, or a sample type there is no use for.
-    static Result<std::shared_ptr<ImageFile>> open(const std::filesystem::path& path);
+    // colourChannel as in HeightSourceSettings; without it the image must have one grey channel. Errors:
+    // missing, unreadable, other channels, or a sample type there is no use for.
+    static Result<std::shared_ptr<ImageFile>> open(const std::filesystem::path& path,
+                                                   std::optional<int> colourChannel);
     ~ImageFile();
 
     const std::filesystem::path& path() const { return path_; }
@@ -146,10 +149,11 @@ public:
 
 private:
     struct Readers;
-    ImageFile(std::filesystem::path path, ImageLayout layout, std::unique_ptr<Readers> readers);
+    ImageFile(std::filesystem::path path, ImageLayout layout, int channel, std::unique_ptr<Readers> readers);
 
     std::filesystem::path path_;
     ImageLayout layout_;
+    int channel_ = 0;
     std::unique_ptr<Readers> readers_;
 };
 

@@ -76,6 +76,14 @@ HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType 
     conversion.offsetM = settings.offsetM;
     conversion.noDataValue = settings.noDataValue;
     conversion.fillM = static_cast<float>(settings.fillM);
+    if (settings.colourChannel) {
+        const bool isInteger = type != SampleType::Float && type != SampleType::Double;
+        const auto bits = static_cast<int>(8 * bytesOf(type));
+        conversion.metresPerUnit = isInteger ? 1 / (std::ldexp(1.0, bits) - 1) : 1;
+        conversion.offsetM = 0;
+        conversion.fillM = 0;
+        conversion.decodesSrgb = isInteger;
+    }
     return conversion;
 }
 

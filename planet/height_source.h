@@ -60,6 +60,10 @@ struct HeightSourceSettings {
     std::optional<int> rawBits;         // raw faces: 8 or 16, where the file's length does not say
     bool rawSigned = false;             // raw faces of 16 bits: signed steps
     bool rawBigEndian = false;          // raw faces of 16 bits
+    // 0 to 2: instead of heights that channel of a colour image, as linear light in [0, 1]; integers are
+    // taken to be sRGB, floats linear light already. A grey image is the same in all three, alpha is left
+    // out.
+    std::optional<int> colourChannel;
     // Most memory spent on heights, 4 bytes each. A source that takes more is read in blocks; one whose file
     // has none, a PNG say, is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;

@@ -302,7 +302,7 @@ Result<void> checkShape(const std::string& file, const ImageLayout& layout) {
 
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
                                                const HeightSourceSettings& settings) {
-    const Result<std::shared_ptr<ImageFile>> file = ImageFile::open(path);
+    const Result<std::shared_ptr<ImageFile>> file = ImageFile::open(path, settings.colourChannel);
     if (!file) return tl::unexpected(file.error());
     const ImageLayout& layout = (*file)->layout();
     if (Result<void> check = checkShape(path.string(), layout); !check) {

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "planet/face_fold.h"
 #include "planet/height_filter.h"
 #include "planet/height_raster.h"
 #include "planet/height_source_kinds.h"
@@ -44,30 +45,11 @@ struct FaceSample {
     int row = 0;
 };
 
-Face faceAlong(const glm::dvec3& normal) {
-    for (const Face face : allFaces) {
-        if (faceAxes(face).normal == normal) return face;
-    }
-    assert(false);
-    return Face::PosX;
-}
-
 // A sample that lies over one edge of its face, up to a face's width: folded down onto the next face.
-FaceSample foldedOver(Face face, int column, int row, int size) {
-    const FaceAxes& axes = faceAxes(face);
+FaceSample foldedSample(Face face, int column, int row, int size) {
     const int last = size - 1;
-    const int u = 2 * column - last;  // the cube is [-last, last]^3 here
-    const int v = last - 2 * row;
-    const int overU = std::abs(u) - last;
-    const int over = std::min(std::max(overU, std::abs(v) - last), 2 * last);
-    assert(over >= 0);
-    const glm::dvec3 outward = overU > 0 ? std::copysign(1.0, u) * axes.u : std::copysign(1.0, v) * axes.v;
-    const glm::dvec3 along = overU > 0 ? double(v) * axes.v : double(u) * axes.u;
-    const glm::dvec3 point = double(last) * outward + along + double(last - over) * axes.normal;
-    const Face next = faceAlong(outward);
-    const FaceAxes& nextAxes = faceAxes(next);
-    return {next, (static_cast<int>(glm::dot(point, nextAxes.u)) + last) / 2,
-            (last - static_cast<int>(glm::dot(point, nextAxes.v))) / 2};
+    const FaceGridPoint next = foldedOver({face, column, last - row}, last);
+    return {next.face, next.column, last - next.row};
 }
 
 // Reads a rectangle that lies wholly over one edge of a face.
@@ -75,7 +57,7 @@ Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rec
                             std::size_t stride) {
     if (rect.width <= 0 || rect.height <= 0) return {};
     const auto at = [&](int column, int row) {
-        return foldedOver(face, rect.x + column, rect.y + row, set.size);
+        return foldedSample(face, rect.x + column, rect.y + row, set.size);
     };
     const FaceSample first = at(0, 0);
     const FaceSample last = at(rect.width - 1, rect.height - 1);
@@ -388,10 +370,10 @@ Result<FaceFormat> rawFormat(const FaceFiles& files, const HeightSourceSettings&
 
 using ImageFiles = std::array<std::shared_ptr<ImageFile>, faceCount>;
 
-Result<ImageFiles> openImages(const FaceFiles& files) {
+Result<ImageFiles> openImages(const FaceFiles& files, std::optional<int> colourChannel) {
     ImageFiles images;
     for (std::size_t i = 0; i < images.size(); ++i) {
-        Result<std::shared_ptr<ImageFile>> image = ImageFile::open(files.paths[i]);
+        Result<std::shared_ptr<ImageFile>> image = ImageFile::open(files.paths[i], colourChannel);
         if (!image) return tl::unexpected(std::move(image.error()));
         images[i] = std::move(*image);
     }
@@ -455,9 +437,13 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings) {
     if (Result<void> check = checkNoneMissing(files); !check) return tl::unexpected(check.error());
     const bool raw = files.extension == ".raw" || files.extension == ".RAW";
+    if (raw && settings.colourChannel) {
+        return badInput(fmt::format("{}: raw faces hold heights; name an image, or six, for colours",
+                                    files.paths[0].string()));
+    }
     ImageFiles images;
     if (!raw) {
-        Result<ImageFiles> opened = openImages(files);
+        Result<ImageFiles> opened = openImages(files, settings.colourChannel);
         if (!opened) return tl::unexpected(opened.error());
         images = std::move(*opened);
     }

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "planet/chunk_table.h"
+#include "planet/culling.h"
 #include "planet/skirt_depth.h"
 
 namespace planet {
@@ -41,8 +42,7 @@ struct Frame {
     const ChunkTree& tree;
     const LodSettings& settings;
     glm::dvec3 eyeM;
-    Frustum frustum;
-    Horizon horizon;
+    Culling culling;
     double scalePx;     // K'
     double reach;       // K = K' / tau: d_m is delta times this
     double mergeReach;  // the same for what was split: K' / (tau (1 - hysteresis))
@@ -64,29 +64,6 @@ struct Seen {
     double deltaM = 0;  // by the metric, metres
     double distanceM = 0;
 };
-
-// The tests a node still has to take: one that holds its parent wholly holds it too.
-struct OpenTests {
-    std::array<bool, std::tuple_size_v<Frustum>> planes;
-    bool horizon;
-};
-
-enum class Culled { No, ByFrustum, ByHorizon };
-
-Culled cull(const Frame& frame, const ChunkNode& node, OpenTests& open) {
-    for (std::size_t i = 0; i < open.planes.size(); ++i) {
-        if (!open.planes[i]) continue;
-        const Containment where = classify(node.bounds.box, frame.frustum[i]);
-        if (where == Containment::Outside) return Culled::ByFrustum;
-        open.planes[i] = where == Containment::Crossing;
-    }
-    if (open.horizon) {
-        const Containment where = classify(node.bounds, frame.horizon);
-        if (where == Containment::Outside) return Culled::ByHorizon;
-        open.horizon = where == Containment::Crossing;
-    }
-    return Culled::No;
-}
 
 // 1 where the parent is about to take the chunk's place, 0 where it is far from it.
 //
@@ -222,7 +199,7 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
     ++out.counters.visited;
     const std::size_t place = out.touched.size();
     out.touched.push_back({index, NodeFate::Drawn});
-    const Culled culled = cull(frame, node, open);
+    const Culled culled = cull(frame.culling, node.bounds, open);
     if (culled != Culled::No) {
         out.touched[place].fate =
             culled == Culled::ByFrustum ? NodeFate::CulledFrustum : NodeFate::CulledHorizon;
@@ -452,9 +429,7 @@ void clear(Selection& out) {
 
 void selectOnce(const Frame& frame, Selection& out) {
     clear(out);
-    OpenTests all{};
-    all.planes.fill(frame.settings.frustumCulling);
-    all.horizon = frame.settings.horizonCulling;
+    const OpenTests all = openTests(frame.settings.frustumCulling, frame.settings.horizonCulling);
     for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, {}, out);
     // Before sorting, while neighbours lie close together in memory.
     EdgeJoiner(frame, out).join();
@@ -506,8 +481,7 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
     Frame frame{tree,
                 settings,
                 lodView.eyeM,
-                frustumOf(lodView),
-                horizonOf(lodView.eyeM, tree.occluderRadiusM),
+                {frustumOf(lodView), horizonOf(lodView.eyeM, tree.occluderRadiusM)},
                 scalePx,
                 scalePx / settings.tauPx,
                 scalePx / (settings.tauPx * (1 - settings.hysteresis)),

@@ -12,22 +12,25 @@ namespace planet {
 namespace {
 
 // Reading may allocate a lot and may run code that the caller supplied; neither may end the program.
-Result<SiblingBlock> loadSafely(const LoadChildren& load, const PagingRequest& request) {
+Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& request) {
+    const auto asLoaded = [](auto&& block) { return LoadedBlock(std::forward<decltype(block)>(block)); };
     try {
-        return load(request.parent, request.location, *request.parentHeights);
+        if (request.kind == BlockKind::Colours)
+            return load.colours(request.parent, request.location).map(asLoaded);
+        return load.chunks(request.parent, request.location, *request.parentHeights).map(asLoaded);
     } catch (const std::exception& problem) {
-        return ioError(fmt::format("children of chunk {}: {}", toString(request.parent), problem.what()));
+        return ioError(fmt::format("children of chunk {}: {}", toString(request.block()), problem.what()));
     }
 }
 
-Result<SiblingBlock> failedOnPurpose(const ChunkId& parent, std::uint32_t seed) {
-    return ioError(fmt::format("{}: read failed on purpose (bad disk, seed {})", toString(parent), seed));
+Result<LoadedBlock> failedOnPurpose(const BlockId& block, std::uint32_t seed) {
+    return ioError(fmt::format("{}: read failed on purpose (bad disk, seed {})", toString(block), seed));
 }
 
 }  // namespace
 
-Pager::Pager(LoadChildren load, int threads) : load_(std::move(load)) {
-    assert(load_);
+Pager::Pager(BlockLoaders load, int threads) : load_(std::move(load)) {
+    assert(load_.chunks);
     setThreads(threads);
 }
 
@@ -106,15 +109,15 @@ PagingRequest Pager::takeNext() {
     PagingRequest request =
         badDisk_.shuffledOrder
             ? *queue_.popFirst(PagingType::PageIn,
-                               [&](const ChunkId& parent) { return shuffledPlace(badDisk_, parent); })
+                               [&](const BlockId& block) { return shuffledPlace(badDisk_, block); })
             : *queue_.popBest(PagingType::PageIn);
-    taken_.push_back(request.parent);
+    taken_.push_back(request.block());
     return request;
 }
 
 DiskFault Pager::nextFault(const PagingRequest& request) {
     if (!isTrouble(badDisk_)) return {};
-    return diskFault(badDisk_, request.parent, attempts_[request.parent]++, request.location.size);
+    return diskFault(badDisk_, request.block(), attempts_[request.block()]++, request.location.size);
 }
 
 // Takes a request and sees it through. Locked before and after.
@@ -124,19 +127,19 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     const Reading reading{request, Clock::now()};
     loaders_[index].reading = reading;
     const bool fails = sitOutBadDisk(reading, stop, lock);
-    Result<SiblingBlock> children;
+    Result<LoadedBlock> block;
     if (fails) {
-        children = failedOnPurpose(request.parent, badDisk_.seed);
+        block = failedOnPurpose(request.block(), badDisk_.seed);
     } else if (epoch == epoch_) {
         lock.unlock();
-        children = loadSafely(load_, request);
+        block = loadSafely(load_, request);
         lock.lock();
     }
     if (epoch != epoch_) return;  // given up
     loaders_[index].reading.reset();
     const std::chrono::duration<double> taken = Clock::now() - reading.since;
     const std::uint32_t bytes = fails ? 0 : request.location.size;
-    finished_.push_back({std::move(request), std::move(children), taken.count(), bytes});
+    finished_.push_back({std::move(request), std::move(block), taken.count(), bytes});
     loadFinished_.notify_all();
 }
 
@@ -245,22 +248,22 @@ std::optional<double> Pager::untilNextEnd() const {
     return std::max(virtualReadings_[nextVirtualEnd()].endS - nowS_, 0.0);
 }
 
-bool Pager::take(const ChunkId& parent) {
+bool Pager::take(const BlockId& block) {
     const std::lock_guard lock(mutex_);
     assert(time_ == PagingTime::Recorded);
-    const PagingRequest* queued = queue_.find(parent);
+    const PagingRequest* queued = queue_.find(block);
     if (!queued || queued->type != PagingType::PageIn) return false;
-    virtualReadings_.push_back({*queue_.pop(parent), nowS_, nowS_, false});
-    taken_.push_back(parent);
+    virtualReadings_.push_back({*queue_.pop(block), nowS_, nowS_, false});
+    taken_.push_back(block);
     return true;
 }
 
-bool Pager::finish(const ChunkId& parent, bool fails, bool last) {
+bool Pager::finish(const BlockId& block, bool fails, bool last) {
     const std::lock_guard lock(mutex_);
     assert(time_ == PagingTime::Recorded);
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < virtualReadings_.size() && (last || !found); ++i) {
-        if (virtualReadings_[i].request.parent == parent) found = i;
+        if (virtualReadings_[i].request.block() == block) found = i;
     }
     if (!found) return false;
     virtualReadings_[*found].fails = fails;
@@ -268,7 +271,7 @@ bool Pager::finish(const ChunkId& parent, bool fails, bool last) {
     return true;
 }
 
-std::vector<ChunkId> Pager::takeTaken(const PagingQueue& lockedQueue) {
+std::vector<BlockId> Pager::takeTaken(const PagingQueue& lockedQueue) {
     assert(&lockedQueue == &queue_);
     static_cast<void>(lockedQueue);
     return std::exchange(taken_, {});
@@ -282,8 +285,8 @@ std::optional<FinishedLoad> Pager::readFinished(Lock& lock) {
     const std::uint32_t seed = badDisk_.seed;
     lock.unlock();
     FinishedLoad load;
-    load.children =
-        reading.fails ? failedOnPurpose(reading.request.parent, seed) : loadSafely(load_, reading.request);
+    load.block =
+        reading.fails ? failedOnPurpose(reading.request.block(), seed) : loadSafely(load_, reading.request);
     load.seconds = reading.endS - reading.sinceS;
     load.bytes = reading.fails ? 0 : reading.request.location.size;
     load.request = std::move(reading.request);
@@ -327,11 +330,12 @@ std::vector<LoadInProgress> Pager::loadingNow() const {
         if (!loader.reading) continue;
         const std::chrono::duration<double> taken = now - loader.reading->since;
         const PagingRequest& request = loader.reading->request;
-        all.push_back({request.parent, request.priority, request.location.size, taken.count()});
+        all.push_back({request.parent, request.kind, request.priority, request.location.size, taken.count()});
     }
     for (const VirtualReading& reading : virtualReadings_) {
         const PagingRequest& request = reading.request;
-        all.push_back({request.parent, request.priority, request.location.size, nowS_ - reading.sinceS});
+        all.push_back(
+            {request.parent, request.kind, request.priority, request.location.size, nowS_ - reading.sinceS});
     }
     std::sort(all.begin(), all.end(), [](const LoadInProgress& a, const LoadInProgress& b) {
         return a.seconds != b.seconds ? a.seconds > b.seconds : a.parent < b.parent;

@@ -19,6 +19,7 @@
 #include <stop_token>
 #include <thread>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "planet/bad_disk.h"
@@ -29,15 +30,25 @@
 namespace planet {
 
 using SiblingBlock = std::array<ChunkData, quadrantCount>;
+using ColourBlock = std::array<ColourTileData, quadrantCount>;
+// By the request's kind.
+using LoadedBlock = std::variant<SiblingBlock, ColourBlock>;
 
 // Reads the four children of a chunk, as ChunkFile::readChildren does. Called from loader threads, several at
 // once.
 using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, BlockLocation location,
                                                         std::span<const std::int16_t> parentHeights)>;
+// The same for a tile of colour, as ChunkFile::readColourChildren does.
+using LoadColours = std::function<Result<ColourBlock>(const ChunkId& parent, BlockLocation location)>;
+
+struct BlockLoaders {
+    LoadChildren chunks;
+    LoadColours colours{};  // none where no colours are asked for
+};
 
 struct FinishedLoad {
     PagingRequest request;  // as it was when a loader took it
-    Result<SiblingBlock> children;
+    Result<LoadedBlock> block;
     double seconds = 0;       // reading and decoding, a bad disk's waiting included
     std::uint32_t bytes = 0;  // read; 0 where a bad disk failed the read
 };
@@ -45,6 +56,7 @@ struct FinishedLoad {
 // A request that a loader has taken.
 struct LoadInProgress {
     ChunkId parent;
+    BlockKind kind = BlockKind::Heights;
     double priority = 0;
     std::uint32_t bytes = 0;
     double seconds = 0;  // since it was taken
@@ -73,7 +85,7 @@ enum class PagingTime : std::uint8_t {
 class Pager {
 public:
     // threads: [1, maxLoaderThreads].
-    Pager(LoadChildren load, int threads);
+    Pager(BlockLoaders load, int threads);
     // Lets the blocks being read come to their end and drops everything else.
     ~Pager();
     Pager(const Pager&) = delete;
@@ -124,12 +136,12 @@ public:
     // Only of Recorded: starts the read of a queued block, and ends one that was started. False where there
     // is none such. Of several reads of the same block all but the last taken are such as will be thrown
     // away.
-    bool take(const ChunkId& parent);
-    bool finish(const ChunkId& parent, bool fails, bool last = true);
+    bool take(const BlockId& block);
+    bool finish(const BlockId& block, bool fails, bool last = true);
 
     // The blocks that were taken since the last call of this, in order. withQueue sees to it that none is
     // taken in between: call it from there.
-    std::vector<ChunkId> takeTaken(const PagingQueue& lockedQueue);
+    std::vector<BlockId> takeTaken(const PagingQueue& lockedQueue);
 
     // The finished loads in the order they finished, one a call. But for Clock the block is read here.
     std::optional<FinishedLoad> takeFinished();
@@ -182,7 +194,7 @@ private:
     std::optional<FinishedLoad> readFinished(Lock& lock);
     PagerStatus statusLocked() const;
 
-    const LoadChildren load_;
+    const BlockLoaders load_;
     mutable std::mutex mutex_;  // guards what follows, but the threads
     std::condition_variable_any workArrived_;
     std::condition_variable_any loadFinished_;
@@ -195,13 +207,13 @@ private:
     std::size_t letThrough_ = 0;  // requests that may still be taken while paused
     BadDiskSettings badDisk_{};
     std::uint64_t badDiskVersion_ = 0;  // one more with each change
-    std::unordered_map<ChunkId, std::uint32_t> attempts_;
+    std::unordered_map<BlockId, std::uint32_t> attempts_;
     PagingTime time_ = PagingTime::Clock;
     std::uint64_t epoch_ = 0;  // one more each time reads are given up
     double nowS_ = 0;          // of Simulated and Recorded
     std::vector<VirtualReading> virtualReadings_;
     std::deque<VirtualReading> virtuallyFinished_;  // endS: when it ended
-    std::vector<ChunkId> taken_;
+    std::vector<BlockId> taken_;
     std::array<std::jthread, maxLoaderThreads> threads_;  // last: joined before the rest goes
 };
 

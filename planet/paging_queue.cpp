@@ -9,17 +9,17 @@ namespace planet {
 
 SubmitOutcome PagingQueue::submit(PagingRequest request) {
     assert(!std::isnan(request.priority));
-    const auto found = pending_.find(request.parent);
+    const auto found = pending_.find(request.block());
     if (found == pending_.end()) {
-        order(request.type).insert({request.priority, request.parent});
+        order(request.type).insert({request.priority, request.block()});
         ++counters_.added[static_cast<std::size_t>(request.type)];
-        const ChunkId parent = request.parent;
-        pending_.emplace(parent, std::move(request));
+        const BlockId block = request.block();
+        pending_.emplace(block, std::move(request));
         return SubmitOutcome::Added;
     }
     PagingRequest& pending = found->second;
     if (pending.type != request.type) {
-        take(request.parent);
+        take(request.block());
         ++counters_.opposed;
         return SubmitOutcome::Opposed;
     }
@@ -41,61 +41,67 @@ void PagingQueue::merge(PagingRequest& pending, const PagingRequest& again) {
         }
     }
     if (priority == pending.priority) return;
-    auto node = order(pending.type).extract({pending.priority, pending.parent});
+    auto node = order(pending.type).extract({pending.priority, pending.block()});
     pending.priority = node.value().priority = priority;
     order(pending.type).insert(std::move(node));
 }
 
 const PagingRequest* PagingQueue::best(PagingType type) const {
-    return order(type).empty() ? nullptr : find(order(type).begin()->parent);
+    return order(type).empty() ? nullptr : find(order(type).begin()->block);
 }
 
 const PagingRequest* PagingQueue::worst(PagingType type) const {
-    return order(type).empty() ? nullptr : find(order(type).rbegin()->parent);
+    return order(type).empty() ? nullptr : find(order(type).rbegin()->block);
 }
 
-const PagingRequest* PagingQueue::find(const ChunkId& parent) const {
-    const auto found = pending_.find(parent);
+const PagingRequest* PagingQueue::worst(PagingType type, BlockKind kind) const {
+    const auto found = std::find_if(order(type).rbegin(), order(type).rend(),
+                                    [&](const Place& place) { return place.block.kind == kind; });
+    return found == order(type).rend() ? nullptr : find(found->block);
+}
+
+const PagingRequest* PagingQueue::find(const BlockId& block) const {
+    const auto found = pending_.find(block);
     return found == pending_.end() ? nullptr : &found->second;
 }
 
 std::optional<PagingRequest> PagingQueue::popBest(PagingType type) {
     if (order(type).empty()) return std::nullopt;
-    return pop(order(type).begin()->parent);
+    return pop(order(type).begin()->block);
 }
 
-std::optional<PagingRequest> PagingQueue::pop(ChunkId parent) {
-    const PagingRequest* found = find(parent);
+std::optional<PagingRequest> PagingQueue::pop(BlockId block) {
+    const PagingRequest* found = find(block);
     if (!found) return std::nullopt;
     ++counters_.popped[static_cast<std::size_t>(found->type)];
-    return take(parent);
+    return take(block);
 }
 
 std::optional<PagingRequest> PagingQueue::popFirst(
-    PagingType type, const std::function<std::uint64_t(const ChunkId&)>& placeOf) {
-    std::optional<std::pair<std::uint64_t, ChunkId>> first;
+    PagingType type, const std::function<std::uint64_t(const BlockId&)>& placeOf) {
+    std::optional<std::pair<std::uint64_t, BlockId>> first;
     for (const Place& place : order(type)) {
-        const std::pair here{placeOf(place.parent), place.parent};
+        const std::pair here{placeOf(place.block), place.block};
         if (!first || here < *first) first = here;
     }
     if (!first) return std::nullopt;
     return pop(first->second);
 }
 
-std::optional<PagingRequest> PagingQueue::cancel(ChunkId parent) {
-    if (!find(parent)) return std::nullopt;
+std::optional<PagingRequest> PagingQueue::cancel(BlockId block) {
+    if (!find(block)) return std::nullopt;
     ++counters_.withdrawn;
-    return take(parent);
+    return take(block);
 }
 
 std::vector<PagingRequest> PagingQueue::cancelNotRenewed(PagingType type, std::uint64_t sinceFrame) {
-    std::vector<ChunkId> stale;
+    std::vector<BlockId> stale;
     for (const Place& place : order(type)) {
-        if (find(place.parent)->renewedFrame < sinceFrame) stale.push_back(place.parent);
+        if (find(place.block)->renewedFrame < sinceFrame) stale.push_back(place.block);
     }
     std::vector<PagingRequest> cancelled;
     cancelled.reserve(stale.size());
-    for (const ChunkId& parent : stale) cancelled.push_back(take(parent));
+    for (const BlockId& block : stale) cancelled.push_back(take(block));
     counters_.withdrawn += cancelled.size();
     return cancelled;
 }
@@ -103,15 +109,15 @@ std::vector<PagingRequest> PagingQueue::cancelNotRenewed(PagingType type, std::u
 std::vector<PagingRequest> PagingQueue::sorted(PagingType type) const {
     std::vector<PagingRequest> requests;
     requests.reserve(order(type).size());
-    for (const Place& place : order(type)) requests.push_back(*find(place.parent));
+    for (const Place& place : order(type)) requests.push_back(*find(place.block));
     return requests;
 }
 
-PagingRequest PagingQueue::take(ChunkId parent) {
-    const auto found = pending_.find(parent);
+PagingRequest PagingQueue::take(BlockId block) {
+    const auto found = pending_.find(block);
     assert(found != pending_.end());
     PagingRequest request = std::move(found->second);
-    order(request.type).erase({request.priority, request.parent});
+    order(request.type).erase({request.priority, request.block()});
     pending_.erase(found);
     return request;
 }

@@ -1,9 +1,9 @@
 // What is to be loaded and dropped next, in order of urgency (paging queues after Zhu, MSV 2004).
 //
-// A request is about the sibling block under a chunk: page it in or page it out. At most one is pending for a
-// block. Asking for the same again merges the two: in the same frame the higher priority holds, in a later
-// one the new one, since the eye has moved. Asking for the opposite cancels both, since the block is then to
-// stay as it is. Not safe for several threads at once.
+// A request is about the sibling block under a chunk or a tile of colour: page it in or page it out. At most
+// one is pending for a block. Asking for the same again merges the two: in the same frame the higher priority
+// holds, in a later one the new one, since the eye has moved. Asking for the opposite cancels both, since the
+// block is then to stay as it is. Not safe for several threads at once.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "planet/block_id.h"
 #include "planet/chunk_tree.h"
 
 namespace planet {
@@ -26,8 +27,9 @@ inline constexpr std::size_t maxViews = 4;  // of one planet at a time
 
 struct PagingRequest {
     ChunkId parent;  // whose children are meant
+    BlockKind kind = BlockKind::Heights;
     PagingType type = PagingType::PageIn;
-    double priority = 0;             // larger first; ties in order of parent. Not NaN
+    double priority = 0;             // larger first; ties in order of block. Not NaN
     std::uint64_t renewedFrame = 0;  // last frame it was asked for
     double askedAtS = 0;             // when it was first asked for, seconds since the planet was opened
     std::uint32_t timesAsked = 1;    // merged ones included
@@ -37,8 +39,10 @@ struct PagingRequest {
 
     // A page-in only: what a loader needs, and a number that no other request ever has.
     BlockLocation location{};
-    SharedHeights parentHeights{};
+    SharedHeights parentHeights{};  // null for colours
     std::uint64_t ticket = 0;
+
+    BlockId block() const { return {parent, kind}; }
 };
 
 // Totals, of both types together unless said otherwise.
@@ -64,17 +68,19 @@ public:
     // change.
     const PagingRequest* best(PagingType type) const;
     const PagingRequest* worst(PagingType type) const;
-    // The pending request about a chunk's children, of whatever type.
-    const PagingRequest* find(const ChunkId& parent) const;
+    // The same of one kind of block; looks at those that are worse.
+    const PagingRequest* worst(PagingType type, BlockKind kind) const;
+    // The pending request about a block, of whatever type.
+    const PagingRequest* find(const BlockId& block) const;
 
     // Takes a request out to serve it.
     std::optional<PagingRequest> popBest(PagingType type);
-    std::optional<PagingRequest> pop(ChunkId parent);
+    std::optional<PagingRequest> pop(BlockId block);
     // The one whose place is smallest; looks at each.
     std::optional<PagingRequest> popFirst(PagingType type,
-                                          const std::function<std::uint64_t(const ChunkId&)>& placeOf);
+                                          const std::function<std::uint64_t(const BlockId&)>& placeOf);
     // Takes a request out unserved.
-    std::optional<PagingRequest> cancel(ChunkId parent);
+    std::optional<PagingRequest> cancel(BlockId block);
     // Takes out all of a type that were last asked for before a frame.
     std::vector<PagingRequest> cancelNotRenewed(PagingType type, std::uint64_t sinceFrame);
 
@@ -86,19 +92,19 @@ public:
 private:
     struct Place {
         double priority;
-        ChunkId parent;
+        BlockId block;
         bool operator<(const Place& other) const {
-            return priority != other.priority ? priority > other.priority : parent < other.parent;
+            return priority != other.priority ? priority > other.priority : block < other.block;
         }
     };
     using Order = std::set<Place>;
 
     const Order& order(PagingType type) const { return orders_[static_cast<std::size_t>(type)]; }
     Order& order(PagingType type) { return orders_[static_cast<std::size_t>(type)]; }
-    PagingRequest take(ChunkId parent);
+    PagingRequest take(BlockId block);
     void merge(PagingRequest& pending, const PagingRequest& again);
 
-    std::unordered_map<ChunkId, PagingRequest> pending_;
+    std::unordered_map<BlockId, PagingRequest> pending_;
     std::array<Order, pagingTypeCount> orders_;
     PagingQueueCounters counters_;
 };

@@ -24,6 +24,9 @@ Result<void> checkSettings(const PagingSettings& settings) {
     if (!(settings.uploadLimitMs >= 0)) {
         return badInput(fmt::format("an upload limit of {} ms; 0 or more will do", settings.uploadLimitMs));
     }
+    if (!(settings.colourShare >= 0.01 && settings.colourShare <= 0.9)) {
+        return badInput(fmt::format("a share of {} for colours; 0.01 to 0.9 will do", settings.colourShare));
+    }
     return checkBadDisk(settings.badDisk);
 }
 
@@ -33,21 +36,47 @@ void applyTo(Pager& pager, const PagingSettings& settings) {
     pager.setThreads(settings.loaderThreads);
 }
 
+// Slots for chunks and for tiles.
+struct Room {
+    std::uint32_t slots = 0;
+    std::uint32_t tiles = 0;  // 0 without colours
+};
+Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid>& colour,
+                     const PagingSettings& settings) {
+    const std::size_t chunkBytes = chunkBudgetBytes(settings, colour.has_value());
+    const Result<std::uint32_t> slots = slotsFor(shape, chunkBytes);
+    if (!slots) return tl::unexpected(slots.error());
+    if (!colour) return Room{*slots};
+    const Result<std::uint32_t> tiles =
+        tilesFor(*colour, settings.budgetBytes - chunkBytes, settings.maxColourTiles);
+    if (!tiles) return tl::unexpected(tiles.error());
+    return Room{*slots, *tiles};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSettings& settings) {
     if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
-    const Result<std::uint32_t> slots = slotsFor(source.shape, settings.budgetBytes);
-    if (!slots) return tl::unexpected(slots.error());
+    const Result<Room> room = roomFor(source.shape, source.colour, settings);
+    if (!room) return tl::unexpected(room.error());
     auto tree = makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots));
     if (!tree) return tl::unexpected(std::move(tree.error()));
     auto state = std::make_unique<State>();
     state->settings = settings;
     state->file = std::move(source.file);
     state->tree = std::move(*tree);
-    state->slotCapacity = *slots;
-    state->freeSlots = freeSlotsFrom(faceCount, *slots);
-    state->pager = std::make_unique<Pager>(std::move(source.loadChildren), settings.loaderThreads);
+    state->slotCapacity = room->slots;
+    state->freeSlots = freeSlotsFrom(faceCount, room->slots);
+    if (source.colour) {
+        state->colours.tree.leafLevel = source.colour->leafLevel;
+        state->colours.format = source.colour->format;
+        state->colours.roots = std::move(source.colourRoots);
+        state->colours.begin(room->tiles);
+        state->colour = std::move(source.colour);
+        state->problems = std::move(source.problems);
+    }
+    state->pager = std::make_unique<Pager>(
+        BlockLoaders{std::move(source.loadChildren), std::move(source.loadColours)}, settings.loaderThreads);
     state->pager->setTime(settings.time);  // there is nothing to give up
     applyTo(*state->pager, settings);
     state->count();
@@ -152,23 +181,24 @@ bool Planet::settled() const {
     const State& state = *state_;
     const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
     return state.frame > 0 && !state.changed && state.pager->status().idle() &&
-           (state.paging.budgetWaits == 0 || !roomToCome);
+           (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome;
 }
 
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
     State& state = *state_;
     if (settings == state.settings) return false;
     if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
-    const Result<std::uint32_t> slots = slotsFor(state.tree.storedShape, settings.budgetBytes);
-    if (!slots) return tl::unexpected(slots.error());
+    const Result<Room> room = roomFor(state.tree.storedShape, state.colour, settings);
+    if (!room) return tl::unexpected(room.error());
     const bool otherTime = settings.time != state.settings.time;
     state.settings = settings;
     state.changed = true;
     // First what holds for the reads that the other time begins with.
     applyTo(*state.pager, settings);
     if (otherTime) state.putBack(state.pager->setTime(settings.time));
-    const bool resized = *slots != state.slotCapacity;
-    if (resized) state.resize(*slots);
+    const bool resized = room->slots != state.slotCapacity;
+    if (resized) state.resize(room->slots);
+    if (room->tiles != state.colours.tileCapacity) state.resizeColours(room->tiles);
     state.count();
     return resized;
 }
@@ -203,9 +233,9 @@ bool Planet::follow(const PagingMoves& moves) {
     Pager& pager = *state_->pager;
     if (moves.gaveUp) state_->putBack(pager.giveUp());
     bool whole = true;
-    for (const ChunkId& parent : moves.taken) whole &= pager.take(parent);
+    for (const BlockId& block : moves.taken) whole &= pager.take(block);
     for (const PagingMoves::Arrival& arrival : moves.arrived) {
-        whole &= pager.finish(arrival.parent, arrival.outcome == PagingOutcome::Failed,
+        whole &= pager.finish(arrival.block, arrival.outcome == PagingOutcome::Failed,
                               arrival.outcome != PagingOutcome::Cancelled);
     }
     return whole;
@@ -225,6 +255,7 @@ void Planet::retryFailed() {
     for (ChunkNode& node : state_->tree.nodes) {
         if (node.childrenState == ChildrenState::Failed) node.childrenState = ChildrenState::Absent;
     }
+    state_->colours.retryFailed();
 }
 
 void Planet::uploadAll(const UploadChunk& upload) const {
@@ -297,6 +328,26 @@ double Planet::elapsedS() const {
 }
 double Planet::seconds() const {
     return state_->nowS;
+}
+
+const std::optional<ColourPyramid>& Planet::colour() const {
+    return state_->colour;
+}
+const ColourTree& Planet::colourTree() const {
+    return state_->colours.tree;
+}
+const ColourSelection& Planet::colourSelection(std::size_t view) const {
+    assert(view < viewCount());
+    return state_->views[view].colours;
+}
+const ColourPagingCounters& Planet::colourPaging() const {
+    return state_->colours.counters;
+}
+std::vector<ColourChange> Planet::takeColourChanges() {
+    return std::exchange(state_->colours.changes, {});
+}
+void Planet::beginColoursAnew() {
+    if (state_->colour) state_->resizeColours(state_->colours.tileCapacity);
 }
 
 }  // namespace planet

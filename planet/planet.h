@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@
 #include "planet/bad_disk.h"
 #include "planet/chunk_file.h"
 #include "planet/chunk_tree.h"
+#include "planet/colour_select.h"
+#include "planet/colour_tree.h"
 #include "planet/lod_select.h"
 #include "planet/pager.h"
 #include "planet/paging_queue.h"
@@ -36,6 +39,10 @@ struct PagingSettings {
     double uploadLimitMs = 4;  // >= 0, of a frame, for making loaded chunks drawable; at least one block is
     bool paused = false;       // loaders take nothing but what loadOne() lets through
     BadDiskSettings badDisk{};
+    // Of a planet with colours: the share of the budget that is for their tiles, [0.01, 0.9]; larger: sharper
+    // colours, and coarser ground when the budget is full.
+    double colourShare = 0.25;
+    std::uint32_t maxColourTiles = 2048;  // that the renderer's pool can hold at most
     // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS, and a block arrives in
     // the first step at or past its end; uploadLimitMs does not hold. The same steps, settings and calls then
     // give the same selections, requests and arrivals, bit for bit, on any machine.
@@ -48,6 +55,7 @@ struct PagingSettings {
 struct ViewInput {
     View lodView;
     LodSettings lod;
+    ColourSettings colours{};
     double priorityFactor = 1;  // of its requests against the other views'; > 0
 };
 
@@ -55,6 +63,7 @@ enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };
 // How a request ended.
 struct PagingEvent {
     ChunkId parent;  // of the block
+    BlockKind kind = BlockKind::Heights;
     PagingOutcome outcome = PagingOutcome::Loaded;
     double atS = 0;                // seconds since the planet was opened
     double waitedS = 0;            // since it was first asked for
@@ -69,15 +78,15 @@ struct PagingEvent {
 // decides, and what was asked for.
 struct PagingMoves {
     struct Arrival {
-        ChunkId parent;
+        BlockId block;
         PagingOutcome outcome = PagingOutcome::Loaded;  // Cancelled: thrown away
 
         bool operator==(const Arrival&) const = default;
     };
     bool gaveUp = false;           // the paging's time changed: what was being read went back into the queue
-    std::vector<ChunkId> taken{};  // after that, by loaders, in order
+    std::vector<BlockId> taken{};  // after that, by loaders, in order
     std::vector<Arrival> arrived{};    // after that, in order
-    std::vector<ChunkId> requested{};  // at the end
+    std::vector<BlockId> requested{};  // at the end
 
     bool operator==(const PagingMoves&) const = default;
 };
@@ -100,6 +109,25 @@ struct PagingCounters {
     std::size_t residentBytesGpu = 0;  // now: heights in the pool that hold a resident chunk
 };
 
+// The same of tiles of colour, beside what is counted of both kinds together.
+struct ColourPagingCounters {
+    std::uint64_t loaded = 0;       // blocks read and made resident
+    std::uint64_t evicted = 0;      // blocks paged out
+    std::uint64_t failed = 0;       // blocks that could not be read
+    std::uint64_t bytesRead = 0;    // from the file
+    std::uint32_t budgetWaits = 0;  // blocks wanted last step that the share has no room for
+    std::size_t residentTiles = 0;  // now
+    std::uint32_t tileCapacity = 0;
+};
+
+// What a pool of tiles has to do to keep up with a step, in order.
+struct ColourChange {
+    bool beginsAnew = false;                // every slot is empty, as when the planet was opened
+    std::optional<ChunkId> gone{};          // the tiles under this one are no longer resident
+    std::uint32_t firstSlot = 0;            // of those that have arrived
+    std::vector<ColourTileData> arrived{};  // a root alone, or four siblings in slots one after the other
+};
+
 // What each stage of the last step took, milliseconds.
 struct StageTimes {
     double uploadMs = 0;
@@ -117,6 +145,11 @@ struct PlanetSource {
     std::int16_t maxStep = 0;
     std::array<ChunkData, faceCount> roots;  // in face order
     LoadChildren loadChildren;
+    // Colours: none without a pyramid.
+    std::optional<ColourPyramid> colour{};
+    std::array<ColourTileData, faceCount> colourRoots{};
+    LoadColours loadColours{};
+    std::vector<std::string> problems{};    // that it is opened in spite of, for takeProblems()
     std::shared_ptr<const ChunkFile> file;  // what the above comes from; null where there is no file
 };
 
@@ -186,6 +219,17 @@ public:
 
     // Uploads every resident chunk again: for a renderer that was made anew.
     void uploadAll(const UploadChunk& upload) const;
+
+    // Of the file, if it has colours.
+    const std::optional<ColourPyramid>& colour() const;
+    const ColourTree& colourTree() const;
+    // Of the last step, as selection().
+    const ColourSelection& colourSelection(std::size_t view = 0) const;
+    const ColourPagingCounters& colourPaging() const;
+    // What has become of tiles since the last call; to be called after each step where colours are drawn.
+    std::vector<ColourChange> takeColourChanges();
+    // For a renderer that was made anew: all tiles but the roots are dropped, and begin to come again.
+    void beginColoursAnew();
 
     const ChunkFile& file() const;  // only of a planet that was opened from one
     const PlanetShape& shape() const;

@@ -15,6 +15,19 @@ Result<std::array<ChunkData, faceCount>> readRoots(const ChunkFile& file) {
     return roots;
 }
 
+// A root that cannot be read is a checker pattern, with nothing under it.
+void readColourRoots(const ChunkFile& file, PlanetSource& source) {
+    for (const Face face : allFaces) {
+        ColourTileData& root = source.colourRoots[static_cast<std::size_t>(face)];
+        if (Result<ColourTileData> read = file.readColourRoot(face)) {
+            root = std::move(*read);
+        } else {
+            source.problems.push_back(std::move(read.error().message));
+            root = {{face, 0, 0, 0}, {}, checkerTexels(file.info().colour->format)};
+        }
+    }
+}
+
 }  // namespace
 
 Result<ChunkTree> makeChunkTree(const ChunkFile& file) {
@@ -44,6 +57,13 @@ Result<std::unique_ptr<Planet>> Planet::open(ChunkFile file, const PagingSetting
                                    std::span<const std::int16_t> parentHeights) {
         return shared->readChildren(parent, location, parentHeights);
     };
+    if (shared->info().colour) {
+        source.colour = shared->info().colour;
+        readColourRoots(*shared, source);
+        source.loadColours = [shared](const ChunkId& parent, BlockLocation location) {
+            return shared->readColourChildren(parent, location);
+        };
+    }
     source.file = shared;
     return open(std::move(source), settings);
 }

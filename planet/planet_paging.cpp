@@ -48,13 +48,17 @@ std::vector<BlockSlots> freeSlotsFrom(std::uint32_t firstFree, std::uint32_t slo
     return free;
 }
 
-std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
-                                         std::vector<ChildrenRequest> Selection::*list) {
+std::size_t chunkBudgetBytes(const PagingSettings& settings, bool hasColours) {
+    if (!hasColours) return settings.budgetBytes;
+    return static_cast<std::size_t>((1 - settings.colourShare) * static_cast<double>(settings.budgetBytes));
+}
+
+std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, const RequestsOf& requestsOf) {
     std::vector<MergedRequest> all;
     for (std::size_t v = 0; v < views.size(); ++v) {
         const double factor = views[v].input.priorityFactor;
         assert(factor > 0);
-        for (const ChildrenRequest& one : views[v].selection.*list) {
+        for (const ChildrenRequest& one : requestsOf(views[v])) {
             MergedRequest merged{one.parent, one.parentId};
             // Not 0, which would say that the view does not want it.
             merged.priority =
@@ -85,8 +89,11 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
 }
 
 void Planet::State::select(double fadeElapsedS) {
-    for (PlanetView& view : views)
+    for (PlanetView& view : views) {
         selectChunks(tree, view.input.lodView, view.input.lod, view.selection, fadeElapsedS);
+        selectColours(colours.tree, tree, view.input.lodView, view.input.colours, view.input.lod,
+                      view.colours);
+    }
 }
 
 void Planet::State::uploadFinished(const UploadChunk& upload) {
@@ -106,21 +113,23 @@ void Planet::State::uploadFinished(const UploadChunk& upload) {
 void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     paging.bytesRead += load.bytes;
     paging.loadSeconds += load.seconds;
-    if (load.request.ticket < oldestTicketKept) return throwAway(load);
+    if (!isKept(load.request)) return throwAway(load);
+    if (load.request.kind == BlockKind::Colours) return finishColours(std::move(load));
     // Still there: a block above a block that is being loaded is never dropped, unless the load is thrown
     // away.
     const NodeIndex parent = findNode(tree, load.request.parent);
     assert(parent != noNode && tree.nodes[parent].childrenState == ChildrenState::Requested);
     --promised;
-    if (!load.children) return fail(parent, load, std::move(load.children.error().message));
-    if (auto checked = checkChildren(tree, parent, *load.children); !checked) {
+    if (!load.block) return fail(parent, load, std::move(load.block.error().message));
+    SiblingBlock& children = std::get<SiblingBlock>(*load.block);
+    if (auto checked = checkChildren(tree, parent, children); !checked) {
         return fail(parent, load, std::move(checked.error().message));
     }
     assert(!freeSlots.empty());
     const BlockSlots slots = freeSlots.back();
     freeSlots.pop_back();
-    for (std::size_t q = 0; q < quadrantCount; ++q) upload(slots[q], (*load.children)[q].heights);
-    const NodeIndex first = addChildren(tree, parent, std::move(*load.children), slots);
+    for (std::size_t q = 0; q < quadrantCount; ++q) upload(slots[q], children[q].heights);
+    const NodeIndex first = addChildren(tree, parent, std::move(children), slots);
     ++blocksLoaded;
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
         // As if used by the frame that asked for it, in case this one no longer does.
@@ -130,20 +139,35 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     }
     watched.push_back(first);
     ++paging.loaded;
-    if (keepsMoves) moves.arrived.push_back({load.request.parent, PagingOutcome::Loaded});
+    if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Loaded});
     note(load.request, PagingOutcome::Loaded, &load);
+}
+
+void Planet::State::finishColours(FinishedLoad&& load) {
+    colours.counters.bytesRead += load.bytes;
+    const bool loaded = load.block.has_value();
+    if (loaded) {
+        colours.finish(load.request.parent, std::get<ColourBlock>(*std::move(load.block)), frame);
+    } else {
+        colours.fail(load.request.parent, frame);
+        problems.push_back(std::move(load.block.error().message));
+    }
+    ++(loaded ? paging.loaded : paging.failed);
+    const PagingOutcome outcome = loaded ? PagingOutcome::Loaded : PagingOutcome::Failed;
+    if (keepsMoves) moves.arrived.push_back({load.request.block(), outcome});
+    note(load.request, outcome, &load);
 }
 
 void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, std::string message) {
     tree.nodes[parent].childrenState = ChildrenState::Failed;
     problems.push_back(std::move(message));
     ++paging.failed;
-    if (keepsMoves) moves.arrived.push_back({load.request.parent, PagingOutcome::Failed});
+    if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Failed});
     note(load.request, PagingOutcome::Failed, &load);
 }
 
 void Planet::State::throwAway(const FinishedLoad& load) {
-    if (keepsMoves) moves.arrived.push_back({load.request.parent, PagingOutcome::Cancelled});
+    if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Cancelled});
     ++thrownAway;
     note(load.request, PagingOutcome::Cancelled, &load);
 }
@@ -169,6 +193,7 @@ void Planet::State::markUsed(PagingQueue& queue) {
             queue.submit({.parent = parentId, .type = PagingType::PageIn, .renewedFrame = frame});
         }
     };
+    for (const PlanetView& view : views) colours.use(view.colours.touched, frame);
     for (const PlanetView& view : views) {
         for (const VisitedNode& visited : view.selection.touched) use(visited.node);
         // What is about to be drawn, once a fade lets it.
@@ -192,14 +217,12 @@ void Planet::State::markUsed(PagingQueue& queue) {
 
 // Page-ins for what the views lack, the most wanted first, as far as there is room for them.
 void Planet::State::request(PagingQueue& queue) {
-    wanted = mergeRequests(views, &Selection::requests);
-    for (const MergedRequest& one : wanted) {
-        if (!queue.find(one.parentId)) continue;
-        queue.submit({.parent = one.parentId,
-                      .priority = one.priority,
-                      .renewedFrame = frame,
-                      .viewPriority = one.viewPriority});
-    }
+    wanted = mergeRequests(
+        views, [](const PlanetView& view) -> auto& { return view.selection.requests; });
+    const std::vector<MergedRequest> wantedColours = mergeRequests(
+        views, [](const PlanetView& view) -> auto& { return view.colours.requests; });
+    renew(queue, wanted, BlockKind::Heights);
+    renew(queue, wantedColours, BlockKind::Colours);
     for (const PagingRequest& stale : queue.cancelNotRenewed(PagingType::PageIn, frame)) withdraw(stale);
     paging.budgetWaits = 0;
     for (const MergedRequest& one : wanted) {
@@ -220,10 +243,38 @@ void Planet::State::request(PagingQueue& queue) {
                       .parentHeights = parent.heights,
                       .ticket = nextTicket++});
     }
+    requestColours(queue, wantedColours);
+}
+
+void Planet::State::renew(PagingQueue& queue, const std::vector<MergedRequest>& pending,
+                          BlockKind kind) const {
+    for (const MergedRequest& one : pending) {
+        if (!queue.find({one.parentId, kind})) continue;
+        queue.submit({.parent = one.parentId,
+                      .kind = kind,
+                      .priority = one.priority,
+                      .renewedFrame = frame,
+                      .viewPriority = one.viewPriority});
+    }
+}
+
+void Planet::State::requestColours(PagingQueue& queue, const std::vector<MergedRequest>& wantedColours) {
+    if (!colour) return;
+    const std::vector<MergedRequest> splits = mergeRequests(
+        views, [](const PlanetView& view) -> auto& { return view.colours.splits; });
+    const ColourPaging::Note noteOf = [this](const PagingRequest& request, PagingOutcome outcome) {
+        note(request, outcome);
+    };
+    colours.request(queue, wantedColours, splits,
+                    {frame, nowS, nextTicket, noteOf, keepsMoves ? &moves.requested : nullptr});
 }
 
 // Undoes what request did for a page-in that no loader has taken.
 void Planet::State::withdraw(const PagingRequest& request) {
+    if (request.kind == BlockKind::Colours) {
+        colours.withdraw(request.parent);
+        return note(request, PagingOutcome::Cancelled);
+    }
     tree.nodes[findNode(tree, request.parent)].childrenState = ChildrenState::Absent;
     --promised;
     note(request, PagingOutcome::Cancelled);
@@ -233,7 +284,7 @@ void Planet::State::withdraw(const PagingRequest& request) {
 // is wanted less.
 bool Planet::State::promiseRoom(PagingQueue& queue, double priority) {
     if (freeSlots.size() <= promised && !evictOne(queue)) {
-        const PagingRequest* least = queue.worst(PagingType::PageIn);
+        const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Heights);
         if (!least || least->priority >= priority) return false;
         withdraw(*queue.cancel(least->parent));
     }
@@ -276,7 +327,8 @@ void Planet::State::evict(PagingQueue& queue, NodeIndex parent) {
 // the one that wants it most.
 void Planet::State::chooseYielding() {
     if (paging.budgetWaits == 0 || hasBlocksOutOfUse()) return;
-    std::vector<MergedRequest> least = mergeRequests(views, &Selection::splits);
+    std::vector<MergedRequest> least = mergeRequests(
+        views, [](const PlanetView& view) -> auto& { return view.selection.splits; });
     std::erase_if(least, [&](const MergedRequest& split) {
         return !mayBeEvicted(tree.nodes[split.parent].firstChild);
     });
@@ -325,8 +377,10 @@ bool Planet::State::isOver(std::size_t blocks) const {
 // where even that is held up by the loads below it, those loads.
 void Planet::State::shrinkTo(PagingQueue& queue, std::size_t blocks) {
     evictLeastUsed(queue, blocks, frame);
-    while (isOver(blocks) && queue.count(PagingType::PageIn) > 0) {
-        withdraw(*queue.cancel(queue.worst(PagingType::PageIn)->parent));
+    while (isOver(blocks)) {
+        const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Heights);
+        if (!least) break;
+        withdraw(*queue.cancel(least->block()));
     }
     evictLeastUsed(queue, blocks, noFrame);
     if (!isOver(blocks)) return;
@@ -366,13 +420,31 @@ void Planet::State::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::
     }
 }
 
-// Only with no page-in queued: what is requested then is being read, or has been and is not yet resident.
+// Only with no page-in of chunks queued: what is requested then is being read, or has been and is not yet
+// resident.
 void Planet::State::abandonLoads() {
     for (ChunkNode& node : tree.nodes) {
         if (node.childrenState == ChildrenState::Requested) node.childrenState = ChildrenState::Absent;
     }
     oldestTicketKept = nextTicket;
     promised = 0;
+}
+
+void Planet::State::dropColours(PagingQueue& queue) {
+    if (!colour) return;
+    while (const PagingRequest* pending = queue.worst(PagingType::PageIn, BlockKind::Colours))
+        note(*queue.cancel(pending->block()), PagingOutcome::Cancelled);
+    oldestColourTicketKept = nextTicket;
+    colours.begin(colours.tileCapacity);
+}
+
+void Planet::State::resizeColours(std::uint32_t tileCapacity) {
+    pager->withQueue([&](PagingQueue& queue) {
+        noteTaken(queue);
+        dropColours(queue);
+    });
+    colours.begin(tileCapacity);
+    afterDrops();
 }
 
 // The lowest slots, in the order of the tree.
@@ -405,6 +477,7 @@ void Planet::State::dropEverything() {
         }
         abandonLoads();
         evictLeastUsed(queue, 0, noFrame);
+        dropColours(queue);
     });
     for (NodeIndex root = 0; root < faceCount; ++root) {
         ChildrenState& children = tree.nodes[root].childrenState;
@@ -437,6 +510,7 @@ void Planet::State::startAnew() {
     }
     freeSlots = freeSlotsFrom(faceCount, slotCapacity);
     promised = 0;
+    if (colour) colours.begin(colours.tileCapacity);
     watched.clear();
     yielding.clear();
     wanted.clear();
@@ -446,6 +520,7 @@ void Planet::State::startAnew() {
     frame = 0;
     changed = true;
     oldestTicketKept = nextTicket;
+    oldestColourTicketKept = nextTicket;
     moves = {};
 }
 
@@ -455,7 +530,7 @@ void Planet::State::putBack(std::vector<PagingRequest> givenUp) {
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
         for (PagingRequest& request : givenUp) {
-            if (request.ticket >= oldestTicketKept) {
+            if (isKept(request)) {
                 queue.submit(std::move(request));
                 continue;
             }
@@ -475,6 +550,7 @@ void Planet::State::afterDrops() {
 void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load) {
     PagingEvent event;
     event.parent = request.parent;
+    event.kind = request.kind;
     event.outcome = outcome;
     event.atS = nowS;
     event.waitedS = nowS - request.askedAtS;
@@ -490,7 +566,7 @@ void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, co
 }
 
 void Planet::State::noteTaken(const PagingQueue& queue) {
-    const std::vector<ChunkId> taken = pager->takeTaken(queue);
+    const std::vector<BlockId> taken = pager->takeTaken(queue);
     if (keepsMoves) moves.taken.insert(moves.taken.end(), taken.begin(), taken.end());
 }
 
@@ -502,6 +578,7 @@ void Planet::State::count() {
     paging.requested = counters.added[static_cast<std::size_t>(PagingType::PageIn)];
     paging.merged = counters.merged;
     paging.cancelled = counters.opposed + counters.withdrawn + thrownAway;
+    colours.count();
     paging.residentChunks = tree.residentChunks;
     paging.residentBytesCpu = tree.residentChunks * chunkBytesCpu(tree.shape);
     paging.residentBytesGpu = tree.residentChunks * chunkBytesGpu(tree.shape);

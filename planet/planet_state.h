@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "planet/colour_paging.h"
 #include "planet/planet.h"
 
 namespace planet {
@@ -24,14 +25,7 @@ using BlockSlots = std::array<std::uint32_t, quadrantCount>;
 struct PlanetView {
     ViewInput input;
     Selection selection;
-};
-
-// What several views together say of a sibling block.
-struct MergedRequest {
-    NodeIndex parent = noNode;
-    ChunkId parentId;
-    float priority = 0;  // the largest of what follows
-    std::array<float, maxViews> viewPriority{};
+    ColourSelection colours;
 };
 
 struct Planet::State {
@@ -54,6 +48,7 @@ struct Planet::State {
     bool changed = false;               // by something other than a step, since the last step
     std::uint64_t nextTicket = 1;
     std::uint64_t oldestTicketKept = 1;         // loads of older ones are thrown away
+    std::uint64_t oldestColourTicketKept = 1;   // the same of tiles of colour
     std::uint64_t thrownAway = 0;               // their number
     std::uint32_t blocksLoaded = 0;             // for ChunkNode::loadOrder
     Clock::time_point lastStep = Clock::now();  // or when it was opened
@@ -63,6 +58,8 @@ struct Planet::State {
     double lastElapsedS = 0;  // of the last step: since the one before
     bool keepsMoves = false;
     PagingMoves moves;
+    std::optional<ColourPyramid> colour;
+    ColourPaging colours;  // only where there is a pyramid
     std::unique_ptr<Pager> pager;
 
     double clockS();
@@ -79,6 +76,12 @@ struct Planet::State {
     void count();
 
     void finish(FinishedLoad&& load, const UploadChunk& upload);
+    void finishColours(FinishedLoad&& load);
+    void requestColours(PagingQueue& queue, const std::vector<MergedRequest>& wantedColours);
+    void renew(PagingQueue& queue, const std::vector<MergedRequest>& pending, BlockKind kind) const;
+    // Their requests too; those being read come to nothing.
+    void resizeColours(std::uint32_t tileCapacity);
+    void dropColours(PagingQueue& queue);
     void fail(NodeIndex parent, const FinishedLoad& load, std::string message);
     void throwAway(const FinishedLoad& load);
     void withdraw(const PagingRequest& request);
@@ -95,6 +98,10 @@ struct Planet::State {
     void putBack(std::vector<PagingRequest> givenUp);
 
     void note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load = nullptr);
+    bool isKept(const PagingRequest& request) const {
+        const bool isColours = request.kind == BlockKind::Colours;
+        return request.ticket >= (isColours ? oldestColourTicketKept : oldestTicketKept);
+    }
     // Of the queue that is locked, before it is changed.
     void noteTaken(const PagingQueue& queue);
 
@@ -113,8 +120,11 @@ inline double msSince(std::chrono::steady_clock::time_point start) {
 }
 
 // The requests or the splits of all views, merged by parent, the largest priority first.
-std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views,
-                                         std::vector<ChildrenRequest> Selection::*list);
+using RequestsOf = std::function<const std::vector<ChildrenRequest>&(const PlanetView&)>;
+std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, const RequestsOf& requestsOf);
+
+// What of a budget is for chunks.
+std::size_t chunkBudgetBytes(const PagingSettings& settings, bool hasColours);
 
 // The slots that a budget pays for: the roots' six and then whole sibling blocks, and no more than the planet
 // has chunks. The Error says what the least is: enough that the finest level can be reached in one place,

@@ -83,9 +83,9 @@ TEST_F(ChunkFileTest, wrongMagicIsRefused) {
 
 TEST_F(ChunkFileTest, newerVersionSaysWhichVersionsAreRead) {
     Bytes bytes = whole();
-    bytes[8] = std::byte{3};
-    EXPECT_NE(messageOf(bytes).find("version 3"), std::string::npos);
-    EXPECT_NE(messageOf(bytes).find("reads version 2"), std::string::npos);
+    bytes[8] = std::byte{4};
+    EXPECT_NE(messageOf(bytes).find("version 4"), std::string::npos);
+    EXPECT_NE(messageOf(bytes).find("reads version 3"), std::string::npos);
 }
 
 TEST_F(ChunkFileTest, olderVersionSaysToBakeAgain) {

@@ -41,15 +41,15 @@ Result<SiblingBlock> loadFake(const ChunkId& parent, BlockLocation location,
 }
 
 TEST(Pager, LoadsWhatIsAskedFor) {
-    Pager pager(loadFake, 1);
+    Pager pager({loadFake}, 1);
     submit(pager, rootRequest(Face::NegY));
     ASSERT_TRUE(pager.waitForFinished(muchLater()));
     const auto load = pager.takeFinished();
-    ASSERT_TRUE(load && load->children);
+    ASSERT_TRUE(load && load->block);
     EXPECT_EQ(load->request.parent, (ChunkId{Face::NegY, 0, 0, 0}));
     EXPECT_GE(load->seconds, 0);
     for (int q = 0; q < quadrantCount; ++q) {
-        const ChunkData& child = (*load->children)[static_cast<std::size_t>(q)];
+        const ChunkData& child = std::get<SiblingBlock>(*load->block)[static_cast<std::size_t>(q)];
         EXPECT_EQ(child.heights, fakePyramid().at(childOf(load->request.parent, q)).heights);
     }
     EXPECT_FALSE(pager.takeFinished());
@@ -58,12 +58,11 @@ TEST(Pager, LoadsWhatIsAskedFor) {
 
 TEST(Pager, OneLoaderTakesTheMostUrgentFirst) {
     Gate gate;
-    Pager pager(
-        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
-            gate.pass();
-            return loadFake(parent, location, heights);
-        },
-        1);
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+                    gate.pass();
+                    return loadFake(parent, location, heights);
+                }},
+                1);
     submit(pager, rootRequest(Face::PosX));
     gate.waitForArrivals(1);  // its loader is busy: the others are put in order behind it
     pager.withQueue([](PagingQueue& queue) {
@@ -84,12 +83,11 @@ TEST(Pager, OneLoaderTakesTheMostUrgentFirst) {
 
 TEST(Pager, SeveralLoadersReadAtOnce) {
     Gate gate;
-    Pager pager(
-        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
-            gate.pass();
-            return loadFake(parent, location, heights);
-        },
-        3);
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+                    gate.pass();
+                    return loadFake(parent, location, heights);
+                }},
+                3);
     for (const Face face : {Face::NegX, Face::PosY, Face::NegY}) submit(pager, rootRequest(face));
     gate.waitForArrivals(3);  // would never come with fewer
     EXPECT_EQ(pager.status().loading, 3u);
@@ -97,7 +95,7 @@ TEST(Pager, SeveralLoadersReadAtOnce) {
 }
 
 TEST(Pager, PageOutsAreLeftAlone) {
-    Pager pager(loadFake, 2);
+    Pager pager({loadFake}, 2);
     PagingRequest request = rootRequest(Face::PosX);
     request.type = PagingType::PageOut;
     submit(pager, request);
@@ -108,32 +106,31 @@ TEST(Pager, PageOutsAreLeftAlone) {
 }
 
 TEST(Pager, WaitingForNothingReturnsAtOnce) {
-    Pager pager(loadFake, 1);
+    Pager pager({loadFake}, 1);
     EXPECT_FALSE(pager.waitForFinished(muchLater()));
 }
 
 TEST(Pager, ALoaderThatThrowsIsAnError) {
-    Pager pager(
-        [](const ChunkId&, BlockLocation, std::span<const std::int16_t>) -> Result<SiblingBlock> {
-            throw std::runtime_error("the disk is gone");
-        },
-        1);
+    Pager pager({[](const ChunkId&, BlockLocation, std::span<const std::int16_t>) -> Result<SiblingBlock> {
+                    throw std::runtime_error("the disk is gone");
+                }},
+                1);
     submit(pager, rootRequest(Face::PosZ));
     ASSERT_TRUE(pager.waitForFinished(muchLater()));
     const auto load = pager.takeFinished();
-    ASSERT_FALSE(load->children);
-    EXPECT_THAT(load->children.error().message, testing::HasSubstr("z_pos/0/0/0"));
-    EXPECT_THAT(load->children.error().message, testing::HasSubstr("the disk is gone"));
+    ASSERT_FALSE(load->block);
+    EXPECT_THAT(load->block.error().message, testing::HasSubstr("z_pos/0/0/0"));
+    EXPECT_THAT(load->block.error().message, testing::HasSubstr("the disk is gone"));
 }
 
 TEST(Pager, EndsWithWorkLeftUndone) {
     std::atomic<int> loads = 0;
     for (int round = 0; round < 200; ++round) {
         Pager pager(
-            [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+            {[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
                 ++loads;
                 return loadFake(parent, location, heights);
-            },
+            }},
             1 + round % 4);
         for (const Face face : allFaces) {
             if (round % 3 != 0) submit(pager, rootRequest(face));
@@ -144,14 +141,14 @@ TEST(Pager, EndsWithWorkLeftUndone) {
 }
 
 TEST(Pager, ManyRequestsFromManyRoundsAllFinishOnce) {
-    Pager pager(loadFake, 4);
+    Pager pager({loadFake}, 4);
     int finished = 0;
     for (int round = 0; round < 300; ++round) {
         for (const Face face : allFaces) submit(pager, rootRequest(face));
         while (!pager.status().idle()) {
             pager.waitForFinished(muchLater());
             while (const auto load = pager.takeFinished()) {
-                EXPECT_TRUE(load->children);
+                EXPECT_TRUE(load->block);
                 ++finished;
             }
         }
@@ -181,7 +178,7 @@ std::vector<FinishedLoad> takeAll(Pager& pager) {
 
 TEST(Pager, MoreThreadsStartAtOnceAndFewerWaitForNoRead) {
     Gate gate;
-    Pager pager(through(gate), 1);
+    Pager pager({through(gate)}, 1);
     for (const Face face : allFaces) submit(pager, rootRequest(face));
     gate.waitForArrivals(1);
     pager.setThreads(4);
@@ -198,16 +195,15 @@ TEST(Pager, LoadersSentHomeTakeNothingMore) {
     Gate gate;
     std::atomic<int> reading = 0;
     std::atomic<int> most = 0;
-    Pager pager(
-        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
-            const int now = ++reading;
-            most = std::max<int>(most, now);
-            gate.pass();
-            auto block = loadFake(parent, location, heights);
-            --reading;
-            return block;
-        },
-        4);
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+                    const int now = ++reading;
+                    most = std::max<int>(most, now);
+                    gate.pass();
+                    auto block = loadFake(parent, location, heights);
+                    --reading;
+                    return block;
+                }},
+                4);
     for (const Face face : {Face::PosX, Face::NegX, Face::PosY, Face::NegY}) submit(pager, rootRequest(face));
     gate.waitForArrivals(4);
     pager.setThreads(1);
@@ -222,7 +218,7 @@ TEST(Pager, LoadersSentHomeTakeNothingMore) {
 }
 
 TEST(Pager, ThreadsMayChangeAtAnyMoment) {
-    Pager pager(loadFake, 1);
+    Pager pager({loadFake}, 1);
     std::size_t finished = 0;
     std::size_t submitted = 0;
     for (int round = 0; round < 200; ++round) {
@@ -236,7 +232,7 @@ TEST(Pager, ThreadsMayChangeAtAnyMoment) {
 }
 
 TEST(Pager, PausedItTakesNothingButWhatIsLetThrough) {
-    Pager pager(loadFake, 3);
+    Pager pager({loadFake}, 3);
     pager.setPaused(true);
     pager.loadOne();  // nothing to let through, and nothing kept for later
     for (const Face face : allFaces) submit(pager, rootRequest(face, static_cast<double>(face)));
@@ -257,7 +253,7 @@ TEST(Pager, PausedItTakesNothingButWhatIsLetThrough) {
 
 TEST(Pager, SaysWhatIsBeingRead) {
     Gate gate;
-    Pager pager(through(gate), 2);
+    Pager pager({through(gate)}, 2);
     EXPECT_TRUE(pager.loadingNow().empty());
     submit(pager, rootRequest(Face::NegX, 7));
     gate.waitForArrivals(1);
@@ -276,18 +272,17 @@ TEST(Pager, SaysWhatIsBeingRead) {
 
 TEST(Pager, ABadDiskFailsReadsAndSaysThatItDoes) {
     std::atomic<int> reads = 0;
-    Pager pager(
-        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
-            ++reads;
-            return loadFake(parent, location, heights);
-        },
-        1);
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+                    ++reads;
+                    return loadFake(parent, location, heights);
+                }},
+                1);
     pager.setBadDisk({.failureRate = 1, .seed = 42});
     submit(pager, rootRequest(Face::PosZ));
     const auto loads = takeAll(pager);
     ASSERT_EQ(loads.size(), 1u);
-    ASSERT_FALSE(loads[0].children);
-    EXPECT_EQ(loads[0].children.error().message, "z_pos/0/0/0: read failed on purpose (bad disk, seed 42)");
+    ASSERT_FALSE(loads[0].block);
+    EXPECT_EQ(loads[0].block.error().message, "z_pos/0/0/0: read failed on purpose (bad disk, seed 42)");
     EXPECT_EQ(loads[0].bytes, 0u);
     EXPECT_EQ(reads, 0);
 }
@@ -297,7 +292,7 @@ std::vector<bool> failuresOfARound(Pager& pager) {
     for (const Face face : allFaces) submit(pager, rootRequest(face));
     std::vector<bool> fails(6);
     for (const FinishedLoad& load : takeAll(pager)) {
-        fails[static_cast<std::size_t>(load.request.parent.face)] = !load.children;
+        fails[static_cast<std::size_t>(load.request.parent.face)] = !load.block;
     }
     return fails;
 }
@@ -306,12 +301,12 @@ TEST(Pager, TheSameSeedFailsTheSameReadsHoweverManyThreads) {
     const BadDiskSettings settings{.failureRate = 0.5, .seed = 5};
     std::vector<std::vector<bool>> rounds;
     {
-        Pager pager(loadFake, 1);
+        Pager pager({loadFake}, 1);
         pager.setBadDisk(settings);
         for (int round = 0; round < 6; ++round) rounds.push_back(failuresOfARound(pager));
     }
     EXPECT_NE(rounds[0], rounds[1]);  // attempts are counted
-    Pager pager(loadFake, 4);
+    Pager pager({loadFake}, 4);
     pager.setBadDisk(settings);
     for (const auto& round : rounds) EXPECT_EQ(failuresOfARound(pager), round);
     pager.forgetAttempts();
@@ -326,7 +321,7 @@ TEST(Pager, TheSameSeedFailsTheSameReadsHoweverManyThreads) {
 
 TEST(Pager, ABadDiskServesInItsOwnOrder) {
     const BadDiskSettings settings{.shuffledOrder = true, .seed = 3};
-    Pager pager(loadFake, 1);
+    Pager pager({loadFake}, 1);
     pager.setBadDisk(settings);
     pager.setPaused(true);
     for (const Face face : allFaces) submit(pager, rootRequest(face, static_cast<double>(face)));
@@ -344,13 +339,13 @@ TEST(Pager, ABadDiskServesInItsOwnOrder) {
 }
 
 TEST(Pager, ALoadTakesAsLongAsTheBadDiskWants) {
-    Pager pager(loadFake, 1);
+    Pager pager({loadFake}, 1);
     const BadDiskSettings settings{.latencyMs = 4, .bandwidthMBs = 0.05};  // 100 bytes take 2 ms
     pager.setBadDisk(settings);
     submit(pager, rootRequest(Face::PosX));
     const auto loads = takeAll(pager);
     ASSERT_EQ(loads.size(), 1u);
-    EXPECT_TRUE(loads[0].children);
+    EXPECT_TRUE(loads[0].block);
     EXPECT_GE(loads[0].seconds, diskFault(settings, loads[0].request.parent, 0, 100).waitS);
     EXPECT_EQ(loads[0].bytes, 100u);
 }
@@ -359,7 +354,7 @@ TEST(Pager, ALoadTakesAsLongAsTheBadDiskWants) {
 constexpr BadDiskSettings stuckDisk{.latencyMs = 10'000, .bandwidthMBs = 1e-12};
 
 TEST(Pager, SwitchingTheLatencyOffFreesWhoeverWaits) {
-    Pager pager(loadFake, 2);
+    Pager pager({loadFake}, 2);
     pager.setBadDisk(stuckDisk);
     for (const Face face : allFaces) submit(pager, rootRequest(face));
     while (pager.status().loading < 2) std::this_thread::yield();
@@ -367,22 +362,22 @@ TEST(Pager, SwitchingTheLatencyOffFreesWhoeverWaits) {
     pager.setBadDisk({});
     const auto loads = takeAll(pager);
     EXPECT_EQ(loads.size(), 6u);
-    for (const FinishedLoad& load : loads) EXPECT_TRUE(load.children);
+    for (const FinishedLoad& load : loads) EXPECT_TRUE(load.block);
 }
 
 TEST(Pager, WhoeverWaitsFollowsTheBadDisksNewWord) {
-    Pager pager(loadFake, 1);
+    Pager pager({loadFake}, 1);
     pager.setBadDisk(stuckDisk);
     submit(pager, rootRequest(Face::PosY));
     while (pager.status().loading < 1) std::this_thread::yield();
     pager.setBadDisk({.failureRate = 1});
     const auto loads = takeAll(pager);
     ASSERT_EQ(loads.size(), 1u);
-    EXPECT_FALSE(loads[0].children);
+    EXPECT_FALSE(loads[0].block);
 }
 
 TEST(Pager, EndsWhileABadDiskKeepsItWaiting) {
-    Pager pager(loadFake, 4);
+    Pager pager({loadFake}, 4);
     pager.setBadDisk(stuckDisk);
     for (const Face face : allFaces) submit(pager, rootRequest(face));
     while (pager.status().loading < 4) std::this_thread::yield();

@@ -1,0 +1,202 @@
+#include "planet/colour_paging.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "planet/colour_bake.h"
+
+namespace planet {
+
+namespace {
+
+// As with chunks: what a camera that shakes looks at in turns is not dropped in turns.
+constexpr std::uint64_t framesKept = 4;
+// A block yields to one that is wanted so many times as much.
+constexpr float yieldFactor = 1.5f;
+
+}  // namespace
+
+void ColourPaging::begin(std::uint32_t capacity) {
+    assert(capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0);
+    tileCapacity = capacity;
+    tree = makeColourTree(tree.leafLevel, roots);
+    promised = 0;
+    freeBlocks.clear();
+    for (std::uint32_t end = capacity; end > faceCount; end -= quadrantCount)
+        freeBlocks.push_back(end - quadrantCount);
+    changes.clear();
+    changes.push_back({.beginsAnew = true});
+    for (std::uint32_t face = 0; face < faceCount; ++face)
+        changes.push_back({.firstSlot = face, .arrived = {roots[face]}});
+    roomToCome = false;
+}
+
+void ColourPaging::use(const std::vector<NodeIndex>& touched, std::uint64_t frame) {
+    for (const NodeIndex index : touched) tree.nodes[index].lastUsedFrame = frame;
+}
+
+void ColourPaging::request(PagingQueue& queue, const std::vector<MergedRequest>& wanted,
+                           const std::vector<MergedRequest>& splits, const Asking& asking) {
+    counters.budgetWaits = 0;
+    roomToCome = false;
+    for (const MergedRequest& one : wanted) {
+        if (tree.nodes[one.parent].childrenState != ChildrenState::Absent) continue;
+        if (!promiseRoom(queue, one, splits, asking)) {
+            ++counters.budgetWaits;
+            continue;
+        }
+        ColourNode& parent = tree.nodes[one.parent];
+        parent.childrenState = ChildrenState::Requested;
+        const BlockId block{one.parentId, BlockKind::Colours};
+        if (asking.requested) asking.requested->push_back(block);
+        queue.submit({.parent = one.parentId,
+                      .kind = BlockKind::Colours,
+                      .priority = one.priority,
+                      .renewedFrame = asking.frame,
+                      .askedAtS = asking.nowS,
+                      .viewPriority = one.viewPriority,
+                      .location = parent.children,
+                      .ticket = asking.nextTicket++});
+    }
+}
+
+// Free slots first, then those of the block that is out of use longest, of one that is in use but wanted far
+// less, and those promised to a page-in that is wanted less.
+bool ColourPaging::promiseRoom(PagingQueue& queue, const MergedRequest& wanted,
+                               const std::vector<MergedRequest>& splits, const Asking& asking) {
+    if (freeBlocks.size() <= promised && !evictUnused(asking) &&
+        !evictLessWanted(wanted.priority, splits, asking)) {
+        const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Colours);
+        if (!least || least->priority >= static_cast<double>(wanted.priority)) return false;
+        const PagingRequest cancelled = *queue.cancel(least->block());
+        withdraw(cancelled.parent);
+        asking.note(cancelled, PagingOutcome::Cancelled);
+    }
+    ++promised;
+    return true;
+}
+
+bool ColourPaging::evictUnused(const Asking& asking) {
+    NodeIndex oldest = noNode;
+    const auto age = [&](NodeIndex parent) {
+        const ColourNode& first = tree.nodes[tree.nodes[parent].firstChild];
+        return std::pair(first.lastUsedFrame, -static_cast<int>(first.id.level));
+    };
+    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
+        if (!mayBeEvicted(i)) continue;
+        const std::uint64_t lastUsed = age(i).first;
+        if (lastUsed == asking.frame) continue;
+        if (lastUsed + framesKept >= asking.frame) {
+            roomToCome = true;
+            continue;
+        }
+        if (oldest == noNode || age(i) < age(oldest)) oldest = i;
+    }
+    if (oldest == noNode) return false;
+    evict(oldest, asking);
+    return true;
+}
+
+// splits: of all views, the most wanted first.
+bool ColourPaging::evictLessWanted(float priority, const std::vector<MergedRequest>& splits,
+                                   const Asking& asking) {
+    for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
+        if (priority <= yieldFactor * split->priority) return false;
+        // Another of this step's requests may have had it already.
+        if (!mayBeEvicted(split->parent) || tree.nodes[split->parent].id != split->parentId) continue;
+        evict(split->parent, asking);
+        return true;
+    }
+    return false;
+}
+
+// Not while anything below is resident or on its way.
+bool ColourPaging::mayBeEvicted(NodeIndex parent) const {
+    const ColourNode& node = tree.nodes[parent];
+    if (node.childrenState != ChildrenState::Resident) return false;
+    const auto begin = tree.nodes.begin() + node.firstChild;
+    return std::none_of(begin, begin + quadrantCount, [](const ColourNode& child) {
+        return child.childrenState == ChildrenState::Resident ||
+               child.childrenState == ChildrenState::Requested;
+    });
+}
+
+void ColourPaging::evict(NodeIndex parent, const Asking& asking) {
+    const PagingRequest request{.parent = tree.nodes[parent].id,
+                                .kind = BlockKind::Colours,
+                                .type = PagingType::PageOut,
+                                .askedAtS = asking.nowS};
+    remove(parent);
+    ++counters.evicted;
+    asking.note(request, PagingOutcome::Evicted);
+}
+
+void ColourPaging::remove(NodeIndex parent) {
+    freeBlocks.push_back(tree.nodes[tree.nodes[parent].firstChild].slot);
+    changes.push_back({.gone = tree.nodes[parent].id});
+    removeTiles(tree, parent);
+}
+
+void ColourPaging::withdraw(const ChunkId& parent) {
+    const NodeIndex node = findTile(tree, parent);
+    assert(node != noNode && tree.nodes[node].childrenState == ChildrenState::Requested);
+    tree.nodes[node].childrenState = ChildrenState::Absent;
+    --promised;
+}
+
+void ColourPaging::finish(const ChunkId& parent, ColourBlock&& tiles, std::uint64_t frame) {
+    const NodeIndex node = findTile(tree, parent);
+    assert(node != noNode && tree.nodes[node].childrenState == ChildrenState::Requested && promised > 0);
+    --promised;
+    const std::uint32_t slot = freeBlocks.back();
+    freeBlocks.pop_back();
+    const NodeIndex first = addTiles(tree, node, tiles, slot);
+    // As if used by the frame that asked for it, in case this one no longer does.
+    for (NodeIndex q = 0; q < quadrantCount; ++q) tree.nodes[first + q].lastUsedFrame = frame - 1;
+    ColourChange change{.firstSlot = slot};
+    for (ColourTileData& tile : tiles) change.arrived.push_back(std::move(tile));
+    changes.push_back(std::move(change));
+    ++counters.loaded;
+}
+
+void ColourPaging::fail(const ChunkId& parent, std::uint64_t frame) {
+    ColourBlock checkers;
+    for (int q = 0; q < quadrantCount; ++q)
+        checkers[static_cast<std::size_t>(q)] = {childOf(parent, q), {}, checkerTexels(format)};
+    finish(parent, std::move(checkers), frame);
+    tree.nodes[findTile(tree, parent)].hasFailed = true;
+    --counters.loaded;
+    ++counters.failed;
+}
+
+void ColourPaging::retryFailed() {
+    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
+        if (tree.nodes[i].hasFailed) remove(i);
+    }
+}
+
+void ColourPaging::count() {
+    counters.residentTiles = tree.residentTiles;
+    counters.tileCapacity = tileCapacity;
+}
+
+Result<std::uint32_t> tilesFor(const ColourPyramid& colour, std::size_t budgetBytes, std::uint32_t most) {
+    const std::size_t bytes = colourTileBytes(colour.format);
+    // One path down, with the siblings of each tile beside it and the same once more where it meets others.
+    const std::uint64_t wanted = faceCount + 2 * quadrantCount * static_cast<std::uint64_t>(colour.leafLevel);
+    const std::uint64_t all = colourTileCount(colour.leafLevel);
+    const std::uint64_t least = std::min(wanted, all);
+    if (budgetBytes / bytes < least || most < least) {
+        return badInput(
+            fmt::format("room for {} tiles of colour is too little for this planet: it needs at least {}, "
+                        "{} bytes",
+                        std::min<std::uint64_t>(budgetBytes / bytes, most), least, least * bytes));
+    }
+    const std::uint64_t tiles = std::min({std::uint64_t{budgetBytes / bytes}, std::uint64_t{most}, all});
+    return static_cast<std::uint32_t>(tiles - (tiles - faceCount) % quadrantCount);
+}
+
+}  // namespace planet

@@ -1,0 +1,56 @@
+// Chooses which tiles of colour a view wants, independent of which chunks it draws.
+//
+// A texel of level l is at most s_l = 2 R / (colourTileCells 2^l) metres wide: Nowell's map nowhere stretches
+// more than in a face's middle, where the cube's grid has its own spacing. Seen from D metres it covers
+// s_l K' / D pixels, so a tile is fine enough while
+//
+//   texels a pixel = D / (s_l K')  >=  the wanted,
+//
+// with K' as for chunks (view.h) and D the distance to the bounds of the ground under the tile. Those bounds
+// follow the chunks that are resident there.
+//
+// A pure function of its arguments, as selectChunks is. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planet/chunk_tree.h"
+#include "planet/colour_tree.h"
+#include "planet/lod_select.h"
+#include "planet/view.h"
+
+namespace planet {
+
+struct ColourSettings {
+    bool enabled = true;  // off: no tile below the roots is asked for
+    // Larger: sharper, and four times the tiles for twice as many; [0.1, 4].
+    double texelsPerPixel = 1;
+
+    bool operator==(const ColourSettings&) const = default;
+};
+
+struct ColourCounters {
+    std::uint32_t visited = 0;       // tiles looked at
+    std::uint32_t waiting = 0;       // in view, and too coarse for lack of children
+    std::uint32_t deepestLevel = 0;  // of what is in view
+    float fewestTexelsPerPixel = 0;  // of what is in view; 0 where nothing is
+};
+
+struct ColourSelection {
+    // Priority: how many times too few texels a pixel the parent has. Highest first; nodes of the colour
+    // tree.
+    std::vector<ChildrenRequest> requests;
+    std::vector<ChildrenRequest> splits;  // those whose children are resident and wanted, parents first
+    std::vector<NodeIndex> touched;  // all visited, parents first: what is shown, and what stands above it
+    ColourCounters counters;
+};
+
+// s_l above.
+double texelM(const PlanetShape& shape, int level);
+
+// Refills the selection, keeping its capacity. Culling as the settings of the chunks have it.
+void selectColours(const ColourTree& colours, const ChunkTree& chunks, const View& lodView,
+                   const ColourSettings& settings, const LodSettings& lod, ColourSelection& selection);
+
+}  // namespace planet

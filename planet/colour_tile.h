@@ -1,0 +1,54 @@
+// A tile of the colour quadtree: what it covers, how it is filled, and how it is packed.
+//
+// A tile of level l covers one of the 2^l x 2^l squares of its face, in the grid of colourTileCells << l
+// cells a side. It holds its own (cells + 1)^2 texels, those on its edges shared with the tiles beside it,
+// and a border of texels beyond them, over a face's edge the next face's; so that filtering never leaves the
+// tile. Of two tiles beside each other the shared texels are the same. Rows run along v upwards.
+//
+// The quadtree is the mip chain too: a level's texels are the source filtered to that level's spacing.
+//
+// BC1: 4 x 4 texels in 8 bytes (S3TC, Iourcha et al. 1999). The border is such that the blocks of two tiles
+// of a face cover the same texels, so that these too are the same after packing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planet/chunk_id.h"
+#include "planet/colour_source.h"
+#include "planet/result.h"
+
+namespace planet {
+
+inline constexpr int colourTileCells = 256;
+inline constexpr int colourBorderBefore = 7;  // texels west of and below the tile's own
+inline constexpr int colourBorderAfter = 8;   // east of and above
+inline constexpr int colourTileTexels = colourBorderBefore + colourTileCells + 1 + colourBorderAfter;
+static_assert(colourTileTexels % 4 == 0 && colourTileCells % 4 == 0);
+inline constexpr int maxColourLevel = 10;  // faces of 262,145 texels a side: some 40 m on Earth
+
+enum class ColourFormat : std::uint8_t { Bc1, Lossless };
+
+// Of a tile as the GPU takes it, row 0 at the south: BC1 blocks, or 3 bytes a texel, sRGB.
+std::size_t colourTileBytes(ColourFormat format);
+
+// Fills a tile with 8-bit sRGB, 3 bytes a texel. The Error names the source's file.
+Result<void> sampleColourTile(const ColourSource& source, const ChunkId& tile, std::span<std::uint8_t> rgb);
+
+// What the GPU takes, of a sampled tile.
+std::vector<std::byte> colourTexels(ColourFormat format, std::span<const std::uint8_t> rgb);
+// Its colours again, as the GPU has them.
+std::vector<std::uint8_t> rgbOfColourTexels(ColourFormat format, std::span<const std::byte> texels);
+
+// A loud checker pattern, for what cannot be read.
+std::vector<std::byte> checkerTexels(ColourFormat format);
+
+// What the file holds of them: without loss, smaller. Any bytes are either unpacked or refused.
+std::vector<std::byte> packColourTexels(ColourFormat format, std::span<const std::byte> texels);
+Result<std::vector<std::byte>> unpackColourTexels(ColourFormat format, std::span<const std::byte> packed);
+// No honest tile is packed larger.
+std::size_t largestPackedColourTile(ColourFormat format);
+
+}  // namespace planet

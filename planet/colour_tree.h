@@ -1,0 +1,48 @@
+// The resident part of the six colour quadtrees: plain data that colour selection reads and paging grows and
+// prunes. What the texels are is the renderer's; a tile is a slot in its pool. One thread at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planet/bounds.h"
+#include "planet/chunk_file.h"
+#include "planet/chunk_tree.h"
+
+namespace planet {
+
+struct ColourNode {
+    ChunkId id;
+    ChunkDirections directions;
+    NodeIndex parent = noNode;
+    NodeIndex firstChild = noNode;  // four in a row, in quadrant order
+    ChildrenState childrenState = ChildrenState::None;
+    BlockLocation children;  // in the file
+    bool hasFailed = false;  // its children could not be read: they are resident as a checker pattern
+    std::uint32_t slot = 0;  // in the pool of tiles
+    std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
+};
+
+struct ColourTree {
+    int leafLevel = -1;                 // -1: the planet has no colours
+    std::vector<ColourNode> nodes;      // the first six are the roots, in face order; then free or in fours
+    std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
+    std::size_t residentTiles = 0;
+};
+
+// The tree with its six roots, given in face order; they stay resident and take slots 0 to 5.
+ColourTree makeColourTree(int leafLevel, const std::array<ColourTileData, faceCount>& roots);
+
+// Adds the four tiles under one whose children are not resident, in slots from the first on; returns the
+// first. They must be that node's children.
+NodeIndex addTiles(ColourTree& tree, NodeIndex parent,
+                   const std::array<ColourTileData, quadrantCount>& children, std::uint32_t firstSlot);
+
+// Removes a node's four resident children, none of which may have resident children of its own.
+void removeTiles(ColourTree& tree, NodeIndex parent);
+
+// The node of an id, or noNode if it is not resident.
+NodeIndex findTile(const ColourTree& tree, const ChunkId& id);
+
+}  // namespace planet

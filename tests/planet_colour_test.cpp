@@ -1,0 +1,303 @@
+// Tiles of colour beside chunks in one planet: what is wanted, what is resident, and what a pool is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+
+#include "planet/colour_select.h"
+#include "tests/planet_fixture.h"
+
+namespace planet {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int leaf = 6;
+
+// A tile whose texels begin with its own name.
+ColourTileData fakeTile(const ChunkId& id) {
+    ColourTileData tile{id, {}, std::vector<std::byte>(colourTileBytes(ColourFormat::Bc1))};
+    if (id.level < leaf) tile.children = {1000 + keyOf(id) % 100'000, 77};
+    const std::uint64_t key = keyOf(id);
+    std::memcpy(tile.texels.data(), &key, sizeof key);
+    return tile;
+}
+
+Result<ColourBlock> loadFakeTiles(const ChunkId& parent, BlockLocation location) {
+    if (location != fakeTile(parent).children) return badInput("wrong place for " + toString(parent));
+    ColourBlock block;
+    for (int q = 0; q < quadrantCount; ++q) block[static_cast<std::size_t>(q)] = fakeTile(childOf(parent, q));
+    return block;
+}
+
+PlanetSource colouredSource(LoadColours load = loadFakeTiles) {
+    PlanetSource source = fakePyramid().source();
+    source.colour = ColourPyramid{.format = ColourFormat::Bc1, .leafLevel = leaf, .roots = {}, .source = {}};
+    for (const Face face : allFaces)
+        source.colourRoots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
+    source.loadColours = std::move(load);
+    return source;
+}
+
+PagingSettings roomForTiles(std::uint32_t tiles) {
+    PagingSettings settings;
+    settings.budgetBytes = 2 * bytesOf(20'000);
+    settings.colourShare = 0.5;
+    settings.maxColourTiles = tiles;
+    return settings;
+}
+
+// What a renderer would hold.
+struct TilePool {
+    std::map<std::uint32_t, ChunkId> tiles;  // by slot
+    std::set<ChunkId> checkers;
+
+    void follow(Planet& planet) {
+        for (const ColourChange& change : planet.takeColourChanges()) {
+            if (change.beginsAnew) tiles.clear();
+            if (change.gone) {
+                std::erase_if(tiles, [&](const auto& slot) {
+                    return slot.second.level == change.gone->level + 1 &&
+                           parentOf(slot.second) == *change.gone;
+                });
+            }
+            for (std::uint32_t i = 0; i < change.arrived.size(); ++i) {
+                const ColourTileData& tile = change.arrived[i];
+                EXPECT_FALSE(tiles.contains(change.firstSlot + i)) << toString(tile.id);
+                tiles[change.firstSlot + i] = tile.id;
+                if (tile.texels == checkerTexels(ColourFormat::Bc1)) checkers.insert(tile.id);
+            }
+        }
+    }
+};
+
+// Each resident tile has a slot of its own that holds it, and nothing else is held.
+void expectHolds(const Planet& planet, const TilePool& pool) {
+    const ColourTree& tree = planet.colourTree();
+    std::size_t resident = 0;
+    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
+        if (i >= faceCount && tree.nodes[i].parent == noNode) continue;
+        ++resident;
+        const auto held = pool.tiles.find(tree.nodes[i].slot);
+        ASSERT_TRUE(held != pool.tiles.end()) << toString(tree.nodes[i].id);
+        EXPECT_EQ(held->second, tree.nodes[i].id);
+    }
+    EXPECT_EQ(pool.tiles.size(), resident);
+    EXPECT_EQ(tree.residentTiles, resident);
+    EXPECT_LE(resident, planet.colourPaging().tileCapacity);
+}
+
+// The tiles that a view shows, whatever may be resident under them.
+std::set<ChunkId> shown(const Planet& planet) {
+    const ColourTree& tree = planet.colourTree();
+    std::set<ChunkId> ids;
+    for (const NodeIndex i : planet.colourSelection().touched) ids.insert(tree.nodes[i].id);
+    for (const ChildrenRequest& split : planet.colourSelection().splits) ids.erase(split.parentId);
+    return ids;
+}
+
+TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
+    const auto planet = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    TilePool pool;
+    const View view = viewAt(20, 30, 300'000, -70);
+    for (const double wanted : {0.5, 1.0, 2.0}) {
+        const ViewInput input{.lodView = view, .lod = fineSettings(), .colours = {.texelsPerPixel = wanted}};
+        ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        const ColourSelection& selection = planet->colourSelection();
+        EXPECT_TRUE(selection.requests.empty());
+        EXPECT_EQ(selection.counters.waiting, 0u);
+        EXPECT_GT(selection.counters.deepestLevel, 1u);
+        EXPECT_GE(selection.counters.fewestTexelsPerPixel, wanted);
+    }
+}
+
+TEST(PlanetColours, ATexelIsAsWideAsTheMapStretchesItAtMost) {
+    const PlanetShape& shape = fakePyramid().shape;
+    for (const int level : {0, 3, 6}) {
+        const int cells = colourTileCells << level;
+        const auto at = [&](int column, int row) {
+            return shape.radiusM *
+                   sphereFromCube(cubePoint(Face::PosY, 2.0 * column / cells - 1, 2.0 * row / cells - 1));
+        };
+        double widestM = 0;
+        for (int i = 0; i < 64; ++i) {
+            const int column = i * (cells - 1) / 63;
+            for (const int row : {0, cells / 3, cells / 2})
+                widestM = std::max(widestM, glm::length(at(column + 1, row) - at(column, row)));
+        }
+        EXPECT_LE(widestM, texelM(shape, level) * (1 + 1e-9));
+        EXPECT_GE(widestM, texelM(shape, level) * 0.99);
+    }
+}
+
+TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
+    const auto coloured = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    const auto plain = openFake();
+    for (const double altitudeM : {1e7, 1e6, 1e5}) {
+        const View view = viewAt(10, 50, altitudeM);
+        ASSERT_TRUE(coloured->settle(view, fineSettings(), noUpload, timeoutS));
+        ASSERT_TRUE(plain->settle(view, fineSettings(), noUpload, timeoutS));
+        EXPECT_EQ(drawn(*coloured), drawn(*plain));
+    }
+    EXPECT_EQ(coloured->paging().residentChunks, plain->paging().residentChunks);
+}
+
+TEST(PlanetColours, OffTheyAskForNothing) {
+    const auto planet = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    const ViewInput input{
+        .lodView = viewAt(10, 50, 1e5), .lod = fineSettings(), .colours = {.enabled = false}};
+    ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
+    EXPECT_EQ(planet->colourTree().residentTiles, 6u);
+    EXPECT_EQ(planet->colourPaging().loaded, 0u);
+}
+
+TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
+    PagingSettings settings = roomForTiles(6 + 4 * 20);
+    settings.time = PagingTime::Simulated;
+    settings.badDisk = {.latencyMs = 20, .seed = 5};
+    const auto planet = Planet::open(colouredSource(), settings).value();
+    TilePool pool;
+    for (int i = 0; i < 400; ++i) {
+        const ViewInput input{.lodView = viewAt(20 + 0.05 * i, 30 + 0.4 * i, 400'000 - 500 * i, -60),
+                              .lod = fineSettings(),
+                              .colours = {.texelsPerPixel = 1}};
+        planet->step({&input, 1}, noUpload, 1.0 / 60);
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(planet->colourPaging().evicted, 10u);
+    const ViewInput input{
+        .lodView = viewAt(40, 190, 2e5, -60), .lod = fineSettings(), .colours = {.texelsPerPixel = 2}};
+    ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    // What waits is wanted no more than half as much again as what is there.
+    ASSERT_GT(planet->colourPaging().budgetWaits, 0u);
+    const ColourSelection& selection = planet->colourSelection();
+    float leastSplit = 1e9f;
+    for (const ChildrenRequest& split : selection.splits) leastSplit = std::min(leastSplit, split.priority);
+    ASSERT_FALSE(selection.requests.empty());
+    EXPECT_LE(selection.requests.front().priority, 1.5f * leastSplit);
+}
+
+TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
+    std::atomic<bool> broken = true;
+    const ChunkId bad{Face::PosX, 1, 1, 1};
+    const auto planet =
+        Planet::open(colouredSource([&](const ChunkId& parent, BlockLocation location) {
+                         if (broken && parent == bad)
+                             return Result<ColourBlock>(ioError("colours of x_pos/1/1/1 are gone"));
+                         return loadFakeTiles(parent, location);
+                     }),
+                     roomForTiles(2000))
+            .value();
+    TilePool pool;
+    const View view = viewAt(20, 20, 300'000, -70);
+    ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    EXPECT_THAT(planet->takeProblems(), testing::ElementsAre(HasSubstr("x_pos/1/1/1 are gone")));
+    ASSERT_EQ(pool.checkers.size(), 4u);
+    for (const ChunkId& id : pool.checkers) EXPECT_EQ(parentOf(id), bad);
+    EXPECT_EQ(planet->colourPaging().failed, 1u);
+    broken = false;
+    pool.checkers.clear();
+    planet->retryFailed();
+    ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    EXPECT_TRUE(pool.checkers.empty());
+    EXPECT_TRUE(planet->takeProblems().empty());
+    EXPECT_GT(planet->colourSelection().counters.deepestLevel, 2u);
+}
+
+TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
+    const auto planet = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    TilePool pool;
+    const View view = viewAt(20, 20, 300'000, -70);
+    ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+    pool.follow(*planet);
+    const std::set<ChunkId> before = shown(*planet);
+    const auto comesAgain = [&] {
+        pool.follow(*planet);
+        EXPECT_EQ(pool.tiles.size(), 6u);
+        ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        EXPECT_EQ(shown(*planet), before);
+    };
+    planet->dropAll();
+    comesAgain();
+    planet->beginColoursAnew();
+    comesAgain();
+    planet->startAnew();
+    comesAgain();
+    PagingSettings fewer = planet->pagingSettings();
+    fewer.maxColourTiles = 1000;
+    ASSERT_TRUE(planet->setPaging(fewer));
+    EXPECT_EQ(planet->colourPaging().tileCapacity, 998u);
+    comesAgain();
+}
+
+TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
+    const auto tooFew = Planet::open(colouredSource(), roomForTiles(20));
+    ASSERT_FALSE(tooFew);
+    EXPECT_THAT(tooFew.error().message, HasSubstr("room for 20 tiles of colour is too little"));
+    PagingSettings settings = roomForTiles(2000);
+    settings.colourShare = 0.95;
+    const auto tooLarge = Planet::open(colouredSource(), settings);
+    ASSERT_FALSE(tooLarge);
+    EXPECT_THAT(tooLarge.error().message, HasSubstr("a share of 0.95 for colours"));
+    EXPECT_TRUE(Planet::open(fakePyramid().source(), roomForTiles(1)));  // without colours it does not matter
+}
+
+// As a recording does: what the loaders did is done again on a planet whose time is recorded.
+TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
+    PagingSettings settings = roomForTiles(6 + 4 * 30);
+    settings.time = PagingTime::Simulated;
+    settings.badDisk = {.latencyMs = 30, .failureRate = 0.05, .shuffledOrder = true, .seed = 9};
+    const auto planet = Planet::open(colouredSource(), settings).value();
+    settings.time = PagingTime::Recorded;
+    const auto other = Planet::open(colouredSource(), settings).value();
+    planet->keepMoves(true);
+    other->keepMoves(true);
+    std::size_t ofColours = 0;
+    for (int i = 0; i < 200; ++i) {
+        const ViewInput input{.lodView = viewAt(20, 30 + 0.3 * i, 300'000, -60), .lod = fineSettings()};
+        planet->step({&input, 1}, noUpload, 1.0 / 60);
+        const PagingMoves moves = planet->takeMoves();
+        ASSERT_TRUE(other->follow(moves)) << i;
+        other->step({&input, 1}, noUpload, 1.0 / 60);
+        const PagingMoves again = other->takeMoves();
+        ASSERT_EQ(again.requested, moves.requested) << i;
+        ASSERT_EQ(again.arrived, moves.arrived) << i;
+        ASSERT_EQ(shown(*other), shown(*planet)) << i;
+        for (const PagingMoves::Arrival& arrival : moves.arrived)
+            ofColours += arrival.block.kind == BlockKind::Colours;
+    }
+    EXPECT_GT(ofColours, 20u);
+    EXPECT_GT(planet->colourPaging().failed, 0u);
+}
+
+TEST(PlanetColours, AChunksBlockAndATilesOfTheSameNameAreTwoRequests) {
+    PagingQueue queue;
+    const ChunkId id{Face::PosX, 1, 0, 1};
+    EXPECT_EQ(queue.submit({.parent = id, .priority = 1}), SubmitOutcome::Added);
+    EXPECT_EQ(queue.submit({.parent = id, .kind = BlockKind::Colours, .priority = 2}), SubmitOutcome::Added);
+    EXPECT_EQ(queue.count(PagingType::PageIn), 2u);
+    EXPECT_EQ(queue.worst(PagingType::PageIn)->kind, BlockKind::Heights);
+    EXPECT_EQ(queue.worst(PagingType::PageIn, BlockKind::Colours)->priority, 2);
+    EXPECT_EQ(queue.popBest(PagingType::PageIn)->kind, BlockKind::Colours);
+    EXPECT_EQ(queue.worst(PagingType::PageIn, BlockKind::Colours), nullptr);
+    EXPECT_TRUE(queue.find(id));
+    EXPECT_FALSE(queue.find({id, BlockKind::Colours}));
+}
+
+}  // namespace
+}  // namespace planet
