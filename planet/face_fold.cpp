@@ -22,7 +22,7 @@ FaceGridPoint foldedOver(const FaceGridPoint& point, int cells) {
     const int v = 2 * point.row - cells;
     const int overU = std::abs(u) - cells;
     const int over = std::min(std::max(overU, std::abs(v) - cells), 2 * cells);
-    assert(over >= 0);
+    if (over <= 0) return point;
     const glm::dvec3 outward = overU > 0 ? std::copysign(1.0, u) * axes.u : std::copysign(1.0, v) * axes.v;
     const glm::dvec3 along = overU > 0 ? double(v) * axes.v : double(u) * axes.u;
     const glm::dvec3 folded = double(cells) * outward + along + double(cells - over) * axes.normal;

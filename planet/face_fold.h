@@ -18,7 +18,8 @@ struct FaceGridPoint {
 // The face whose outward normal, a unit vector along a world axis, this is.
 Face faceAlong(const glm::dvec3& normal);
 
-// A point over one edge of its face, by up to cells: folded down onto the next face.
+// A point over one edge of its face, by up to its width: folded down onto the next face. One on the face,
+// edges included, is itself.
 FaceGridPoint foldedOver(const FaceGridPoint& point, int cells);
 
 }  // namespace planet

@@ -78,8 +78,8 @@ private:
 
     // A rectangle of the face, or over one edge of it.
     Result<void> readPart(const Detail& detail, Face face, int left, int bottom, int right, int top) {
-        const GridPlace a = foldedOntoFace(face, left, bottom, detail.cells);
-        const GridPlace b = foldedOntoFace(face, right, top, detail.cells);
+        const FaceGridPoint a = foldedOver({face, left, bottom}, detail.cells);
+        const FaceGridPoint b = foldedOver({face, right, top}, detail.cells);
         const SampleTile tile{a.face,
                               detail.cells,
                               std::min(a.column, b.column),
@@ -90,7 +90,7 @@ private:
         if (Result<void> sampled = detail.source.sample(tile, read); !sampled) return sampled;
         for (int row = bottom; row <= top; ++row) {
             for (int column = left; column <= right; ++column) {
-                const GridPlace place = foldedOntoFace(face, column, row, detail.cells);
+                const FaceGridPoint place = foldedOver({face, column, row}, detail.cells);
                 heights_[indexOf(column, row)] =
                     read[static_cast<std::size_t>(place.row - tile.firstRow) *
                              static_cast<std::size_t>(tile.columns) +

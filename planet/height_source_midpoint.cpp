@@ -66,8 +66,8 @@ void addTo(Needs& needs, Face face, int column, int row) {
 
 // Cells beyond an edge of a face, on the next one: the corner far from the edge and the one on it.
 void addBeyond(Needs& needs, Face face, int farColumn, int farRow, int edgeColumn, int edgeRow, int cells) {
-    const GridPlace farPlace = foldedOntoFace(face, farColumn, farRow, cells);
-    const GridPlace edgePlace = placeOnFace(farPlace.face, {face, edgeColumn, edgeRow}, cells);
+    const FaceGridPoint farPlace = foldedOver({face, farColumn, farRow}, cells);
+    const FaceGridPoint edgePlace = placeOnFace(farPlace.face, {face, edgeColumn, edgeRow}, cells);
     addTo(needs, farPlace.face, farPlace.column, farPlace.row);
     addTo(needs, farPlace.face, edgePlace.column, edgePlace.row);
 }
@@ -172,7 +172,7 @@ private:
     // Over an edge of the cube too.
     std::int64_t middleNear(Face face, int column, int row) const {
         if (column > 0 && column < cells_ && row > 0 && row < cells_) return middleAt(face, column, row);
-        const GridPlace place = foldedOntoFace(face, column, row, cells_);
+        const FaceGridPoint place = foldedOver({face, column, row}, cells_);
         return middleAt(place.face, place.column, place.row);
     }
 

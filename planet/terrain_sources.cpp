@@ -40,16 +40,8 @@ std::size_t heldBy(std::span<const Octave> octaves, double stepRad) {
 
 namespace {
 
-Face faceAlong(const glm::dvec3& normal) {
-    for (const Face face : allFaces) {
-        if (faceAxes(face).normal == normal) return face;
-    }
-    assert(false);
-    return Face::PosX;
-}
-
 // On the cube [-cells, cells]^3.
-glm::dvec3 wholePoint(const GridPlace& place, int cells) {
+glm::dvec3 wholePoint(const FaceGridPoint& place, int cells) {
     const FaceAxes& axes = faceAxes(place.face);
     return double(cells) * axes.normal + double(2 * place.column - cells) * axes.u +
            double(2 * place.row - cells) * axes.v;
@@ -57,31 +49,12 @@ glm::dvec3 wholePoint(const GridPlace& place, int cells) {
 
 }  // namespace
 
-GridPlace placeOnFace(Face face, const GridPlace& place, int cells) {
+FaceGridPoint placeOnFace(Face face, const FaceGridPoint& place, int cells) {
     const glm::dvec3 point = wholePoint(place, cells);
     const FaceAxes& axes = faceAxes(face);
     assert(glm::dot(point, axes.normal) == cells);
     return {face, (static_cast<int>(glm::dot(point, axes.u)) + cells) / 2,
             (static_cast<int>(glm::dot(point, axes.v)) + cells) / 2};
-}
-
-GridPlace foldedOntoFace(Face face, int column, int row, int cells) {
-    const FaceAxes& axes = faceAxes(face);
-    const int u = 2 * column - cells;  // the cube is [-cells, cells]^3 here
-    const int v = 2 * row - cells;
-    const int overU = std::abs(u) - cells;
-    const int overV = std::abs(v) - cells;
-    if (overU <= 0 && overV <= 0) return {face, column, row};
-    assert(overU <= 0 || overV <= 0);  // beyond a corner there is nothing
-    const int over = std::max(overU, overV);
-    assert(over <= 2 * cells);
-    const glm::dvec3 outward = overU > 0 ? std::copysign(1.0, u) * axes.u : std::copysign(1.0, v) * axes.v;
-    const glm::dvec3 along = overU > 0 ? double(v) * axes.v : double(u) * axes.u;
-    const glm::dvec3 point = double(cells) * outward + along + double(cells - over) * axes.normal;
-    const Face next = faceAlong(outward);
-    const FaceAxes& nextAxes = faceAxes(next);
-    return {next, (static_cast<int>(glm::dot(point, nextAxes.u)) + cells) / 2,
-            (static_cast<int>(glm::dot(point, nextAxes.v)) + cells) / 2};
 }
 
 Result<HeightSource> makeTerrain(const TerrainSettings& settings) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "planet/cube_sphere.h"
+#include "planet/face_fold.h"
 #include "planet/gradient_noise.h"
 #include "planet/height_source.h"
 #include "planet/height_source_kinds.h"
@@ -83,16 +84,8 @@ HeightSource fieldSource(const TerrainSettings& settings, int cells, double minM
     return source;
 }
 
-// A place of a face's grid that may lie over one edge, by at most the face's own width, folded down onto the
-// next face.
-struct GridPlace {
-    Face face = Face::PosX;
-    int column = 0;
-    int row = 0;
-};
-GridPlace foldedOntoFace(Face face, int column, int row, int cells);
 // Where a place on an edge of the cube lies on the other face there.
-GridPlace placeOnFace(Face face, const GridPlace& place, int cells);
+FaceGridPoint placeOnFace(Face face, const FaceGridPoint& place, int cells);
 
 HeightSource fractalSource(const FractalTerrain& terrain);
 HeightSource ridgedSource(const RidgedTerrain& terrain);
