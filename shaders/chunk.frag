@@ -52,6 +52,11 @@ Detail detailAt(vec3 position) {
                   coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
 }
 
+// The image knows sea ice, and coasts finer than the mesh: water is blue and dark.
+float waterOf(vec3 colour) {
+    return smoothstep(0.0, 0.008, colour.b - 1.15 * colour.r) * (1.0 - smoothstep(0.10, 0.30, colour.g));
+}
+
 // The image, its lookup moved by a part of a step so that its blobs get ragged edges. On a face's edge it only moves
 // along, where the next face's does the same.
 vec4 imageColour(Detail detail, float strength) {
@@ -60,6 +65,10 @@ vec4 imageColour(Detail detail, float strength) {
         vec2 inside = min(place, 1.0 - place) / (4.0 * detailPixels.z);
         vec2 aside = vec2(dot(detail.slope, faceU), dot(detail.slope, faceV));
         place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * detailPixels.z);
+    }
+    if (isOn(switchTiles)) {
+        vec3 colour = streamedColours(place, facePlace.w);
+        return vec4(colour, waterOf(colour));
     }
     // The outermost texels have their middles on the edges.
     vec2 size = vec2(textureSize(colourImage, 0).xy);

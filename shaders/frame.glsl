@@ -33,6 +33,8 @@ layout(std140) uniform Frame {
     vec4 surfacing;      // opacity of the image over the ramp; 1 where the ramp colours the sea too; unused
     vec4 rampColours[32];  // of the stops: roots of linear light; unused
     vec4 rampRises[32];  // of each: height of the one before, above the sea level; 1 / metres from there; unused
+    ivec4 colouring;     // finest level of streamed colours; unused
+    vec4 colourFilter;   // anisotropy of their sampler; levels finer than one texel a pixel; unused
 };
 
 // A program is compiled for the switches it is drawn with, in the constant variant: what is off costs nothing,
@@ -54,6 +56,7 @@ const int switchLoudSkirts = 8192;
 const int switchSlide = 16384;         // some vertices morph, or move onto a coarser neighbour's
 const int switchMorph = 32768;         // some morph: light does, too
 const int switchGather = 65536;        // edges that morph let vertices go as a coarser chunk's stitched edge does
+const int switchTiles = 131072;        // the image is streamed in tiles (colour_tiles.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)
 const int switchLayerPreview = 33554432;
 

@@ -31,8 +31,9 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 6> chunkFragmentFiles = {
-    "frame.glsl", "atmosphere.glsl", "ground.glsl", "tone.glsl", "layers.glsl", "chunk.frag"};
+constexpr std::array<std::string_view, 7> chunkFragmentFiles = {
+    "frame.glsl",  "atmosphere.glsl",   "ground.glsl", "tone.glsl",
+    "layers.glsl", "colour_tiles.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
@@ -44,6 +45,9 @@ constexpr GLuint layersBinding = 4;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
+constexpr GLint tilesUnit = 3;
+constexpr GLint pagesUnit = 4;
+constexpr GLint rootsUnit = 5;
 constexpr GLint layerAlbedoUnit = 8;
 constexpr GLint layerSurfaceUnit = 9;
 constexpr int checkerSize = 64;  // until pictures are given
@@ -79,6 +83,9 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
     glUniform1i(glGetUniformLocation(program.name(), "detailNoise"), noiseUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "colourTiles"), tilesUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "colourPages"), pagesUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "colourRoots"), rootsUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
     glUseProgram(0);
@@ -237,6 +244,7 @@ struct ChunkRenderer::State {
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
+    std::optional<ColourPool> colours;
     LayerTextures layers;
     GpuTimer chunksTimer, skyTimer;
     std::uint32_t uploads = 0;  // since the last draw
@@ -251,6 +259,7 @@ struct ChunkRenderer::State {
     const Program& chunkProgram(int variant);
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched);
     void fillFrame(const View& view, const RenderSettings& settings);
+    ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
@@ -328,7 +337,8 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
                                         const RenderSettings& settings, bool tinted) const {
     const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
     const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
-    const int variant = switchesFor(config.shape, view, settings, image, tinted, nearestGroundM);
+    const int variant =
+        switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted, nearestGroundM);
     const int layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
@@ -374,13 +384,20 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
 }
 
 void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
-    const FrameUniforms uniforms = frameUniforms(config.shape, view, projection, settings, image);
+    const FrameUniforms uniforms =
+        frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
     const LayersUniforms layerUniforms =
         layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), layers.means());
     glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
+}
+
+ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
+    if (!colours || !settings.streamed) return {.faceSizePx = image.faceSizePx()};
+    return {(colourTileCells << colours->config().leafLevel) + 1, true, colours->config().leafLevel,
+            colours->anisotropy(), settings.texelsPerPixel};
 }
 
 void ChunkRenderer::State::bindInputs() const {
@@ -392,6 +409,14 @@ void ChunkRenderer::State::bindInputs() const {
     glBindTexture(GL_TEXTURE_2D_ARRAY, layers.surface());
     glActiveTexture(GL_TEXTURE0 + imageUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
+    if (colours) {
+        glActiveTexture(GL_TEXTURE0 + tilesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->tiles());
+        glActiveTexture(GL_TEXTURE0 + pagesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->pages());
+        glActiveTexture(GL_TEXTURE0 + rootsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->roots());
+    }
     glActiveTexture(GL_TEXTURE0 + noiseUnit);
     glBindTexture(GL_TEXTURE_3D, noise.name());
     glActiveTexture(GL_TEXTURE0 + heightUnit);
@@ -477,6 +502,19 @@ void ChunkRenderer::setShape(const PlanetShape& shape) {
 
 void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
     state_->image = ColourImage(rgb, width, height, state_->programs.faceImage.name());
+}
+
+Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& config) {
+    if (!config) {
+        state_->colours.reset();
+        return {};
+    }
+    return ColourPool::create(*config).map([this](ColourPool pool) { state_->colours = std::move(pool); });
+}
+
+void ChunkRenderer::followColours(std::span<const ColourChange> changes) {
+    assert(state_->colours || changes.empty());
+    if (state_->colours) state_->colours->follow(changes);
 }
 
 void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
@@ -577,7 +615,8 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
 GpuMemory ChunkRenderer::gpuMemory() const {
     return {state_->pool.layout().bytes(),
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms),
-            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes()};
+            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
+                (state_->colours ? state_->colours->bytes() : 0)};
 }
 
 }  // namespace planet::gl

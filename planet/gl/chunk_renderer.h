@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "planet/gl/colour_pool.h"
 #include "planet/gl/layer_drawing.h"
 #include "planet/gl/layer_textures.h"
 #include "planet/gl/projection.h"
@@ -43,6 +45,10 @@ inline constexpr std::size_t maxRampStops = 32;
 struct RenderSettings {
     SurfaceColour surface = SurfaceColour::Image;  // Image falls back to HeightRamp where none is loaded
     double imageOpacity = 1;                       // of the image over the ramp, [0, 1]
+    bool streamed =
+        true;  // the planet's own colours, where setColours was given a pool, instead of the image
+    double texelsPerPixel =
+        1;  // of streamed colours, as ColourSettings has it; larger: sharper, and may shimmer
     double rampTopM = 6000;  // the height ramp's highest band, > 0; the sea is darkest as far below 0
     // Drawn instead of the built-in ramp where there are any, lowest first; at most maxRampStops. The
     // built-in sea keeps its colours unless a stop lies below the sea level.
@@ -114,6 +120,12 @@ public:
     // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Keeps what is
     // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off.
     void setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
+
+    // A pool for the planet's own colours, which then take the image's place; none: the image again. Follow
+    // with all of Planet::takeColourChanges() since beginColoursAnew() or the planet's opening. On an Error
+    // what there was stays.
+    Result<void> setColours(const std::optional<ColourPoolConfig>& config);
+    void followColours(std::span<const ColourChange> changes);
 
     // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096].
     void setLayers(std::span<const LayerPicture> pictures, int size);

@@ -66,7 +66,7 @@ Result<ColourPool> ColourPool::create(const ColourPoolConfig& config) {
     const auto layers = static_cast<GLsizei>(config.tileCapacity);
     while (glGetError() != GL_NO_ERROR) continue;  // so that what follows is the allocations' own
     pool.tiles_ = makeArray();
-    const float anisotropy = anisotropyToUse();
+    const float anisotropy = pool.anisotropy_ = anisotropyToUse();
     setSampling(GL_LINEAR, GL_LINEAR, 0);
     if (anisotropy > 1) glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
     if (pool.compressed_) {

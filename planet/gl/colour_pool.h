@@ -46,6 +46,7 @@ public:
     GLuint roots() const { return roots_.name(); }
     // Whether tiles stay BC1 on the GPU; where the context has none of it they are unpacked.
     bool isCompressed() const { return compressed_; }
+    float anisotropy() const { return anisotropy_; }  // of its sampler, >= 1
     std::size_t bytes() const;
 
 private:
@@ -64,6 +65,7 @@ private:
 
     ColourPoolConfig config_;
     bool compressed_ = false;
+    float anisotropy_ = 1;
     Texture tiles_, pages_, roots_;
     std::vector<std::vector<Page>> table_;  // by face and level: 2^level x 2^level, rows from the south
 };

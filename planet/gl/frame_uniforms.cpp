@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "planet/gl/chunk_renderer.h"
-#include "planet/gl/colour_image.h"
 #include "planet/vertex_position.h"
 
 namespace planet::gl {
@@ -76,7 +75,7 @@ double samplesApartM(const PlanetShape& shape) {
 
 // The eye's place in the noise is worked out in doubles, and only what is behind the point sent on: noise
 // that repeats needs no more, and the planet's centre is too far away for floats.
-void setDetail(const PlanetShape& shape, const View& view, const ColourImage& image,
+void setDetail(const PlanetShape& shape, const View& view, const ColoursDrawn& colours,
                FrameUniforms& uniforms) {
     const double apartM = samplesApartM(shape);
     for (int octave = 0; octave < 3; ++octave) {
@@ -89,7 +88,7 @@ void setDetail(const PlanetShape& shape, const View& view, const ColourImage& im
         }
         uniforms.detailSizes[octave] = static_cast<float>(sizeM);
     }
-    const double imageStep = image.exists() ? 1.0 / image.faceSizePx() : 0;
+    const double imageStep = colours.exist() ? 1.0 / colours.faceSizePx : 0;
     uniforms.detailPixels = glm::dvec4(apartM * screenScalePx(view),
                                        1.5 * shape.radiusM * imageStep * screenScalePx(view), imageStep, 0);
 }
@@ -121,18 +120,19 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
 }  // namespace
 
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColourImage& image, bool tinted, double nearestGroundM) {
+                const ColoursDrawn& colours, bool tinted, double nearestGroundM) {
     const bool withImage =
-        image.exists() && settings.surface == SurfaceColour::Image && settings.imageOpacity > 0;
+        colours.exist() && settings.surface == SurfaceColour::Image && settings.imageOpacity > 0;
     const bool rampSeen = !withImage || settings.imageOpacity < 1;
     const double coarsestM =
-        std::max(samplesApartM(shape), withImage ? 1.5 * shape.radiusM / image.faceSizePx() : 0.0);
+        std::max(samplesApartM(shape), withImage ? 1.5 * shape.radiusM / colours.faceSizePx : 0.0);
     const double stepPx = coarsestM * screenScalePx(view) / nearestGroundM;
     const bool detail = settings.detail && settings.lighting && !settings.cube && !tinted && stepPx > 2;
     const bool fineDetail = detail && stepPx > 200;
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
     return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
-           (settings.cube ? switchCube : 0) | (withImage ? switchImage : 0) | (settings.sea ? switchSea : 0) |
+           (settings.cube ? switchCube : 0) | (withImage ? switchImage : 0) |
+           (withImage && colours.streamed ? switchTiles : 0) | (settings.sea ? switchSea : 0) |
            (air ? switchAir : 0) | (tinted ? switchTint : 0) |
            (rampSeen && !settings.ramp.empty() ? switchRamp : 0) |
            (withImage && rampSeen ? switchImageOverRamp : 0) | (settings.outlines ? switchOutlines : 0) |
@@ -141,7 +141,7 @@ int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings
 }
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
-                            const RenderSettings& settings, const ColourImage& image) {
+                            const RenderSettings& settings, const ColoursDrawn& colours) {
     assert(glm::length(settings.sunDirection) > 0 && settings.rampTopM > 0);
     const VertexFrame frame = vertexFrame(shape, view.eyeM);
     const double cubeHalfM = shape.radiusM / std::sqrt(3.0);
@@ -167,8 +167,10 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.eyeUp = glm::dvec4(eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0), eyeHeight);
     uniforms.screen = glm::dvec4(2 * tanX / view.widthPx, projection.reversedZ ? 0 : 1, 0, 0);
     uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
-    setDetail(shape, view, image, uniforms);
+    setDetail(shape, view, colours, uniforms);
     setRamp(settings, uniforms);
+    uniforms.colouring = {colours.leafLevel, 0, 0, 0};
+    uniforms.colourFilter = glm::dvec4(colours.anisotropy, std::log2(colours.texelsPerPixel), 0, 0);
     return uniforms;
 }
 

@@ -14,8 +14,6 @@
 
 namespace planet::gl {
 
-class ColourImage;
-
 // What a program is compiled for, as in shaders/frame.glsl.
 enum Switch : int {
     switchLighting = 1,
@@ -35,6 +33,7 @@ enum Switch : int {
     switchSlide = 16384,
     switchMorph = 32768,
     switchGather = 65536,
+    switchTiles = 131072,
     switchLayers = 16777216,
     switchLayerPreview = 33554432
 };
@@ -54,16 +53,29 @@ struct FrameUniforms {
     glm::ivec4 grid;
     glm::vec4 surfacing;
     std::array<glm::vec4, maxRampStops> rampColours, rampRises;
+    glm::ivec4 colouring;
+    glm::vec4 colourFilter;
 };
 static_assert(sizeof(FaceUniforms) == 9 * 16 &&
-              sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1 + 1 + 64) * 16);
+              sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1 + 1 + 64 + 2) * 16);
+
+// The colours that lie over the planet: an image, or streamed tiles.
+struct ColoursDrawn {
+    int faceSizePx = 0;     // texels along a face, at the finest; 0: there are none
+    bool streamed = false;  // what follows is of streamed ones
+    int leafLevel = 0;
+    double anisotropy = 1;      // of the sampler, >= 1
+    double texelsPerPixel = 1;  // ColourSettings
+
+    bool exist() const { return faceSizePx > 0; }
+};
 
 // The switches that follow from the settings and how near the ground is, metres. LightByVertex, Slide
 // and Morph follow from the chunks, and are left off.
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColourImage& image, bool tinted, double nearestGroundM);
+                const ColoursDrawn& colours, bool tinted, double nearestGroundM);
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
-                            const RenderSettings& settings, const ColourImage& image);
+                            const RenderSettings& settings, const ColoursDrawn& colours);
 
 }  // namespace planet::gl
