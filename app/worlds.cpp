@@ -30,19 +30,21 @@ ui::World world(const char* name, const char* title, const char* about, std::str
 std::vector<ui::World> worlds() {
     const double earthRadiusM = planet::BakeSettings{}.radiusM;
     const std::string earth = earthElevation().string();
+    // The grid is twice as fine as the image's own samples, so from step to step it shows half their relief.
+    const planet::DetailTerrain detail{.strength = 2};
     return {
         world("earth", "Earth", "Elevation and sea floor every 5 arc minutes, as they come with Worldy.",
               earth, earthRadiusM, std::nullopt),
         world("earth-amplified", "Earth amplified",
               "The same with detail below its 9 km, as rough as the land around it: at its face size down to "
               "1.2 km, down to 100 m for face sizes up to 131073.",
-              planet::terrainText({planet::DetailTerrain{}, earth}), earthRadiusM, 8193),
+              planet::terrainText({detail, earth}), earthRadiusM, 8193),
         world("moon", "Moon",
               "Craters of many sizes on rolling ground, the size of our Moon. Without sea and air under the "
               "settings preset \"airless moon\".",
               "noise:craters,seed=11", 1'737'400, 2049),
         world("ridged", "Ridged world", "Mountain chains with sharp crests, the size of Mars.",
-              "noise:ridged,seed=4,offset_m=1500", 3'389'500, 2049),
+              "noise:ridged,seed=4,gain=0.6,amplitude_m=12000,feature_deg=25,offset_m=1500", 3'389'500, 2049),
     };
 }
 
