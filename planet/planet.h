@@ -55,8 +55,8 @@ struct PagingSettings {
 struct ViewInput {
     View lodView;
     LodSettings lod;
-    ColourSettings colours{};
     double priorityFactor = 1;  // of its requests against the other views'; > 0
+    ColourSettings colours{};
 };
 
 enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };

@@ -314,7 +314,7 @@ TEST(Pager, TheSameSeedFailsTheSameReadsHoweverManyThreads) {
     for (std::uint32_t attempt = 0; attempt < rounds.size(); ++attempt) {
         for (const Face face : allFaces) {
             EXPECT_EQ(rounds[attempt][static_cast<std::size_t>(face)],
-                      diskFault(settings, {face, 0, 0, 0}, attempt, 100).fails);
+                      diskFault(settings, ChunkId{face, 0, 0, 0}, attempt, 100).fails);
         }
     }
 }

@@ -79,10 +79,12 @@ TEST(PagingQueue, ViewsThatAskInTheSameFrameKeepAPriorityEach) {
 TEST(PagingQueue, WhatIsFirstInAnotherOrderCanBeServedFirst) {
     PagingQueue queue;
     for (std::uint32_t i = 0; i < 5; ++i) queue.submit(makeRequest(i, PagingType::PageIn, i));
-    const auto byFace = [](const ChunkId& id) { return static_cast<std::uint64_t>((id.face == Face::NegY)); };
+    const auto byFace = [](const BlockId& id) {
+        return static_cast<std::uint64_t>((id.parent.face == Face::NegY));
+    };
     // Of those with the same place the first in order of parent.
     EXPECT_EQ(queue.popFirst(PagingType::PageIn, byFace)->parent, chunk(0));
-    const auto reversed = [](const ChunkId& id) { return 100 - static_cast<std::uint64_t>(id.face); };
+    const auto reversed = [](const BlockId& id) { return 100 - static_cast<std::uint64_t>(id.parent.face); };
     EXPECT_EQ(queue.popFirst(PagingType::PageIn, reversed)->parent, chunk(4));
     EXPECT_EQ(queue.pop(chunk(2))->parent, chunk(2));
     EXPECT_FALSE(queue.pop(chunk(2)));

@@ -100,10 +100,10 @@ std::set<ChunkId> shown(const Planet& planet) {
 }
 
 TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
-    const auto planet = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
     TilePool pool;
-    const View view = viewAt(20, 30, 300'000, -70);
-    for (const double wanted : {0.5, 1.0, 2.0}) {
+    const View view = viewAt(20, 30, 40'000, -70);
+    for (const double wanted : {0.4, 0.8, 1.2}) {
         const ViewInput input{.lodView = view, .lod = fineSettings(), .colours = {.texelsPerPixel = wanted}};
         ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
         pool.follow(*planet);
@@ -136,7 +136,7 @@ TEST(PlanetColours, ATexelIsAsWideAsTheMapStretchesItAtMost) {
 }
 
 TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
-    const auto coloured = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    const auto coloured = Planet::open(colouredSource(), roomForTiles(800)).value();
     const auto plain = openFake();
     for (const double altitudeM : {1e7, 1e6, 1e5}) {
         const View view = viewAt(10, 50, altitudeM);
@@ -148,7 +148,7 @@ TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
 }
 
 TEST(PlanetColours, OffTheyAskForNothing) {
-    const auto planet = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
     const ViewInput input{
         .lodView = viewAt(10, 50, 1e5), .lod = fineSettings(), .colours = {.enabled = false}};
     ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
@@ -163,7 +163,7 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
     const auto planet = Planet::open(colouredSource(), settings).value();
     TilePool pool;
     for (int i = 0; i < 400; ++i) {
-        const ViewInput input{.lodView = viewAt(20 + 0.05 * i, 30 + 0.4 * i, 400'000 - 500 * i, -60),
+        const ViewInput input{.lodView = viewAt(20 + 0.05 * i, 30 + 0.4 * i, 60'000 - 100 * i, -60),
                               .lod = fineSettings(),
                               .colours = {.texelsPerPixel = 1}};
         planet->step({&input, 1}, noUpload, 1.0 / 60);
@@ -173,7 +173,7 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
     }
     EXPECT_GT(planet->colourPaging().evicted, 10u);
     const ViewInput input{
-        .lodView = viewAt(40, 190, 2e5, -60), .lod = fineSettings(), .colours = {.texelsPerPixel = 2}};
+        .lodView = viewAt(40, 190, 2e4, -60), .lod = fineSettings(), .colours = {.texelsPerPixel = 2}};
     ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
     pool.follow(*planet);
     expectHolds(*planet, pool);
@@ -195,10 +195,10 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
                              return Result<ColourBlock>(ioError("colours of x_pos/1/1/1 are gone"));
                          return loadFakeTiles(parent, location);
                      }),
-                     roomForTiles(2000))
+                     roomForTiles(800))
             .value();
     TilePool pool;
-    const View view = viewAt(20, 20, 300'000, -70);
+    const View view = viewAt(20, 20, 40'000, -70);
     ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
     pool.follow(*planet);
     expectHolds(*planet, pool);
@@ -218,9 +218,9 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
 }
 
 TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
-    const auto planet = Planet::open(colouredSource(), roomForTiles(2000)).value();
+    const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
     TilePool pool;
-    const View view = viewAt(20, 20, 300'000, -70);
+    const View view = viewAt(20, 20, 40'000, -70);
     ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
     pool.follow(*planet);
     const std::set<ChunkId> before = shown(*planet);
@@ -239,9 +239,9 @@ TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
     planet->startAnew();
     comesAgain();
     PagingSettings fewer = planet->pagingSettings();
-    fewer.maxColourTiles = 1000;
+    fewer.maxColourTiles = 500;
     ASSERT_TRUE(planet->setPaging(fewer));
-    EXPECT_EQ(planet->colourPaging().tileCapacity, 998u);
+    EXPECT_EQ(planet->colourPaging().tileCapacity, 498u);
     comesAgain();
 }
 
@@ -249,7 +249,7 @@ TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
     const auto tooFew = Planet::open(colouredSource(), roomForTiles(20));
     ASSERT_FALSE(tooFew);
     EXPECT_THAT(tooFew.error().message, HasSubstr("room for 20 tiles of colour is too little"));
-    PagingSettings settings = roomForTiles(2000);
+    PagingSettings settings = roomForTiles(800);
     settings.colourShare = 0.95;
     const auto tooLarge = Planet::open(colouredSource(), settings);
     ASSERT_FALSE(tooLarge);
@@ -269,7 +269,7 @@ TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
     other->keepMoves(true);
     std::size_t ofColours = 0;
     for (int i = 0; i < 200; ++i) {
-        const ViewInput input{.lodView = viewAt(20, 30 + 0.3 * i, 300'000, -60), .lod = fineSettings()};
+        const ViewInput input{.lodView = viewAt(20, 30 + 0.3 * i, 40'000, -60), .lod = fineSettings()};
         planet->step({&input, 1}, noUpload, 1.0 / 60);
         const PagingMoves moves = planet->takeMoves();
         ASSERT_TRUE(other->follow(moves)) << i;
