@@ -1,8 +1,8 @@
 // Chooses which tiles of colour a view wants, independent of which chunks it draws.
 //
-// A texel of level l is at most s_l = 2 R / (colourTileCells 2^l) metres wide: Nowell's map nowhere stretches
-// more than in a face's middle, where the cube's grid has its own spacing. Seen from D metres it covers
-// s_l K' / D pixels, so a tile is fine enough while
+// A texel of level l is at most s_l = 2 R / (colourTileCells 2^l) metres wide: Nowell's map gives the cube's
+// grid its own spacing at the middle of a face's edges, and stretches it nowhere more (in a face's middle it
+// is 0.71 of that). Seen from D metres it covers s_l K' / D pixels, so a tile is fine enough while
 //
 //   texels a pixel = D / (s_l K')  >=  the wanted,
 //

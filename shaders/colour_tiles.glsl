@@ -20,7 +20,7 @@ vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
     int leafLevel = colouring.x;
     int across = 1 << level;
     ivec2 cell = clamp(ivec2(place * float(across)), ivec2(0), ivec2(across - 1));
-    uvec2 page = texelFetch(colourPages, ivec3(cell, int(face)), leafLevel - level).rg;
+    uvec2 page = texelFetch(colourPages, ivec3(cell, int(face + 0.5)), leafLevel - level).rg;
     float tiles = float(1 << int(page.g));
     vec2 tile = clamp(floor(place * tiles), vec2(0.0), vec2(tiles - 1.0));
     float scale = tiles * tileCells / tileTexels;
