@@ -109,6 +109,7 @@ Result<bool> replayFlight(const ReplayOptions& options) {
         if (watch.interrupted()) return planet::cancelled();
         if (const Result<void> stepped = replay->step(headless(**planet)); !stepped)
             return tl::unexpected(stepped.error());
+        static_cast<void>((*planet)->takeColourChanges());  // nothing draws them
     }
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printReport(*replay);

@@ -83,6 +83,23 @@ void fitLayers(Scene& scene, const ui::LayerSettings& layers, planet::gl::LayerD
     drawing.pictures = picturesOf(layers.set, scene.layers);
 }
 
+// The pool of tiles does what the planet's paging has done since the last picture.
+void followColours(Scene& scene) {
+    const std::optional<planet::ColourPyramid>& colour = scene.planet->colour();
+    if (!colour) return;
+    const planet::gl::ColourPoolConfig wanted{colour->format, colour->leafLevel,
+                                              scene.planet->colourPaging().tileCapacity};
+    if (scene.colourPool != wanted) {
+        // Where there is no room for it the image or the ramp is drawn.
+        const bool made = scene.renderer.setColours(wanted).has_value();
+        if (!made) static_cast<void>(scene.renderer.setColours(std::nullopt));
+        scene.colourPool = wanted;
+        scene.drawsColours = made;
+    }
+    const std::vector<planet::ColourChange> changes = scene.planet->takeColourChanges();
+    if (scene.drawsColours) scene.renderer.followColours(changes);
+}
+
 void beginFrame(Scene& scene) {
     scene.drawCpuMs = 0;
     scene.drawn = {};
@@ -125,6 +142,13 @@ planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     return lod;
 }
 
+planet::ColourSettings colourSettingsOf(const ui::ViewSettings& settings) {
+    const ui::SurfaceSettings& surface = settings.surface;
+    const bool seen = surface.streamed && surface.surface == planet::gl::SurfaceColour::Image &&
+                      surface.imageOpacity > 0 && !settings.overlay.cube;
+    return {.enabled = seen, .texelsPerPixel = surface.texelsPerPixel};
+}
+
 planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused,
                                         std::optional<planet::PagingTime> time) {
     const planet::PagingTime asSet =
@@ -134,6 +158,7 @@ planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool p
             .uploadLimitMs = settings.paging.uploadLimitMs,
             .paused = paused,
             .badDisk = settings.paging.badDisk,
+            .colourShare = settings.paging.colourShare,
             .time = time.value_or(asSet)};
 }
 
@@ -144,6 +169,8 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     planet::gl::RenderSettings render;
     render.surface = surface.surface;
     render.imageOpacity = surface.imageOpacity;
+    render.streamed = surface.streamed;
+    render.texelsPerPixel = surface.texelsPerPixel;
     render.rampTopM = rampTopM(tree);
     // Users name true heights; the renderer's are as drawn.
     render.ramp = surface.ramp;
@@ -194,15 +221,16 @@ void step(Scene& scene, std::span<const planet::ViewInput> views, std::optional<
 
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                std::optional<double> elapsedS) {
-    const planet::ViewInput only{lodView, lodSettingsOf(settings)};
+    const planet::ViewInput only{lodView, lodSettingsOf(settings), 1, colourSettingsOf(settings)};
     step(scene, std::span(&only, 1), elapsedS);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
                const ui::ViewSettings& settings, std::optional<double> elapsedS) {
     const planet::LodSettings lod = lodSettingsOf(settings);
+    const planet::ColourSettings colours = colourSettingsOf(settings);
     const std::array<planet::ViewInput, 2> views = {
-        {{lodView, lod}, {observerView, lod, observerPriorityFactor}}};
+        {{lodView, lod, 1, colours}, {observerView, lod, observerPriorityFactor, colours}}};
     step(scene, views, elapsedS);
 }
 
@@ -219,6 +247,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
+    followColours(scene);
     scene.renderer.draw(renderView, items, render, tints);
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
@@ -236,7 +265,8 @@ std::vector<std::string> takeLayerProblems(Scene& scene) {
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS) {
     beginFrame(scene);
-    return scene.planet->settle(lodView, lodSettingsOf(settings), uploadInto(scene.renderer), timeoutS);
+    const planet::ViewInput only{lodView, lodSettingsOf(settings), 1, colourSettingsOf(settings)};
+    return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
 }
 
 ui::FrameStats statsOf(const Scene& scene) {

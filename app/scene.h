@@ -25,6 +25,9 @@ struct Scene {
     double drawCpuMs = 0;
     planet::gl::RenderCounters drawn{};
     double exaggeration = 1;  // last asked for
+    // Of the file's own colours: the pool that was last asked for, and whether it could be made.
+    std::optional<planet::gl::ColourPoolConfig> colourPool{};
+    bool drawsColours = false;
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
     LayerPictures layers{};  // read when they are first drawn
@@ -45,6 +48,7 @@ inline constexpr double observerPriorityFactor = 0.5;
 // The user's units into the library's, here and nowhere else.
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings);
 // time: in place of what the settings say.
+planet::ColourSettings colourSettingsOf(const ui::ViewSettings& settings);
 planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused = false,
                                         std::optional<planet::PagingTime> time = std::nullopt);
 planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,

@@ -23,7 +23,8 @@
 namespace planet {
 
 struct ColourSettings {
-    bool enabled = true;  // off: no tile below the roots is asked for
+    // On: tiles are asked for, and Planet::takeColourChanges() is to be called. Off: none below the roots.
+    bool enabled = false;
     // Larger: sharper, and four times the tiles for twice as many; [0.1, 4].
     double texelsPerPixel = 1;
 

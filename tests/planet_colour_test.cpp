@@ -50,6 +50,17 @@ PagingSettings roomForTiles(std::uint32_t tiles) {
     return settings;
 }
 
+ViewInput coloured(const View& view, double texelsPerPixel = 1) {
+    return {.lodView = view,
+            .lod = fineSettings(),
+            .colours = {.enabled = true, .texelsPerPixel = texelsPerPixel}};
+}
+
+bool settled(Planet& planet, const View& view, double texelsPerPixel = 1) {
+    const ViewInput input = coloured(view, texelsPerPixel);
+    return planet.settle({&input, 1}, noUpload, timeoutS);
+}
+
 // What a renderer would hold.
 struct TilePool {
     std::map<std::uint32_t, ChunkId> tiles;  // by slot
@@ -104,8 +115,7 @@ TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
     TilePool pool;
     const View view = viewAt(20, 30, 40'000, -70);
     for (const double wanted : {0.4, 0.8, 1.2}) {
-        const ViewInput input{.lodView = view, .lod = fineSettings(), .colours = {.texelsPerPixel = wanted}};
-        ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
+        ASSERT_TRUE(settled(*planet, view, wanted));
         pool.follow(*planet);
         expectHolds(*planet, pool);
         const ColourSelection& selection = planet->colourSelection();
@@ -136,22 +146,20 @@ TEST(PlanetColours, ATexelIsAsWideAsTheMapStretchesItAtMost) {
 }
 
 TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
-    const auto coloured = Planet::open(colouredSource(), roomForTiles(800)).value();
+    const auto withColours = Planet::open(colouredSource(), roomForTiles(800)).value();
     const auto plain = openFake();
     for (const double altitudeM : {1e7, 1e6, 1e5}) {
         const View view = viewAt(10, 50, altitudeM);
-        ASSERT_TRUE(coloured->settle(view, fineSettings(), noUpload, timeoutS));
+        ASSERT_TRUE(settled(*withColours, view));
         ASSERT_TRUE(plain->settle(view, fineSettings(), noUpload, timeoutS));
-        EXPECT_EQ(drawn(*coloured), drawn(*plain));
+        EXPECT_EQ(drawn(*withColours), drawn(*plain));
     }
-    EXPECT_EQ(coloured->paging().residentChunks, plain->paging().residentChunks);
+    EXPECT_EQ(withColours->paging().residentChunks, plain->paging().residentChunks);
 }
 
 TEST(PlanetColours, OffTheyAskForNothing) {
     const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
-    const ViewInput input{
-        .lodView = viewAt(10, 50, 1e5), .lod = fineSettings(), .colours = {.enabled = false}};
-    ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
+    ASSERT_TRUE(planet->settle(viewAt(10, 50, 1e5), fineSettings(), noUpload, timeoutS));
     EXPECT_EQ(planet->colourTree().residentTiles, 6u);
     EXPECT_EQ(planet->colourPaging().loaded, 0u);
 }
@@ -163,18 +171,14 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
     const auto planet = Planet::open(colouredSource(), settings).value();
     TilePool pool;
     for (int i = 0; i < 400; ++i) {
-        const ViewInput input{.lodView = viewAt(20 + 0.05 * i, 30 + 0.4 * i, 60'000 - 100 * i, -60),
-                              .lod = fineSettings(),
-                              .colours = {.texelsPerPixel = 1}};
+        const ViewInput input = coloured(viewAt(20 + 0.05 * i, 30 + 0.4 * i, 60'000 - 100 * i, -60));
         planet->step({&input, 1}, noUpload, 1.0 / 60);
         pool.follow(*planet);
         expectHolds(*planet, pool);
         if (HasFailure()) return;
     }
     EXPECT_GT(planet->colourPaging().evicted, 10u);
-    const ViewInput input{
-        .lodView = viewAt(40, 190, 2e4, -60), .lod = fineSettings(), .colours = {.texelsPerPixel = 2}};
-    ASSERT_TRUE(planet->settle({&input, 1}, noUpload, timeoutS));
+    ASSERT_TRUE(settled(*planet, viewAt(40, 190, 2e4, -60), 2));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     // What waits is wanted no more than half as much again as what is there.
@@ -199,7 +203,7 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
             .value();
     TilePool pool;
     const View view = viewAt(20, 20, 40'000, -70);
-    ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+    ASSERT_TRUE(settled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_THAT(planet->takeProblems(), testing::ElementsAre(HasSubstr("x_pos/1/1/1 are gone")));
@@ -209,7 +213,7 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
     broken = false;
     pool.checkers.clear();
     planet->retryFailed();
-    ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+    ASSERT_TRUE(settled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_TRUE(pool.checkers.empty());
@@ -221,13 +225,13 @@ TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
     const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
     TilePool pool;
     const View view = viewAt(20, 20, 40'000, -70);
-    ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+    ASSERT_TRUE(settled(*planet, view));
     pool.follow(*planet);
     const std::set<ChunkId> before = shown(*planet);
     const auto comesAgain = [&] {
         pool.follow(*planet);
         EXPECT_EQ(pool.tiles.size(), 6u);
-        ASSERT_TRUE(planet->settle(view, fineSettings(), noUpload, timeoutS));
+        ASSERT_TRUE(settled(*planet, view));
         pool.follow(*planet);
         expectHolds(*planet, pool);
         EXPECT_EQ(shown(*planet), before);
@@ -269,7 +273,7 @@ TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
     other->keepMoves(true);
     std::size_t ofColours = 0;
     for (int i = 0; i < 200; ++i) {
-        const ViewInput input{.lodView = viewAt(20, 30 + 0.3 * i, 40'000, -60), .lod = fineSettings()};
+        const ViewInput input = coloured(viewAt(20, 30 + 0.3 * i, 40'000, -60));
         planet->step({&input, 1}, noUpload, 1.0 / 60);
         const PagingMoves moves = planet->takeMoves();
         ASSERT_TRUE(other->follow(moves)) << i;

@@ -37,9 +37,10 @@ struct SeamKnobs {
 };
 
 struct PagingKnobs {
-    int budgetMB = 256;        // memory for resident chunks, CPU and GPU together, MiB, [16, 65536]
-    int loaderThreads = 1;     // threads that read chunks, [1, 64]
-    double uploadLimitMs = 4;  // time a frame spent on loaded chunks, ms, [0.1, 100]
+    int budgetMB = 256;         // memory for resident chunks, CPU and GPU together, MiB, [16, 65536]
+    int loaderThreads = 1;      // threads that read chunks, [1, 64]
+    double uploadLimitMs = 4;   // time a frame spent on loaded chunks, ms, [0.1, 100]
+    double colourShare = 0.25;  // of the budget, for streamed colours where there are any, [0.01, 0.9]
     planet::BadDiskSettings badDisk;
     bool simulated = false;  // reads end by the bad disk and its seed in the time of frames, not by the clock
 
@@ -84,6 +85,8 @@ struct LayerSettings {
 struct SurfaceSettings {
     planet::gl::SurfaceColour surface = planet::gl::SurfaceColour::Image;
     double imageOpacity = 1;                 // of the colour image over the ramp, [0, 1]
+    bool streamed = true;                    // the file's own colours instead of an image, where it has them
+    double texelsPerPixel = 1;               // of streamed colours, [0.1, 4]
     std::vector<planet::gl::RampStop> ramp;  // lowest first; empty: the built-in ramp
     bool sea = true;
     double seaLevelM = 0;     // [-20000, 20000]
