@@ -33,12 +33,18 @@ constexpr std::size_t latencyBuckets = 36;
 
 // Controls.
 
-void knobs(PagingKnobs& paging) {
+void knobs(PagingKnobs& paging, bool hasColours) {
     const PagingKnobs defaults;
     slider("Budget", paging.budgetMB, defaults.budgetMB, 16, 65536, "%d MiB",
            "Memory for resident chunks, CPU and GPU together, MiB. Smaller: when it is full, what is wanted "
            "stays coarse, and turning back loads again. Larger: takes it from everything else.",
            ImGuiSliderFlags_Logarithmic);
+    if (hasColours) {
+        slider("Colours' share", paging.colourShare, defaults.colourShare, 0.01, 0.9, "%.2f",
+               "Of the budget, for streamed tiles of colour. Larger: sharper colours, and coarser ground "
+               "once the "
+               "budget is full.");
+    }
     slider("Loaders", paging.loaderThreads, defaults.loaderThreads, 1, 64, "%d",
            "Threads that read and decode chunks. More: a slow disk keeps more reads in flight, but they take "
            "cores from the frame.",
@@ -434,7 +440,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
 void controls(const EditorView& view, const PagingPanelState& state, ViewSettings& settings,
               Commands& commands) {
     memory(view);
-    knobs(settings.paging);
+    knobs(settings.paging, view.planet->colour().has_value());
     buttons(view, state.sample.failedBlocks, commands);
 }
 
@@ -465,7 +471,7 @@ void tables(const EditorView& view, PagingPanelState& state, Commands& commands)
 void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& settings,
                  Commands& commands) {
     if (!view.planet) {
-        knobs(settings.paging);
+        knobs(settings.paging, false);
         badDisk(settings.paging);
         return emptyState("Requests show here once a planet is open.");
     }

@@ -34,18 +34,46 @@ HeightRange heightsOf(const EditorView& view, double seaLevelM) {
             planet::heightM(tree.storedShape, tree.maxStep) - seaLevelM};
 }
 
+// Of colours that the file itself holds.
+void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
+    const SurfaceSettings defaults;
+    checkbox(
+        "Streamed", surface.streamed, defaults.streamed,
+        "The colours that were baked into the file, loaded tile by tile as they come near. Off: the image "
+        "beside the source, if there is one, else the ramp.");
+    ImGui::BeginDisabled(!surface.streamed);
+    slider(
+        "Texels a pixel", surface.texelsPerPixel, defaults.texelsPerPixel, 0.1, 4, "%.2f",
+        "A tile is loaded in four finer ones while it has fewer texels than this for a pixel of the picture. "
+        "Larger: sharper, up to four times the tiles for twice as many, and it may shimmer. Smaller: softer.",
+        ImGuiSliderFlags_Logarithmic);
+    ImGui::EndDisabled();
+    const planet::ColourCounters& seen = view.planet->colourSelection().counters;
+    const planet::ColourPagingCounters& paging = view.planet->colourPaging();
+    if (!beginValues("streamed")) return;
+    valueRow(
+        "Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
+        "Resident, of those that the colours' share of the budget has room for. The share is in Paging.");
+    valueRow("Finest level", fmt::format("{} of {}", seen.deepestLevel, view.planet->colour()->leafLevel),
+             "Of the tiles in view, and of the file.");
+    valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than wanted.");
+    endValues();
+}
+
 void colourKnobs(const EditorView& view, SurfaceSettings& surface) {
     const SurfaceSettings defaults;
+    const bool hasOwn = view.planet && view.planet->colour();
+    const bool hasAny = hasOwn || view.data.hasColourImage;
     choice("Colour", surface.surface, defaults.surface, "image\0height ramp\0",
-           view.data.hasColourImage ? "The colour image, or a ramp of colours by height."
-                                    : "No colour image is loaded, so the ramp is drawn for both.");
-    const bool image = surface.surface == planet::gl::SurfaceColour::Image && view.data.hasColourImage;
+           hasAny ? "The colour image, or a ramp of colours by height."
+                  : "No colour image is loaded, so the ramp is drawn for both.");
+    const bool image = surface.surface == planet::gl::SurfaceColour::Image && hasAny;
     ImGui::BeginDisabled(!image);
     slider("Image opacity", surface.imageOpacity, defaults.imageOpacity, 0, 1, "%.2f",
-           view.data.hasColourImage
-               ? "Of the colour image over the ramp, 0 to 1. Less: more of the ramp, less "
-                 "of the real colours."
-               : "No colour image is loaded.");
+           hasAny ? "Of the colour image over the ramp, 0 to 1. Less: more of the ramp, less "
+                    "of the real colours."
+                  : "No colour image is loaded.");
+    if (hasOwn) streamedKnobs(view, surface);
     ImGui::EndDisabled();
 }
 
