@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include "planet/gl/layer_textures.h"
 
 namespace worldy {
 

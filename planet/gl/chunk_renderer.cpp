@@ -16,11 +16,13 @@
 
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_image.h"
+#include "planet/gl/colour_pool.h"
 #include "planet/gl/detail_noise.h"
 #include "planet/gl/frame_uniforms.h"
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/gpu_timer.h"
 #include "planet/gl/height_pool.h"
+#include "planet/gl/layer_textures.h"
 #include "planet/gl/layer_uniforms.h"
 #include "planet/gl/shader_source.h"
 #include "planet/gl/software_renderer.h"

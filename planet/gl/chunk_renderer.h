@@ -12,11 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "planet/gl/colour_pool.h"
+#include "planet/gl/colour_pool_config.h"
 #include "planet/gl/layer_drawing.h"
-#include "planet/gl/layer_textures.h"
+#include "planet/gl/layer_picture.h"
 #include "planet/gl/projection.h"
 #include "planet/lod_select.h"
+#include "planet/planet.h"
 #include "planet/planet_shape.h"
 #include "planet/result.h"
 #include "planet/view.h"

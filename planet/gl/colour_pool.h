@@ -15,19 +15,12 @@
 #include <vector>
 
 #include "planet/colour_tile.h"
+#include "planet/gl/colour_pool_config.h"
 #include "planet/gl/gl_objects.h"
 #include "planet/planet.h"
 #include "planet/result.h"
 
 namespace planet::gl {
-
-struct ColourPoolConfig {
-    ColourFormat format = ColourFormat::Bc1;
-    int leafLevel = 0;
-    std::uint32_t tileCapacity = 0;  // ColourPagingCounters::tileCapacity
-
-    bool operator==(const ColourPoolConfig&) const = default;
-};
 
 // The most tiles that the context can hold in one pool.
 std::uint32_t mostColourTiles();

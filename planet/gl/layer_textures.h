@@ -9,14 +9,9 @@
 #include <vector>
 
 #include "planet/gl/gl_objects.h"
+#include "planet/gl/layer_picture.h"
 
 namespace planet::gl {
-
-// size x size texels, row 0 at the top.
-struct LayerPicture {
-    std::vector<std::uint8_t> albedo;   // RGBA: sRGB and relief
-    std::vector<std::uint8_t> surface;  // RGBA: the normal's x and y, 128 is 0; roughness; unused
-};
 
 // Magenta and black squares, eight a side, level and rough.
 LayerPicture checkerPicture(int size);

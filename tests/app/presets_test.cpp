@@ -153,7 +153,8 @@ TEST(ShippedPresets, AllCanBeReadAndChangeSomethingAndTheDefaultHoldsEverything)
         EXPECT_TRUE(checkPresetName(view.name));
         EXPECT_EQ(view.differences.empty(), view.name == defaultPreset) << view.name;
     }
-    EXPECT_THAT(names, ElementsAre("airless moon", "crack hunting", "default", "overview", "popping", "slow disk"));
+    EXPECT_THAT(names,
+                ElementsAre("airless moon", "crack hunting", "default", "overview", "popping", "slow disk"));
     const planet::Result<ViewPart> all = loadViewPart(data / "default.toml");
     ASSERT_TRUE(all);
     EXPECT_EQ(all->values, ui::ViewSettings{});

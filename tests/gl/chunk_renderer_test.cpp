@@ -1,5 +1,6 @@
 // Pictures of made-up planets, against what geometry says they must show.
 #include "planet/gl/chunk_renderer.h"
+#include "planet/gl/layer_textures.h"
 
 #include <gmock/gmock.h>
 
