@@ -92,7 +92,8 @@ void Planet::step(const View& lodView, const LodSettings& settings, const Upload
 }
 
 void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload) {
-    step(views, upload, state_->clockS());
+    const double elapsedS = state_->clockS();
+    state_->step(views, upload, elapsedS, elapsedS);
 }
 
 void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload, double elapsedS) {

@@ -186,13 +186,14 @@ void progressLines(const EditorView& view, Commands& commands) {
     else if (p.leftS)
         now +=
             fmt::format("; {}{} left", view.sweep.suggesting ? "at most " : "about ", durationText(*p.leftS));
-    wrapped(palette().dim, now);
+    // Over the text, whose lines come and go.
     ImGui::BeginDisabled(view.sweep.cancelling);
     if (button("Cancel",
                "Ends it within a moment. Points flown by then stay to be looked at, but are not "
                "saved."))
         commands.push_back(CancelSweep{});
     ImGui::EndDisabled();
+    wrapped(palette().dim, now);
 }
 
 // Why nothing can be run; empty: it can.

@@ -75,13 +75,7 @@ TEST(CracksCommand, AFileWhoseNameIsNotUtf8IsReported) {
 TEST(CracksCommand, TooManyViewsEndWithTwo) {
     const TemporaryFolder folder;
     bakePlanet(folder);
-    std::ofstream flight(folder.path() / "long.toml");
-    for (const int timeS : {0, 1'000'000}) {
-        flight << "[[key]]\ntime_s = " << timeS
-               << "\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = 90000\nheading_deg = 0\npitch_deg = "
-                  "-40\n";
-    }
-    flight.close();
+    writeLongFlight(folder);
     for (const char* step : {"1", "0.001"}) {
         const Ran ran =
             runWorldy(folder, std::string("cracks planet.chk --flight long.toml --step-s ") + step);

@@ -58,13 +58,7 @@ TEST_F(PopsCommand, SaysWhatIsWrongWithItsInput) {
 }
 
 TEST_F(PopsCommand, TooManyFramesEndWithTwo) {
-    std::ofstream flight(folder.path() / "long.toml");
-    for (const int timeS : {0, 1'000'000}) {
-        flight << "[[key]]\ntime_s = " << timeS
-               << "\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = 90000\nheading_deg = 0\npitch_deg = "
-                  "-40\n";
-    }
-    flight.close();
+    writeLongFlight(folder);
     const Ran ran = runWorldy(folder, "pops planet.chk --flight long.toml --step-s 1e-4");
     EXPECT_EQ(ran.exitCode, 2);
     EXPECT_THAT(ran.errors, HasSubstr("more than 10000000 frames; a longer step would be right"));

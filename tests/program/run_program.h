@@ -40,4 +40,14 @@ inline Ran runWorldy(const TemporaryFolder& folder, const std::string& arguments
     return runShell(folder, "'" WORLDY_BINARY "' " + arguments);
 }
 
+// "long.toml": a flight of a million seconds, for what must be refused as too many steps.
+inline void writeLongFlight(const TemporaryFolder& folder) {
+    std::ofstream flight(folder.path() / "long.toml");
+    for (const int timeS : {0, 1'000'000}) {
+        flight << "[[key]]\ntime_s = " << timeS
+               << "\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = 90000\nheading_deg = 0\npitch_deg = "
+                  "-40\n";
+    }
+}
+
 }  // namespace worldy
