@@ -33,7 +33,7 @@ ui::ViewSettings benchSettings(double tauPx, int budgetMB) {
     settings.surface.lighting = false;
     settings.surface.atmosphere = false;
     settings.surface.detail = false;
-    settings.surface.layers.use = planet::gl::LayerUse::Off;
+    settings.surface.layers.use = planet::gl::FeatureUse::Off;
     settings.surface.surface = planet::gl::SurfaceColour::HeightRamp;
     return settings;
 }

@@ -103,7 +103,6 @@ ui::LayersView layersViewOf(const LayerDesk& desk, const Scene* scene, const ui:
     if (view.under) view.under->weights = planet::layerWeights(layers.set, view.under->place);
     const LayerPictures none;
     const LayerPictures& pictures = scene ? scene->layers : none;
-    view.software = scene && scene->renderer.capabilities().software;
     view.problems = problemsOf(layers.set, pictures);
     view.colours = coloursOf(layers.set, pictures);
     return view;

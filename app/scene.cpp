@@ -10,6 +10,7 @@
 #include "app/layer_file.h"
 #include "app/stopwatch.h"
 #include "planet/cube_sphere.h"
+#include "ui/sun_knobs.h"
 
 namespace worldy {
 
@@ -77,8 +78,7 @@ planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers, double 
 // Only where layers are drawn: most of the time it is nothing to do.
 void fitLayers(Scene& scene, const ui::LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
     const bool software = scene.renderer.capabilities().software;
-    if (layers.use == planet::gl::LayerUse::Off) return;
-    if (layers.use == planet::gl::LayerUse::Automatic && software) return;
+    if (!planet::gl::isUsed(layers.use, software)) return;
     fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer, scene.layers);
     drawing.pictures = picturesOf(layers.set, scene.layers);
 }
@@ -185,10 +185,9 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     render.atmosphere = surface.atmosphere && !overlay.cube;
     render.lighting = surface.lighting;
     render.detail = surface.detail;
-    render.sunDirection = surface.sunFollows
-                              ? morningSun(view.eyeM)
-                              : planet::directionFromGeographic({glm::radians(surface.sunLatitudeDeg),
-                                                                 glm::radians(surface.sunLongitudeDeg)});
+    render.sunDirection = surface.sunFollows ? morningSun(view.eyeM)
+                                             : planet::directionFromGeographic(ui::sunOverheadOf(surface));
+    render.light = surface.light;
     render.layers = layerDrawingOf(surface.layers, tree.exaggeration);
     return render;
 }

@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 3> cameraModeNames = {"fly", "orbi
 inline constexpr std::array<std::string_view, 3> observerModeNames = {"off", "split", "alone"};
 inline constexpr std::array<std::string_view, 4> compareModeNames = {"side_by_side", "wipe", "difference",
                                                                      "flip"};
-inline constexpr std::array<std::string_view, 3> layerUseNames = {"automatic", "on", "off"};
+inline constexpr std::array<std::string_view, 3> featureUseNames = {"automatic", "on", "off"};
 inline constexpr std::array<std::string_view, 3> layerPreviewNames = {"off", "heat", "mask"};
 inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
 inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};

@@ -148,10 +148,45 @@ void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
           Flag{&surface.detail}},
          {"surface", "sun_follows", "Keep the sun to the camera's east, so that it is always day there.",
           Flag{&surface.sunFollows}},
+         {"surface", "sun_by_date", "Else: the sun stands as at a moment over the Earth, universal time,",
+          Flag{&surface.sunByDate}},
+         {"surface", "sun_year", "in this year,", Integer{&surface.sunDate.year, {1950, 2050, ""}}},
+         {"surface", "sun_month", "this month,", Integer{&surface.sunDate.month, {1, 12, ""}}},
+         {"surface", "sun_day", "on this day, or the month's last,",
+          Integer{&surface.sunDate.day, {1, 31, ""}}},
+         {"surface", "sun_hour", "at this hour, with a fraction.",
+          Number{&surface.sunDate.hour, {0, 24, "hours"}}},
          {"surface", "sun_latitude_deg", "Else: where the sun stands in the zenith, degrees north.",
           Number{&surface.sunLatitudeDeg, {-90, 90, "degrees"}}},
          {"surface", "sun_longitude_deg", "Where the sun stands in the zenith, degrees east.",
           Number{&surface.sunLongitudeDeg, {-180, 180, "degrees"}}}});
+}
+
+void addLight(Fields& fields, planet::gl::LightDrawing& light) {
+    fields.insert(
+        fields.end(),
+        {{"light", "air", "The physical atmosphere: automatic (off where the CPU draws), on or off.",
+          Choice{asByte(light.air.use), featureUseNames}},
+         {"light", "sea", "Waves, mirrored sky and depth of the sea: automatic, on or off.",
+          Choice{asByte(light.sea.use), featureUseNames}},
+         {"light", "sea_wind_mps", "Wind over the sea: more spreads the sun's glint.",
+          Number{&light.sea.windMps, {0, 30, "metres a second"}}},
+         {"light", "sea_clarity_m", "Depth of water that takes away all but 1 / e of green light.",
+          Number{&light.sea.clarityM, {0.5, 100, "metres"}}},
+         {"light", "sea_waves", "Strength of the waves that are seen one by one.",
+          Number{&light.sea.waves, {0, 2, ""}}},
+         {"light", "shadows", "The ground's shadows on itself: automatic, on or off.",
+          Choice{asByte(light.shadows.use), featureUseNames}},
+         {"light", "shadow_map_px", "Side of each cascade's map, pixels; larger: sharper.",
+          Integer{&light.shadows.mapSizePx, {256, 8192, "pixels"}}},
+         {"light", "shadow_reach_m", "Shadows reach so far from the eye; larger: coarser everywhere.",
+          Number{&light.shadows.reachM, {1000, 1e7, "metres"}}},
+         {"light", "shadow_softness", "Radius of the shadows' filter, texels of the map.",
+          Number{&light.shadows.softness, {0, 4, "texels"}}},
+         {"light", "normals", "Normals finer than the mesh: automatic, on or off.",
+          Choice{asByte(light.normals.use), featureUseNames}},
+         {"light", "normal_texels_per_pixel", "Of them; larger: sharper, and more memory.",
+          Number{&light.normals.texelsPerPixel, {0.1, 4, ""}}}});
 }
 
 void addLayers(Fields& fields, ui::LayerSettings& layers) {
@@ -159,7 +194,7 @@ void addLayers(Fields& fields, ui::LayerSettings& layers) {
         fields.end(),
         {{"surface", "layer_use",
           "Texture layers on near ground: automatic (off where the CPU draws), on or off.",
-          Choice{asByte(layers.use), layerUseNames}},
+          Choice{asByte(layers.use), featureUseNames}},
          {"surface", "layer_opacity", "Of the layers over the image or ramp.",
           Number{&layers.opacity, {0, 1, ""}}},
          {"surface", "layer_begin_m", "Metres from the eye where they begin to give way to it,",
@@ -480,6 +515,7 @@ std::vector<Field> fieldsOf(Settings& settings) {
     addOverlay(fields, settings.view.overlay);
     addSurface(fields, settings.view.surface);
     addLayers(fields, settings.view.surface.layers);
+    addLight(fields, settings.view.surface.light);
     addView(fields, settings.view.camera);
     addCamera(fields, settings.camera);
     addWindow(fields, settings);

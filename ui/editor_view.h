@@ -18,6 +18,7 @@
 #include "ui/errors_view.h"
 #include "ui/frame_stats.h"
 #include "ui/layers_view.h"
+#include "ui/light_view.h"
 #include "ui/log_panel.h"
 #include "ui/pops_view.h"
 #include "ui/probe_view.h"
@@ -143,6 +144,7 @@ struct EditorView {
     CompareView compare{};
     SweepView sweep{};
     LayersView layers{};
+    LightView light{};
 };
 
 }  // namespace ui

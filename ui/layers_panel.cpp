@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "ui/feature_knob.h"
 #include "ui/item_map.h"
 #include "ui/layer_edit.h"
 #include "ui/layer_knobs.h"
@@ -18,18 +19,12 @@ namespace {
 
 using planet::TextureLayer;
 using planet::gl::LayerPreview;
-using planet::gl::LayerUse;
 
 constexpr const char* dragKind = "texture layer";
 
 void useKnobs(const EditorView& view, LayerSettings& layers) {
     const LayerSettings defaults;
-    choice("Layers", layers.use, defaults.use, "automatic\0on\0off\0",
-           "Materials painted on near ground. Automatic: on, but off where the CPU draws, on which they cost "
-           "more than 50 ms a frame.");
-    if (layers.use == LayerUse::Automatic && view.layers.software)
-        wrappedText("Turned down: the CPU draws here, and layers would cost more than 50 ms a frame.",
-                    palette().warning);
+    featureKnob("Layers", layers.use, view, "Materials painted on near ground.", "layers cost");
     slider("Opacity", layers.opacity, defaults.opacity, 0, 1, "%.2f",
            "Of all layers over the image or the ramp, 0 to 1.");
     slider(

@@ -25,7 +25,6 @@ struct LayerReadout {
 };
 
 struct LayersView {
-    bool software = false;              // the CPU draws: Automatic leaves layers off
     std::vector<std::string> problems;  // of each layer; empty: none
     std::vector<glm::vec3> colours;  // of each layer's textures on average, sRGB; none before they are read
     std::span<const LayerSetFile> sets;

@@ -26,9 +26,10 @@ enum class PanelId : std::uint8_t {
     Probe,
     Flight,
     Compare,
-    Sweep
+    Sweep,
+    Light
 };
-inline constexpr std::size_t panelCount = 19;
+inline constexpr std::size_t panelCount = 20;
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
 inline constexpr std::size_t dockCount = 3;
@@ -61,6 +62,7 @@ inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
     {PanelId::Flight, "Flight", "flight", "Ctrl+Shift+5", Dock::Bottom, false},
     {PanelId::Compare, "Compare", "compare", "Ctrl+Shift+6", Dock::Left, false},
     {PanelId::Sweep, "Sweep", "sweep", "Ctrl+Shift+7", Dock::Bottom, false},
+    {PanelId::Light, "Light", "light", "Ctrl+Shift+8", Dock::Right, true},
 }};
 
 }  // namespace ui

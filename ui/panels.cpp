@@ -43,6 +43,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return comparePanel(view, states.compare, settings, commands);
         case PanelId::Sweep:
             return sweepPanel(view, states.sweep, settings, commands);
+        case PanelId::Light:
+            return lightPanel(view, settings, commands);
     }
 }
 

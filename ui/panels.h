@@ -10,6 +10,7 @@
 #include "ui/errors_panel.h"
 #include "ui/flight_panel.h"
 #include "ui/frame_panel.h"
+#include "ui/light_panel.h"
 #include "ui/lod_panel.h"
 #include "ui/log_panel.h"
 #include "ui/overlay_panel.h"

@@ -202,69 +202,6 @@ void seaKnobs(SurfaceSettings& surface) {
            "vertex moves.");
 }
 
-// A map of the world, equirectangular: where the sun stands in the zenith and where the camera is. Dragging
-// moves the sun; true while it does.
-bool sunMap(const EditorView& view, SurfaceSettings& surface) {
-    const float width = std::min(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 18);
-    const ImVec2 size(width, std::round(width / 2));
-    const ImVec2 start = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton("sunMap", size);
-    ImDrawList& drawList = *ImGui::GetWindowDrawList();
-    drawList.AddRectFilled(start, {start.x + size.x, start.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
-    const auto at = [&](double latitudeDeg, double longitudeDeg) {
-        const double longitude = std::remainder(longitudeDeg, 360.0);
-        return ImVec2(start.x + static_cast<float>((longitude + 180) / 360) * size.x,
-                      start.y + static_cast<float>((90 - latitudeDeg) / 180) * size.y);
-    };
-    const ImU32 grid = ImGui::GetColorU32(ImGuiCol_Border);
-    for (int degrees = -150; degrees <= 150; degrees += 30)
-        drawList.AddLine(at(90, degrees), at(-90, degrees), grid, degrees == 0 ? 2.0f : 1.0f);
-    for (int degrees = -60; degrees <= 60; degrees += 30) {
-        const float y = at(degrees, 0).y;
-        drawList.AddLine({start.x, y}, {start.x + size.x, y}, grid, degrees == 0 ? 2.0f : 1.0f);
-    }
-    const float dot = ImGui::GetFontSize() * 0.32f;
-    const planet::CameraPose& camera = view.camera.pose;
-    drawList.AddCircle(at(camera.latitudeDeg, camera.longitudeDeg), dot, ImGui::GetColorU32(palette().accent),
-                       0, 2);
-    if (!surface.sunFollows)
-        drawList.AddCircleFilled(at(surface.sunLatitudeDeg, surface.sunLongitudeDeg), dot,
-                                 ImGui::GetColorU32(palette().warning));
-    tooltip("Drag to place the sun: where it stands in the zenith. The ring is the camera. West is left.");
-    if (!ImGui::IsItemActive()) return false;
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const auto shareX = static_cast<double>(std::clamp((mouse.x - start.x) / size.x, 0.0f, 1.0f));
-    const auto shareY = static_cast<double>(std::clamp((mouse.y - start.y) / size.y, 0.0f, 1.0f));
-    surface.sunLongitudeDeg = std::round(shareX * 360 - 180);
-    surface.sunLatitudeDeg = std::round(90 - shareY * 180);
-    return true;
-}
-
-void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
-    checkbox("Sun follows", surface.sunFollows, defaults.sunFollows,
-             "Keeps the sun to the camera's east, so that it is always day. Off: it stands where you put it, "
-             "and half of the planet lies in the dark.");
-    ImGui::BeginDisabled(surface.sunFollows);
-    slider("Sun, north", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f deg",
-           "Latitude where the sun stands in the zenith, degrees north.");
-    slider("Sun, east", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f deg",
-           "Longitude where the sun stands in the zenith, degrees east.");
-    ImGui::EndDisabled();
-    if (sunMap(view, surface)) surface.sunFollows = false;
-}
-
-void lightKnobs(SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
-    checkbox("Lighting", surface.lighting, defaults.lighting,
-             "Off: flat colour, no sun and no air before it.");
-    secondColumn();
-    checkbox("Atmosphere", surface.atmosphere, defaults.atmosphere, "Haze and sky.");
-    checkbox(
-        "Detail", surface.detail, defaults.detail,
-        "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
-}
-
 }  // namespace
 
 void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings& settings,
@@ -280,8 +217,6 @@ void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings
                "more chunks for the same tolerance, and shapes that no planet has.",
                ImGuiSliderFlags_Logarithmic);
     }
-    if (section("Sun")) sunKnobs(view, surface);
-    if (section("Light and air")) lightKnobs(surface);
     layersSections(view, state.layers, surface.layers, commands);
 }
 

@@ -9,6 +9,7 @@
 #include "planet/gl/chunk_renderer.h"
 #include "planet/layer_set.h"
 #include "planet/lod_select.h"
+#include "planet/sun.h"
 
 namespace ui {
 
@@ -69,7 +70,7 @@ struct OverlaySettings {
 
 // Materials painted on near ground.
 struct LayerSettings {
-    planet::gl::LayerUse use = planet::gl::LayerUse::Automatic;
+    planet::gl::FeatureUse use = planet::gl::FeatureUse::Automatic;
     double opacity = 1;        // over the image or ramp, [0, 1]
     double beginM = 3000;      // metres from the eye where they begin to give way to it, [0, 1e7]
     double endM = 60000;       // and where nothing is left of them, [1, 1e7]
@@ -93,10 +94,13 @@ struct SurfaceSettings {
     double exaggeration = 1;  // heights are drawn this many times as high, [0.1, 100]
     bool lighting = true;     // off: flat colour
     bool atmosphere = true;
-    bool detail = true;           // roughens the ground between the samples; invented, only for the eye
-    bool sunFollows = true;       // the sun keeps to the camera's east, so that it is always day there
-    double sunLatitudeDeg = 29;   // else: where the sun stands in the zenith, [-90, 90]
+    bool detail = true;      // roughens the ground between the samples; invented, only for the eye
+    bool sunFollows = true;  // the sun keeps to the camera's east, so that it is always day there
+    bool sunByDate = false;  // else: it stands as at a moment over the Earth,
+    planet::SunDate sunDate;
+    double sunLatitudeDeg = 29;   // or where it is placed in the zenith, [-90, 90]
     double sunLongitudeDeg = 31;  // [-180, 180]
+    planet::gl::LightDrawing light;
     LayerSettings layers;
 
     bool operator==(const SurfaceSettings&) const = default;

@@ -15,6 +15,7 @@
 #include "planet/gl/colour_pool_config.h"
 #include "planet/gl/layer_drawing.h"
 #include "planet/gl/layer_picture.h"
+#include "planet/gl/light_drawing.h"
 #include "planet/gl/projection.h"
 #include "planet/lod_select.h"
 #include "planet/planet.h"
@@ -70,6 +71,7 @@ struct RenderSettings {
     // lighting, nor where the samples are finer than two pixels.
     bool detail = true;
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
+    LightDrawing light;
     // Materials painted on near ground that is not sea; their heights count from seaLevelM.
     LayerDrawing layers;
 };

@@ -4,17 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "planet/gl/feature_use.h"
 #include "planet/layer_set.h"
 
 namespace planet::gl {
 
-// Automatic: on, but off where the CPU draws, which layers take some tens of milliseconds of.
-enum class LayerUse : std::uint8_t { Automatic, On, Off };
 // Heat: the chosen layer's weight in colours over the picture. Mask: alone, black to white.
 enum class LayerPreview : std::uint8_t { Off, Heat, Mask };
 
 struct LayerDrawing {
-    LayerUse use = LayerUse::Automatic;
+    FeatureUse use = FeatureUse::Automatic;
     LayerSet set;
     // Which of the pictures given to ChunkRenderer::setLayers each layer is drawn with; -1, or none for it:
     // the checker pattern.

@@ -65,7 +65,7 @@ void setRepeats(const View& view, double scaleM, std::size_t at, LayersUniforms&
 
 int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM) {
     if (drawing.set.layers.empty()) return 0;
-    const bool wanted = drawing.use == LayerUse::On || (drawing.use == LayerUse::Automatic && !software);
+    const bool wanted = isUsed(drawing.use, software);
     const bool seen = wanted && drawing.opacity > 0 && nearestGroundM < drawing.endM;
     return (seen ? switchLayers : 0) | (drawing.preview != LayerPreview::Off ? switchLayerPreview : 0);
 }

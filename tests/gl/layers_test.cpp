@@ -71,7 +71,7 @@ protected:
         settings_ = plainSettings();
         settings_.sea = false;
         settings_.ramp = {{0, {0.5f, 0.5f, 0.5f}}};
-        settings_.layers.use = LayerUse::On;
+        settings_.layers.use = FeatureUse::On;
         settings_.layers.colourBelow = 0;
         settings_.layers.set.blend = LayerBlend::Weight;
         settings_.layers.set.layers = {TextureLayer{}};
@@ -326,11 +326,11 @@ TEST_F(Layers, AreLeftOffWhereTheyAreNotWanted) {
     const glm::dvec3 pointM = addGround({1, 0.01, 0.01}, flat, 12);
     const glm::dvec3 eyeM = pointM + 100.0 * glm::normalize(pointM);
     EXPECT_NEAR(colourAt(eyeM, pointM).y, 0, 1);
-    settings_.layers.use = LayerUse::Off;
+    settings_.layers.use = FeatureUse::Off;
     EXPECT_NEAR(colourAt(eyeM, pointM).y, 128, 1);
-    settings_.layers.use = LayerUse::Automatic;
+    settings_.layers.use = FeatureUse::Automatic;
     EXPECT_NEAR(colourAt(eyeM, pointM).y, planet_.renderer().capabilities().software ? 128 : 0, 1);
-    settings_.layers.use = LayerUse::On;
+    settings_.layers.use = FeatureUse::On;
     settings_.sea = true;
     settings_.seaLevelM = 500;
     const glm::ivec3 sea = colourAt(eyeM, pointM);

@@ -186,8 +186,13 @@ point "surface/Sea level"; xdotool click 3; frames; click surface/reset; expect 
 click surface/Grey; choose surface/Colour "height ramp"; expect differs "$plain"; grey=$(viewport)
 click surface/Hypsometric; expect differs "$grey"
 click surface/Built-in; choose surface/Colour image; expect same "$plain"
-click surface/Lighting; expect differs "$plain"; click surface/Lighting; expect same "$plain"
-click "surface/Sun follows"; expect differs "$plain"; click "surface/Sun follows"; expect same "$plain"
+tab Light
+click light/Lighting; expect differs "$plain"; click light/Lighting; expect same "$plain"
+choose light/Sun "by date"; expect differs "$plain"; dated=$(viewport)
+slide light/Hour 0.9; expect differs "$dated"
+choose light/Sun placed; expect differs "$dated"
+choose light/Sun follows; expect same "$plain"
+tab Surface
 slide surface/Exaggeration 0.7; expect differs "$plain"
 )sh");
     const std::string settings = settingsOf(folder);
