@@ -128,6 +128,8 @@ Material rampMaterial(vec3 up, float height, float steep, float below) {
 Material imageMaterial(float height, float below, Detail detail, float strength) {
     vec4 image = imageColour(detail, strength);
     float flooded = clamp(heights.w * (6.371e6 / 30.0) / planet.x, 0.0, 1.0);
+    // Nor of shallows, whose colour is their bed's; dry land lies nowhere so deep.
+    if (isOn(switchSeaSurface)) flooded = max(flooded, smoothstep(150.0, 450.0, -height * 6.371e6 / planet.x));
     float water = below * max(image.a, flooded);
     vec3 sea = mix(image.rgb, seaByDepth(height), mix(0.8, 0.4, image.a));
     return Material(mix(image.rgb * 1.2, sea, water), water);
@@ -135,7 +137,8 @@ Material imageMaterial(float height, float below, Detail detail, float strength)
 
 // Height above the sea level.
 Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
-    float below = 1.0 - smoothstep(-30.0 * planet.x / 6.371e6, 0.0, height);
+    float shore = (isOn(switchSeaSurface) ? 2.0 : 30.0) * planet.x / 6.371e6;
+    float below = 1.0 - smoothstep(-shore, 0.0, height);
     if (!isOn(switchSea)) below = 0.0;
     if (!isOn(switchImage)) return rampMaterial(up, height, steep, below);
     Material image = imageMaterial(height, below, detail, strength);
@@ -227,8 +230,12 @@ vec3 lightByPixel() {
     }
     material = tinted(material);
     vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
-    vec3 light = material.albedo * (sunLit * max(dot(facing, sun.xyz), 0.0) + skyLit) +
-                 sunLit * (material.water * seaGlint(facing, -ray) + glint);
+    vec3 sunlight = sunLit;
+    float wet = isOn(switchSeaSurface) ? 0.0 : material.water;
+    vec3 light = material.albedo * (sunlight * max(dot(facing, sun.xyz), 0.0) + skyLit) +
+                 sunlight * (wet * seaGlint(facing, -ray) + glint);
+    if (isOn(switchSeaSurface) && material.water > 0.0)
+        light = mix(light, seaLight(position, ray, up, facePlace.z - heights.w, sunlight, skyLit), material.water);
     return throughAir(light, ray, up);
 }
 

@@ -176,7 +176,9 @@ vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
     up = faces[face].direction.xyz + place.turn;
     if (isOn(switchCube))
         return positionOnCube(faces[face], place, heights.x + float(heightStep) * planet.y - drop);
-    return positionOnSphere(faces[face], place, float(heightStep - grid.x) * planet.y - drop);
+    float rise = float(heightStep - grid.x) * planet.y;
+    if (isOn(switchSeaSurface)) rise = max(rise, surfacing.z);
+    return positionOnSphere(faces[face], place, rise - drop);
 }
 
 // What is drawn of a vertex, or of several in shares.

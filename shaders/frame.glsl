@@ -30,7 +30,8 @@ layout(std140) uniform Frame {
     vec4 detailPixels;   // pixels x metres that a step of heights and of the image covers; a step of the image,
                          // [0, 1] across a face; unused
     ivec4 grid;          // reference step; log2 of cells a chunk side; stops of the ramp; unused
-    vec4 surfacing;      // opacity of the image over the ramp; 1 where the ramp colours the sea too; unused
+    vec4 surfacing;      // opacity of the image over the ramp; 1 where the ramp colours the sea too; rise of the
+                         // sea level over the reference step, metres; unused
     vec4 rampColours[32];  // of the stops: roots of linear light; unused
     vec4 rampRises[32];  // of each: height of the one before, above the sea level; 1 / metres from there; unused
     ivec4 colouring;     // finest level of streamed colours; unused
@@ -57,6 +58,8 @@ const int switchSlide = 16384;         // some vertices morph, or move onto a co
 const int switchMorph = 32768;         // some morph: light does, too
 const int switchGather = 65536;        // edges that morph let vertices go as a coarser chunk's stitched edge does
 const int switchTiles = 131072;        // the image is streamed in tiles (colour_tiles.glsl)
+const int switchSeaSurface = 524288;   // the sea is drawn at its level, as water (sea.glsl)
+const int switchShadows = 1048576;     // the ground's on itself (shadows.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)
 const int switchLayerPreview = 33554432;
 

@@ -24,6 +24,7 @@
 #include "planet/gl/height_pool.h"
 #include "planet/gl/layer_textures.h"
 #include "planet/gl/layer_uniforms.h"
+#include "planet/gl/sea_uniforms.h"
 #include "planet/gl/shader_source.h"
 #include "planet/gl/software_renderer.h"
 
@@ -33,9 +34,9 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 7> chunkFragmentFiles = {
-    "frame.glsl",  "atmosphere.glsl",   "ground.glsl", "tone.glsl",
-    "layers.glsl", "colour_tiles.glsl", "chunk.frag"};
+constexpr std::array<std::string_view, 8> chunkFragmentFiles = {
+    "frame.glsl", "atmosphere.glsl", "ground.glsl",       "tone.glsl",
+    "sea.glsl",   "layers.glsl",     "colour_tiles.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
@@ -44,6 +45,7 @@ constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.
 
 constexpr GLuint frameBinding = 0;
 constexpr GLuint layersBinding = 4;
+constexpr GLuint seaBinding = 6;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
@@ -81,6 +83,8 @@ void connect(const Program& program) {
     if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, frameBinding);
     const GLuint layers = glGetUniformBlockIndex(program.name(), "Layers");
     if (layers != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), layers, layersBinding);
+    const GLuint sea = glGetUniformBlockIndex(program.name(), "Sea");
+    if (sea != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), sea, seaBinding);
     glUseProgram(program.name());
     glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
@@ -238,7 +242,7 @@ struct ChunkRenderer::State {
     int captureVariant = 0;
     Texture noise;
     VertexArray chunkArray, skyArray;
-    Buffer gridVertices, gridIndices, instances, frame, layersFrame;
+    Buffer gridVertices, gridIndices, instances, frame, layersFrame, seaFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
     std::vector<Instance> instanceData;
@@ -283,6 +287,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       instances(makeBuffer()),
       frame(makeBuffer()),
       layersFrame(makeBuffer()),
+      seaFrame(makeBuffer()),
       layers({}, checkerSize) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
@@ -339,11 +344,12 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
                                         const RenderSettings& settings, bool tinted) const {
     const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
     const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
-    const int variant =
-        switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted, nearestGroundM);
+    const int variant = switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted,
+                                    nearestGroundM, capabilities.software);
     const int layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
-    const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
+    constexpr int seenByPixel = switchDetail | switchSeaSurface | switchShadows;
+    const bool byVertex = (variant & switchLighting) != 0 && (variant & seenByPixel) == 0 &&
                           (layersSeen & switchLayers) == 0 &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
     return variant | layersSeen | (byVertex ? switchLightByVertex : 0) |
@@ -394,6 +400,9 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
         layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), layers.means());
     glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
+    const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.layers.exaggeration);
+    glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
 }
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
@@ -405,6 +414,7 @@ ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) 
 void ChunkRenderer::State::bindInputs() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, layersBinding, layersFrame.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, seaBinding, seaFrame.name());
     glActiveTexture(GL_TEXTURE0 + layerAlbedoUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, layers.albedo());
     glActiveTexture(GL_TEXTURE0 + layerSurfaceUnit);
@@ -568,7 +578,7 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
                                                                   std::span<const DrawItem> items,
                                                                   const RenderSettings& settings) {
     State& state = *state_;
-    const int variant = state.chooseVariant(view, items, settings, false);
+    const int variant = state.chooseVariant(view, items, settings, false) & ~switchSeaSurface;
     if (state.capture.name() == 0 || state.captureVariant != variant) {
         const std::array<const char*, 1> captured = {"surface"};
         Result<Program> program =
@@ -616,7 +626,8 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
 
 GpuMemory ChunkRenderer::gpuMemory() const {
     return {state_->pool.layout().bytes(),
-            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms),
+            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
+                sizeof(SeaUniforms),
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
                 (state_->colours ? state_->colours->bytes() : 0)};
 }

@@ -152,7 +152,7 @@ public:
     const Projection& projection() const;
 
     // The positions that the vertex shader makes of the items' grids, morph and stitched edges included,
-    // skirts left out, read back: metres from the eye in world axes, chunkVertexCount for each item. Waits
+    // skirts and the sea's surface left out, read back: metres from the eye in world axes, chunkVertexCount for each item. Waits
     // for the GPU; for tests and measuring. Draws nothing, but OpenGL wants a complete framebuffer bound.
     Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
                                                        const RenderSettings& settings);

@@ -102,7 +102,8 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
     const std::vector<RampStop>& ramp = settings.ramp;
     assert(ramp.size() <= maxRampStops);
     const bool coloursSea = !ramp.empty() && ramp.front().heightM < 0;
-    uniforms.surfacing = glm::dvec4(std::clamp(settings.imageOpacity, 0.0, 1.0), coloursSea, 0, 0);
+    uniforms.surfacing.x = static_cast<float>(std::clamp(settings.imageOpacity, 0.0, 1.0));
+    uniforms.surfacing.y = coloursSea ? 1 : 0;
     const std::size_t count = std::min(ramp.size(), maxRampStops);
     uniforms.grid.z = static_cast<int>(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -120,7 +121,7 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
 }  // namespace
 
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColoursDrawn& colours, bool tinted, double nearestGroundM) {
+                const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software) {
     const bool withImage =
         colours.exist() && settings.surface == SurfaceColour::Image && settings.imageOpacity > 0;
     const bool rampSeen = !withImage || settings.imageOpacity < 1;
@@ -130,10 +131,12 @@ int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings
     const bool detail = settings.detail && settings.lighting && !settings.cube && !tinted && stepPx > 2;
     const bool fineDetail = detail && stepPx > 200;
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
-    return (settings.lighting ? switchLighting : 0) | (settings.wireframe ? switchWireframe : 0) |
-           (settings.cube ? switchCube : 0) | (withImage ? switchImage : 0) |
-           (withImage && colours.streamed ? switchTiles : 0) | (settings.sea ? switchSea : 0) |
-           (air ? switchAir : 0) | (tinted ? switchTint : 0) |
+    const bool lit = settings.lighting && !settings.cube;
+    const bool seaSurface = lit && settings.sea && isUsed(settings.light.sea.use, software);
+    return (settings.lighting ? switchLighting : 0) | (seaSurface ? switchSeaSurface : 0) |
+           (settings.wireframe ? switchWireframe : 0) | (settings.cube ? switchCube : 0) |
+           (withImage ? switchImage : 0) | (withImage && colours.streamed ? switchTiles : 0) |
+           (settings.sea ? switchSea : 0) | (air ? switchAir : 0) | (tinted ? switchTint : 0) |
            (rampSeen && !settings.ramp.empty() ? switchRamp : 0) |
            (withImage && rampSeen ? switchImageOverRamp : 0) | (settings.outlines ? switchOutlines : 0) |
            (settings.skirtPaint != SkirtPaint::AsGround ? switchLoudSkirts : 0) |
@@ -169,6 +172,8 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
     setDetail(shape, view, colours, uniforms);
     setRamp(settings, uniforms);
+    uniforms.surfacing.z =
+        static_cast<float>(settings.seaLevelM - (shape.baseHeightM + frame.referenceStep * shape.quantumM));
     uniforms.colouring = {colours.leafLevel, 0, 0, 0};
     uniforms.colourFilter = glm::dvec4(colours.anisotropy, std::log2(colours.texelsPerPixel), 0, 0);
     return uniforms;

@@ -34,6 +34,8 @@ enum Switch : int {
     switchMorph = 32768,
     switchGather = 65536,
     switchTiles = 131072,
+    switchSeaSurface = 524288,
+    switchShadows = 1048576,
     switchLayers = 16777216,
     switchLayerPreview = 33554432
 };
@@ -71,9 +73,9 @@ struct ColoursDrawn {
 };
 
 // The switches that follow from the settings and how near the ground is, metres. LightByVertex, Slide
-// and Morph follow from the chunks, and are left off.
+// and Morph follow from the chunks, and are left off. software: what is Automatic is left off too.
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColoursDrawn& colours, bool tinted, double nearestGroundM);
+                const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software);
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
                             const RenderSettings& settings, const ColoursDrawn& colours);

@@ -1,0 +1,97 @@
+// The sea's surface as seen from any distance: light mirrored on waves and light from within the water.
+//
+// Waves that a pixel can show tilt the surface; the slopes of all others are a normal distribution whose
+// variance grows with the wind (Cox and Munk, "Measurement of the roughness of the sea surface from photographs
+// of the sun's glitter", 1954), and by which the sun's glint and the mirrored sky are spread (Bruneton, Neyret and
+// Holzschuch, "Real-time realistic ocean lighting using seamless transitions from geometry to BRDF", 2010).
+
+const int waveCount = 20;
+
+layout(std140) uniform Sea {
+    vec4 waves[waveCount];       // wave vector, radians a metre, world axes; phase at the eye
+    vec4 waveSlopes[waveCount];  // largest slope; unused
+    vec4 water;                  // extinction of red, green and blue, 1 / metre; 1 / exaggeration
+    vec4 roughness;              // variance of all slopes; unused
+};
+
+struct Waves {
+    vec3 tilt;       // slope of those that are seen, world axes, along the surface
+    float variance;  // of the slopes of the others, along both axes together
+};
+
+Waves wavesAt(vec3 position, vec3 up) {
+    vec3 acrossX = dFdx(position);
+    vec3 acrossY = dFdy(position);
+    Waves seen = Waves(vec3(0.0), roughness.x);
+    for (int i = 0; i < waveCount; ++i) {
+        vec3 k = waves[i].xyz;
+        float turn = max(abs(dot(k, acrossX)), abs(dot(k, acrossY)));  // radians from pixel to pixel
+        float share = 1.0 - smoothstep(0.6, 2.2, turn);
+        if (share == 0.0) continue;
+        vec3 along = k - up * dot(k, up);
+        float slope = waveSlopes[i].x * share;
+        vec3 tilt = along * (slope * inversesqrt(dot(k, k)));
+        seen.tilt += tilt * cos(dot(k, position) + waves[i].w);
+        seen.variance -= 0.5 * dot(tilt, tilt);
+    }
+    seen.variance = max(seen.variance, 0.1 * roughness.x);
+    return seen;
+}
+
+// Mean over slopes of such a variance: their equation 16.
+float seaFresnel(float cosine, float variance) {
+    float deviation = sqrt(variance);
+    return 0.02 + 0.98 * pow(1.0 - cosine, 5.0 * exp(-2.69 * deviation)) / (1.0 + 22.7 * pow(deviation, 1.5));
+}
+
+// The sun's light mirrored by slopes so distributed. Irradiance in units of pi, as sunLit.
+vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
+    vec3 middle = normalize(toEye + sun.xyz);
+    float across = max(dot(middle, normal), 1e-3);
+    float across2 = across * across;
+    float slope2 = (1.0 - across2) / across2;
+    float density = exp(-slope2 / variance) / variance;  // the distribution's 1 / pi falls to the light's pi
+    float aside = 1.0 - max(dot(middle, toEye), 0.0);
+    float fresnel = 0.02 + 0.98 * aside * aside * aside * aside * aside;
+    // Low over the water waves hide one another: no more is seen than their tilt turns to the eye.
+    float seenCosine = max(dot(normal, toEye), 0.35 * sqrt(variance));
+    float lit = smoothstep(0.0, 0.06, dot(normal, sun.xyz));
+    return sunlight * (lit * fresnel * density / (4.0 * seenCosine * across2 * across2));
+}
+
+// The sky's light from a direction above the water, where the sky's light on the ground is as given: paler and
+// brighter towards the horizon, and there redder the lower the sun.
+vec3 mirroredSky(vec3 direction, vec3 up, vec3 skylight) {
+    if (!isOn(switchAir)) return vec3(0.0);
+    float rise = max(dot(direction, up), 0.0);
+    float low = exp(-5.0 * rise);
+    vec3 pale = mix(skylight, vec3(dot(skylight, vec3(0.3, 0.5, 0.2))) * vec3(1.05, 1.0, 0.95), 0.6);
+    return mix(0.75 * skylight, 1.9 * pale, low);
+}
+
+// Light that comes back out of water so deep, metres: from the bed as far as it is not taken away on both ways,
+// and scattered by the water itself.
+vec3 fromWater(float depth, vec3 downwelling) {
+    const vec3 bed = vec3(0.30, 0.27, 0.19);
+    const vec3 deep = vec3(0.0035, 0.022, 0.048);  // reflectance of a sea without a bed
+    vec3 kept = exp(-2.0 * water.rgb * depth);
+    return downwelling * mix(deep, bed, kept);
+}
+
+// height: of the ground below, metres above the sea level, as drawn.
+vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 sunlight, vec3 skylight) {
+    Waves waves = wavesAt(position, up);
+    vec3 normal = normalize(up - waves.tilt);
+    vec3 toEye = -ray;
+    // A wave that turns away from the eye hides behind one that does not.
+    float cosine = dot(normal, toEye);
+    if (cosine < 0.02) normal = normalize(normal + toEye * (0.02 - cosine));
+    cosine = clamp(dot(normal, toEye), 0.02, 1.0);
+    float mirrored = seaFresnel(cosine, waves.variance);
+    vec3 direction = reflect(ray, normal);
+    direction = normalize(direction + up * (max(-dot(direction, up), 0.0) + 0.5 * sqrt(waves.variance)));
+    vec3 downwelling = sunlight * max(dot(up, sun.xyz), 0.0) + skylight;
+    vec3 below = fromWater(max(-height, 0.0) * water.w, downwelling);
+    return mix(below, mirroredSky(direction, up, skylight), mirrored) +
+           sunGlitter(normal, toEye, sunlight, waves.variance);
+}
