@@ -151,7 +151,7 @@ ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters&
     figures.bytesRead = static_cast<double>(stats.paging.bytesRead -
                                             std::min(meters.bytesReadBefore, stats.paging.bytesRead));
     figures.selectMs = stats.stages.selectMs;
-    figures.drawMs = stats.render.chunksMs + stats.render.skyMs;
+    figures.drawMs = stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs;
     figures.worstEpsPx = static_cast<double>(stats.selection.worstEpsPx);
     const planet::PopTotals& pops = meters.pops.totals();
     figures.switches = static_cast<double>(pops.switches);

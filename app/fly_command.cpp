@@ -53,7 +53,7 @@ constexpr std::array<Quantity, 18> quantities = {{
     {"select_ms", [](const Stats& s) { return s.stages.selectMs; }},
     {"paging_ms", [](const Stats& s) { return s.stages.pagingMs; }},
     {"draw_cpu_ms", [](const Stats& s) { return s.drawCpuMs; }},
-    {"draw_gpu_ms", [](const Stats& s) { return s.render.chunksMs + s.render.skyMs; }},
+    {"draw_gpu_ms", [](const Stats& s) { return s.render.chunksMs + s.render.skyMs + s.render.shadowsMs; }},
     {"chunks_gpu_ms", [](const Stats& s) { return s.render.chunksMs; }},
     {"sky_gpu_ms", [](const Stats& s) { return s.render.skyMs; }},
     {"frame_ms", [](const Stats& s) { return s.frameMs; }},

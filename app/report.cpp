@@ -43,7 +43,7 @@ Json jsonOf(const ui::FrameStats& stats) {
             {"select_ms", stats.stages.selectMs},
             {"paging_ms", stats.stages.pagingMs},
             {"draw_cpu_ms", stats.drawCpuMs},
-            {"draw_gpu_ms", stats.render.chunksMs + stats.render.skyMs},
+            {"draw_gpu_ms", stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs},
             {"chunks_gpu_ms", stats.render.chunksMs},
             {"sky_gpu_ms", stats.render.skyMs},
             {"frame_ms", stats.frameMs}};

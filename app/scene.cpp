@@ -10,6 +10,7 @@
 #include "app/layer_file.h"
 #include "app/stopwatch.h"
 #include "planet/cube_sphere.h"
+#include "planet/shadow_cascades.h"
 #include "ui/sun_knobs.h"
 
 namespace worldy {
@@ -98,6 +99,14 @@ void followColours(Scene& scene) {
     }
     const std::vector<planet::ColourChange> changes = scene.planet->takeColourChanges();
     if (scene.drawsColours) scene.renderer.followColours(changes);
+}
+
+// Of the view that the level of detail is chosen for: shadows freeze with it.
+std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::ViewSettings& settings,
+                                              const planet::gl::RenderSettings& render) {
+    if (!scene.renderer.drawsShadows(render)) return {};
+    return planet::shadowCasters(scene.planet->tree(), scene.planet->lodView(), lodSettingsOf(settings),
+                                 render.light.shadows.reachM);
 }
 
 void beginFrame(Scene& scene) {
@@ -247,7 +256,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
     followColours(scene);
-    scene.renderer.draw(renderView, items, render, tints);
+    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render));
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
     scene.drawn.chunks += counters.chunks;
@@ -255,6 +264,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     scene.drawn.uploads += counters.uploads;
     scene.drawn.chunksMs += counters.chunksMs;
     scene.drawn.skyMs += counters.skyMs;
+    scene.drawn.shadowsMs += counters.shadowsMs;
 }
 
 std::vector<std::string> takeLayerProblems(Scene& scene) {

@@ -52,9 +52,11 @@ Detail detailAt(vec3 position) {
                   coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
 }
 
-// The image knows sea ice, and coasts finer than the mesh: water is blue and dark.
+// The image knows sea ice, and coasts finer than the mesh: water is blue, and dark or, over shallows, far from grey.
 float waterOf(vec3 colour) {
-    return smoothstep(0.0, 0.008, colour.b - 1.15 * colour.r) * (1.0 - smoothstep(0.10, 0.30, colour.g));
+    float blue = smoothstep(0.0, 0.008, colour.b - 1.15 * colour.r);
+    float shallow = smoothstep(1.5, 2.2, colour.b / max(colour.r, 1e-4));
+    return blue * max(1.0 - smoothstep(0.10, 0.30, colour.g), shallow);
 }
 
 // The image, its lookup moved by a part of a step so that its blobs get ragged edges. On a face's edge it only moves
@@ -231,6 +233,8 @@ vec3 lightByPixel() {
     material = tinted(material);
     vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
     vec3 sunlight = sunLit;
+    if (isOn(switchShadows))
+        sunlight *= sunSeen(position, normalize(mix(surfaceNormal.xyz, up, isOn(switchSeaSurface) ? material.water : 0.0)));
     float wet = isOn(switchSeaSurface) ? 0.0 : material.water;
     vec3 light = material.albedo * (sunlight * max(dot(facing, sun.xyz), 0.0) + skyLit) +
                  sunlight * (wet * seaGlint(facing, -ray) + glint);

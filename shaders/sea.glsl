@@ -5,13 +5,13 @@
 // of the sun's glitter", 1954), and by which the sun's glint and the mirrored sky are spread (Bruneton, Neyret and
 // Holzschuch, "Real-time realistic ocean lighting using seamless transitions from geometry to BRDF", 2010).
 
-const int waveCount = 20;
+const int waveCount = 32;
 
 layout(std140) uniform Sea {
     vec4 waves[waveCount];       // wave vector, radians a metre, world axes; phase at the eye
-    vec4 waveSlopes[waveCount];  // largest slope; unused
+    vec4 bends[waveCount];       // of long waves that bend each, so that no pattern runs through: likewise
     vec4 water;                  // extinction of red, green and blue, 1 / metre; 1 / exaggeration
-    vec4 roughness;              // variance of all slopes; unused
+    vec4 roughness;              // variance of all slopes; the largest slope of a wave; unused
 };
 
 struct Waves {
@@ -26,12 +26,13 @@ Waves wavesAt(vec3 position, vec3 up) {
     for (int i = 0; i < waveCount; ++i) {
         vec3 k = waves[i].xyz;
         float turn = max(abs(dot(k, acrossX)), abs(dot(k, acrossY)));  // radians from pixel to pixel
-        float share = 1.0 - smoothstep(0.6, 2.2, turn);
+        float share = 1.0 - smoothstep(0.4, 1.8, turn);
         if (share == 0.0) continue;
         vec3 along = k - up * dot(k, up);
-        float slope = waveSlopes[i].x * share;
+        float slope = roughness.y * share;
         vec3 tilt = along * (slope * inversesqrt(dot(k, k)));
-        seen.tilt += tilt * cos(dot(k, position) + waves[i].w);
+        float bend = 2.2 * sin(dot(bends[i].xyz, position) + bends[i].w);
+        seen.tilt += tilt * cos(dot(k, position) + waves[i].w + bend);
         seen.variance -= 0.5 * dot(tilt, tilt);
     }
     seen.variance = max(seen.variance, 0.1 * roughness.x);
@@ -73,7 +74,7 @@ vec3 mirroredSky(vec3 direction, vec3 up, vec3 skylight) {
 // and scattered by the water itself.
 vec3 fromWater(float depth, vec3 downwelling) {
     const vec3 bed = vec3(0.30, 0.27, 0.19);
-    const vec3 deep = vec3(0.0035, 0.022, 0.048);  // reflectance of a sea without a bed
+    const vec3 deep = vec3(0.0022, 0.014, 0.040);  // reflectance of a sea without a bed
     vec3 kept = exp(-2.0 * water.rgb * depth);
     return downwelling * mix(deep, bed, kept);
 }

@@ -39,10 +39,12 @@ constexpr std::array<Stage, 7> cpuStages = {
      {"present", "Handing the picture to the monitor; waiting for it is counted in.",
       [](const FrameStats& s) { return s.presentMs; }}}};
 
-constexpr std::array<Stage, 3> gpuStages = {
+constexpr std::array<Stage, 4> gpuStages = {
     {{"chunks", "The planet's ground, by a timer query.",
       [](const FrameStats& s) { return s.render.chunksMs; }},
      {"sky", "The sky and its air, by a timer query.", [](const FrameStats& s) { return s.render.skyMs; }},
+     {"shadows", "The ground as the sun sees it, once a cascade, by a timer query.",
+      [](const FrameStats& s) { return s.render.shadowsMs; }},
      {"panels", "The panels, by a timer query.", [](const FrameStats& s) { return s.panelsGpuMs; }}}};
 
 void stagePlot(const EditorView& view, const char* id, const char* unit, std::span<const Stage> stages,
@@ -126,7 +128,9 @@ void memory(const EditorView& view) {
     const std::array kinds = {
         memoryBar("Heights in use", heightsUsed, 0),
         memoryBar("Heights free", std::max(asBytes(gpu.heightPool) - heightsUsed, 0.0), 7),
-        memoryBar("Meshes", asBytes(gpu.meshes), 2), memoryBar("Textures", asBytes(gpu.textures), 1),
+        memoryBar("Meshes", asBytes(gpu.meshes), 2),
+        memoryBar("Textures", asBytes(gpu.textures), 1),
+        memoryBar("Shadow maps", asBytes(gpu.shadowMaps), 3),
         memoryBar("Pictures", asBytes(stats.targetBytes), 4)};
     ImGui::TextDisabled("GPU: %s", bytesText(asBytes(gpu.total() + stats.targetBytes)).c_str());
     tooltip("What the program asked the driver for.");

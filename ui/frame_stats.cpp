@@ -11,6 +11,7 @@ FrameStats smoothed(const FrameStats& before, const FrameStats& now) {
     stats.stages.pagingMs = mix(before.stages.pagingMs, now.stages.pagingMs);
     stats.render.chunksMs = mix(before.render.chunksMs, now.render.chunksMs);
     stats.render.skyMs = mix(before.render.skyMs, now.render.skyMs);
+    stats.render.shadowsMs = mix(before.render.shadowsMs, now.render.shadowsMs);
     stats.drawCpuMs = mix(before.drawCpuMs, now.drawCpuMs);
     stats.overlaysMs = mix(before.overlaysMs, now.overlaysMs);
     stats.panelsMs = mix(before.panelsMs, now.panelsMs);

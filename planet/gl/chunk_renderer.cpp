@@ -22,10 +22,13 @@
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/gpu_timer.h"
 #include "planet/gl/height_pool.h"
+#include "planet/gl/keep_framebuffers.h"
 #include "planet/gl/layer_textures.h"
 #include "planet/gl/layer_uniforms.h"
 #include "planet/gl/sea_uniforms.h"
 #include "planet/gl/shader_source.h"
+#include "planet/gl/shadow_maps.h"
+#include "planet/gl/shadow_uniforms.h"
 #include "planet/gl/software_renderer.h"
 
 namespace planet::gl {
@@ -34,9 +37,10 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 8> chunkFragmentFiles = {
-    "frame.glsl", "atmosphere.glsl", "ground.glsl",       "tone.glsl",
-    "sea.glsl",   "layers.glsl",     "colour_tiles.glsl", "chunk.frag"};
+constexpr auto chunkFragmentFiles =
+    std::to_array<std::string_view>({"frame.glsl", "atmosphere.glsl", "ground.glsl", "tone.glsl", "sea.glsl",
+                                     "shadows.glsl", "layers.glsl", "colour_tiles.glsl", "chunk.frag"});
+constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
@@ -46,12 +50,14 @@ constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.
 constexpr GLuint frameBinding = 0;
 constexpr GLuint layersBinding = 4;
 constexpr GLuint seaBinding = 6;
+constexpr GLuint shadowsBinding = 7;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
 constexpr GLint tilesUnit = 3;
 constexpr GLint pagesUnit = 4;
 constexpr GLint rootsUnit = 5;
+constexpr GLint shadowsUnit = 7;
 constexpr GLint layerAlbedoUnit = 8;
 constexpr GLint layerSurfaceUnit = 9;
 constexpr int checkerSize = 64;  // until pictures are given
@@ -73,18 +79,21 @@ static_assert(sizeof(Instance) == 64);
 constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 
 struct Programs {
-    ShaderText chunkVertex, chunkFragment;
+    ShaderText chunkVertex, chunkFragment, depthFragment;
     std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
+    std::unordered_map<int, Program> depth;  // likewise, for shadows
     Program sky, faceImage;
 };
 
 void connect(const Program& program) {
-    const GLuint block = glGetUniformBlockIndex(program.name(), "Frame");
-    if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, frameBinding);
-    const GLuint layers = glGetUniformBlockIndex(program.name(), "Layers");
-    if (layers != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), layers, layersBinding);
-    const GLuint sea = glGetUniformBlockIndex(program.name(), "Sea");
-    if (sea != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), sea, seaBinding);
+    constexpr std::array<std::pair<const char*, GLuint>, 4> blocks = {{{"Frame", frameBinding},
+                                                                       {"Layers", layersBinding},
+                                                                       {"Sea", seaBinding},
+                                                                       {"Shadows", shadowsBinding}}};
+    for (const auto& [name, binding] : blocks) {
+        const GLuint block = glGetUniformBlockIndex(program.name(), name);
+        if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
+    }
     glUseProgram(program.name());
     glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
@@ -92,6 +101,7 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "colourTiles"), tilesUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourPages"), pagesUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourRoots"), rootsUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "shadowMaps"), shadowsUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
     glUseProgram(0);
@@ -115,6 +125,8 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     if (!vertex) return tl::unexpected(vertex.error());
     Result<ShaderText> fragment = readShader(folder, chunkFragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());
+    Result<ShaderText> depthFragment = readShader(folder, depthFragmentFiles);
+    if (!depthFragment) return tl::unexpected(depthFragment.error());
     Programs programs;
     for (const int variant : variants) {
         Result<Program> chunk = linkProgram(*vertex, *fragment, variant);
@@ -128,6 +140,7 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     if (!faceImage) return tl::unexpected(faceImage.error());
     programs.chunkVertex = std::move(*vertex);
     programs.chunkFragment = std::move(*fragment);
+    programs.depthFragment = std::move(*depthFragment);
     programs.sky = std::move(*sky);
     programs.faceImage = std::move(*faceImage);
     return programs;
@@ -242,7 +255,7 @@ struct ChunkRenderer::State {
     int captureVariant = 0;
     Texture noise;
     VertexArray chunkArray, skyArray;
-    Buffer gridVertices, gridIndices, instances, frame, layersFrame, seaFrame;
+    Buffer gridVertices, gridIndices, instances, frame, layersFrame, seaFrame, shadowsFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
     std::vector<Instance> instanceData;
@@ -252,7 +265,10 @@ struct ChunkRenderer::State {
     ColourImage image;
     std::optional<ColourPool> colours;
     LayerTextures layers;
-    GpuTimer chunksTimer, skyTimer;
+    std::optional<ShadowMaps> shadows;  // while they are drawn
+    int shadowsAskedPx = 0;
+    FrameUniforms uniforms{};  // as last filled
+    GpuTimer chunksTimer, skyTimer, shadowsTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
     State(const RendererConfig& from, HeightPool heightPool, Programs built);
@@ -261,9 +277,15 @@ struct ChunkRenderer::State {
     double highestRadiusM(std::span<const DrawItem> items) const;
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
     int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-                      bool tinted) const;
+                      bool tinted, int more = 0) const;
     const Program& chunkProgram(int variant);
-    void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched);
+    const Program& depthProgram(int variant);
+    void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched,
+                       std::span<const DrawItem> shadowCasters = {});
+    bool drawsShadows(const RenderSettings& settings) const;
+    bool makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items);
+    void drawShadows(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                     int variant);
     void fillFrame(const View& view, const RenderSettings& settings);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     void bindInputs() const;
@@ -288,6 +310,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       frame(makeBuffer()),
       layersFrame(makeBuffer()),
       seaFrame(makeBuffer()),
+      shadowsFrame(makeBuffer()),
       layers({}, checkerSize) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
@@ -341,11 +364,11 @@ Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<co
 }
 
 int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawItem> items,
-                                        const RenderSettings& settings, bool tinted) const {
+                                        const RenderSettings& settings, bool tinted, int more) const {
     const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
     const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
-    const int variant = switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted,
-                                    nearestGroundM, capabilities.software);
+    const int variant = more | switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted,
+                                           nearestGroundM, capabilities.software);
     const int layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     constexpr int seenByPixel = switchDetail | switchSeaSurface | switchShadows;
@@ -367,8 +390,21 @@ const Program& ChunkRenderer::State::chunkProgram(int variant) {
     return programs.chunk.emplace(variant, std::move(*program)).first->second;
 }
 
+// As chunkProgram; none where a driver will not have it.
+const Program& ChunkRenderer::State::depthProgram(int variant) {
+    const int shape = variant & (switchSlide | switchMorph | switchGather | switchSeaSurface);
+    const auto found = programs.depth.find(shape);
+    if (found != programs.depth.end()) return found->second;
+    Program& made = programs.depth[shape];
+    if (Result<Program> program = linkProgram(programs.chunkVertex, programs.depthFragment, shape)) {
+        connect(*program);
+        made = std::move(*program);
+    }
+    return made;
+}
+
 void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints,
-                                         bool stitched) {
+                                         bool stitched, std::span<const DrawItem> shadowCasters) {
     assert(tints.empty() || tints.size() == items.size());
     drawnSlots.clear();
     for (const DrawItem& item : items) {
@@ -383,6 +419,11 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
         instance.beside = slotsBeside(drawnSlots, items[i].id);
         if (!tints.empty()) instance.tint = tints[i].rgba;
     }
+    for (const DrawItem& item : shadowCasters) {
+        instanceData.push_back(instanceOf(item, stitched));
+        instanceData.back().slot = packedPlace(pool.layout(), item.slot);
+        instanceData.back().beside.fill(noSlot);
+    }
     // A new store each frame, so that the GPU may still read the last one's.
     const std::size_t needed = instanceData.size() * sizeof(Instance);
     while (instanceBytes < needed) instanceBytes = std::max<std::size_t>(2 * instanceBytes, 4096);
@@ -392,8 +433,7 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
 }
 
 void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
-    const FrameUniforms uniforms =
-        frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
+    uniforms = frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
     const LayersUniforms layerUniforms =
@@ -415,12 +455,17 @@ void ChunkRenderer::State::bindInputs() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, layersBinding, layersFrame.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, seaBinding, seaFrame.name());
+    if (shadows) glBindBufferBase(GL_UNIFORM_BUFFER, shadowsBinding, shadowsFrame.name());
     glActiveTexture(GL_TEXTURE0 + layerAlbedoUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, layers.albedo());
     glActiveTexture(GL_TEXTURE0 + layerSurfaceUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, layers.surface());
     glActiveTexture(GL_TEXTURE0 + imageUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
+    if (shadows) {
+        glActiveTexture(GL_TEXTURE0 + shadowsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, shadows->texture());
+    }
     if (colours) {
         glActiveTexture(GL_TEXTURE0 + tilesUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->tiles());
@@ -450,13 +495,63 @@ void ChunkRenderer::State::endDepth() const {
     glDisable(GL_DEPTH_TEST);
 }
 
+bool ChunkRenderer::State::drawsShadows(const RenderSettings& settings) const {
+    return settings.lighting && !settings.cube && isUsed(settings.light.shadows.use, capabilities.software);
+}
+
+// Whether there are maps to draw shadows with, and ground near enough for them. Maps that are out of use go.
+bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items) {
+    const ShadowDrawing& wanted = settings.light.shadows;
+    const auto isNear = [&](const DrawItem& item) {
+        return static_cast<double>(item.distanceM) < wanted.reachM;
+    };
+    if (!drawsShadows(settings)) shadows.reset();
+    if (!drawsShadows(settings) || !std::any_of(items.begin(), items.end(), isNear)) return false;
+    if (shadowsAskedPx != wanted.mapSizePx || !shadows) {
+        shadows.reset();
+        shadowsAskedPx = wanted.mapSizePx;
+        if (Result<ShadowMaps> made = ShadowMaps::create(wanted.mapSizePx)) shadows = std::move(*made);
+    }
+    return shadows.has_value();
+}
+
+// The same ground as seen from the sun, once a cascade.
+void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawItem> items,
+                                       const RenderSettings& settings, int variant) {
+    double nearestM = settings.light.shadows.reachM;
+    for (const DrawItem& item : items) nearestM = std::min(nearestM, static_cast<double>(item.distanceM));
+    const double least = 1e-6 * config.shape.radiusM;
+    const ShadowCascades cascades =
+        shadowCascades(view, settings.sunDirection, std::max(nearestM, least),
+                       std::max(settings.light.shadows.reachM, 4 * least), shadows->sizePx());
+    const ShadowUniforms told = shadowUniforms(cascades, settings.light.shadows.softness, shadows->sizePx());
+    glBindBuffer(GL_UNIFORM_BUFFER, shadowsFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(told), &told, GL_STREAM_DRAW);
+    const Program& program = depthProgram(variant);
+    const KeepFramebuffers keep;
+    glUseProgram(program.name());
+    glBindVertexArray(chunkArray.name());
+    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+    for (std::size_t i = 0; i < shadowCascadeCount; ++i) {
+        FrameUniforms fromSun = uniforms;
+        fromSun.clipFromWorld = cascades[i].clipFromEye;
+        glBufferData(GL_UNIFORM_BUFFER, sizeof(fromSun), &fromSun, GL_STREAM_DRAW);
+        shadows->begin(i);
+        if (program.name() != 0)
+            glDrawElementsInstanced(GL_TRIANGLES, gridIndexCount, GL_UNSIGNED_SHORT, nullptr,
+                                    static_cast<GLsizei>(instanceData.size()));
+    }
+    ShadowMaps::end();
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
+}
+
 void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const RenderSettings& settings,
                                       const Program& program) {
     const bool skirts =
         std::any_of(items.begin(), items.end(), [](const DrawItem& item) { return item.skirtDepthM > 0; });
     const GLsizei first = settings.skirtPaint == SkirtPaint::LoudAlone ? gridIndexCount : 0;
     const GLsizei indexCount = (skirts ? allIndexCount : gridIndexCount) - first;
-    const auto chunks = static_cast<GLsizei>(instanceData.size());
+    const auto chunks = static_cast<GLsizei>(items.size());
     glEnable(GL_CULL_FACE);
     glUseProgram(program.name());
     glBindVertexArray(chunkArray.name());
@@ -544,14 +639,21 @@ Result<void> ChunkRenderer::reloadShaders() {
 }
 
 void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-                         std::span<const ChunkTint> tints) {
+                         std::span<const ChunkTint> tints, std::span<const DrawItem> shadowCasters) {
     State& state = *state_;
-    state.chunksTimer.begin();
     state.projection = state.chooseProjection(view, items);
-    state.fillInstances(items, tints, settings.stitched);
+    const bool shadowed = state.makeShadowMaps(settings, items);
+    if (!shadowed) shadowCasters = {};
+    state.fillInstances(items, tints, settings.stitched, shadowCasters);
     state.fillFrame(view, settings);
     state.bindInputs();
+    const int variant =
+        state.chooseVariant(view, items, settings, !tints.empty(), shadowed ? switchShadows : 0);
+    state.shadowsTimer.begin();
+    if (shadowed) state.drawShadows(view, items, settings, variant);
+    state.shadowsTimer.end();
 
+    state.chunksTimer.begin();
     glViewport(0, 0, view.widthPx, view.heightPx);
     glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
@@ -559,7 +661,6 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     glClearColor(0, 0, 0, 1);
     state.beginDepth();
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const int variant = state.chooseVariant(view, items, settings, !tints.empty());
     state.drawChunks(items, settings, state.chunkProgram(variant));
     state.chunksTimer.end();
     state.skyTimer.begin();
@@ -571,6 +672,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
 
     state.counters.chunksMs = state.chunksTimer.lastMs();
     state.counters.skyMs = state.skyTimer.lastMs();
+    state.counters.shadowsMs = shadowed ? state.shadowsTimer.lastMs() : 0;
     state.counters.uploads = std::exchange(state.uploads, 0);
 }
 
@@ -612,6 +714,10 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
     return surface;
 }
 
+bool ChunkRenderer::drawsShadows(const RenderSettings& settings) const {
+    return state_->drawsShadows(settings);
+}
+
 const Projection& ChunkRenderer::projection() const {
     return state_->projection;
 }
@@ -629,7 +735,8 @@ GpuMemory ChunkRenderer::gpuMemory() const {
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
                 sizeof(SeaUniforms),
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
-                (state_->colours ? state_->colours->bytes() : 0)};
+                (state_->colours ? state_->colours->bytes() : 0),
+            state_->shadows ? state_->shadows->bytes() : 0};
 }
 
 }  // namespace planet::gl

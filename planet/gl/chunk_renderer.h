@@ -82,6 +82,7 @@ struct RenderCounters {
     // GPU times of the last frame whose timer queries have come back.
     double chunksMs = 0;  // clearing included
     double skyMs = 0;
+    double shadowsMs = 0;
     std::uint32_t uploads = 0;  // chunks uploaded since the draw before
 };
 
@@ -99,8 +100,9 @@ struct GpuMemory {
     std::size_t heightPool = 0;
     std::size_t meshes = 0;  // grid and instances
     std::size_t textures = 0;
+    std::size_t shadowMaps = 0;
 
-    std::size_t total() const { return heightPool + meshes + textures; }
+    std::size_t total() const { return heightPool + meshes + textures + shadowMaps; }
 };
 
 struct RendererConfig {
@@ -144,16 +146,20 @@ public:
     // Clears the bound framebuffer and fills its lower left view.widthPx x view.heightPx pixels, sky
     // included. It needs a depth buffer; with reversedZ a float one pays. Leaves depth, culling and clip
     // control as a new context has them. Skirts are drawn where an item's skirt has a depth. Tints: one an
-    // item, or none.
+    // item, or none. shadowCasters: chunks that are not drawn but throw shadows (shadow_cascades.h); not
+    // looked at where drawsShadows() says no.
     void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-              std::span<const ChunkTint> tints = {});
+              std::span<const ChunkTint> tints = {}, std::span<const DrawItem> shadowCasters = {});
+    // Whether the ground's shadows would be drawn.
+    bool drawsShadows(const RenderSettings& settings) const;
 
     // How the last draw's depths come to be, for turning them into metres.
     const Projection& projection() const;
 
     // The positions that the vertex shader makes of the items' grids, morph and stitched edges included,
-    // skirts and the sea's surface left out, read back: metres from the eye in world axes, chunkVertexCount for each item. Waits
-    // for the GPU; for tests and measuring. Draws nothing, but OpenGL wants a complete framebuffer bound.
+    // skirts and the sea's surface left out, read back: metres from the eye in world axes, chunkVertexCount
+    // for each item. Waits for the GPU; for tests and measuring. Draws nothing, but OpenGL wants a complete
+    // framebuffer bound.
     Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
                                                        const RenderSettings& settings);
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "planet/drawn_surface.h"
+#include "planet/gl/keep_framebuffers.h"
 #include "planet/gl/render_target.h"
 #include "planet/seen_mesh.h"
 
@@ -27,27 +28,6 @@ bool isNearer(double aM, double bM, const Projection& projection) {
     if (!projection.reversedZ) share *= std::max(aM / projection.nearM, 1.0);
     return aM * (1 + share) < bM;
 }
-
-class KeepFramebuffers {
-public:
-    KeepFramebuffers() {
-        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
-        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
-        glGetIntegerv(GL_VIEWPORT, viewport_);
-    }
-    ~KeepFramebuffers() {
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
-        glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-    }
-    KeepFramebuffers(const KeepFramebuffers&) = delete;
-    KeepFramebuffers& operator=(const KeepFramebuffers&) = delete;
-
-private:
-    GLint draw_ = 0;
-    GLint read_ = 0;
-    GLint viewport_[4] = {};
-};
 
 // What a pass shows, rows from the top.
 struct Pass {

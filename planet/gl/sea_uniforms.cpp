@@ -11,7 +11,7 @@ namespace {
 constexpr double longestWaveM = 110;
 constexpr double shortestWaveM = 1.3;
 // Of the variance of all slopes; the rest are ripples that no pixel ever shows.
-constexpr double shareOfWaves = 0.45;
+constexpr double shareOfWaves = 0.3;
 
 // Vectors all around, so that on any side of the planet some run along its surface.
 glm::dvec3 waveDirection(std::size_t wave) {
@@ -19,6 +19,12 @@ glm::dvec3 waveDirection(std::size_t wave) {
     const double z = 2 * std::fmod(0.5 + 0.618034 * static_cast<double>(wave), 1.0) - 1;
     const double r = std::sqrt(1 - z * z);
     return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+// And its phase at the eye, worked out in doubles.
+glm::vec4 waveVector(double lengthM, std::size_t wave, const glm::dvec3& eyeM) {
+    const glm::dvec3 k = 2 * std::numbers::pi / lengthM * waveDirection(wave);
+    return glm::dvec4(k, std::remainder(glm::dot(k, eyeM), 2 * std::numbers::pi));
 }
 
 }  // namespace
@@ -41,13 +47,11 @@ SeaUniforms seaUniforms(const SeaDrawing& sea, const View& view, double exaggera
         const double place = (static_cast<double>(i) + 0.5 * std::sin(7.0 * static_cast<double>(i))) /
                              static_cast<double>(seaWaveCount - 1);
         const double lengthM = longestWaveM * std::pow(shortestWaveM / longestWaveM, place);
-        const glm::dvec3 k = 2 * std::numbers::pi / lengthM * waveDirection(i);
-        const double phase = std::remainder(glm::dot(k, view.eyeM), 2 * std::numbers::pi);
-        uniforms.waves[i] = glm::dvec4(k, phase);
-        uniforms.waveSlopes[i] = glm::dvec4(slope, 0, 0, 0);
+        uniforms.waves[i] = waveVector(lengthM, i, view.eyeM);
+        uniforms.bends[i] = waveVector(11 * lengthM, i + seaWaveCount, view.eyeM);
     }
     uniforms.water = glm::dvec4(waterExtinction(sea.clarityM), 1 / exaggeration);
-    uniforms.roughness = glm::dvec4(variance, 0, 0, 0);
+    uniforms.roughness = glm::dvec4(variance, slope, 0, 0);
     return uniforms;
 }
 

@@ -11,11 +11,11 @@
 
 namespace planet::gl {
 
-inline constexpr std::size_t seaWaveCount = 20;
+inline constexpr std::size_t seaWaveCount = 32;
 
 // std140: only members of 16 bytes.
 struct SeaUniforms {
-    std::array<glm::vec4, seaWaveCount> waves, waveSlopes;
+    std::array<glm::vec4, seaWaveCount> waves, bends;
     glm::vec4 water, roughness;
 };
 static_assert(sizeof(SeaUniforms) == (2 * seaWaveCount + 2) * 16);

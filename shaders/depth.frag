@@ -1,0 +1,3 @@
+// Only the depth is wanted.
+
+void main() {}
