@@ -18,6 +18,7 @@
 #include "app/bake_command.h"
 #include "app/bench_command.h"
 #include "app/compare_command.h"
+#include "app/costs_command.h"
 #include "app/cracks_command.h"
 #include "app/exit_code.h"
 #include "app/file_commands.h"
@@ -260,6 +261,20 @@ void addCracks(CLI::App& app, CracksOptions& options, ViewTexts& view) {
     command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
 }
 
+void addCosts(CLI::App& app, CostsOptions& options, ViewTexts& view) {
+    CLI::App& command = *app.add_subcommand(
+        "costs", "Time a picture with each part of light and surface and without it, in turn");
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--camera", view.camera,
+                       "LAT,LON,ALT,HEADING,PITCH in degrees and metres above the radius (the whole planet)");
+    command.add_option("--rounds", options.rounds, "How often each is drawn (5)")->check(CLI::Range(1, 1000));
+    addViewOptions(command, view);
+    command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
+    command.add_option("--colour-image", options.colourImage,
+                       "Picture laid over the planet (colour.jpg beside FILE)");
+    command.add_option("-o,--output", options.jsonOutput, "Write the figures there as JSON");
+}
+
 void addPops(CLI::App& app, PopsOptions& options, ViewTexts& view) {
     CLI::App& command = *app.add_subcommand(
         "pops", "Fly a path with all loads on time, and tell how far each change of level jumps");
@@ -426,6 +441,10 @@ Result<ShotOptions> understand(ShotOptions options, const ViewTexts& texts) {
     return options;
 }
 
+Result<CostsOptions> understand(CostsOptions options, const ViewTexts& texts) {
+    return takeViewAndCamera(texts, options).map([&](const Settings&) { return options; });
+}
+
 Result<CracksOptions> understand(CracksOptions options, const ViewTexts& texts) {
     return takeViewAndCamera(texts, options).map([&](const Settings&) { return options; });
 }
@@ -523,6 +542,8 @@ struct CommandLine {
     SweepTexts sweepTexts;
     CracksOptions cracks;
     ViewTexts cracksView;
+    CostsOptions costs;
+    ViewTexts costsView;
     PopsOptions pops;
     ViewTexts popsView;
     AuditOptions audit;
@@ -550,6 +571,7 @@ struct CommandLine {
         addBench(app, bench, benchView);
         addSweep(app, sweep, sweepTexts);
         addCracks(app, cracks, cracksView);
+        addCosts(app, costs, costsView);
         addPops(app, pops, popsView);
         addAudit(app, audit, auditTexts);
         addReplay(app, replay);
@@ -602,6 +624,7 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
         {"sweep", view(line.sweep, line.sweepTexts, runSweep)},
         {"bench", view(line.bench, line.benchView, runBench)},
         {"cracks", view(line.cracks, line.cracksView, runCracks)},
+        {"costs", view(line.costs, line.costsView, runCosts)},
         {"pops", view(line.pops, line.popsView, runPops)},
         {"audit", view(line.audit, line.auditTexts, runAudit)},
         {"compare", view(line.compare, line.compareTexts, runCompare)},

@@ -21,6 +21,8 @@ namespace {
 
 using planet::Result;
 
+constexpr int costRounds = 5;
+
 // One function a command, and what commands may change.
 struct CommandHandler {
     Window& window;
@@ -131,6 +133,16 @@ struct CommandHandler {
     void operator()(const ui::LoadLayerSet& command) const;
     void operator()(const ui::SaveLayerSet& command) const;
     void operator()(const ui::ReloadLayerTextures&) const { forgetLayerPictures(shownScene(session)); }
+    void operator()(const ui::MeasureCosts&) const {
+        const Scene* scene = shownScene(session);
+        if (!scene) return;
+        Result<CostMeter> meter =
+            CostMeter::create(*scene, editor.viewport.main.view, editor.settings.view, costRounds);
+        if (meter)
+            editor.costs.meter = std::move(*meter);
+        else
+            log->error("{}", meter.error().message);
+    }
     void operator()(const ui::MeasureCracks&) const {
         Scene* scene = shownScene(session);
         if (!scene || !editor.rig) return;

@@ -19,6 +19,7 @@
 #include "app/presets.h"
 #include "app/session.h"
 #include "app/settings.h"
+#include "app/surface_costs.h"
 #include "app/sweep_desk.h"
 #include "app/undo.h"
 #include "app/viewport.h"
@@ -56,6 +57,7 @@ struct Editor {
     ui::ProbeView probe;
     std::deque<ui::LogLine> logLines;
     CrackInstrument cracks;
+    CostInstrument costs;
 
     ErrorMeter errors;
 

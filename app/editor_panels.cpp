@@ -109,6 +109,8 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.compare =
         compareViewOf(editor.compare, session, editor.settings.view, editor.stats, editor.viewport.main.view);
     view.layers = layersViewOf(editor.layers, scene, editor.settings.view.surface.layers);
+    view.light.costs = editor.costs.costs;
+    view.light.measured = editor.costs.meter ? editor.costs.meter->share() : 1;
     view.light.software = scene && scene->renderer.capabilities().software;
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();

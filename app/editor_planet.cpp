@@ -39,6 +39,7 @@ void meetPlanet(planet::Planet& planet, Editor& editor, const Log& log) {
     forgetErrors(editor.errors);
     editor.history.clear();
     editor.cracks = {};
+    editor.costs = {};
     editor.stepOneFrame = true;  // something has to be chosen for it
 }
 
@@ -241,6 +242,13 @@ void probe(const Scene& scene, Editor& editor) {
     if (editor.focus.selected) editor.probe.selected = probeWorst(input, *editor.focus.selected);
 }
 
+// A little in each frame, so that the window goes on.
+void measureCosts(Scene& scene, CostInstrument& instrument) {
+    if (!instrument.meter || instrument.meter->step(scene)) return;
+    instrument.costs = instrument.meter->costs();
+    instrument.meter.reset();
+}
+
 // What the layers make of the ground under the pointer.
 void readLayers(const Scene& scene, Editor& editor) {
     if (!isShown(editor, ui::PanelId::Surface)) return;
@@ -297,6 +305,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     const ui::CrackKnobs& cracks = editor.settings.view.cracks;
     const auto every = static_cast<std::uint64_t>(cracks.everyFrames);
     if (cracks.live && editor.frames % every == 0) commands.emplace_back(ui::MeasureCracks{});
+    measureCosts(scene, editor.costs);
     probe(scene, editor);
     readLayers(scene, editor);
     pick(editor.viewport.main, scene, 0, commands);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/data_set.h"
 #include "app/overlay_lines.h"
 #include "planet/true_error.h"
 #include "ui/overlay_colours.h"
@@ -68,6 +69,18 @@ planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::Vie
     auto target = planet::gl::RenderTarget::create(size.widthPx, size.heightPx, std::min(samples, most));
     if (!target) return tl::unexpected(target.error());
     return Offscreen{std::move(*context), std::move(*target), std::move(*scene)};
+}
+
+planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::path& file,
+                                                       const std::filesystem::path& colourImage) {
+    std::filesystem::path picture = colourImage;
+    if (picture.empty()) {
+        const planet::Result<DataSet> set = findDataSet(file, {});
+        if (!set) return tl::unexpected(set.error());
+        picture = set->colourImage;
+    }
+    if (picture.empty()) return std::optional<Picture>();
+    return readPicture(picture).map([](Picture&& read) { return std::optional<Picture>(std::move(read)); });
 }
 
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,

@@ -1,6 +1,7 @@
 // Drawing a planet without a window: what shot, fly and a machine without a display share.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -22,6 +23,10 @@ struct Offscreen {
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
                                         const PictureSize& size, int samples);
+
+// The picture to lay over a planet: the one named, else the one beside its file; none where there is none.
+planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::path& file,
+                                                       const std::filesystem::path& colourImage);
 
 // Draws the last selection, tints and lines over it included, and waits until the GPU has done it.
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,

@@ -109,7 +109,11 @@ std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::View
                                  render.light.shadows.reachM);
 }
 
-void beginFrame(Scene& scene) {
+void beginFrame(Scene& scene, const ui::ViewSettings& settings) {
+    const ui::SurfaceSettings& surface = settings.surface;
+    const bool drawn = surface.sea && surface.lighting && !settings.overlay.cube &&
+                       planet::gl::isUsed(surface.light.sea.use, scene.renderer.capabilities().software);
+    scene.seaSurfaceM = drawn ? std::optional(surface.seaLevelM * surface.exaggeration) : std::nullopt;
     scene.drawCpuMs = 0;
     scene.drawn = {};
 }
@@ -217,8 +221,9 @@ planet::UploadChunk uploadInto(Scene& scene) {
 
 namespace {
 
-void step(Scene& scene, std::span<const planet::ViewInput> views, std::optional<double> elapsedS) {
-    beginFrame(scene);
+void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet::ViewInput> views,
+          std::optional<double> elapsedS) {
+    beginFrame(scene, settings);
     if (elapsedS)
         scene.planet->step(views, uploadInto(scene.renderer), *elapsedS);
     else
@@ -230,7 +235,7 @@ void step(Scene& scene, std::span<const planet::ViewInput> views, std::optional<
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                std::optional<double> elapsedS) {
     const planet::ViewInput only{lodView, lodSettingsOf(settings), 1, colourSettingsOf(settings)};
-    step(scene, std::span(&only, 1), elapsedS);
+    step(scene, settings, std::span(&only, 1), elapsedS);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
@@ -239,7 +244,7 @@ void stepScene(Scene& scene, const planet::View& lodView, const planet::View& ob
     const planet::ColourSettings colours = colourSettingsOf(settings);
     const std::array<planet::ViewInput, 2> views = {
         {{lodView, lod, 1, colours}, {observerView, lod, observerPriorityFactor, colours}}};
-    step(scene, views, elapsedS);
+    step(scene, settings, views, elapsedS);
 }
 
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
@@ -273,7 +278,7 @@ std::vector<std::string> takeLayerProblems(Scene& scene) {
 
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS) {
-    beginFrame(scene);
+    beginFrame(scene, settings);
     const planet::ViewInput only{lodView, lodSettingsOf(settings), 1, colourSettingsOf(settings)};
     return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
 }
@@ -290,8 +295,8 @@ ui::FrameStats statsOf(const Scene& scene) {
 }
 
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM) {
-    return {scene.planet->shape().radiusM,
-            planet::residentHeightM(scene.planet->tree(), glm::normalize(eyeM))};
+    const double groundM = planet::residentHeightM(scene.planet->tree(), glm::normalize(eyeM));
+    return {scene.planet->shape().radiusM, std::max(groundM, scene.seaSurfaceM.value_or(groundM))};
 }
 
 }  // namespace worldy

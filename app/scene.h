@@ -30,7 +30,8 @@ struct Scene {
     bool drawsColours = false;
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
-    LayerPictures layers{};  // read when they are first drawn
+    LayerPictures layers{};               // read when they are first drawn
+    std::optional<double> seaSurfaceM{};  // above the radius, where it is drawn as water
 };
 
 struct SceneConfig {
@@ -93,6 +94,7 @@ bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettin
 // rest the caller knows.
 ui::FrameStats statsOf(const Scene& scene);
 
+// The sea's surface counts as ground where it is drawn as water.
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM);
 
 }  // namespace worldy

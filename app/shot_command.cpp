@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/data_set.h"
 #include "app/offscreen.h"
 #include "app/picture.h"
 #include "app/report.h"
@@ -18,19 +17,6 @@ namespace worldy {
 namespace {
 
 using planet::Result;
-
-// The picture to lay over the planet; none where there is none.
-Result<std::optional<Picture>> colourPicture(const ShotOptions& options) {
-    std::filesystem::path file = options.colourImage;
-    if (file.empty()) {
-        const Result<DataSet> set = findDataSet(options.file, {});
-        if (!set) return tl::unexpected(set.error());
-        file = set->colourImage;
-    }
-    if (file.empty()) return std::optional<Picture>();
-    return readPicture(file).map(
-        [](Picture&& picture) { return std::optional<Picture>(std::move(picture)); });
-}
 
 Result<void> writeShot(const Picture& picture, const planet::CameraPose& pose, const ShotOptions& options) {
     if (options.output.extension() != ".png") return writePicture(picture, options.output);
@@ -71,7 +57,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
 }  // namespace
 
 Result<void> takeShot(const ShotOptions& options) {
-    const Result<std::optional<Picture>> colour = colourPicture(options);
+    const Result<std::optional<Picture>> colour = colourPictureOf(options.file, options.colourImage);
     if (!colour) return tl::unexpected(colour.error());
     const SceneConfig config{options.file, options.shaderFolder, *colour ? &**colour : nullptr};
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, options.samples);

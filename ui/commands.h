@@ -140,6 +140,7 @@ struct ReloadLayerTextures {};
 
 // Instruments.
 struct MeasureCracks {};       // of the view as it is
+struct MeasureCosts {};        // of the parts of the picture
 struct FindSmallestSkirts {};  // that leave none of the cracks measured open
 // Pops.
 struct MeasurePops {
@@ -214,10 +215,10 @@ using Command = std::variant<
     RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight, PausePaging, LoadOne, DropAll,
     RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake, BakeAgain, EstimateBake, CancelBake,
     ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine,
-    CopyText, TakeScreenshot, Quit, MeasureCracks, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop,
-    ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording, DeleteRecording,
-    StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep, SaveSweep,
-    OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
+    CopyText, TakeScreenshot, Quit, MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops,
+    GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording,
+    DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
+    SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
     CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures, PreviewSource>;
 using Commands = std::vector<Command>;
 

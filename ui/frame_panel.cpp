@@ -141,11 +141,36 @@ void memory(const EditorView& view) {
         "like. Pictures: what is drawn into.");
 }
 
+// Stages that one draw call does together cannot be timed in it: they are drawn with and without.
+void partCosts(const EditorView& view, Commands& commands) {
+    const bool measuring = view.light.measured < 1;
+    ImGui::BeginDisabled(measuring || !view.planet);
+    if (button(
+            "Measure parts",
+            "Draws this view with each part of light and surface and without it, in turn, each twice, five "
+            "times, and takes medians. The window is slow for as long."))
+        commands.emplace_back(MeasureCosts{});
+    ImGui::EndDisabled();
+    if (measuring) usageBar(view.light.measured, fmt::format("{:.0f} %", 100 * view.light.measured));
+    if (view.light.costs.empty()) return;
+    if (!beginValues("parts")) return;
+    for (const PartCost& cost : view.light.costs)
+        valueRow(cost.part.c_str(),
+                 fmt::format("{:+.1f} ms, x {:.2f}", cost.withMs - cost.withoutMs,
+                             cost.withMs / std::max(cost.withoutMs, 1e-6)),
+                 "What the picture takes longer than nothing but the lit ground, which is 1.");
+    endValues();
+}
+
 }  // namespace
 
 void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
     const bool wide = hasWideRoom();
-    const std::array columns = {Column{"Times", 0.8f, 0, [&] { times(view, commands); }},
+    const std::array columns = {Column{"Times", 0.8f, 0,
+                                       [&] {
+                                           times(view, commands);
+                                           partCosts(view, commands);
+                                       }},
                                 Column{"Last 10 seconds", 1.7f, 0, [&] { plots(view, wide); }},
                                 Column{"Counts and memory", 1, 0, [&] {
                                            counts(view);

@@ -1,10 +1,23 @@
-// What the Light panel knows of the picture.
+// What the panels know of light and of what the parts of the picture cost.
 #pragma once
+
+#include <string>
+#include <vector>
 
 namespace ui {
 
+// A part of the picture beside nothing but the lit ground, drawn in turn. Milliseconds, medians of the
+// rounds.
+struct PartCost {
+    std::string part;
+    double withoutMs = 0;
+    double withMs = 0;
+};
+
 struct LightView {
-    bool software = false;  // the CPU draws: what is Automatic is turned down
+    bool software = false;        // the CPU draws: what is Automatic is turned down
+    std::vector<PartCost> costs;  // as last measured
+    double measured = 1;          // share of a measurement that is under way, [0, 1]; 1: none is
 };
 
 }  // namespace ui

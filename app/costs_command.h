@@ -1,0 +1,26 @@
+// worldy costs: what each part of a picture costs, without a display.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/view_options.h"
+#include "ui/view_settings.h"
+
+namespace worldy {
+
+struct CostsOptions {
+    std::filesystem::path file;
+    std::filesystem::path colourImage;  // empty: beside the file, if there is one
+    std::optional<planet::CameraPose> camera;
+    planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
+    PictureSize size;
+    int rounds = 5;
+    std::filesystem::path jsonOutput;
+    ui::ViewSettings view;
+};
+
+// Prints a table, and writes it as JSON where told.
+planet::Result<void> runCosts(const CostsOptions& options);
+
+}  // namespace worldy
