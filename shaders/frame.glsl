@@ -59,6 +59,7 @@ const int switchGather = 65536;        // edges that morph let vertices go as a 
 const int switchTiles = 131072;        // the image is streamed in tiles (colour_tiles.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)
 const int switchLayerPreview = 33554432;
+const int switchClipmap = 1073741824;    // of streamed tiles: from a clipmap (colour_clipmap.glsl)
 
 bool isOn(int bit) {
     return (variant & bit) != 0;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "planet/gl/chunk_grid.h"
+#include "planet/gl/colour_clipmap.h"
 #include "planet/gl/colour_image.h"
 #include "planet/gl/colour_pool.h"
 #include "planet/gl/detail_noise.h"
@@ -33,17 +34,20 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 7> chunkFragmentFiles = {
-    "frame.glsl",  "atmosphere.glsl",   "ground.glsl", "tone.glsl",
-    "layers.glsl", "colour_tiles.glsl", "chunk.frag"};
+constexpr std::array<std::string_view, 8> chunkFragmentFiles = {
+    "frame.glsl",  "atmosphere.glsl",   "ground.glsl",         "tone.glsl",
+    "layers.glsl", "colour_tiles.glsl", "colour_clipmap.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
 constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
+constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
+constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
 
 constexpr GLuint frameBinding = 0;
 constexpr GLuint layersBinding = 4;
+constexpr GLuint clipmapBinding = 12;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
@@ -52,6 +56,8 @@ constexpr GLint pagesUnit = 4;
 constexpr GLint rootsUnit = 5;
 constexpr GLint layerAlbedoUnit = 8;
 constexpr GLint layerSurfaceUnit = 9;
+constexpr GLint clipmapStackUnit = tilesUnit;  // drawn from in place of the tiles
+constexpr GLint clipmapBaseUnit = 14;
 constexpr int checkerSize = 64;  // until pictures are given
 
 // One drawn chunk, as shaders/chunk.vert reads it.
@@ -73,7 +79,7 @@ constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 struct Programs {
     ShaderText chunkVertex, chunkFragment;
     std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
-    Program sky, faceImage;
+    Program sky, faceImage, clipmapFill;
 };
 
 void connect(const Program& program) {
@@ -81,6 +87,8 @@ void connect(const Program& program) {
     if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, frameBinding);
     const GLuint layers = glGetUniformBlockIndex(program.name(), "Layers");
     if (layers != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), layers, layersBinding);
+    const GLuint clipmap = glGetUniformBlockIndex(program.name(), "Clipmap");
+    if (clipmap != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), clipmap, clipmapBinding);
     glUseProgram(program.name());
     glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
     glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
@@ -90,6 +98,8 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "colourRoots"), rootsUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "clipmapStack"), clipmapStackUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "clipmapBase"), clipmapBaseUnit);
     glUseProgram(0);
 }
 
@@ -122,10 +132,13 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     if (!sky) return tl::unexpected(sky.error());
     Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
     if (!faceImage) return tl::unexpected(faceImage.error());
+    Result<Program> clipmapFill = buildProgram(folder, clipmapVertexFiles, clipmapFragmentFiles);
+    if (!clipmapFill) return tl::unexpected(clipmapFill.error());
     programs.chunkVertex = std::move(*vertex);
     programs.chunkFragment = std::move(*fragment);
     programs.sky = std::move(*sky);
     programs.faceImage = std::move(*faceImage);
+    programs.clipmapFill = std::move(*clipmapFill);
     return programs;
 }
 
@@ -238,7 +251,7 @@ struct ChunkRenderer::State {
     int captureVariant = 0;
     Texture noise;
     VertexArray chunkArray, skyArray;
-    Buffer gridVertices, gridIndices, instances, frame, layersFrame;
+    Buffer gridVertices, gridIndices, instances, frame, layersFrame, clipmapFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
     std::vector<Instance> instanceData;
@@ -247,6 +260,7 @@ struct ChunkRenderer::State {
     GLsizei allIndexCount = 0;
     ColourImage image;
     std::optional<ColourPool> colours;
+    std::optional<ColourClipmap> clipmap;  // of those
     LayerTextures layers;
     GpuTimer chunksTimer, skyTimer;
     std::uint32_t uploads = 0;  // since the last draw
@@ -262,6 +276,7 @@ struct ChunkRenderer::State {
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched);
     void fillFrame(const View& view, const RenderSettings& settings);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
+    bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
@@ -283,6 +298,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       instances(makeBuffer()),
       frame(makeBuffer()),
       layersFrame(makeBuffer()),
+      clipmapFrame(makeBuffer()),
       layers({}, checkerSize) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
@@ -398,8 +414,12 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
     if (!colours || !settings.streamed) return {.faceSizePx = image.faceSizePx()};
-    return {(colourTileCells << colours->config().leafLevel) + 1, true, colours->config().leafLevel,
-            colours->anisotropy(), settings.texelsPerPixel};
+    return {(colourTileCells << colours->config().leafLevel) + 1,
+            true,
+            colours->config().leafLevel,
+            colours->anisotropy(),
+            settings.texelsPerPixel,
+            drawsClipmap()};
 }
 
 void ChunkRenderer::State::bindInputs() const {
@@ -413,11 +433,16 @@ void ChunkRenderer::State::bindInputs() const {
     glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
     if (colours) {
         glActiveTexture(GL_TEXTURE0 + tilesUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->tiles());
+        glBindTexture(GL_TEXTURE_2D_ARRAY, drawsClipmap() ? clipmap->stack() : colours->tiles());
         glActiveTexture(GL_TEXTURE0 + pagesUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->pages());
         glActiveTexture(GL_TEXTURE0 + rootsUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->roots());
+    }
+    if (drawsClipmap()) {
+        glBindBufferBase(GL_UNIFORM_BUFFER, clipmapBinding, clipmapFrame.name());
+        glActiveTexture(GL_TEXTURE0 + clipmapBaseUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, clipmap->base());
     }
     glActiveTexture(GL_TEXTURE0 + noiseUnit);
     glBindTexture(GL_TEXTURE_3D, noise.name());
@@ -508,15 +533,47 @@ void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width,
 
 Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& config) {
     if (!config) {
+        state_->clipmap.reset();
         state_->colours.reset();
         return {};
     }
-    return ColourPool::create(*config).map([this](ColourPool pool) { state_->colours = std::move(pool); });
+    return ColourPool::create(*config).map([this](ColourPool pool) {
+        state_->clipmap.reset();
+        state_->colours = std::move(pool);
+    });
 }
 
 void ChunkRenderer::followColours(std::span<const ColourChange> changes) {
     assert(state_->colours || changes.empty());
     if (state_->colours) state_->colours->follow(changes);
+    if (state_->clipmap) state_->clipmap->follow(changes);
+}
+
+Result<void> ChunkRenderer::setColourClipmap(std::optional<int> sizePx) {
+    assert(state_->colours || !sizePx);
+    state_->clipmap.reset();
+    if (!sizePx) return {};
+    return ColourClipmap::create(*sizePx, *state_->colours).map([this](ColourClipmap clipmap) {
+        state_->clipmap = std::move(clipmap);
+    });
+}
+
+Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finestLevel) {
+    State& state = *state_;
+    assert(state.clipmap);
+    Result<void> moved =
+        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs.clipmapFill.name());
+    if (!moved) {
+        state.clipmap.reset();
+        return moved;
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, state.clipmapFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(ClipmapUniforms), &state.clipmap->uniforms(), GL_STREAM_DRAW);
+    return {};
+}
+
+const ColourClipmapState* ChunkRenderer::colourClipmap() const {
+    return state_->clipmap ? &state_->clipmap->state() : nullptr;
 }
 
 void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
@@ -615,10 +672,13 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
 }
 
 GpuMemory ChunkRenderer::gpuMemory() const {
+    const std::size_t colourTiles = state_->colours ? state_->colours->bytes() : 0;
+    const std::size_t colourClipmap = state_->clipmap ? state_->clipmap->state().bytes() : 0;
     return {state_->pool.layout().bytes(),
-            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms),
-            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
-                (state_->colours ? state_->colours->bytes() : 0)};
+            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
+                (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
+            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() + colourTiles + colourClipmap,
+            colourTiles, colourClipmap};
 }
 
 }  // namespace planet::gl
