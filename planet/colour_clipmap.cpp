@@ -10,6 +10,8 @@ namespace planet {
 
 namespace {
 
+constexpr std::size_t texelBytes = 4;  // sRGB and an unused alpha: what every context can draw into
+
 int cellsOf(int level) {
     return colourTileCells << level;
 }
@@ -37,6 +39,28 @@ ClipmapLayout clipmapLayout(int sizePx, int leafLevel) {
     int whole = 0;
     while (whole < leafLevel && cellsOf(whole + 1) <= size) ++whole;
     return {size, leafLevel, whole};
+}
+
+glm::ivec2 clipmapBaseSize(const ClipmapLayout& layout) {
+    const int side = faceTexels(layout.wholeLevel).width;
+    return {side, layout.wholeLevel > 0 ? side + faceTexels(layout.wholeLevel - 1).width : side};
+}
+
+glm::ivec2 clipmapBaseCorner(const ClipmapLayout& layout, int level) {
+    assert(level >= 0 && level <= layout.wholeLevel);
+    if (level == layout.wholeLevel) return {0, 0};
+    glm::ivec2 corner(0, faceTexels(layout.wholeLevel).width);
+    for (int finer = layout.wholeLevel - 1; finer > level; --finer) corner.x += faceTexels(finer).width;
+    return corner;
+}
+
+std::size_t clipmapBaseBytes(const ClipmapLayout& layout) {
+    const glm::ivec2 size = clipmapBaseSize(layout);
+    return faceCount * texelBytes * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+}
+
+std::size_t clipmapWindowBytes(const ClipmapLayout& layout) {
+    return texelBytes * static_cast<std::size_t>(layout.sizePx) * static_cast<std::size_t>(layout.sizePx);
 }
 
 ClipmapCentre clipmapCentre(const glm::dvec3& eyeM) {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -52,6 +53,13 @@ struct ClipmapLayout {
 };
 // A size that is no power of two or out of range is taken as the next smaller or the nearest that is.
 ClipmapLayout clipmapLayout(int sizePx, int leafLevel);
+
+// What it takes on the GPU: the levels that are kept whole, and each window.
+std::size_t clipmapBaseBytes(const ClipmapLayout& layout);
+std::size_t clipmapWindowBytes(const ClipmapLayout& layout);
+// The base's texture: for each face the finest whole level in the corner, the others in a row above it.
+glm::ivec2 clipmapBaseSize(const ClipmapLayout& layout);
+glm::ivec2 clipmapBaseCorner(const ClipmapLayout& layout, int level);
 
 // The place under the viewer.
 struct ClipmapCentre {

@@ -12,27 +12,9 @@ namespace planet::gl {
 
 namespace {
 
-constexpr std::size_t texelBytes = 4;  // sRGB and an unused alpha: what every context can draw into
 // Of the fill program.
 constexpr GLint tilesUnit = 3;
 constexpr GLint pagesUnit = 4;
-
-int sideOf(int level) {
-    return faceTexels(level).width;
-}
-
-// A whole level's place in the base.
-glm::ivec2 cornerOf(const ClipmapLayout& layout, int level) {
-    if (level == layout.wholeLevel) return {0, 0};
-    glm::ivec2 corner(0, sideOf(layout.wholeLevel));
-    for (int finer = layout.wholeLevel - 1; finer > level; --finer) corner.x += sideOf(finer);
-    return corner;
-}
-
-glm::ivec2 baseSize(const ClipmapLayout& layout) {
-    const int side = sideOf(layout.wholeLevel);
-    return {side, layout.wholeLevel > 0 ? side + sideOf(layout.wholeLevel - 1) : side};
-}
 
 // The Error names what there is no room for.
 Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float anisotropy) {
@@ -61,11 +43,6 @@ Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float
         fmt::format("this OpenGL context has no room for {} layers of {} x {} texels of a clipmap; smaller "
                     "windows need less",
                     layers, size.x, size.y));
-}
-
-std::size_t bytesOf(const glm::ivec2& size, int layers) {
-    return texelBytes * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-           static_cast<std::size_t>(layers);
 }
 
 // What filling changes of the context, put back when it ends.
@@ -110,11 +87,11 @@ Result<ColourClipmap> ColourClipmap::create(int sizePx, const ColourPool& pool) 
 }
 
 Result<void> ColourClipmap::makeBase() {
-    const glm::ivec2 size = baseSize(windows_.layout());
-    Result<Texture> made = makeLayers(size, faceCount, GL_CLAMP_TO_EDGE, anisotropy_);
+    Result<Texture> made =
+        makeLayers(clipmapBaseSize(windows_.layout()), faceCount, GL_CLAMP_TO_EDGE, anisotropy_);
     if (!made) return tl::unexpected(made.error());
     base_ = std::move(*made);
-    state_.baseBytes = bytesOf(size, faceCount);
+    state_.baseBytes = clipmapBaseBytes(windows_.layout());
     return {};
 }
 
@@ -127,7 +104,7 @@ Result<void> ColourClipmap::makeStack(int layers) {
     if (!made) return tl::unexpected(made.error());
     stack_ = std::move(*made);
     stackLayers_ = layers;
-    state_.stackBytes = bytesOf(size, layers);
+    state_.stackBytes = static_cast<std::size_t>(layers) * clipmapWindowBytes(windows_.layout());
     return {};
 }
 
@@ -192,7 +169,7 @@ void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const ColourPoo
         glUniform3i(filled, static_cast<int>(update.face), update.level, layout.leafLevel);
         if (whole) {
             const TexelRect all = faceTexels(update.level);
-            const glm::ivec2 corner = cornerOf(layout, update.level);
+            const glm::ivec2 corner = clipmapBaseCorner(layout, update.level);
             draw(update.texels, corner.x + update.texels.x - all.x, corner.y + update.texels.y - all.y);
             continue;
         }
