@@ -88,7 +88,7 @@ planet::LineColour filledColour(const planet::ClipmapUpdate& update, double ageS
     const double strength = std::clamp(1 - ageS / shownS, 0.0, 1.0);
     const auto opacity = static_cast<std::uint8_t>(std::lround(220 * strength));
     return update.byMoving ? planet::LineColour{255, 60, 220, opacity}
-                           : planet::LineColour{255, 255, 255, opacity};
+                           : planet::LineColour{70, 230, 255, opacity};
 }
 
 void remember(const planet::gl::ColourClipmapState& state, double nowS, ClipmapTrace& trace) {

@@ -36,7 +36,7 @@ void moveClipmap(planet::gl::ChunkRenderer& renderer, std::optional<int> sizePx,
 ui::ClipmapStats clipmapStatsOf(const planet::gl::ChunkRenderer& renderer, const ClipmapTrace& trace);
 
 // The windows' outlines on the ground in the colours of their levels, and what was filled in the last
-// seconds, fading: magenta came in by moving, white because tiles came or went.
+// seconds, fading: magenta came in by moving, cyan because tiles came or went.
 void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const ClipmapTrace& trace,
                         const planet::ChunkTree& tree, const planet::View& renderView, double nowS,
                         planet::Lines& lines);

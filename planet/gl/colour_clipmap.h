@@ -3,7 +3,8 @@
 //
 // The base: a layer for each face with the levels that are kept whole, the finest in the corner, the others
 // in a row above it. The stack: a window a layer, a texel at its coordinates modulo the size. Both
-// uncompressed: textures that are drawn into cannot be BC1.
+// uncompressed: textures that are drawn into cannot be BC1. The stack begins with a layer for each level;
+// where more windows stand, near a face's edge, it is made larger and filled anew, and stays so large.
 //
 // Everything here wants a current context, and the same one throughout; one thread.
 #pragma once
