@@ -123,7 +123,7 @@ void drawB(CompareDesk& desk, Viewport& viewport, const ui::ChunkFocus& focus, c
         ui::chunkTints(planet, drawn, b.settings.overlay, b.settings.lod.tauPx, b.settings.surface.lighting,
                        errors.last ? &*errors.last : nullptr);
     content.tints = tints;
-    content.hiddenLines = overlayLines(planet.tree(), drawn, content.view, b.settings);
+    content.hiddenLines = linesOver(b.planet.scene, drawn, content.view, b.settings);
     content.frontLines = focusLines(planet.tree(), focus, content.view);
     drawPicture(viewport, desk.picture, b.planet.scene, b.settings, content, log);
 }

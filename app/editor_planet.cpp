@@ -196,7 +196,7 @@ void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& 
     const planet::Selection& shown = kept ? kept->selection : scene.planet->selection();
     const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, editor.errors);
     content.tints = tints;
-    content.hiddenLines = overlayLines(scene.planet->tree(), shown, content.view, settings);
+    content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines = focusLines(scene.planet->tree(), editor.focus, content.view);
     drawPicture(viewport, viewport.main, scene, settings, content, log);
 }
@@ -211,8 +211,8 @@ void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const L
     const std::vector<planet::gl::ChunkTint> tints =
         tintsOf(scene, scene.planet->selection(content.selection), settings, editor.errors);
     content.tints = tints;
-    content.hiddenLines = overlayLines(scene.planet->tree(), scene.planet->selection(content.selection),
-                                       content.view, settings);
+    content.hiddenLines =
+        linesOver(scene, scene.planet->selection(content.selection), content.view, settings);
     content.frontLines = observerLines(*scene.planet, editor.lodView, settings.camera, editor.focus.selected);
     const planet::Lines focus = focusLines(scene.planet->tree(), editor.focus, content.view);
     content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());

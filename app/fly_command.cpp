@@ -37,7 +37,7 @@ struct Quantity {
     double (*of)(const ui::FrameStats&);
 };
 using Stats = ui::FrameStats;
-constexpr std::array<Quantity, 18> quantities = {{
+constexpr std::array<Quantity, 21> quantities = {{
     {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
     {"culled",
      [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
@@ -57,6 +57,9 @@ constexpr std::array<Quantity, 18> quantities = {{
     {"chunks_gpu_ms", [](const Stats& s) { return s.render.chunksMs; }},
     {"sky_gpu_ms", [](const Stats& s) { return s.render.skyMs; }},
     {"frame_ms", [](const Stats& s) { return s.frameMs; }},
+    {"colour_tile_bytes", [](const Stats& s) { return static_cast<double>(s.gpuMemory.colourTiles); }},
+    {"clipmap_bytes", [](const Stats& s) { return static_cast<double>(s.gpuMemory.colourClipmap); }},
+    {"clipmap_texels", [](const Stats& s) { return static_cast<double>(s.clipmap.filledTexels); }},
 }};
 
 struct Spread {

@@ -93,7 +93,7 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
     drawScene(scene, view, settings, 0,
               ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
                              settings.surface.lighting, *measured ? &**measured : nullptr));
-    const planet::Lines lines = overlayLines(scene.planet->tree(), selection, view, settings);
+    const planet::Lines lines = linesOver(scene, selection, view, settings);
     // Lines are those of the sphere.
     if (!lines.empty() && !settings.overlay.cube) {
         if (planet::Result<void> drawn = drawLines(offscreen, view, lines); !drawn) return drawn;

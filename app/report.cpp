@@ -46,7 +46,10 @@ Json jsonOf(const ui::FrameStats& stats) {
             {"draw_gpu_ms", stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs},
             {"chunks_gpu_ms", stats.render.chunksMs},
             {"sky_gpu_ms", stats.render.skyMs},
-            {"frame_ms", stats.frameMs}};
+            {"frame_ms", stats.frameMs},
+            {"colour_tile_bytes", stats.gpuMemory.colourTiles},
+            {"clipmap_bytes", stats.gpuMemory.colourClipmap},
+            {"clipmap_texels", stats.clipmap.filledTexels}};
 }
 
 std::vector<std::uint32_t> levelHistogram(const planet::Selection& selection) {

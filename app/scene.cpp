@@ -7,7 +7,9 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/clipmap_trace.h"
 #include "app/layer_file.h"
+#include "app/overlay_lines.h"
 #include "app/stopwatch.h"
 #include "planet/cube_sphere.h"
 #include "planet/shadow_cascades.h"
@@ -95,6 +97,7 @@ void followColours(Scene& scene) {
         const bool made = scene.renderer.setColours(wanted).has_value();
         if (!made) static_cast<void>(scene.renderer.setColours(std::nullopt));
         scene.colourPool = wanted;
+        scene.clipmap.sizePx.reset();  // it went with the pool
         scene.drawsColours = made;
     }
     const std::vector<planet::ColourChange> changes = scene.planet->takeColourChanges();
@@ -109,11 +112,25 @@ std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::View
                                  render.light.shadows.reachM);
 }
 
+// The clipmap stands around the lod view, whose tiles it is filled from, whoever looks at it.
+void followClipmap(Scene& scene, const ui::ViewSettings& settings) {
+    const bool wanted = scene.drawsColours && settings.surface.colourMode == ui::ColourMode::Clipmap &&
+                        colourSettingsOf(settings).enabled;
+    int finestLevel = 0;
+    for (std::size_t view = 0; view < scene.planet->viewCount(); ++view) {
+        const planet::ColourCounters& seen = scene.planet->colourSelection(view).counters;
+        finestLevel = std::max(finestLevel, static_cast<int>(seen.deepestLevel));
+    }
+    moveClipmap(scene.renderer, wanted ? std::optional(settings.surface.clipmapSizePx) : std::nullopt,
+                scene.planet->lodView().eyeM, finestLevel, scene.planet->seconds(), scene.clipmap);
+}
+
 void beginFrame(Scene& scene, const ui::ViewSettings& settings) {
     const ui::SurfaceSettings& surface = settings.surface;
     const bool drawn = surface.sea && surface.lighting && !settings.overlay.cube &&
                        planet::gl::isUsed(surface.light.sea.use, scene.renderer.capabilities().software);
     scene.seaSurfaceM = drawn ? std::optional(surface.seaLevelM * surface.exaggeration) : std::nullopt;
+    scene.clipmap.filledTexels = 0;
     scene.drawCpuMs = 0;
     scene.drawn = {};
 }
@@ -261,6 +278,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
     followColours(scene);
+    followClipmap(scene, settings);
     scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render));
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
@@ -291,7 +309,17 @@ ui::FrameStats statsOf(const Scene& scene) {
     stats.render = scene.drawn;
     stats.gpuMemory = scene.renderer.gpuMemory();
     stats.drawCpuMs = scene.drawCpuMs;
+    stats.clipmap = clipmapStatsOf(scene.renderer, scene.clipmap);
     return stats;
+}
+
+planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
+                        const planet::View& renderView, const ui::ViewSettings& settings) {
+    const planet::ChunkTree& tree = scene.planet->tree();
+    planet::Lines lines = overlayLines(tree, selection, renderView, settings);
+    if (settings.overlay.clipmap)
+        appendClipmapLines(scene.renderer, scene.clipmap, tree, renderView, scene.planet->seconds(), lines);
+    return lines;
 }
 
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM) {

@@ -8,8 +8,10 @@
 #include <span>
 
 #include "app/camera_control.h"
+#include "app/clipmap_trace.h"
 #include "app/layer_pictures.h"
 #include "app/picture.h"
+#include "planet/debug_shapes.h"
 #include "planet/gl/chunk_renderer.h"
 #include "planet/planet.h"
 #include "ui/frame_stats.h"
@@ -28,6 +30,7 @@ struct Scene {
     // Of the file's own colours: the pool that was last asked for, and whether it could be made.
     std::optional<planet::gl::ColourPoolConfig> colourPool{};
     bool drawsColours = false;
+    ClipmapTrace clipmap{};  // over those tiles
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
     LayerPictures layers{};               // read when they are first drawn
@@ -93,6 +96,10 @@ bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettin
 // What the planet and its renderer know: selection 0, paging, stages, drawing, and the renderer's memory. The
 // rest the caller knows.
 ui::FrameStats statsOf(const Scene& scene);
+
+// What the settings want drawn over a selection: overlayLines, and the clipmap's as it was last drawn.
+planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
+                        const planet::View& renderView, const ui::ViewSettings& settings);
 
 // The sea's surface counts as ground where it is drawn as water.
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM);

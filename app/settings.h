@@ -20,6 +20,7 @@ namespace worldy {
 inline constexpr std::array<std::string_view, 8> colourByNames = {"none",  "level", "error",      "delta_c",
                                                                   "morph", "age",   "load_order", "measured"};
 inline constexpr std::array<std::string_view, 2> surfaceNames = {"image", "ramp"};
+inline constexpr std::array<std::string_view, 2> colourModeNames = {"tiles", "clipmap"};
 inline constexpr std::array<std::string_view, 2> errorMetricNames = {"additive", "tight"};
 inline constexpr std::array<std::string_view, 3> seamModeNames = {"none", "skirts", "stitched"};
 inline constexpr std::array<std::string_view, 2> skirtDepthNames = {"automatic", "fixed"};

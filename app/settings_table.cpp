@@ -121,7 +121,9 @@ void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
           Choice{asByte(overlay.skirtPaint), skirtPaintNames}},
          {"overlay", "labels", "On chunks: none, level, error or level_and_error.",
           Choice{asByte(overlay.labels), chunkLabelsNames}},
-         {"overlay", "cube", "Draw the cube before it is blown up to the sphere.", Flag{&overlay.cube}}});
+         {"overlay", "cube", "Draw the cube before it is blown up to the sphere.", Flag{&overlay.cube}},
+         {"overlay", "clipmap", "Windows of the clipmap of colours, and what was filled lately.",
+          Flag{&overlay.clipmap}}});
 }
 
 void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
@@ -135,6 +137,10 @@ void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
           Flag{&surface.streamed}},
          {"surface", "texels_per_pixel", "Of streamed colours; larger: sharper, and more memory.",
           Number{&surface.texelsPerPixel, {0.1, 4, ""}}},
+         {"surface", "colour_mode", "Streamed colours are drawn from their tiles, or from a clipmap of them,",
+          Choice{asByte(surface.colourMode), colourModeNames}},
+         {"surface", "clipmap_size_px", "whose windows have so many texels a side; a power of two.",
+          Integer{&surface.clipmapSizePx, {256, 4096, "texels"}}},
          {"surface", "ramp", "Colours by height above the sea, lowest first; empty: the built-in ramp.",
           Ramp{&surface.ramp}},
          {"surface", "sea", "What lies below the sea level is sea; false: dry land.", Flag{&surface.sea}},
@@ -507,7 +513,7 @@ std::string Field::name() const {
 
 std::vector<Field> fieldsOf(Settings& settings) {
     Fields fields;
-    fields.reserve(110);
+    fields.reserve(113);
     addData(fields, settings);
     addLod(fields, settings.view.lod);
     addSeams(fields, settings.view.seams);

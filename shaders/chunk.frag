@@ -69,7 +69,12 @@ vec4 imageColour(Detail detail, float strength) {
         place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * detailPixels.z);
     }
     if (isOn(switchTiles)) {
-        vec3 colour = streamedColours(place, facePlace.w);
+        vec3 colour;
+        if (isOn(switchClipmap)) {
+            colour = clipmapColours(place, facePlace.w);
+        } else {
+            colour = streamedColours(place, facePlace.w);
+        }
         return vec4(colour, waterOf(colour));
     }
     // The outermost texels have their middles on the edges.

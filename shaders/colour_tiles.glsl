@@ -27,19 +27,26 @@ vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
     return textureGrad(colourTiles, vec3(onTile(place * tiles - tile), float(page.r)), dx * scale, dy * scale).rgb;
 }
 
-// Linear light. Two levels are mixed, as mipmaps are, so that no step shows where the level changes.
-vec3 streamedColours(vec2 place, float face) {
-    vec2 dx = dFdx(place);
-    vec2 dy = dFdy(place);
+// The level with as many texels a pixel as are wanted; 0 or less where a whole face is small.
+float wantedLevel(vec2 dx, vec2 dy) {
     float longest = max(dot(dx, dx), dot(dy, dy));
     float shortest = min(dot(dx, dx), dot(dy, dy));
     // An anisotropic sampler takes several texels along the longer side.
     float pixel = sqrt(max(longest / (colourFilter.x * colourFilter.x), shortest));
-    float level = -log2(max(pixel * tileCells, 1e-20)) + colourFilter.y;
-    if (level <= 0.0) {
-        float scale = tileCells / tileTexels;
-        return textureGrad(colourRoots, vec3(onTile(place), face), dx * scale, dy * scale).rgb;
-    }
+    return -log2(max(pixel * tileCells, 1e-20)) + colourFilter.y;
+}
+
+vec3 coloursOfRoot(vec2 place, float face, vec2 dx, vec2 dy) {
+    float scale = tileCells / tileTexels;
+    return textureGrad(colourRoots, vec3(onTile(place), face), dx * scale, dy * scale).rgb;
+}
+
+// Linear light. Two levels are mixed, as mipmaps are, so that no step shows where the level changes.
+vec3 streamedColours(vec2 place, float face) {
+    vec2 dx = dFdx(place);
+    vec2 dy = dFdy(place);
+    float level = wantedLevel(dx, dy);
+    if (level <= 0.0) return coloursOfRoot(place, face, dx, dy);
     float finest = float(colouring.x);
     level = min(level, finest);
     int coarser = int(floor(level));

@@ -62,6 +62,7 @@ const int switchSeaSurface = 524288;   // the sea is drawn at its level, as wate
 const int switchShadows = 1048576;     // the ground's on itself (shadows.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)
 const int switchLayerPreview = 33554432;
+const int switchClipmap = 1073741824;    // of streamed tiles: from a clipmap (colour_clipmap.glsl)
 
 bool isOn(int bit) {
     return (variant & bit) != 0;

@@ -129,8 +129,10 @@ void memory(const EditorView& view) {
         memoryBar("Heights in use", heightsUsed, 0),
         memoryBar("Heights free", std::max(asBytes(gpu.heightPool) - heightsUsed, 0.0), 7),
         memoryBar("Meshes", asBytes(gpu.meshes), 2),
-        memoryBar("Textures", asBytes(gpu.textures), 1),
-        memoryBar("Shadow maps", asBytes(gpu.shadowMaps), 3),
+        memoryBar("Textures", asBytes(gpu.textures - gpu.colourTiles - gpu.colourClipmap), 1),
+        memoryBar("Colour tiles", asBytes(gpu.colourTiles), 3),
+        memoryBar("Colour clipmap", asBytes(gpu.colourClipmap), 6),
+        memoryBar("Shadow maps", asBytes(gpu.shadowMaps), 5),
         memoryBar("Pictures", asBytes(stats.targetBytes), 4)};
     ImGui::TextDisabled("GPU: %s", bytesText(asBytes(gpu.total() + stats.targetBytes)).c_str());
     tooltip("What the program asked the driver for.");
@@ -138,7 +140,8 @@ void memory(const EditorView& view) {
     tooltip(
         "Heights in use: slots of the pool that hold a resident chunk. Heights free: slots that the budget "
         "pays for, but nothing fills. Meshes: the grid and the instances. Textures: the colour image and its "
-        "like. Pictures: what is drawn into.");
+        "like. Colour tiles and clipmap: what streamed colours are drawn from. Pictures: what is drawn "
+        "into.");
 }
 
 // Stages that one draw call does together cannot be timed in it: they are drawn with and without.

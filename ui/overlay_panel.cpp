@@ -65,6 +65,11 @@ void drawnKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
     checkbox("Cube", overlay.cube, defaults.cube,
              "Draws the cube before it is blown up to the sphere (F4). What is drawn is still chosen for the "
              "sphere, so its errors on screen are not those of this picture.");
+    checkbox(
+        "Clipmap", overlay.clipmap, defaults.clipmap,
+        "Where streamed colours are drawn from a clipmap (Surface): each level's window in that level's "
+        "colour, and for two seconds what was filled of it: magenta came in by moving, cyan because tiles "
+        "came or went. Freeze the view and fly on, or use an observer, to see it from outside.");
     choice("Skirts", overlay.skirtPaint, defaults.skirtPaint, "As ground\0Loud\0Loud alone\0",
            "How the curtains at chunks' borders are drawn: like the ground they hang from; in one glaring "
            "colour, so that every crack they fill is seen; or that alone, without the ground.");

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 
+#include "planet/colour_clipmap.h"
 #include "ui/ramp_edit.h"
+#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -34,6 +37,66 @@ HeightRange heightsOf(const EditorView& view, double seaLevelM) {
             planet::heightM(tree.storedShape, tree.maxStep) - seaLevelM};
 }
 
+// Sizes that a clipmap's windows can have: powers of two.
+void windowSizeKnob(SurfaceSettings& surface, int defaultPx) {
+    const auto indexOf = [](int sizePx) {
+        const auto size = static_cast<unsigned>(planet::clipmapLayout(sizePx, 0).sizePx);
+        return std::countr_zero(size) - std::countr_zero(static_cast<unsigned>(planet::smallestClipmapPx));
+    };
+    int index = indexOf(surface.clipmapSizePx);
+    if (choiceIndex(
+            "Window", index, indexOf(defaultPx),
+            "256 px\0"
+            "512 px\0"
+            "1024 px\0"
+            "2048 px\0"
+            "4096 px\0",
+            "Texels a side of each level's window, N. Farther from the point under the camera than a window "
+            "reaches, the next coarser one is drawn: towards the horizon there are about N / 2 K' texels a "
+            "pixel, K' = viewport width / (2 tan(field of view / 2)). Small: blurred. Large: four times the "
+            "memory for twice the size."))
+        surface.clipmapSizePx = planet::smallestClipmapPx << index;
+}
+
+void clipmapKnobs(SurfaceSettings& surface) {
+    const SurfaceSettings defaults;
+    choice("Drawn from", surface.colourMode, defaults.colourMode, "tiles\0clipmap\0",
+           "Tiles: each pixel finds its tile through a page table; as sharp as what is loaded, everywhere. "
+           "Clipmap: a stack of windows centred on the viewer, filled from the same tiles; no page table to "
+           "look through, but sharp only near the point under the camera, and it wants memory of its own.");
+    ImGui::BeginDisabled(surface.colourMode != ColourMode::Clipmap);
+    windowSizeKnob(surface, defaults.clipmapSizePx);
+    ImGui::EndDisabled();
+}
+
+// Of both ways side by side.
+void colourMemory(const EditorView& view, const SurfaceSettings& surface) {
+    const planet::gl::GpuMemory& gpu = view.stats.gpuMemory;
+    const ClipmapStats& clipmap = view.stats.clipmap;
+    const auto bytes = [](std::size_t count) { return bytesText(static_cast<double>(count)); };
+    valueRow("Tiles' memory", bytes(gpu.colourTiles),
+             "On the GPU: the pool that the budget pays for, the page table and the roots' mipmaps. The "
+             "clipmap is filled from it, so that it stays.");
+    const planet::ClipmapLayout layout =
+        planet::clipmapLayout(surface.clipmapSizePx, view.planet->colour()->leafLevel);
+    const std::size_t planned =
+        planet::clipmapBaseBytes(layout) +
+        static_cast<std::size_t>(layout.movingLevels()) * planet::clipmapWindowBytes(layout);
+    const bool there = gpu.colourClipmap > 0;
+    valueRow(
+        "Clipmap's memory", there ? bytes(gpu.colourClipmap) : fmt::format("0, on: {}", bytes(planned)),
+        "On the GPU, beside the tiles': 4 bytes a texel; the coarse levels whole for all six faces, and a "
+        "window for each finer level, two or three where the camera is near a face's edge or corner. It "
+        "is freed when tiles are drawn from.");
+    if (!there) return;
+    valueRow("Windows", fmt::format("{} over level {}", clipmap.windows, clipmap.wholeLevel),
+             "Of the levels finer than those that are kept whole, as far as the view wants them. The Overlay "
+             "panel's Clipmap shows them.");
+    valueRow("Texels filled", countText(static_cast<double>(clipmap.filledTexels)),
+             "In the last frame: the strips that came in by moving, and what tiles that arrived cover. The "
+             "whole of it after a jump.");
+}
+
 // Of colours that the file itself holds.
 void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     const SurfaceSettings defaults;
@@ -47,7 +110,10 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
         "A tile is loaded in four finer ones while it has fewer texels than this for a pixel of the picture. "
         "Larger: sharper, up to four times the tiles for twice as many, and it may shimmer. Smaller: softer.",
         ImGuiSliderFlags_Logarithmic);
+    clipmapKnobs(surface);
     ImGui::EndDisabled();
+    const std::string& problem = view.stats.clipmap.problem;
+    if (!problem.empty()) wrappedText(problem, palette().warning);
     const planet::ColourCounters& seen = view.planet->colourSelection().counters;
     const planet::ColourPagingCounters& paging = view.planet->colourPaging();
     if (!beginValues("streamed")) return;
@@ -57,6 +123,7 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     valueRow("Finest level", fmt::format("{} of {}", seen.deepestLevel, view.planet->colour()->leafLevel),
              "Of the tiles in view, and of the file.");
     valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than wanted.");
+    colourMemory(view, surface);
     endValues();
 }
 

@@ -48,6 +48,9 @@ struct PagingKnobs {
     bool operator==(const PagingKnobs&) const = default;
 };
 
+// What streamed colours are drawn from.
+enum class ColourMode : std::uint8_t { Tiles, Clipmap };
+
 enum class ColourBy : std::uint8_t { None, Level, Error, DeltaC, Morph, Age, LoadOrder, Measured };
 enum class ChunkLabels : std::uint8_t { None, Level, Error, LevelAndError };
 
@@ -63,7 +66,8 @@ struct OverlaySettings {
     bool wireframe = false;   // the mesh
     planet::gl::SkirtPaint skirtPaint = planet::gl::SkirtPaint::AsGround;
     ChunkLabels labels = ChunkLabels::None;
-    bool cube = false;  // draws the cube before it is blown up
+    bool cube = false;     // draws the cube before it is blown up
+    bool clipmap = false;  // windows of the clipmap of colours, and what was filled of them lately
 
     bool operator==(const OverlaySettings&) const = default;
 };
@@ -85,9 +89,11 @@ struct LayerSettings {
 
 struct SurfaceSettings {
     planet::gl::SurfaceColour surface = planet::gl::SurfaceColour::Image;
-    double imageOpacity = 1;                 // of the colour image over the ramp, [0, 1]
-    bool streamed = true;                    // the file's own colours instead of an image, where it has them
-    double texelsPerPixel = 1;               // of streamed colours, [0.1, 4]
+    double imageOpacity = 1;    // of the colour image over the ramp, [0, 1]
+    bool streamed = true;       // the file's own colours instead of an image, where it has them
+    double texelsPerPixel = 1;  // of streamed colours, [0.1, 4]
+    ColourMode colourMode = ColourMode::Tiles;
+    int clipmapSizePx = 1024;                // of its windows, texels a side, a power of two, [256, 4096]
     std::vector<planet::gl::RampStop> ramp;  // lowest first; empty: the built-in ramp
     bool sea = true;
     double seaLevelM = 0;     // [-20000, 20000]

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "planet/gl/chunk_grid.h"
+#include "planet/gl/colour_clipmap.h"
 #include "planet/gl/colour_image.h"
 #include "planet/gl/colour_pool.h"
 #include "planet/gl/detail_noise.h"
@@ -37,20 +38,23 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr auto chunkFragmentFiles =
-    std::to_array<std::string_view>({"frame.glsl", "atmosphere.glsl", "ground.glsl", "tone.glsl", "sea.glsl",
-                                     "shadows.glsl", "layers.glsl", "colour_tiles.glsl", "chunk.frag"});
+constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
+    {"frame.glsl", "atmosphere.glsl", "ground.glsl", "tone.glsl", "sea.glsl", "shadows.glsl", "layers.glsl",
+     "colour_tiles.glsl", "colour_clipmap.glsl", "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
 constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
+constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
+constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
 
 constexpr GLuint frameBinding = 0;
 constexpr GLuint layersBinding = 4;
 constexpr GLuint seaBinding = 6;
 constexpr GLuint shadowsBinding = 7;
+constexpr GLuint clipmapBinding = 12;
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
@@ -60,6 +64,8 @@ constexpr GLint rootsUnit = 5;
 constexpr GLint shadowsUnit = 7;
 constexpr GLint layerAlbedoUnit = 8;
 constexpr GLint layerSurfaceUnit = 9;
+constexpr GLint clipmapStackUnit = tilesUnit;  // drawn from in place of the tiles
+constexpr GLint clipmapBaseUnit = 14;
 constexpr int checkerSize = 64;  // until pictures are given
 
 // One drawn chunk, as shaders/chunk.vert reads it.
@@ -82,14 +88,16 @@ struct Programs {
     ShaderText chunkVertex, chunkFragment, depthFragment;
     std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
     std::unordered_map<int, Program> depth;  // likewise, for shadows
-    Program sky, faceImage;
+    Program sky, faceImage, clipmapFill;
 };
 
 void connect(const Program& program) {
-    constexpr std::array<std::pair<const char*, GLuint>, 4> blocks = {{{"Frame", frameBinding},
-                                                                       {"Layers", layersBinding},
-                                                                       {"Sea", seaBinding},
-                                                                       {"Shadows", shadowsBinding}}};
+    constexpr auto blocks =
+        std::to_array<std::pair<const char*, GLuint>>({{"Frame", frameBinding},
+                                                       {"Layers", layersBinding},
+                                                       {"Clipmap", clipmapBinding},
+                                                       {"Sea", seaBinding},
+                                                       {"Shadows", shadowsBinding}});
     for (const auto& [name, binding] : blocks) {
         const GLuint block = glGetUniformBlockIndex(program.name(), name);
         if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
@@ -104,6 +112,8 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "shadowMaps"), shadowsUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "clipmapStack"), clipmapStackUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "clipmapBase"), clipmapBaseUnit);
     glUseProgram(0);
 }
 
@@ -138,11 +148,14 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     if (!sky) return tl::unexpected(sky.error());
     Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
     if (!faceImage) return tl::unexpected(faceImage.error());
+    Result<Program> clipmapFill = buildProgram(folder, clipmapVertexFiles, clipmapFragmentFiles);
+    if (!clipmapFill) return tl::unexpected(clipmapFill.error());
     programs.chunkVertex = std::move(*vertex);
     programs.chunkFragment = std::move(*fragment);
     programs.depthFragment = std::move(*depthFragment);
     programs.sky = std::move(*sky);
     programs.faceImage = std::move(*faceImage);
+    programs.clipmapFill = std::move(*clipmapFill);
     return programs;
 }
 
@@ -255,7 +268,7 @@ struct ChunkRenderer::State {
     int captureVariant = 0;
     Texture noise;
     VertexArray chunkArray, skyArray;
-    Buffer gridVertices, gridIndices, instances, frame, layersFrame, seaFrame, shadowsFrame;
+    Buffer gridVertices, gridIndices, instances, frame, layersFrame, clipmapFrame, seaFrame, shadowsFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
     std::vector<Instance> instanceData;
@@ -264,6 +277,7 @@ struct ChunkRenderer::State {
     GLsizei allIndexCount = 0;
     ColourImage image;
     std::optional<ColourPool> colours;
+    std::optional<ColourClipmap> clipmap;  // of those
     LayerTextures layers;
     std::optional<ShadowMaps> shadows;  // while they are drawn
     int shadowsAskedPx = 0;
@@ -288,6 +302,7 @@ struct ChunkRenderer::State {
                      int variant);
     void fillFrame(const View& view, const RenderSettings& settings);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
+    bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
@@ -311,6 +326,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       layersFrame(makeBuffer()),
       seaFrame(makeBuffer()),
       shadowsFrame(makeBuffer()),
+      clipmapFrame(makeBuffer()),
       layers({}, checkerSize) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
@@ -447,8 +463,12 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
     if (!colours || !settings.streamed) return {.faceSizePx = image.faceSizePx()};
-    return {(colourTileCells << colours->config().leafLevel) + 1, true, colours->config().leafLevel,
-            colours->anisotropy(), settings.texelsPerPixel};
+    return {(colourTileCells << colours->config().leafLevel) + 1,
+            true,
+            colours->config().leafLevel,
+            colours->anisotropy(),
+            settings.texelsPerPixel,
+            drawsClipmap()};
 }
 
 void ChunkRenderer::State::bindInputs() const {
@@ -468,11 +488,16 @@ void ChunkRenderer::State::bindInputs() const {
     }
     if (colours) {
         glActiveTexture(GL_TEXTURE0 + tilesUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->tiles());
+        glBindTexture(GL_TEXTURE_2D_ARRAY, drawsClipmap() ? clipmap->stack() : colours->tiles());
         glActiveTexture(GL_TEXTURE0 + pagesUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->pages());
         glActiveTexture(GL_TEXTURE0 + rootsUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->roots());
+    }
+    if (drawsClipmap()) {
+        glBindBufferBase(GL_UNIFORM_BUFFER, clipmapBinding, clipmapFrame.name());
+        glActiveTexture(GL_TEXTURE0 + clipmapBaseUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, clipmap->base());
     }
     glActiveTexture(GL_TEXTURE0 + noiseUnit);
     glBindTexture(GL_TEXTURE_3D, noise.name());
@@ -613,15 +638,47 @@ void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width,
 
 Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& config) {
     if (!config) {
+        state_->clipmap.reset();
         state_->colours.reset();
         return {};
     }
-    return ColourPool::create(*config).map([this](ColourPool pool) { state_->colours = std::move(pool); });
+    return ColourPool::create(*config).map([this](ColourPool pool) {
+        state_->clipmap.reset();
+        state_->colours = std::move(pool);
+    });
 }
 
 void ChunkRenderer::followColours(std::span<const ColourChange> changes) {
     assert(state_->colours || changes.empty());
     if (state_->colours) state_->colours->follow(changes);
+    if (state_->clipmap) state_->clipmap->follow(changes);
+}
+
+Result<void> ChunkRenderer::setColourClipmap(std::optional<int> sizePx) {
+    assert(state_->colours || !sizePx);
+    state_->clipmap.reset();
+    if (!sizePx) return {};
+    return ColourClipmap::create(*sizePx, *state_->colours).map([this](ColourClipmap clipmap) {
+        state_->clipmap = std::move(clipmap);
+    });
+}
+
+Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finestLevel) {
+    State& state = *state_;
+    assert(state.clipmap);
+    Result<void> moved =
+        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs.clipmapFill.name());
+    if (!moved) {
+        state.clipmap.reset();
+        return moved;
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, state.clipmapFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(ClipmapUniforms), &state.clipmap->uniforms(), GL_STREAM_DRAW);
+    return {};
+}
+
+const ColourClipmapState* ChunkRenderer::colourClipmap() const {
+    return state_->clipmap ? &state_->clipmap->state() : nullptr;
 }
 
 void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
@@ -731,12 +788,13 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
 }
 
 GpuMemory ChunkRenderer::gpuMemory() const {
+    const std::size_t colourTiles = state_->colours ? state_->colours->bytes() : 0;
+    const std::size_t colourClipmap = state_->clipmap ? state_->clipmap->state().bytes() : 0;
     return {state_->pool.layout().bytes(),
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
-                sizeof(SeaUniforms),
-            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
-                (state_->colours ? state_->colours->bytes() : 0),
-            state_->shadows ? state_->shadows->bytes() : 0};
+                sizeof(SeaUniforms) + (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
+            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() + colourTiles + colourClipmap,
+            colourTiles, colourClipmap, state_->shadows ? state_->shadows->bytes() : 0};
 }
 
 }  // namespace planet::gl

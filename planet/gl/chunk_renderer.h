@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "planet/gl/colour_clipmap_state.h"
 #include "planet/gl/colour_pool_config.h"
 #include "planet/gl/layer_drawing.h"
 #include "planet/gl/layer_picture.h"
@@ -100,6 +101,9 @@ struct GpuMemory {
     std::size_t heightPool = 0;
     std::size_t meshes = 0;  // grid and instances
     std::size_t textures = 0;
+    // Of those, what shows streamed colours.
+    std::size_t colourTiles = 0;    // the pool of tiles and its page table
+    std::size_t colourClipmap = 0;  // 0: there is none
     std::size_t shadowMaps = 0;
 
     std::size_t total() const { return heightPool + meshes + textures + shadowMaps; }
@@ -131,6 +135,17 @@ public:
     // what there was stays.
     Result<void> setColours(const std::optional<ColourPoolConfig>& config);
     void followColours(std::span<const ColourChange> changes);
+
+    // The same colours from a clipmap instead, filled from the pool: windows of so many texels a side that
+    // follow a viewer (planet/colour_clipmap.h). None: from the tiles again, and its memory is free. There
+    // have to be colours; setColours ends it. On an Error there is none.
+    Result<void> setColourClipmap(std::optional<int> sizePx);
+    // Puts it around a viewer and fills what that and the changes since bring in: to be called between
+    // followColours and draw. Levels finer than the finest that the view wants are not kept. Keeps what is
+    // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off. On an Error
+    // there is none any more.
+    Result<void> moveColourClipmap(const glm::dvec3& eyeM, int finestLevel);
+    const ColourClipmapState* colourClipmap() const;  // null where there is none
 
     // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096].
     void setLayers(std::span<const LayerPicture> pictures, int size);

@@ -133,9 +133,11 @@ int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
     const bool lit = settings.lighting && !settings.cube;
     const bool seaSurface = lit && settings.sea && isUsed(settings.light.sea.use, software);
+    const bool tiles = withImage && colours.streamed;
     return (settings.lighting ? switchLighting : 0) | (seaSurface ? switchSeaSurface : 0) |
            (settings.wireframe ? switchWireframe : 0) | (settings.cube ? switchCube : 0) |
-           (withImage ? switchImage : 0) | (withImage && colours.streamed ? switchTiles : 0) |
+           (withImage ? switchImage : 0) | (tiles ? switchTiles : 0) |
+           (tiles && colours.fromClipmap ? switchClipmap : 0) |
            (settings.sea ? switchSea : 0) | (air ? switchAir : 0) | (tinted ? switchTint : 0) |
            (rampSeen && !settings.ramp.empty() ? switchRamp : 0) |
            (withImage && rampSeen ? switchImageOverRamp : 0) | (settings.outlines ? switchOutlines : 0) |

@@ -37,7 +37,8 @@ enum Switch : int {
     switchSeaSurface = 524288,
     switchShadows = 1048576,
     switchLayers = 16777216,
-    switchLayerPreview = 33554432
+    switchLayerPreview = 33554432,
+    switchClipmap = 1073741824
 };
 
 // std140: only members of 16 bytes, so that C++ and GLSL agree without padding.
@@ -68,6 +69,7 @@ struct ColoursDrawn {
     int leafLevel = 0;
     double anisotropy = 1;      // of the sampler, >= 1
     double texelsPerPixel = 1;  // ColourSettings
+    bool fromClipmap = false;   // instead of the tiles themselves
 
     bool exist() const { return faceSizePx > 0; }
 };

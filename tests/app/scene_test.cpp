@@ -4,6 +4,7 @@
 
 #include "planet/gl/render_target.h"
 #include "tests/app/session_fixture.h"
+#include "tests/synthetic_colours.h"
 
 namespace worldy {
 namespace {
@@ -193,6 +194,105 @@ TEST_F(SceneTest, whatASplitViewportDrawsIsCountedTogether) {
     picture(scene, view);
     EXPECT_EQ(statsOf(scene).render.chunks, once);
     EXPECT_GT(statsOf(scene).gpuMemory.total(), 0u);
+}
+
+// A planet whose file has colours, drawn from tiles and from a clipmap.
+class ClipmapScene : public SceneTest {
+protected:
+    ClipmapScene() {
+        settings_.surface.lighting = false;
+        settings_.surface.clipmapSizePx = 256;
+    }
+
+    Scene openColoured() {
+        const std::filesystem::path file = folder_ / "coloured.chk";
+        const planet::ColourSource colours = planet::test::mottledColours();
+        const auto heights = planet::openHeightSource(writeSource(), {});
+        const planet::BakeSettings settings{
+            .faceSize = 129, .chunkSize = 17, .colour = {.format = planet::ColourFormat::Lossless}};
+        if (!heights || !planet::bake(*heights, settings, file, {}, &colours))
+            throw std::runtime_error("no bake");
+        auto scene = openScene({.chunkFile = file}, settings_);
+        if (!scene) throw std::runtime_error(scene.error().message);
+        return std::move(*scene);
+    }
+    std::vector<std::uint8_t> settledPicture(Scene& scene, ui::ColourMode mode) {
+        settings_.surface.colourMode = mode;
+        EXPECT_TRUE(applyLiveSettings(scene, settings_));
+        EXPECT_TRUE(settleScene(scene, view_, settings_, 60));
+        return picture(scene, view_);
+    }
+    void expectBothModesAlike(Scene& scene) {
+        const std::vector<std::uint8_t> tiles = settledPicture(scene, ui::ColourMode::Tiles);
+        EXPECT_EQ(scene.renderer.gpuMemory().colourClipmap, 0u);
+        const std::vector<std::uint8_t> clipmap = settledPicture(scene, ui::ColourMode::Clipmap);
+        EXPECT_GT(scene.renderer.gpuMemory().colourClipmap, 0u);
+        int furthest = 0;
+        for (std::size_t i = 0; i < tiles.size(); ++i)
+            furthest = std::max(furthest, std::abs(int{tiles[i]} - int{clipmap[i]}));
+        EXPECT_LE(furthest, 3);
+        EXPECT_GT(*std::max_element(tiles.begin(), tiles.end()), 60);
+    }
+
+    planet::View view_ = viewAt(1e6);
+};
+
+TEST_F(ClipmapScene, switchesLiveAndGivesItsMemoryBack) {
+    Scene scene = openColoured();
+    expectBothModesAlike(scene);
+    EXPECT_GT(statsOf(scene).clipmap.filledTexels, 6 * 256 * 256);
+    EXPECT_EQ(statsOf(scene).clipmap.windows, 1);
+    const std::size_t bytes = scene.renderer.gpuMemory().colourClipmap;
+    settings_.surface.clipmapSizePx = 512;
+    settledPicture(scene, ui::ColourMode::Clipmap);
+    EXPECT_GT(scene.renderer.gpuMemory().colourClipmap, bytes);
+    EXPECT_EQ(statsOf(scene).clipmap.windows, 0);  // all levels are kept whole
+    settings_.surface.streamed = false;
+    settledPicture(scene, ui::ColourMode::Clipmap);
+    EXPECT_EQ(scene.renderer.gpuMemory().colourClipmap, 0u);
+    settings_.surface.streamed = true;
+    expectBothModesAlike(scene);
+}
+
+TEST_F(ClipmapScene, isRightAgainAfterThePoolOrItsTilesAreNew) {
+    Scene scene = openColoured();
+    settings_.paging.budgetMB = 16;
+    expectBothModesAlike(scene);
+    settings_.paging.budgetMB = 24;
+    const auto tiles = scene.planet->colourPaging().tileCapacity;
+    settledPicture(scene, ui::ColourMode::Clipmap);
+    EXPECT_NE(scene.planet->colourPaging().tileCapacity, tiles);
+    const std::vector<std::uint8_t> before = settledPicture(scene, ui::ColourMode::Clipmap);
+    scene.planet->beginColoursAnew();
+    EXPECT_NE(picture(scene, view_), before);
+    EXPECT_EQ(settledPicture(scene, ui::ColourMode::Clipmap), before);
+    scene.planet->dropAll();
+    EXPECT_EQ(settledPicture(scene, ui::ColourMode::Clipmap), before);
+    expectBothModesAlike(scene);
+}
+
+TEST_F(ClipmapScene, staysAroundTheLodViewAndShowsItsWindowsAndStrips) {
+    Scene scene = openColoured();
+    settledPicture(scene, ui::ColourMode::Clipmap);
+    const planet::Selection& selection = scene.planet->selection();
+    EXPECT_TRUE(linesOver(scene, selection, view_, settings_).empty());
+    settings_.overlay.clipmap = true;
+    const std::size_t lines = linesOver(scene, selection, view_, settings_).size();
+    EXPECT_GT(lines, 0u);
+    stepScene(scene, view_, settings_, 10.0);
+    // Looked at from elsewhere, as a frozen view or an observer does.
+    picture(scene, viewAt(3e6, 25));
+    EXPECT_EQ(statsOf(scene).clipmap.filledTexels, 0);
+    // What was filled has faded; the window's outline is left.
+    const std::size_t outline = linesOver(scene, selection, view_, settings_).size();
+    EXPECT_GT(outline, 0u);
+    EXPECT_LT(outline, lines);
+    view_ = viewAt(1e6, 14);
+    stepScene(scene, view_, settings_, 0.02);
+    picture(scene, view_);
+    EXPECT_GT(statsOf(scene).clipmap.filledTexels, 0);
+    EXPECT_LT(statsOf(scene).clipmap.filledTexels, 256 * 64);
+    EXPECT_GT(linesOver(scene, scene.planet->selection(), view_, settings_).size(), outline);
 }
 
 }  // namespace
