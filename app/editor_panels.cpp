@@ -110,6 +110,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
         compareViewOf(editor.compare, session, editor.settings.view, editor.stats, editor.viewport.main.view);
     view.layers = layersViewOf(editor.layers, scene, editor.settings.view.surface.layers);
     view.light.software = scene && scene->renderer.capabilities().software;
+    if (scene) view.light.air = scene->renderer.airFigures();
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

@@ -1,5 +1,6 @@
 #include "ui/light_panel.h"
 
+#include "ui/air_knobs.h"
 #include "ui/feature_knob.h"
 #include "ui/sun_knobs.h"
 #include "ui/widgets.h"
@@ -13,7 +14,6 @@ void lightKnobs(SurfaceSettings& surface) {
     checkbox("Lighting", surface.lighting, defaults.lighting,
              "Off: flat colour, no sun and no air before it.");
     secondColumn();
-    checkbox("Atmosphere", surface.atmosphere, defaults.atmosphere, "Haze and sky.");
     checkbox(
         "Detail", surface.detail, defaults.detail,
         "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
@@ -24,7 +24,8 @@ void lightKnobs(SurfaceSettings& surface) {
 void lightPanel(const EditorView& view, ViewSettings& settings, Commands&) {
     SurfaceSettings& surface = settings.surface;
     if (section("Sun")) sunKnobs(view, surface);
-    if (section("Light and air")) lightKnobs(surface);
+    if (section("Light")) lightKnobs(surface);
+    if (section("Air")) airKnobs(view, surface);
 }
 
 }  // namespace ui

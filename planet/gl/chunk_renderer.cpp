@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "planet/gl/air_textures.h"
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_image.h"
 #include "planet/gl/colour_pool.h"
@@ -31,14 +32,14 @@ namespace planet::gl {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
-                                                              "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 7> chunkFragmentFiles = {
-    "frame.glsl",  "atmosphere.glsl",   "ground.glsl", "tone.glsl",
-    "layers.glsl", "colour_tiles.glsl", "chunk.frag"};
+constexpr std::array<std::string_view, 6> chunkVertexFiles = {
+    "frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"};
+constexpr std::array<std::string_view, 8> chunkFragmentFiles = {
+    "frame.glsl", "atmosphere.glsl", "air.glsl",          "ground.glsl",
+    "tone.glsl",  "layers.glsl",     "colour_tiles.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
-constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
-                                                              "sky.frag"};
+constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
+                                                              "tone.glsl", "sky.frag"};
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
 constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
 
@@ -73,7 +74,7 @@ constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 struct Programs {
     ShaderText chunkVertex, chunkFragment;
     std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
-    Program sky, faceImage;
+    Program sky, physicalSky, faceImage;
 };
 
 void connect(const Program& program) {
@@ -91,15 +92,16 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
     glUseProgram(0);
+    AirTextures::connect(program.name());
 }
 
 Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
-                             ShaderFiles fragmentFiles) {
+                             ShaderFiles fragmentFiles, int variant = 0) {
     const Result<ShaderText> vertex = readShader(folder, vertexFiles);
     if (!vertex) return tl::unexpected(vertex.error());
     const Result<ShaderText> fragment = readShader(folder, fragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());
-    Result<Program> program = linkProgram(*vertex, *fragment);
+    Result<Program> program = linkProgram(*vertex, *fragment, variant);
     if (program) connect(*program);
     return program;
 }
@@ -120,11 +122,14 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     }
     Result<Program> sky = buildProgram(folder, skyVertexFiles, skyFragmentFiles);
     if (!sky) return tl::unexpected(sky.error());
+    Result<Program> physicalSky = buildProgram(folder, skyVertexFiles, skyFragmentFiles, switchPhysicalAir);
+    if (!physicalSky) return tl::unexpected(physicalSky.error());
     Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
     if (!faceImage) return tl::unexpected(faceImage.error());
     programs.chunkVertex = std::move(*vertex);
     programs.chunkFragment = std::move(*fragment);
     programs.sky = std::move(*sky);
+    programs.physicalSky = std::move(*physicalSky);
     programs.faceImage = std::move(*faceImage);
     return programs;
 }
@@ -248,6 +253,8 @@ struct ChunkRenderer::State {
     ColourImage image;
     std::optional<ColourPool> colours;
     LayerTextures layers;
+    AirTextures air;
+    bool airInBackground = false;
     GpuTimer chunksTimer, skyTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
@@ -258,6 +265,7 @@ struct ChunkRenderer::State {
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
     int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                       bool tinted) const;
+    bool airIsPhysical(const RenderSettings& settings) const;
     const Program& chunkProgram(int variant);
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched);
     void fillFrame(const View& view, const RenderSettings& settings);
@@ -266,7 +274,7 @@ struct ChunkRenderer::State {
     void beginDepth() const;
     void endDepth() const;
     void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program& program);
-    void drawSky() const;
+    void drawSky(const Program& program) const;
 };
 
 ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, Programs built)
@@ -346,8 +354,13 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
     const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
                           (layersSeen & switchLayers) == 0 &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
-    return variant | layersSeen | (byVertex ? switchLightByVertex : 0) |
-           slidingSwitches(items, settings.stitched);
+    const bool physicalAir = (variant & switchAir) != 0 && airIsPhysical(settings);
+    return variant | layersSeen | (physicalAir ? switchPhysicalAir : 0) |
+           (byVertex ? switchLightByVertex : 0) | slidingSwitches(items, settings.stitched);
+}
+
+bool ChunkRenderer::State::airIsPhysical(const RenderSettings& settings) const {
+    return settings.atmosphere && !settings.cube && isUsed(settings.light.air.use, capabilities.software);
 }
 
 // Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
@@ -394,6 +407,9 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
         layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), layers.means());
     glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
+    if (!airIsPhysical(settings)) return;
+    air.follow(settings.light.air.settings, airInBackground);
+    air.bind(settings.light.air, view.eyeM, config.shape.radiusM, glm::normalize(settings.sunDirection));
 }
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
@@ -460,9 +476,9 @@ void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const Ren
 }
 
 // Behind everything, so that only pixels without a chunk are shaded.
-void ChunkRenderer::State::drawSky() const {
+void ChunkRenderer::State::drawSky(const Program& program) const {
     glDepthMask(GL_FALSE);
-    glUseProgram(programs.sky.name());
+    glUseProgram(program.name());
     glBindVertexArray(skyArray.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
@@ -523,6 +539,10 @@ void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) 
     state_->layers = LayerTextures(pictures, size);
 }
 
+void ChunkRenderer::setAirInBackground(bool inBackground) {
+    state_->airInBackground = inBackground;
+}
+
 Result<void> ChunkRenderer::reloadShaders() {
     std::vector<int> variants;
     for (const auto& [variant, program] : state_->programs.chunk) variants.push_back(variant);
@@ -553,7 +573,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.drawChunks(items, settings, state.chunkProgram(variant));
     state.chunksTimer.end();
     state.skyTimer.begin();
-    state.drawSky();
+    state.drawSky(state.airIsPhysical(settings) ? state.programs.physicalSky : state.programs.sky);
     state.skyTimer.end();
     state.endDepth();
     glBindVertexArray(0);
@@ -614,11 +634,15 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
     return state_->capabilities;
 }
 
+const AirFigures& ChunkRenderer::airFigures() const {
+    return state_->air.figures();
+}
+
 GpuMemory ChunkRenderer::gpuMemory() const {
     return {state_->pool.layout().bytes(),
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms),
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
-                (state_->colours ? state_->colours->bytes() : 0)};
+                state_->air.figures().tableBytes + (state_->colours ? state_->colours->bytes() : 0)};
 }
 
 }  // namespace planet::gl

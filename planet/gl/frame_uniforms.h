@@ -34,6 +34,7 @@ enum Switch : int {
     switchMorph = 32768,
     switchGather = 65536,
     switchTiles = 131072,
+    switchPhysicalAir = 262144,
     switchLayers = 16777216,
     switchLayerPreview = 33554432
 };
