@@ -346,6 +346,29 @@ TEST_F(AirPicture, FarGroundPalesWithDistance) {
     }
 }
 
+TEST_F(AirPicture, NoPixelIsBlackByDayWhereverTheEyeIs) {
+    TestPlanet rough({}, 32);
+    rough.addLevel(1,
+                   [](const glm::dvec3& d) { return 9000 * std::sin(40 * d.x) * std::cos(31 * d.y + d.z); });
+    struct Place {
+        double latitudeDeg, heightM, pitchDeg;
+    };
+    for (const Place& place : {Place{90, 12e3, -20}, Place{17, 0, 5}, Place{-40, -3000, -30},
+                               Place{3, 2, -90}, Place{-90, 2e4, 0}}) {
+        const View view =
+            viewFrom(rough.shape(), place.latitudeDeg, 20, place.heightM, place.pitchDeg, 30, 80, 60);
+        settings_.sunDirection = glm::normalize(view.eyeM) + glm::dvec3(0.1, 0.2, 0);
+        for (const bool sea : {true, false}) {
+            settings_.sea = sea;
+            const Picture picture = drawPicture(rough.renderer(), view, rough.items(), settings_);
+            for (int y = 0; y < picture.height; ++y) {
+                for (int x = 0; x < picture.width; ++x)
+                    ASSERT_GT(picture.brightness(x, y), 15) << place.heightM << " m: " << x << " " << y;
+            }
+        }
+    }
+}
+
 // Light and air worked out at the corners of small triangles or at each pixel: the same picture.
 TEST_F(AirPicture, ByVertexOrByPixelIsTheSame) {
     TestPlanet fine({}, 400);
