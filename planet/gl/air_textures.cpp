@@ -1,6 +1,7 @@
 #include "planet/gl/air_textures.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -47,8 +48,8 @@ Texture uploaded(GLenum target, const AirTable& table) {
     else
         glTexImage3D(target, 0, GL_RGBA16F, table.width, table.height, table.depth, 0, GL_RGBA, GL_FLOAT,
                      table.texels.data());
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-        glTexParameteri(target, wrap, GL_CLAMP_TO_EDGE);
+    constexpr std::array<GLenum, 3> wraps = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
+    for (const GLenum wrap : wraps) glTexParameteri(target, wrap, GL_CLAMP_TO_EDGE);
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
