@@ -112,6 +112,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.light.costs = editor.costs.costs;
     view.light.measured = editor.costs.meter ? editor.costs.meter->share() : 1;
     view.light.software = scene && scene->renderer.capabilities().software;
+    if (scene) view.light.air = scene->renderer.airFigures();
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

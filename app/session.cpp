@@ -39,6 +39,7 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     // As stored; the planet's own shape has the exaggeration counted in.
     const planet::PlanetShape shape = scene.planet->file().info().shape;
     OpenPlanet open{data, requestOf(shape), false, false, std::move(scene)};
+    open.scene.renderer.setAirInBackground(true);
     open.baked.source =
         data.source != data.chunkFile ? data.source : sourceOf(open.scene.planet->file().info());
     open.sourceIsThere = planet::heightSourceExists(open.baked.source);

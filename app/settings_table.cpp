@@ -168,6 +168,23 @@ void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
           Number{&surface.sunLongitudeDeg, {-180, 180, "degrees"}}}});
 }
 
+void addAir(Fields& fields, planet::gl::AirDrawing& air) {
+    fields.insert(
+        fields.end(),
+        {{"light", "air_rayleigh", "Molecules of the physical atmosphere, in units of the Earth's.",
+          Number{&air.settings.rayleigh, {0, 5, ""}}},
+         {"light", "air_haze", "Its dust and droplets, likewise.", Number{&air.settings.haze, {0, 20, ""}}},
+         {"light", "air_ozone", "Its ozone, likewise.", Number{&air.settings.ozone, {0, 5, ""}}},
+         {"light", "air_forward", "How far forward haze scatters: Mie's asymmetry g.",
+          Number{&air.settings.forward, {0, 0.95, ""}}},
+         {"light", "air_thickness", "Heights over which it thins out, in units of the Earth's.",
+          Number{&air.settings.thickness, {0.25, 4, ""}}},
+         {"light", "air_exposure", "Of all light; 1: ground by day as bright as in thin air.",
+          Number{&air.exposure, {0.1, 10, ""}}},
+         {"light", "air_steps", "Along a ray through all of it; fewer: cheaper and rougher.",
+          Integer{&air.steps, {8, 64, ""}}}});
+}
+
 void addLight(Fields& fields, planet::gl::LightDrawing& light) {
     fields.insert(
         fields.end(),
@@ -193,6 +210,7 @@ void addLight(Fields& fields, planet::gl::LightDrawing& light) {
           Choice{asByte(light.normals.use), featureUseNames}},
          {"light", "normal_texels_per_pixel", "Of them; larger: sharper, and more memory.",
           Number{&light.normals.texelsPerPixel, {0.1, 4, ""}}}});
+    addAir(fields, light.air);
 }
 
 void addLayers(Fields& fields, ui::LayerSettings& layers) {

@@ -199,6 +199,10 @@ Material tinted(Material material) {
 // The air between the eye and the ground takes light away and scatters the sun's in.
 vec3 throughAir(vec3 light, vec3 ray, vec3 up) {
     if (!isOn(switchAir)) return light;
+    if (isOn(switchPhysicalAir)) {
+        AirLight before = lightBefore(surface, facePlace.z, 0.5, isOn(switchTint) ? 1.0 - airUnderTint * tint.a : 1.0);
+        return light * before.through + before.scattered;
+    }
     float air = airBefore(ray, up, max(facePlace.z, 0.0) * atmosphere.y);
     if (isOn(switchTint)) air *= 1.0 - airUnderTint * tint.a;
     vec3 amount = scatteringBeforeGround();
@@ -271,6 +275,7 @@ vec3 litSurface() {
     vec3 light = vec3(0.0);
     if (isOn(switchLightByVertex)) light = lightByVertex();
     else light = lightByPixel();
+    if (isOn(switchPhysicalAir)) light = onFilm(light);
     return developed(light) + ditherStep();
 }
 

@@ -94,6 +94,12 @@ void lightGround(vec3 position, vec3 up, float height) {
     vec3 sky = vec3(0.0125, 0.013, 0.0145);
     sunLit = sunLight * day;
     airLit = vec3(0.0);
+    if (isOn(switchPhysicalAir)) {
+        float above = height * airShape.z;
+        sunLit = airSun.rgb * sunThroughAir(above, sunRise);
+        skyLit = skyIrradianceAt(above, sunRise);
+        return;
+    }
     if (isOn(switchAir)) {
         sky = vec3(0.085, 0.115, 0.165) * smoothstep(-0.18, 0.30, sunRise) + vec3(0.0025, 0.003, 0.0045);
         sunLit *= sunThrough(0.1, sunRise);
@@ -110,6 +116,13 @@ void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     groundArriving = vec4(land, sea.g / land.g);
     airArriving = vec4(0.0, 0.0, 0.0, seaGlint(up, -ray) * sunLit.g / land.g);
     if (!isOn(switchAir)) return;
+    if (isOn(switchPhysicalAir)) {
+        float density = isOn(switchTint) ? 1.0 - airUnderTint * chunkTint.a : 1.0;
+        AirLight before = lightBefore(position, height, 0.5, density);
+        groundArriving.rgb *= before.through;
+        airArriving.rgb = before.scattered;
+        return;
+    }
     float air = airBefore(ray, up, max(height, 0.0) * atmosphere.y);
     if (isOn(switchTint)) air *= 1.0 - airUnderTint * chunkTint.a;
     vec3 amount = scatteringBeforeGround();

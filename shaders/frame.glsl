@@ -58,6 +58,7 @@ const int switchSlide = 16384;         // some vertices morph, or move onto a co
 const int switchMorph = 32768;         // some morph: light does, too
 const int switchGather = 65536;        // edges that morph let vertices go as a coarser chunk's stitched edge does
 const int switchTiles = 131072;        // the image is streamed in tiles (colour_tiles.glsl)
+const int switchPhysicalAir = 262144;  // the air of air.glsl, not the thin one
 const int switchSeaSurface = 524288;   // the sea is drawn at its level, as water (sea.glsl)
 const int switchShadows = 1048576;     // the ground's on itself (shadows.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)

@@ -28,9 +28,25 @@ float starLight(vec3 ray) {
     return (0.02 + 0.55 * pow(magnitude, 9.0)) * exp(-dot(away, away) * 1.4);
 }
 
+vec3 physicalSky(vec3 ray) {
+    bool meetsGround = false;
+    AirLight air = lightOfSky(ray, meetsGround);
+    if (meetsGround) return onFilm(max(air.scattered, 0.0));
+    vec3 light = air.scattered + air.through * airSun.rgb * (5.0 * sunDisk(dot(ray, sun.xyz), screen.x));
+    light = onFilm(min(max(light, 0.0), vec3(1e4)));
+    float clear = max(1.0 - 12.0 * (air.scattered.r + air.scattered.g + air.scattered.b), 0.0);
+    if (clear > 0.01) light += air.through * vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
+    return light;
+}
+
 void main() {
     vec3 ray = normalize(skyRay);
     vec3 light = vec3(0.0);
+    if (isOn(switchPhysicalAir)) {
+        light = physicalSky(ray);
+        fragment = vec4(developed(light) + ditherStep() * step(0.002, light.b), 1.0);
+        return;
+    }
     float clear = 1.0;
     vec3 eyeScaled = eye.xyz * atmosphere.y;
     float eyeRadius = length(eyeScaled);

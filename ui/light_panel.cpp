@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "ui/air_knobs.h"
 #include "ui/feature_knob.h"
 #include "ui/sun_knobs.h"
 #include "ui/widgets.h"
@@ -15,7 +16,6 @@ void lightKnobs(SurfaceSettings& surface) {
     checkbox("Lighting", surface.lighting, defaults.lighting,
              "Off: flat colour, no sun and no air before it.");
     secondColumn();
-    checkbox("Atmosphere", surface.atmosphere, defaults.atmosphere, "Haze and sky.");
     checkbox(
         "Detail", surface.detail, defaults.detail,
         "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
@@ -66,7 +66,8 @@ void shadowKnobs(const EditorView& view, planet::gl::ShadowDrawing& shadows) {
 void lightPanel(const EditorView& view, ViewSettings& settings, Commands&) {
     SurfaceSettings& surface = settings.surface;
     if (section("Sun")) sunKnobs(view, surface);
-    if (section("Light and air")) lightKnobs(surface);
+    if (section("Light")) lightKnobs(surface);
+    if (section("Air")) airKnobs(view, surface);
     if (section("Water")) seaKnobs(view, surface.light.sea);
     if (section("Shadows")) shadowKnobs(view, surface.light.shadows);
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "planet/gl/light_drawing.h"
+
 namespace ui {
 
 // A part of the picture beside nothing but the lit ground, drawn in turn. Milliseconds, medians of the
@@ -15,7 +17,8 @@ struct PartCost {
 };
 
 struct LightView {
-    bool software = false;        // the CPU draws: what is Automatic is turned down
+    bool software = false;  // the CPU draws: what is Automatic is turned down
+    planet::gl::AirFigures air;
     std::vector<PartCost> costs;  // as last measured
     double measured = 1;          // share of a measurement that is under way, [0, 1]; 1: none is
 };

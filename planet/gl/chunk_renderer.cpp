@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "planet/gl/air_textures.h"
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_clipmap.h"
 #include "planet/gl/colour_image.h"
@@ -36,15 +37,15 @@ namespace planet::gl {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
-                                                              "vertex_position.glsl", "chunk.vert"};
+constexpr auto chunkVertexFiles = std::to_array<std::string_view>(
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
 constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "ground.glsl", "tone.glsl", "sea.glsl", "shadows.glsl", "layers.glsl",
-     "colour_tiles.glsl", "colour_clipmap.glsl", "chunk.frag"});
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "sea.glsl", "shadows.glsl",
+     "layers.glsl", "colour_tiles.glsl", "colour_clipmap.glsl", "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
-constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
-                                                              "sky.frag"};
+constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
+                                                              "tone.glsl", "sky.frag"};
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
 constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
 constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
@@ -88,7 +89,7 @@ struct Programs {
     ShaderText chunkVertex, chunkFragment, depthFragment;
     std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
     std::unordered_map<int, Program> depth;  // likewise, for shadows
-    Program sky, faceImage, clipmapFill;
+    Program sky, physicalSky, faceImage, clipmapFill;
 };
 
 void connect(const Program& program) {
@@ -115,15 +116,16 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "clipmapStack"), clipmapStackUnit);
     glUniform1i(glGetUniformLocation(program.name(), "clipmapBase"), clipmapBaseUnit);
     glUseProgram(0);
+    AirTextures::connect(program.name());
 }
 
 Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
-                             ShaderFiles fragmentFiles) {
+                             ShaderFiles fragmentFiles, int variant = 0) {
     const Result<ShaderText> vertex = readShader(folder, vertexFiles);
     if (!vertex) return tl::unexpected(vertex.error());
     const Result<ShaderText> fragment = readShader(folder, fragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());
-    Result<Program> program = linkProgram(*vertex, *fragment);
+    Result<Program> program = linkProgram(*vertex, *fragment, variant);
     if (program) connect(*program);
     return program;
 }
@@ -146,6 +148,8 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     }
     Result<Program> sky = buildProgram(folder, skyVertexFiles, skyFragmentFiles);
     if (!sky) return tl::unexpected(sky.error());
+    Result<Program> physicalSky = buildProgram(folder, skyVertexFiles, skyFragmentFiles, switchPhysicalAir);
+    if (!physicalSky) return tl::unexpected(physicalSky.error());
     Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
     if (!faceImage) return tl::unexpected(faceImage.error());
     Result<Program> clipmapFill = buildProgram(folder, clipmapVertexFiles, clipmapFragmentFiles);
@@ -154,6 +158,7 @@ Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::v
     programs.chunkFragment = std::move(*fragment);
     programs.depthFragment = std::move(*depthFragment);
     programs.sky = std::move(*sky);
+    programs.physicalSky = std::move(*physicalSky);
     programs.faceImage = std::move(*faceImage);
     programs.clipmapFill = std::move(*clipmapFill);
     return programs;
@@ -279,6 +284,8 @@ struct ChunkRenderer::State {
     std::optional<ColourPool> colours;
     std::optional<ColourClipmap> clipmap;  // of those
     LayerTextures layers;
+    AirTextures air;
+    bool airInBackground = false;
     std::optional<ShadowMaps> shadows;  // while they are drawn
     int shadowsAskedPx = 0;
     FrameUniforms uniforms{};  // as last filled
@@ -292,6 +299,7 @@ struct ChunkRenderer::State {
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
     int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                       bool tinted, int more = 0) const;
+    bool airIsPhysical(const RenderSettings& settings) const;
     const Program& chunkProgram(int variant);
     const Program& depthProgram(int variant);
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched,
@@ -307,7 +315,7 @@ struct ChunkRenderer::State {
     void beginDepth() const;
     void endDepth() const;
     void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program& program);
-    void drawSky() const;
+    void drawSky(const Program& program) const;
 };
 
 ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, Programs built)
@@ -391,8 +399,13 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
     const bool byVertex = (variant & switchLighting) != 0 && (variant & seenByPixel) == 0 &&
                           (layersSeen & switchLayers) == 0 &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
-    return variant | layersSeen | (byVertex ? switchLightByVertex : 0) |
-           slidingSwitches(items, settings.stitched);
+    const bool physicalAir = (variant & switchAir) != 0 && airIsPhysical(settings);
+    return variant | layersSeen | (physicalAir ? switchPhysicalAir : 0) |
+           (byVertex ? switchLightByVertex : 0) | slidingSwitches(items, settings.stitched);
+}
+
+bool ChunkRenderer::State::airIsPhysical(const RenderSettings& settings) const {
+    return settings.atmosphere && !settings.cube && isUsed(settings.light.air.use, capabilities.software);
 }
 
 // Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
@@ -459,6 +472,9 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
     const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.layers.exaggeration);
     glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
+    if (!airIsPhysical(settings)) return;
+    air.follow(settings.light.air.settings, airInBackground);
+    air.bind(settings.light.air, view.eyeM, config.shape.radiusM, glm::normalize(settings.sunDirection));
 }
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
@@ -590,9 +606,9 @@ void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const Ren
 }
 
 // Behind everything, so that only pixels without a chunk are shaded.
-void ChunkRenderer::State::drawSky() const {
+void ChunkRenderer::State::drawSky(const Program& program) const {
     glDepthMask(GL_FALSE);
-    glUseProgram(programs.sky.name());
+    glUseProgram(program.name());
     glBindVertexArray(skyArray.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
@@ -685,6 +701,10 @@ void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) 
     state_->layers = LayerTextures(pictures, size);
 }
 
+void ChunkRenderer::setAirInBackground(bool inBackground) {
+    state_->airInBackground = inBackground;
+}
+
 Result<void> ChunkRenderer::reloadShaders() {
     std::vector<int> variants;
     for (const auto& [variant, program] : state_->programs.chunk) variants.push_back(variant);
@@ -721,7 +741,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.drawChunks(items, settings, state.chunkProgram(variant));
     state.chunksTimer.end();
     state.skyTimer.begin();
-    state.drawSky();
+    state.drawSky(state.airIsPhysical(settings) ? state.programs.physicalSky : state.programs.sky);
     state.skyTimer.end();
     state.endDepth();
     glBindVertexArray(0);
@@ -787,13 +807,18 @@ const RenderCapabilities& ChunkRenderer::capabilities() const {
     return state_->capabilities;
 }
 
+const AirFigures& ChunkRenderer::airFigures() const {
+    return state_->air.figures();
+}
+
 GpuMemory ChunkRenderer::gpuMemory() const {
     const std::size_t colourTiles = state_->colours ? state_->colours->bytes() : 0;
     const std::size_t colourClipmap = state_->clipmap ? state_->clipmap->state().bytes() : 0;
     return {state_->pool.layout().bytes(),
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
                 sizeof(SeaUniforms) + (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
-            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() + colourTiles + colourClipmap,
+            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
+                state_->air.figures().tableBytes + colourTiles + colourClipmap,
             colourTiles, colourClipmap, state_->shadows ? state_->shadows->bytes() : 0};
 }
 

@@ -150,6 +150,10 @@ public:
     // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096].
     void setLayers(std::span<const LayerPicture> pictures, int size);
 
+    // Tables of the physical atmosphere that follow a change of its settings: made in the background while
+    // the last ones are drawn with, for windows; or, as from the start, waited for.
+    void setAirInBackground(bool inBackground);
+
     // A pool of another size; what it held is gone. On an Error the old one stays.
     Result<void> setSlotCapacity(std::uint32_t slotCapacity);
     // The same planet with other heights: exaggeration has changed.
@@ -180,6 +184,7 @@ public:
 
     const RenderCounters& counters() const;
     const RenderCapabilities& capabilities() const;
+    const AirFigures& airFigures() const;
     GpuMemory gpuMemory() const;
 
 private:

@@ -34,6 +34,7 @@ enum Switch : int {
     switchMorph = 32768,
     switchGather = 65536,
     switchTiles = 131072,
+    switchPhysicalAir = 262144,
     switchSeaSurface = 524288,
     switchShadows = 1048576,
     switchLayers = 16777216,

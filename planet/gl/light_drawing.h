@@ -1,6 +1,9 @@
 // How light is drawn: what a renderer is told of the air, the sea, shadows and normals, frame by frame.
 #pragma once
 
+#include <cstddef>
+
+#include "planet/atmosphere.h"
 #include "planet/gl/feature_use.h"
 
 namespace planet::gl {
@@ -8,6 +11,10 @@ namespace planet::gl {
 // The physical atmosphere. Not used: the thin one in closed form (shaders/atmosphere.glsl).
 struct AirDrawing {
     FeatureUse use = FeatureUse::Automatic;
+    AirSettings settings;
+    double exposure = 1;  // of all light, over that with which ground by day is as bright as in the thin air;
+                          // [0.1, 10]
+    int steps = 32;       // along a ray through all of the air; fewer: cheaper, and rough at dusk; [8, 64]
 
     bool operator==(const AirDrawing&) const = default;
 };
@@ -39,6 +46,13 @@ struct NormalDrawing {
     double texelsPerPixel = 1;  // as of streamed colours; [0.1, 4]
 
     bool operator==(const NormalDrawing&) const = default;
+};
+
+// What the physical atmosphere's tables cost.
+struct AirFigures {
+    double tablesMs = 0;         // that those in use took to make; 0: there are none yet
+    std::size_t tableBytes = 0;  // on the GPU
+    bool working = false;        // others are being made
 };
 
 struct LightDrawing {

@@ -18,15 +18,13 @@ namespace planet::gl {
 class RawLightShaders {
 public:
     RawLightShaders() {
-        for (const char* name :
-             {"frame.glsl", "atmosphere.glsl", "ground.glsl", "sea.glsl", "shadows.glsl", "layers.glsl",
-              "colour_tiles.glsl", "vertex_position.glsl", "chunk.vert", "chunk.frag", "depth.frag",
-              "sky.vert", "sky.frag", "face_image.vert", "face_image.frag"})
-            write(name, std::string(embeddedShader(name)));
+        const std::filesystem::path source = std::filesystem::path(WORLDY_SOURCE_DIR) / "shaders";
+        for (const auto& file : std::filesystem::directory_iterator(source))
+            std::filesystem::copy_file(file.path(), folder_.path() / file.path().filename());
         std::string tone(embeddedShader("tone.glsl"));
         replaceBody(tone, "vec3 developed(vec3 light) {", "return light;");
         replaceBody(tone, "float ditherStep() {", "return 0.0;");
-        write("tone.glsl", tone);
+        std::ofstream(folder_.path() / "tone.glsl") << tone;
     }
     const std::filesystem::path& folder() const { return folder_.path(); }
 
@@ -38,10 +36,6 @@ private:
             throw std::runtime_error("there is no " + head);
         text.replace(start + head.size(), end - start - head.size(), " " + body);
     }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_.path() / name) << text;
-    }
-
     tests::TemporaryFolder folder_;
 };
 

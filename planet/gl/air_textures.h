@@ -1,0 +1,58 @@
+// The physical atmosphere on the GPU: its tables as textures, and what shaders/air.glsl is told once a frame.
+// Wants a current context, and the same one throughout; one thread.
+#pragma once
+
+#include <cstddef>
+#include <future>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "planet/atmosphere.h"
+#include "planet/gl/gl_objects.h"
+#include "planet/gl/light_drawing.h"
+
+namespace planet::gl {
+
+// std140: only members of 16 bytes.
+struct AirUniforms {
+    glm::vec4 molecules, haze, ozone, shape, sun, eye, sizes, skySizes;
+};
+static_assert(sizeof(AirUniforms) == 8 * 16);
+
+// eyeM: metres from the planet's centre. sun: unit.
+AirUniforms airUniforms(const AirTables& tables, const AirDrawing& drawing, const glm::dvec3& eyeM,
+                        double radiusM, const glm::dvec3& sun);
+
+class AirTextures {
+public:
+    AirTextures();
+
+    // The tables for these settings. Where others are there and it may be done in the background, those stay
+    // until the new ones have come; else it waits.
+    void follow(const AirSettings& settings, bool inBackground);
+
+    // To the uniform block and the texture units below.
+    void bind(const AirDrawing& drawing, const glm::dvec3& eyeM, double radiusM, const glm::dvec3& sun) const;
+    static void connect(GLuint program);
+
+    const AirTables& tables() const { return tables_; }
+    const AirFigures& figures() const { return figures_; }
+
+private:
+    struct Made {
+        AirSettings settings;
+        AirTables tables;
+        double ms = 0;
+    };
+    static Made made(const AirSettings& settings);
+    void take(Made&& made);
+
+    AirTables tables_;
+    AirSettings settings_;  // of the tables
+    AirFigures figures_;
+    Texture transmittance_, glow_, sky_;
+    Buffer frame_;
+    std::future<Made> next_;
+};
+
+}  // namespace planet::gl
