@@ -20,6 +20,7 @@
 #include "app/stopwatch.h"
 #include "planet/gl/offscreen_context.h"
 #include "planet/percentile.h"
+#include "ui/own_colour.h"
 
 namespace worldy {
 
@@ -219,6 +220,11 @@ Result<void> runBench(const BenchOptions& options) {
     if (done)
         done = add("file_size", "File size against the finest heights alone",
                    benchFileSize(largest, folder->path()));
+    if (done)
+        done =
+            add("colours", "Page-in of colours against a plain loop",
+                benchColours(ui::ownColourImage(options.source.empty() ? earthElevation() : options.source),
+                             options, folder->path()));
     if (!done) return done;
     if (options.jsonOutput.empty()) return {};
     return writeTextFile(options.jsonOutput,

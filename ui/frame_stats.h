@@ -10,6 +10,7 @@ namespace ui {
 struct FrameStats {
     planet::SelectionCounters selection;
     planet::PagingCounters paging;
+    planet::ColourPagingCounters colourPaging;  // of planets with colours
     planet::StageTimes stages;
     planet::gl::RenderCounters render;
     planet::gl::GpuMemory gpuMemory;  // of the renderer
