@@ -56,8 +56,9 @@ Result<planet::BakeReport> bakeWithColour(const planet::HeightSource& heights,
         if (report || problem.empty() || !colour.mayFail) return report;
     }
     if (!colour.mayFail) return tl::unexpected(opened.error());
-    colourProblem = problem;
-    return planet::bake(heights, settings, output, goOn);
+    Result<planet::BakeReport> report = planet::bake(heights, settings, output, goOn);
+    if (report) colourProblem = problem;
+    return report;
 }
 
 BakeJob::BakeJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,

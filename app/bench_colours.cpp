@@ -15,6 +15,7 @@
 #include "planet/colour_report.h"
 #include "planet/cube_sphere.h"
 #include "planet/gl/chunk_renderer.h"
+#include "planet/gl/offscreen_context.h"
 #include "planet/planet.h"
 
 namespace worldy {
@@ -175,6 +176,8 @@ BenchRows benchFormat(const planet::ColourSource& colours, ColourFormat format, 
 
 BenchRows benchColours(const std::filesystem::path& image, const BenchOptions& options,
                        const std::filesystem::path& folder) {
+    const auto context = planet::gl::OffscreenContext::create();
+    if (!context) return tl::unexpected(context.error());
     planet::ColourSource colours = madeColours();
     if (!image.empty()) {
         Result<planet::ColourSource> opened = planet::openColourSource(image);
