@@ -337,9 +337,6 @@ void rowLink(const planet::ChunkId& id, planet::BlockKind kind, const EditorView
     if (!colours) return chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
     ImGui::TableNextColumn();
     colourLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
-    tooltip(
-        "Tiles of colour. A click selects the chunk on whose ground they lie, a double click looks at their "
-        "square.");
 }
 
 // Columns of a table of requests, the kind before the name where there are two.
@@ -347,7 +344,10 @@ std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableC
                                   std::size_t name) {
     std::vector<TableColumn> all(columns.begin(), columns.end());
     if (view.planet->colour())
-        all.insert(all.begin() + static_cast<std::ptrdiff_t>(name), TableColumn{"Kind", 0.9f});
+        all.insert(all.begin() + static_cast<std::ptrdiff_t>(name),
+                   TableColumn{"Kind", 0.9f,
+                               "Heights of chunks, or tiles of colour. A click on tiles selects the chunk on "
+                               "whose ground they lie, a double click looks at their square."});
     return all;
 }
 

@@ -18,7 +18,7 @@ std::string pageInReason(double epsPx, double tauPx, double hysteresis, const ch
 }
 
 std::string colourReason(double timesTooFew) {
-    return fmt::format("{:.2f} of the texels wanted", 1 / timesTooFew);
+    return fmt::format("{:.0f} % of its texels", 100 / timesTooFew);
 }
 
 std::string pageOutReason(double ageS) {

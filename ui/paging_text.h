@@ -12,8 +12,8 @@ namespace ui {
 // so. All in pixels; hysteresis is a share of tau.
 std::string pageInReason(double epsPx, double tauPx, double hysteresis, const char* epsSymbol,
                          const char* tauSymbol);
-// The same of a tile of colour, by its priority: how many times too few texels a pixel it has. "0.62 of the
-// texels wanted".
+// The same of a tile of colour, by its priority: how many times too few texels a pixel it has. "62 % of its
+// texels".
 std::string colourReason(double timesTooFew);
 // "unused for 12 s".
 std::string pageOutReason(double ageS);

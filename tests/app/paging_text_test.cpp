@@ -19,7 +19,7 @@ TEST(PagingText, aRequestThatIsNoLongerNeededSaysSo) {
 }
 
 TEST(PagingText, aTileOfColourSaysWhatShareOfItsTexelsItHas) {
-    EXPECT_EQ(colourReason(2), "0.50 of the texels wanted");
+    EXPECT_EQ(colourReason(2), "50 % of its texels");
     EXPECT_STREQ(kindText(planet::BlockKind::Heights), "heights");
     EXPECT_STREQ(kindText(planet::BlockKind::Colours), "colours");
 }

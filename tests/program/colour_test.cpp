@@ -135,6 +135,7 @@ broken=$(viewport)
 click "paging/Retry failed"; expect times_said 'colour tile x_pos/0/0/0 is damaged' 2
 settle; same "$broken" || echo "tried again it looks different"
 counts drawn -gt 0 || echo "nothing is drawn any more"
+for kind in colours heights "heights, colours"; do choose paging/Kind "$kind" || echo "no $kind"; done
 )sh");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "") << ran.errors;
