@@ -60,8 +60,11 @@ Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& setting
     const fs::path named = !options.file.empty() ? options.file
                            : fromSettings        ? fs::path(settings.dataSet)
                                                  : earthElevation();
-    Result<DataSet> set = findDataSet(named, {});
-    if (set && fromSettings && !settings.colourImage.empty()) set->colourImage = settings.colourImage;
+    // A picture that was chosen for it is what its tiles are made of too.
+    const bool ownPicture = fromSettings && !settings.colourImage.empty();
+    Result<DataSet> set =
+        findDataSet(named, {}, {}, ownPicture ? std::optional(fs::path(settings.colourImage)) : std::nullopt);
+    if (set && ownPicture) set->colourImage = settings.colourImage;
     return set;
 }
 
@@ -99,7 +102,7 @@ Result<void> bakeIfNeeded(const DataSet& data) {
     fs::create_directories(data.chunkFile.parent_path(), status);
     return planet::openHeightSource(data.source, {})
         .and_then([&](const planet::HeightSource& source) {
-            return bakeOnTerminal(source, data.settings, data.chunkFile);
+            return bakeOnTerminal(source, data.settings, data.chunkFile, JobColour{data.bakedColour, true});
         })
         .map([](const auto&) {});
 }

@@ -57,4 +57,22 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
     return planet::bake(source, settings, output, show, colour);
 }
 
+planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
+                                                  const planet::BakeSettings& settings,
+                                                  const std::filesystem::path& output,
+                                                  const JobColour& colour) {
+    const InterruptWatch watch;
+    std::string problem;
+    planet::Result<planet::BakeReport> report = [&] {
+        TerminalProgress line;
+        const auto show = [&](const planet::BakeProgress& progress) {
+            line.show(progress);
+            return !watch.interrupted();
+        };
+        return bakeWithColour(source, settings, output, show, colour, problem);
+    }();
+    if (!problem.empty()) fmt::print(stderr, "worldy: {}; baked without colours\n", problem);
+    return report;
+}
+
 }  // namespace worldy

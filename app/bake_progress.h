@@ -1,6 +1,7 @@
 // A bake's progress on the terminal.
 #pragma once
 
+#include "app/bake_job.h"
 #include "planet/bake.h"
 
 namespace worldy {
@@ -26,5 +27,10 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,
                                                   const planet::ColourSource* colour = nullptr);
+// The same of an image. Where it may fail, why it did is told there too.
+planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
+                                                  const planet::BakeSettings& settings,
+                                                  const std::filesystem::path& output,
+                                                  const JobColour& colour);
 
 }  // namespace worldy

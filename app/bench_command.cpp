@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <thread>
@@ -20,6 +21,7 @@
 #include "app/stopwatch.h"
 #include "planet/gl/offscreen_context.h"
 #include "planet/percentile.h"
+#include "ui/own_colour.h"
 
 namespace worldy {
 
@@ -148,6 +150,11 @@ Result<std::vector<BenchPlanet>> bakePlanets(const planet::HeightSource& source,
     return planets;
 }
 
+bool isWanted(const BenchOptions& options, std::string_view part) {
+    return options.parts.empty() ||
+           std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
+}
+
 BenchRows benchLod(const std::vector<BenchPlanet>& planets, const BenchOptions& options) {
     std::vector<BenchRow> all;
     for (const BenchPlanet& planet : planets) {
@@ -156,6 +163,36 @@ BenchRows benchLod(const std::vector<BenchPlanet>& planets, const BenchOptions& 
         all.insert(all.end(), rows->begin(), rows->end());
     }
     return all;
+}
+
+struct Part {
+    const char* name;  // of benchParts
+    const char* title;
+    std::function<BenchRows()> measure;
+};
+
+// All of them; what they take must outlive them.
+std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSource& source,
+                          const std::vector<BenchPlanet>& planets, const std::filesystem::path& folder) {
+    const auto largest = [&]() -> const BenchPlanet& { return planets.back(); };
+    return {
+        {"lod", "LOD against drawing every leaf, the same camera",
+         [&] { return benchLod(planets, options); }},
+        {"dynamic", "The whole planet pass against a static draw of the very same triangles",
+         [&, largest] { return benchDynamicAgainstStatic(largest(), options); }},
+        {"selection", "Selection", [&, largest] { return benchSelection(largest(), options); }},
+        {"page_in", "Page-in against a plain loop", [&, largest] { return benchPageIn(largest(), options); }},
+        {"bake", "Bake against reading the source and zstd -1",
+         [&] { return benchBake(source, planets.front().faceSize, options, folder); }},
+        {"file_size", "File size against the finest heights alone",
+         [&, largest] { return benchFileSize(largest(), folder); }},
+        {"colours", "Page-in of colours against a plain loop",
+         [&] {
+             return benchColours(
+                 ui::ownColourImage(options.source.empty() ? earthElevation() : options.source), options,
+                 folder);
+         }},
+    };
 }
 
 }  // namespace
@@ -193,33 +230,24 @@ Result<void> runBench(const BenchOptions& options) {
     if (!machine) return tl::unexpected(machine.error());
     const Result<ScratchFolder> folder = ScratchFolder::create();
     if (!folder) return tl::unexpected(folder.error());
-    const auto planets = bakePlanets(*source, options, folder->path());
+    // Colours have planets of their own.
+    const bool onlyColours =
+        !options.parts.empty() && std::all_of(options.parts.begin(), options.parts.end(),
+                                              [](const std::string& part) { return part == "colours"; });
+    const auto planets = onlyColours ? Result<std::vector<BenchPlanet>>(std::vector<BenchPlanet>{})
+                                     : bakePlanets(*source, options, folder->path());
     if (!planets) return tl::unexpected(planets.error());
     fmt::print("{}\n{}, {} threads; {}\n{} rounds: median (lowest..highest)\n", source->description,
                machine->processor, machine->threads, machine->renderer, options.rounds);
 
     std::vector<Section> sections;
-    const auto add = [&](const char* name, const char* title, BenchRows rows) -> Result<void> {
+    for (const Part& part : partsOf(options, *source, *planets, folder->path())) {
+        if (!isWanted(options, part.name)) continue;
+        BenchRows rows = part.measure();
         if (!rows) return tl::unexpected(rows.error());
-        sections.push_back({name, title, std::move(*rows)});
+        sections.push_back({part.name, part.title, std::move(*rows)});
         print(sections.back());
-        return {};
-    };
-    const BenchPlanet& largest = planets->back();
-    Result<void> done =
-        add("lod", "LOD against drawing every leaf, the same camera", benchLod(*planets, options));
-    if (done)
-        done = add("dynamic", "The whole planet pass against a static draw of the very same triangles",
-                   benchDynamicAgainstStatic(largest, options));
-    if (done) done = add("selection", "Selection", benchSelection(largest, options));
-    if (done) done = add("page_in", "Page-in against a plain loop", benchPageIn(largest, options));
-    if (done)
-        done = add("bake", "Bake against reading the source and zstd -1",
-                   benchBake(*source, planets->front().faceSize, options, folder->path()));
-    if (done)
-        done = add("file_size", "File size against the finest heights alone",
-                   benchFileSize(largest, folder->path()));
-    if (!done) return done;
+    }
     if (options.jsonOutput.empty()) return {};
     return writeTextFile(options.jsonOutput,
                          textOf(jsonOf(options, source->description, *machine, sections)));

@@ -2,13 +2,19 @@
 // same, paired within one run. Needs no display, but OpenGL.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/view_options.h"
 #include "planet/height_source.h"
 
 namespace worldy {
+
+inline constexpr std::array<std::string_view, 7> benchParts = {"lod",  "dynamic",   "selection", "page_in",
+                                                               "bake", "file_size", "colours"};
 
 struct BenchOptions {
     std::filesystem::path
@@ -18,6 +24,7 @@ struct BenchOptions {
     std::vector<double> tausPx = {1, 2, 4};
     int rounds = 5;  // each draws, reads or bakes everything once, in turn; [1, 1000]
     PictureSize size;
+    std::vector<std::string> parts;    // of benchParts; empty: all
     std::filesystem::path jsonOutput;  // nowhere if empty
 };
 

@@ -63,4 +63,9 @@ BenchRows benchBake(const planet::HeightSource& source, int faceSize, const Benc
 // (f) The file, all levels together, against other ways to keep the finest heights alone.
 BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& folder);
 
+// (g) Paging in and uploading every tile of colour, by one loader, against reading and unpacking the same
+// blocks in a loop; and what a tile takes. image: none takes made colours.
+BenchRows benchColours(const std::filesystem::path& image, const BenchOptions& options,
+                       const std::filesystem::path& folder);
+
 }  // namespace worldy

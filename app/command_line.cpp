@@ -196,6 +196,10 @@ void addBench(CLI::App& app, BenchOptions& options, ViewTexts& view) {
     command.add_option("--rounds", options.rounds, "How often each is measured, in turn (5)")
         ->check(CLI::Range(1, 1000));
     command.add_option("--size", view.size, "Picture, WIDTHxHEIGHT (1280x720)");
+    command
+        .add_option("--parts", options.parts,
+                    fmt::format("What is measured, of {} (all)", fmt::join(benchParts, ", ")))
+        ->check(oneOf(benchParts));
     command.add_option("-o,--output", options.jsonOutput, "Write the figures there as JSON");
     addSourceOptions(command, options.sourceSettings);
 }

@@ -98,7 +98,15 @@ struct CommandHandler {
     void operator()(const ui::StepFrame&) const { editor.framesPaused = editor.stepOneFrame = true; }
 
     void operator()(const ui::OpenFile& command) const;
-    void operator()(const ui::AskForFile&) const { editor.openDialog.opening = true; }
+    void operator()(const ui::AskForFile&) const { askForFile(false); }
+    void operator()(const ui::AskForColourImage&) const { askForFile(true); }
+    void askForFile(bool forColours) const {
+        editor.openDialog.opening = true;
+        editor.openDialog.forColours = forColours;
+    }
+    void operator()(const ui::ChooseColourImage& command) const {
+        editor.panels.bake.colour.chosen = command.file;
+    }
     void operator()(const ui::StartBake& command) const { startBake(session, command.request, log); }
     void operator()(const ui::BakeAgain&) const { startBake(session, log); }
     void operator()(const ui::EstimateBake& command) const { requestEstimate(session, command.request); }

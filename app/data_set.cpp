@@ -11,6 +11,7 @@
 #include "planet/chunk_file.h"
 #include "planet/height_source.h"
 #include "planet/terrain.h"
+#include "ui/own_colour.h"
 
 namespace worldy {
 
@@ -33,39 +34,27 @@ std::string shortened(const std::string& name) {
     return name.substr(0, length);
 }
 
-fs::path colourImageBeside(const fs::path& source) {
-    std::error_code status;
-    for (const char* name : {"colour.jpg", "colour.png"}) {
-        const fs::path image = source.parent_path() / name;
-        if (fs::is_regular_file(image, status)) return image;
-    }
-    return {};
-}
-
 // What a bake of the Earth that comes with Worldy says of its source.
 constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
 
-// The file that detail is added to; of other sources themselves.
-fs::path fileUnder(const fs::path& source) {
-    if (!planet::isTerrainText(source)) return source;
-    const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
-    return terrain && !terrain->of.empty() ? fileUnder(terrain->of) : fs::path();
-}
-
-fs::path colourImageOfSource(const fs::path& source) {
-    const fs::path file = fileUnder(source);
-    return file.empty() ? fs::path() : colourImageBeside(file);
-}
-
 // A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
 fs::path colourImageOf(const fs::path& chunkFile) {
-    const fs::path beside = colourImageBeside(chunkFile);
+    const fs::path beside = ui::colourImageBeside(chunkFile);
     if (!beside.empty()) return beside;
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
     if (!file) return {};
-    if (file->info().source == ourEarth) return colourImageBeside(earthElevation());
+    if (file->info().source == ourEarth) return ui::colourImageBeside(earthElevation());
     const fs::path source = sourceOf(file->info());
-    return source.empty() ? fs::path() : colourImageOfSource(source);
+    return source.empty() ? fs::path() : ui::ownColourImage(source);
+}
+
+// A file tells the name of the image that its colours were made of, and not where it lay.
+fs::path bakedColourOf(const fs::path& chunkFile, const fs::path& colourImage) {
+    if (colourImage.empty()) return {};
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    if (!file || !file->info().colour) return {};
+    const bool isIt = file->info().colour->source.starts_with(colourImage.filename().string() + ",");
+    return isIt ? colourImage : fs::path();
 }
 
 // Empty for the defaults, so that their bakes keep their names. Memory for the source changes nothing.
@@ -77,6 +66,25 @@ std::string identityOf(const planet::HeightSourceSettings& settings) {
     };
     const std::string identity = text(settings);
     return identity == text({}) ? std::string() : identity;
+}
+
+// Path, size and time of change of each.
+std::string identityOf(const std::vector<fs::path>& files) {
+    std::string identity;
+    for (const fs::path& file : files) {
+        std::error_code status;
+        identity += fmt::format("|{}|{}|{}", fs::absolute(file, status).lexically_normal().string(),
+                                fs::file_size(file, status),
+                                fs::last_write_time(file, status).time_since_epoch().count());
+    }
+    return identity;
+}
+
+// Empty without colours, so that bakes without keep their names.
+std::string identityOf(const fs::path& colour, const planet::ColourBakeSettings& settings) {
+    if (colour.empty()) return {};
+    return fmt::format(" colours {} {}{}", static_cast<int>(settings.format), settings.faceSize.value_or(0),
+                       identityOf(planet::heightSourceFiles(colour).files));
 }
 
 // Whether a file and its root chunks can be read: what a planet needs to open.
@@ -98,7 +106,7 @@ fs::path sourceOf(const planet::ChunkFileInfo& info) {
 }
 
 fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settings,
-                      const planet::HeightSourceSettings& sourceSettings) {
+                      const planet::HeightSourceSettings& sourceSettings, const fs::path& colour) {
     std::string identity =
         fmt::format("{} {} {} {} {}", planet::chunkFileVersion, settings.faceSize.value_or(0),
                     settings.chunkSize, settings.radiusM, settings.quantumM.value_or(0));
@@ -106,19 +114,16 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
         identity += fmt::format(" c{}", settings.compressionLevel);
     identity += identityOf(sourceSettings);
     const planet::HeightSourceFiles sourceFiles = planet::heightSourceFiles(source);
-    for (const fs::path& file : sourceFiles.files) {
-        std::error_code status;
-        identity += fmt::format("|{}|{}|{}", fs::absolute(file, status).lexically_normal().string(),
-                                fs::file_size(file, status),
-                                fs::last_write_time(file, status).time_since_epoch().count());
-    }
+    identity += identityOf(sourceFiles.files);
     if (planet::isTerrainText(source))
         identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
+    identity += identityOf(colour, settings.colour);
     return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem), hashOf(identity));
 }
 
 planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,
-                                    const planet::HeightSourceSettings& sourceSettings) {
+                                    const planet::HeightSourceSettings& sourceSettings,
+                                    const std::optional<fs::path>& colour) {
     const planet::Result<NamedSource> source = sourceNamed(named, settings);
     if (!source) return tl::unexpected(source.error());
     if (planet::isTerrainText(source->source)) {
@@ -131,13 +136,16 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
                         "terrain as noise:ridged or a preset as preset:moon would be right",
                         named.string()));
     } else if (named.extension() == ".chk") {
-        return DataSet{named, named, colourImageOf(named), false};
+        DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageOf(named)};
+        set.bakedColour = bakedColourOf(named, colour.value_or(set.colourImage));
+        return set;
     }
     DataSet set{.source = source->source,
                 .chunkFile = {},
-                .colourImage = colourImageOfSource(source->source),
+                .colourImage = ui::ownColourImage(source->source),
                 .settings = source->settings};
-    set.chunkFile = cachedBakeOf(set.source, set.settings, sourceSettings);
+    set.bakedColour = colour.value_or(set.colourImage);
+    set.chunkFile = cachedBakeOf(set.source, set.settings, sourceSettings, set.bakedColour);
     set.needsBake = !opensWhole(set.chunkFile);
     return set;
 }

@@ -79,7 +79,14 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     ui::collectItems(editor.itemMapFile.empty() ? nullptr : &items);
 
     ui::Commands commands;
-    for (const std::filesystem::path& file : window.droppedFiles()) commands.push_back(ui::OpenFile{file});
+    // Where the panel was in the frame before, if it was drawn at all.
+    const bool dropsAreColours = std::exchange(editor.panels.bake.colour.takesDrops, false);
+    for (const std::filesystem::path& file : window.droppedFiles()) {
+        if (dropsAreColours)
+            commands.push_back(ui::ChooseColourImage{file});
+        else
+            commands.push_back(ui::OpenFile{file});
+    }
     advanceSession(session, editor.settings.view, log);
     advanceSweep(editor.sweep, log);
     if (reloadChangedShaders(session, log) && editor.compare.other) {

@@ -305,6 +305,7 @@ ui::FrameStats statsOf(const Scene& scene) {
     ui::FrameStats stats;
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
+    stats.colourPaging = scene.planet->colourPaging();
     stats.stages = scene.planet->times();
     stats.render = scene.drawn;
     stats.gpuMemory = scene.renderer.gpuMemory();

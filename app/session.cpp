@@ -25,6 +25,14 @@ ui::BakeRequest requestOf(const planet::PlanetShape& shape) {
     return request;
 }
 
+// Its own tiles of colour.
+void addColours(const planet::ChunkFileInfo& info, const DataSet& data, ui::BakeRequest& request) {
+    if (!info.colour) return;
+    request.settings.colour.format = info.colour->format;
+    request.settings.colour.faceSize = (planet::colourTileCells << info.colour->leafLevel) + 1;
+    request.colour = data.bakedColour;
+}
+
 // A colour image that cannot be read is told; the planet is then coloured by height.
 std::optional<Picture> readColour(const fs::path& file, const Log& log) {
     if (file.empty()) return std::nullopt;
@@ -43,6 +51,7 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     open.baked.source =
         data.source != data.chunkFile ? data.source : sourceOf(open.scene.planet->file().info());
     open.sourceIsThere = planet::heightSourceExists(open.baked.source);
+    addColours(open.scene.planet->file().info(), data, open.baked);
     return open;
 }
 
@@ -106,8 +115,9 @@ void launchWaitingBake(Session& session) {
     const SessionBake& bake = *session.bake;
     std::error_code status;
     fs::create_directories(bake.data.chunkFile.parent_path(), status);
-    session.bake->job = std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings,
-                                                  bake.request.settings, bake.data.chunkFile);
+    session.bake->job =
+        std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings, bake.request.settings,
+                                  bake.data.chunkFile, JobColour{bake.data.bakedColour, bake.colourMayFail});
 }
 
 void failBake(Session& session, const SessionBake& bake, const planet::Error& error, const Log& log) {
@@ -129,12 +139,16 @@ void finishBake(Session& session, const ui::ViewSettings& settings, const Log& l
     log->info("Baked: {} samples in {}, {}", ui::countText(static_cast<double>(report.samples)),
               ui::durationText(report.seconds), ui::bytesText(static_cast<double>(report.fileBytes)));
     session.bakeReport = report;
+    const std::string colourProblem = bake.job->colourProblem();
+    if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);
     bake.data.needsBake = false;
     Result<OpenPlanet> open = openPlanet(session, bake.data, settings, log);
     if (!open) return failBake(session, bake, open.error(), log);
     open->baked = bake.request;
     open->baked.settings.faceSize = planet::faceCells(report.shape) + 1;
     open->baked.settings.quantumM = report.shape.quantumM;
+    open->baked.colour.clear();
+    addColours(open->scene.planet->file().info(), open->data, open->baked);
     open->compressionKnown = true;
     open->sourceIsThere = planet::heightSourceExists(bake.request.source);
     show(session, std::move(*open), bake.forComparison);
@@ -153,7 +167,8 @@ void advanceEstimate(SessionEstimate& estimate) {
     }
     if (!estimate.next) return;
     const ui::BakeRequest request = *std::exchange(estimate.next, std::nullopt);
-    estimate.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings);
+    estimate.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings,
+                                                 request.colour);
 }
 
 void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
@@ -192,6 +207,22 @@ planet::Error missingSource(const fs::path& source) {
                         source.string())};
 }
 
+planet::Error missingColour(const fs::path& image) {
+    return {
+        planet::ErrorKind::BadInput,
+        fmt::format("{}: no such colour image; an equirectangular image or one of six cube faces would be "
+                    "right",
+                    image.string())};
+}
+
+// What a request would make, and whether all that it is made of is there.
+Result<DataSet> dataSetOf(const ui::BakeRequest& request) {
+    if (!planet::heightSourceExists(request.source)) return tl::unexpected(missingSource(request.source));
+    if (!request.colour.empty() && !planet::heightSourceExists(request.colour))
+        return tl::unexpected(missingColour(request.colour));
+    return findDataSet(request.source, request.settings, request.sourceSettings, request.colour);
+}
+
 bool samePlace(const fs::path& a, const fs::path& b) {
     std::error_code status;
     return fs::absolute(a, status).lexically_normal() == fs::absolute(b, status).lexically_normal();
@@ -222,6 +253,8 @@ bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& se
         SessionBake bake;
         bake.request.source = data->source;
         bake.request.settings = data->settings;
+        bake.request.colour = data->bakedColour;
+        bake.colourMayFail = true;
         bake.data = *data;
         bake.needed = true;
         session.problem.reset();
@@ -244,9 +277,7 @@ void startBake(Session& session, const ui::BakeRequest& request, const Log& log)
         log->warn("A bake is running already; cancel it, or wait for its end");
         return;
     }
-    const Result<DataSet> found = planet::heightSourceExists(request.source)
-                                      ? findDataSet(request.source, request.settings, request.sourceSettings)
-                                      : tl::unexpected(missingSource(request.source));
+    const Result<DataSet> found = dataSetOf(request);
     if (!found) {
         log->error("{}", found.error().message);
         session.bakeProblem = found.error();
@@ -268,7 +299,9 @@ void startBake(Session& session, const Log& log) {
     ui::BakeRequest request;
     request.source = session.data.source;
     request.settings = session.data.settings;
+    request.colour = session.data.bakedColour;
     startBake(session, request, log);
+    if (session.bake) session.bake->colourMayFail = true;
 }
 
 void openBake(Session& session, const ui::BakeRequest& request, const fs::path& chunkFile,
@@ -387,6 +420,8 @@ ui::BakeView bakeViewOf(const Session& session) {
         view.current = open->baked;
         view.compressionKnown = open->compressionKnown;
         view.canBake = open->sourceIsThere;
+        const std::optional<planet::ColourPyramid>& colour = open->scene.planet->colour();
+        if (colour && open->baked.colour.empty()) view.lostColours = colour->source;
     } else {
         view.current.source = session.data.source;
         view.canBake = planet::heightSourceExists(view.current.source);

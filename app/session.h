@@ -35,6 +35,7 @@ struct SessionBake {
     DataSet data;                  // what to open once it is done
     bool forComparison = false;    // the planet that it replaces is kept
     bool needed = false;           // without it there is nothing to show
+    bool colourMayFail = false;    // the image was not asked for by name
     std::unique_ptr<BakeJob> job;  // none while an earlier bake into the same file comes to its end
 
     bool stopping() const { return job && job->cancelling(); }
@@ -78,7 +79,7 @@ bool openFile(Session& session, const std::filesystem::path& file, const ui::Vie
 // Bakes into the cache; the planet flies on, and becomes the previous one when the bake is done. Refused,
 // with a line in the log, while another bake runs or where the source is not there.
 void startBake(Session& session, const ui::BakeRequest& request, const Log& log);
-// The same bake again: for a window with nothing to show.
+// The bake that the data set needs, again: for a window with nothing to show.
 void startBake(Session& session, const Log& log);
 void cancelBake(Session& session);
 

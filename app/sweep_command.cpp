@@ -70,7 +70,8 @@ Result<SweepPlan> planOf(const SweepOptions& options) {
     for (const int chunkSize : *sizes) {
         const Result<Baked> baked = bakedFor(options, chunkSize);
         if (!baked) return tl::unexpected(baked.error());
-        const Result<DataSet> data = findDataSet(baked->source, baked->settings, options.sourceSettings);
+        const Result<DataSet> data =
+            findDataSet(baked->source, baked->settings, options.sourceSettings, sweptColour);
         if (!data) return tl::unexpected(data.error());
         if (data->needsBake) plan.source = data->source;
         plan.files.push_back({chunkSize, data->chunkFile, data->needsBake, data->settings});

@@ -23,7 +23,8 @@ using planet::Result;
 planet::BakeSettings bakeSettingsOf(const OpenPlanet& open) {
     planet::BakeSettings usual;
     usual.chunkSize = open.baked.settings.chunkSize;
-    const fs::path byDefault = cachedBakeOf(open.baked.source, usual, open.baked.sourceSettings);
+    const fs::path byDefault =
+        cachedBakeOf(open.baked.source, usual, open.baked.sourceSettings, open.data.bakedColour);
     return byDefault == open.data.chunkFile ? usual : open.baked.settings;
 }
 
@@ -39,7 +40,8 @@ Result<SweptFile> sweptFileOf(const OpenPlanet& open, int chunkSize) {
     planet::BakeSettings settings = bakeSettingsOf(open);
     settings.chunkSize = chunkSize;
     if (chunkSize == own) return SweptFile{own, open.data.chunkFile, false, settings};
-    const Result<DataSet> data = findDataSet(open.baked.source, settings, open.baked.sourceSettings);
+    const Result<DataSet> data =
+        findDataSet(open.baked.source, settings, open.baked.sourceSettings, sweptColour);
     if (!data) return tl::unexpected(data.error());
     return SweptFile{chunkSize, data->chunkFile, data->needsBake, settings};
 }

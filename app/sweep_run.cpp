@@ -18,6 +18,7 @@ using planet::Result;
 // Overlays cost time that is not the setting's, and loads are waited for.
 ui::ViewSettings sweptSettings(ui::ViewSettings settings) {
     settings.overlay = {};
+    settings.surface.streamed = false;
     settings.paging.badDisk = {};
     settings.paging.simulated = false;
     return settings;

@@ -14,6 +14,10 @@
 
 namespace worldy {
 
+// What sweeps measure has nothing to do with colours: files that they bake have none, and none are drawn or
+// paged of a file that has.
+inline const std::filesystem::path sweptColour{};
+
 // Chunks of one size.
 struct SweptFile {
     int chunkSize = 33;

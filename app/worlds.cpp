@@ -8,6 +8,7 @@
 
 #include "app/data_set.h"
 #include "planet/terrain.h"
+#include "ui/own_colour.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -22,6 +23,7 @@ ui::World world(const char* name, const char* title, const char* about, std::str
     made.request.source = std::move(source);
     made.request.settings.radiusM = radiusM;
     made.request.settings.faceSize = faceSize;
+    made.request.colour = ui::ownColourImage(made.request.source);
     return made;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planet/bake_tile.h"
+#include "planet/spread_places.h"
 
 namespace planet {
 
@@ -20,28 +21,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t samplesToBake = 4'000'000;
 constexpr std::uint64_t fewestPlaces = 8;
 constexpr std::uint64_t mostPlaces = 2048;
-
-// Scrambles a number: the finalizer of splitmix64.
-std::uint64_t scrambled(std::uint64_t value) {
-    value += 0x9E3779B97F4A7C15u;
-    value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9u;
-    value = (value ^ (value >> 27)) * 0x94D049BB133111EBu;
-    return value ^ (value >> 31);
-}
-
-// Chunks of a level, one in each of equally long stretches of the quadtree order: neighbours in that order
-// are neighbours on the sphere, so the places are spread evenly.
-std::vector<ChunkId> places(int level, std::uint64_t wanted) {
-    const std::uint64_t total = std::uint64_t{faceCount} << (2 * level);
-    const std::uint64_t count = std::min(wanted, total);
-    std::vector<ChunkId> chosen;
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const std::uint64_t first = i * total / count;
-        const std::uint64_t end = (i + 1) * total / count;
-        chosen.push_back(chunkInQuadtreeOrder(first + scrambled(i) % (end - first), level));
-    }
-    return chosen;
-}
 
 struct Sample {
     std::uint64_t leafBlocks = 0;
@@ -187,19 +166,17 @@ Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
 std::vector<ChunkId> placesToBake(const PlanetShape& shape) {
     const std::uint64_t cells = 2 * static_cast<std::uint64_t>(chunkCells(shape));
     const std::uint64_t wanted = std::clamp(samplesToBake / 2 / (cells * cells), fewestPlaces, mostPlaces);
-    std::vector<ChunkId> roots = places(leafLevel(shape) - 1, wanted);
+    std::vector<ChunkId> roots = spreadPlaces(leafLevel(shape) - 1, wanted);
     if (leafLevel(shape) > 1) {
         const std::vector<ChunkId> more =
-            places(leafLevel(shape) - 2, std::max(wanted / 4, fewestPlaces / 2));
+            spreadPlaces(leafLevel(shape) - 2, std::max(wanted / 4, fewestPlaces / 2));
         roots.insert(roots.end(), more.begin(), more.end());
     }
     return roots;
 }
 
-}  // namespace
-
-Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings& settings,
-                                  const std::function<bool()>& goOn) {
+Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSettings& settings,
+                                     const std::function<bool()>& goOn) {
     if (auto valid = checkBakeSettings(settings); !valid) return tl::unexpected(valid.error());
     const auto shape = chooseShape(source, settings);
     if (!shape) return tl::unexpected(shape.error());
@@ -225,6 +202,21 @@ Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings
     estimate.seconds += (sample->readS + sample->bakeS * static_cast<double>(estimate.samples) /
                                              static_cast<double>(sample->finestSamples)) /
                         threads;
+    return estimate;
+}
+
+}  // namespace
+
+Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings& settings,
+                                  const std::function<bool()>& goOn, const ColourSource* colour) {
+    Result<BakeEstimate> estimate = estimateHeights(source, settings, goOn);
+    if (!estimate || !colour) return estimate;
+    const Result<ColourEstimate> colours =
+        estimateColours(*colour, settings.colour, bakeThreads(settings), defaultColourCacheBytes, goOn);
+    if (!colours) return tl::unexpected(colours.error());
+    estimate->fileBytes += colours->fileBytes;
+    estimate->seconds += colours->seconds;
+    estimate->colour = *colours;
     return estimate;
 }
 

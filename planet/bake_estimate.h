@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "planet/bake.h"
+#include "planet/colour_estimate.h"
 
 namespace planet {
 
@@ -14,13 +16,15 @@ struct BakeEstimate {
     PlanetShape shape;
     std::uint64_t samples = 0;  // distinct finest-level samples
     std::uint64_t chunks = 0;
-    double fileBytes = 0;
-    double seconds = 0;  // on this machine with the settings' threads
+    double fileBytes = 0;                    // colours included
+    double seconds = 0;                      // on this machine with the settings' threads; colours included
+    std::optional<ColourEstimate> colour{};  // of a bake with colours
 };
 
 // Blocks are chosen by a fixed seed, evenly over the sphere. The callback is asked between blocks; false
 // cancels.
 Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings& settings,
-                                  const std::function<bool()>& goOn = {});
+                                  const std::function<bool()>& goOn = {},
+                                  const ColourSource* colour = nullptr);
 
 }  // namespace planet

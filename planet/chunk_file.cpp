@@ -91,6 +91,11 @@ void describe(ChunkData& chunk, const ChunkEntry& entry) {
     chunk.children = entry.children;
 }
 
+// As messages call it.
+std::string nameOf(const BlockId& id) {
+    return (id.kind == BlockKind::Colours ? "colour tile " : "chunk ") + toString(id.parent);
+}
+
 }  // namespace
 
 Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path) {
@@ -124,35 +129,34 @@ Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, Rea
     return file;
 }
 
-Result<std::vector<std::byte>> ChunkFile::readBlock(const ChunkId& id, BlockLocation location,
+Result<std::vector<std::byte>> ChunkFile::readBlock(const BlockId& id, BlockLocation location,
                                                     const BlockBytes& bytes) const {
     if (location.offset < chunkFileHeaderBytes || location.size > bytes.most ||
         location.offset > sizeBytes_ || location.size > sizeBytes_ - location.offset ||
         location.size < bytes.least) {
         return badInput(
-            fmt::format("{}: the block of chunk {} is said to be {} bytes at {}, which the file of {} bytes "
+            fmt::format("{}: the block of {} is said to be {} bytes at {}, which the file of {} bytes "
                         "cannot hold; bake it again",
-                        name_, toString(id), location.size, location.offset, sizeBytes_));
+                        name_, nameOf(id), location.size, location.offset, sizeBytes_));
     }
     std::vector<std::byte> block(location.size);
     if (auto read = readAt_(location.offset, block); !read) return tl::unexpected(read.error());
     return block;
 }
 
-Result<std::span<const std::byte>> ChunkFile::checkedContent(const ChunkId& id,
+Result<std::span<const std::byte>> ChunkFile::checkedContent(const BlockId& id,
                                                              std::span<const std::byte> block,
                                                              std::uint64_t expectedChecksum) const {
     if (ByteReader(block.last(checksumBytes)).get<std::uint64_t>() != expectedChecksum) {
-        return badInput(
-            fmt::format("{}: the block of chunk {} is damaged: its checksum does not match; bake it again",
-                        name_, toString(id)));
+        return badInput(fmt::format(
+            "{}: the block of {} is damaged: its checksum does not match; bake it again", name_, nameOf(id)));
     }
     return block.first(block.size() - checksumBytes);
 }
 
-Error ChunkFile::nonsense(const ChunkId& id, std::string_view what) const {
-    return {ErrorKind::BadInput, fmt::format("{}: the block of chunk {} makes no sense: {}; bake it again",
-                                             name_, toString(id), what)};
+Error ChunkFile::nonsense(const BlockId& id, std::string_view what) const {
+    return {ErrorKind::BadInput,
+            fmt::format("{}: the block of {} makes no sense: {}; bake it again", name_, nameOf(id), what)};
 }
 
 Result<ChunkData> ChunkFile::readRoot(Face face) const {
@@ -242,15 +246,16 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
 Result<std::vector<ColourTileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,
                                                                std::span<const ChunkId> tiles) const {
     const ColourPyramid& pyramid = *info_.colour;
+    const BlockId id(block, BlockKind::Colours);
     const std::size_t entriesBytes = tiles.size() * colourEntryBytes;
     const auto bytes =
-        readBlock(block, location,
+        readBlock(id, location,
                   {entriesBytes + checksumBytes,
                    entriesBytes + tiles.size() * largestPackedColourTile(pyramid.format) + checksumBytes});
     if (!bytes) return tl::unexpected(bytes.error());
     const auto summed = std::span(*bytes).first(bytes->size() - checksumBytes);
     const auto content = checkedContent(
-        block, *bytes,
+        id, *bytes,
         tiles[0].level == 0 ? colourRootChecksum(summed, block.face) : colourSiblingChecksum(summed, block));
     if (!content) return tl::unexpected(content.error());
     std::vector<ColourTileData> read;
@@ -258,15 +263,19 @@ Result<std::vector<ColourTileData>> ChunkFile::readColourBlock(const ChunkId& bl
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const ColourEntry entry = colourEntryFrom(
             content->subspan(i * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        const BlockId tile(tiles[i], BlockKind::Colours);
         const bool mayHaveChildren = tiles[i].level < pyramid.leafLevel;
         if (entry.children.exists() != mayHaveChildren || entry.packedBytes > packed.size())
-            return tl::unexpected(nonsense(tiles[i], "its colours' children or size are out of range"));
+            return tl::unexpected(nonsense(tile, "its children or size are out of range"));
+        // Children come before their parents.
+        if (mayHaveChildren && entry.children.size > location.offset - entry.children.offset)
+            return tl::unexpected(nonsense(tile, "its children's block overlaps its own"));
         auto texels = unpackColourTexels(pyramid.format, packed.first(entry.packedBytes));
-        if (!texels) return tl::unexpected(nonsense(tiles[i], texels.error().message));
+        if (!texels) return tl::unexpected(nonsense(tile, texels.error().message));
         packed = packed.subspan(entry.packedBytes);
         read.push_back({tiles[i], entry.children, *std::move(texels)});
     }
-    if (!packed.empty()) return tl::unexpected(nonsense(block, "its colours are followed by other bytes"));
+    if (!packed.empty()) return tl::unexpected(nonsense(id, "it is followed by other bytes"));
     return read;
 }
 
@@ -295,15 +304,16 @@ Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(cons
                                                                             BlockLocation location) const {
     assert(info_.colour && parent.level + 1 < info_.colour->leafLevel);
     constexpr std::size_t entriesBytes = quadrantCount * colourEntryBytes;
-    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
+    const auto bytes = readBlock({parent, BlockKind::Colours}, {location.offset, entriesBytes},
+                                 {entriesBytes, entriesBytes});
     if (!bytes) return tl::unexpected(bytes.error());
     std::array<ColourEntry, quadrantCount> entries;
     for (std::size_t q = 0; q < entries.size(); ++q) {
         entries[q] = colourEntryFrom(
             std::span(*bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(), location.offset);
         if (!entries[q].children.exists())
-            return tl::unexpected(
-                nonsense(childOf(parent, static_cast<int>(q)), "its colours' index entry is out of range"));
+            return tl::unexpected(nonsense({childOf(parent, static_cast<int>(q)), BlockKind::Colours},
+                                           "its index entry is out of range"));
     }
     return entries;
 }

@@ -2,7 +2,7 @@
 //
 //   header     512 bytes: magic, version, shape, where the six root blocks are, checksum
 //   blocks     children's before their parents', root blocks last
-//   colours    where there are any: the blocks of the colour quadtree (colour_tile.h), in the same order
+//   colours    where there are any: the colour quadtree's blocks (colour_tile.h), the finest level's first
 //
 // A sibling block holds the four children of one chunk as one refinement of that chunk's grid: of the
 // (2^(k+1) + 1)^2 samples that the four cover together, only those the parent does not have (see
@@ -30,6 +30,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planet/block_id.h"
 #include "planet/chunk_id.h"
 #include "planet/colour_tile.h"
 #include "planet/planet_shape.h"
@@ -144,13 +145,13 @@ private:
         std::uint64_t least;
         std::uint64_t most;
     };
-    Result<std::vector<std::byte>> readBlock(const ChunkId& id, BlockLocation location,
+    Result<std::vector<std::byte>> readBlock(const BlockId& id, BlockLocation location,
                                              const BlockBytes& bytes) const;
     Result<std::vector<ColourTileData>> readColourBlock(const ChunkId& block, BlockLocation location,
                                                         std::span<const ChunkId> tiles) const;
-    Result<std::span<const std::byte>> checkedContent(const ChunkId& id, std::span<const std::byte> block,
+    Result<std::span<const std::byte>> checkedContent(const BlockId& id, std::span<const std::byte> block,
                                                       std::uint64_t expectedChecksum) const;
-    Error nonsense(const ChunkId& id, std::string_view what) const;
+    Error nonsense(const BlockId& id, std::string_view what) const;
 
     ChunkFileInfo info_;
     std::string name_;

@@ -90,6 +90,40 @@ Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
     return colour;
 }
 
+// Empty where the root blocks of colours lie in the file, apart from each other and from those of heights.
+std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileBytes) {
+    struct Place {
+        BlockLocation block;
+        std::string name;
+    };
+    std::vector<Place> places;
+    for (const Face face : allFaces) {
+        const BlockLocation block = info.colour->roots[static_cast<std::size_t>(face)];
+        const std::string name = fmt::format("colour tile {}", toString({face, 0, 0, 0}));
+        if (block.size == 0 || block.offset < chunkFileHeaderBytes || block.offset > fileBytes ||
+            block.size > fileBytes - block.offset) {
+            return fmt::format("a root block of {} of {} bytes at {}, which the file of {} bytes cannot hold",
+                               name, block.size, block.offset, fileBytes);
+        }
+        places.push_back({block, name});
+    }
+    for (const Face face : allFaces) {
+        places.push_back(
+            {info.roots[static_cast<std::size_t>(face)], fmt::format("chunk {}", toString({face, 0, 0, 0}))});
+    }
+    for (std::size_t i = 0; i < faceCount; ++i) {
+        for (std::size_t j = i + 1; j < places.size(); ++j) {
+            const BlockLocation a = places[i].block;
+            const BlockLocation b = places[j].block;
+            const bool apart =
+                a.offset < b.offset ? b.offset - a.offset >= a.size : a.offset - b.offset >= b.size;
+            if (!apart)
+                return fmt::format("root blocks of {} and {} that overlap", places[i].name, places[j].name);
+        }
+    }
+    return {};
+}
+
 // Empty where the shape is one that this program bakes.
 std::string shapeProblem(const PlanetShape& shape) {
     if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("a radius of {} m", shape.radiusM);
@@ -267,6 +301,9 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
         return badInput(
             fmt::format("{}: the header asks for {}; bake it again", name, colour.error().message));
     info.colour = *std::move(colour);
+    if (!info.colour) return info;
+    if (const std::string problem = colourRootsProblem(info, fileBytes); !problem.empty())
+        return badInput(fmt::format("{}: the header asks for {}; bake it again", name, problem));
     return info;
 }
 

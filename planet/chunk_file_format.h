@@ -1,5 +1,9 @@
 // The bytes of the chunk file, shared by its reader and its writer. README.md has the same as a table.
 // Pure functions, any thread.
+//
+// Version 3 has colours, or zeros in their place; all else is version 2's, which is read as without. Header:
+// after the source's text the kind of colours (u8, 0 none), their finest level (u8), six root blocks (u64
+// offset, u32 size) and their source's text. Colour block: entries of 16 bytes, packed tiles, checksum.
 #pragma once
 
 #include <array>

@@ -26,7 +26,10 @@ struct ColourSource {
     std::function<Result<void>(const SampleTile& tile, std::span<glm::vec3> out)> sample;
 };
 
+inline constexpr std::size_t defaultColourCacheBytes = 192u << 20;
+
 // cacheBytes: the most memory spent on the image. The Error names the file.
-Result<ColourSource> openColourSource(const std::filesystem::path& path, std::size_t cacheBytes = 192u << 20);
+Result<ColourSource> openColourSource(const std::filesystem::path& path,
+                                      std::size_t cacheBytes = defaultColourCacheBytes);
 
 }  // namespace planet

@@ -205,6 +205,16 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
     return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(*layout), channel, std::move(readers)));
 }
 
+namespace {
+
+// Some readers fail without a word.
+std::string reasonOf(const OIIO::ImageInput& reader) {
+    const std::string error = reader.geterror();
+    return error.empty() ? "the file is cut short or damaged" : error;
+}
+
+}  // namespace
+
 Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
     assert(native.size() == bytesOf(layout_.type) * static_cast<std::size_t>(layout_.tileWidth) *
                                 static_cast<std::size_t>(layout_.tileHeight));
@@ -220,7 +230,7 @@ Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
                            native.data(), sampleBytes, sampleBytes * layout_.tileWidth);
     if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: the tile at ({}, {}) cannot be read: {}", path_.string(), tileX,
-                                   tileY, reader->geterror()));
+                                   tileY, reasonOf(*reader)));
     }
     readers_->giveBack(std::move(reader));
     return {};
@@ -237,7 +247,7 @@ Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> n
     // A strip that is cut off leaves an error message behind a result of true.
     if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,
-                                   firstRow + count - 1, reader->geterror()));
+                                   firstRow + count - 1, reasonOf(*reader)));
     }
     readers_->giveBack(std::move(reader));
     return {};

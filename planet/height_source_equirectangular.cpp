@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -253,12 +254,40 @@ struct Equirectangular {
     float finished(Float4 sum) const { return std::clamp(sumOfLanes(sum), minM, maxM); }
 };
 
+// Where a piece's samples lie in an image of a size.
+struct PiecePlace {
+    Projection projection;
+    PieceTaps taps;
+    Region region;
+};
+
+bool sameSquare(const SampleTile& a, const SampleTile& b) {
+    return a.face == b.face && a.faceCells == b.faceCells && a.firstColumn == b.firstColumn &&
+           a.firstRow == b.firstRow && a.columns == b.columns && a.rows == b.rows;
+}
+
+// Kept by each thread for its last piece: the three channels of a colour image lie alike, and are sampled one
+// after the other. Holds until the next call.
+const PiecePlace& placeOf(const HeightRaster& image, const SampleTile& piece) {
+    thread_local std::optional<PiecePlace> last;
+    thread_local SampleTile lastPiece;
+    const bool same = last && sameSquare(piece, lastPiece) && last->projection.width == image.width() &&
+                      last->projection.height == image.height();
+    if (same) return *last;
+    last.reset();
+    const Projection projection(image.width(), image.height(), piece.faceCells);
+    PieceTaps taps = tapsOfPiece(projection, piece);
+    const Region region = regionOf(projection, taps);
+    last.emplace(PiecePlace{projection, std::move(taps), region});
+    lastPiece = piece;
+    return *last;
+}
+
 // out: the piece's first sample; stride: from one row of the piece to the next.
 Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece, float* out,
                          std::size_t stride) {
-    const Projection projection(source.image.width(), source.image.height(), piece.faceCells);
-    PieceTaps taps = tapsOfPiece(projection, piece);
-    const Region region = regionOf(projection, taps);
+    const PiecePlace& place = placeOf(source.image, piece);
+    const auto& [projection, taps, region] = place;
     const int bandRows = std::clamp(
         static_cast<int>(regionSamples / static_cast<std::size_t>(region.columns)), 1, region.rows);
     std::vector<float> lanes(4 * taps.firstColumn.size());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/synthetic_colours.h"
 #include "tests/synthetic_source.h"
 #include "tests/temporary_folder.h"
 
@@ -93,6 +94,49 @@ TEST(BakeEstimate, stopsWhenToldTo) {
     ASSERT_FALSE(estimate);
     EXPECT_EQ(estimate.error().kind, ErrorKind::Cancelled);
     EXPECT_EQ(asked, 3);
+}
+
+TEST(BakeEstimate, coloursAreEstimatedBesideTheHeights) {
+    const tests::TemporaryFolder folder;
+    const ColourSource colours = test::mottledColours(1025);
+    for (const ColourFormat format : {ColourFormat::Bc1, ColourFormat::Lossless}) {
+        const BakeSettings settings{.faceSize = 65, .chunkSize = 17, .colour = {.format = format}};
+        const Result<BakeReport> real = bake(hillsSource(), settings, folder / "real.chk", {}, &colours);
+        const Result<BakeEstimate> estimate = estimateBake(hillsSource(), settings, {}, &colours);
+        const Result<BakeEstimate> without = estimateBake(hillsSource(), settings);
+        ASSERT_TRUE(real && estimate && without);
+        ASSERT_TRUE(estimate->colour);
+        EXPECT_FALSE(without->colour);
+        EXPECT_EQ(estimate->colour->faceSize, 1025);
+        EXPECT_EQ(estimate->colour->levels, 3);
+        EXPECT_EQ(estimate->colour->tiles, real->colourTiles);
+        EXPECT_EQ(estimate->colour->residentBytes, real->colourTiles * colourTileBytes(format));
+        EXPECT_GT(estimate->colour->seconds, 0);
+        EXPECT_GT(estimate->seconds, estimate->colour->seconds);
+        expectWithinHalf(estimate->colour->fileBytes / static_cast<double>(real->colourBytes));
+        EXPECT_DOUBLE_EQ(estimate->fileBytes, without->fileBytes + estimate->colour->fileBytes);
+    }
+}
+
+TEST(BakeEstimate, refusesTheColoursThatTheBakeRefuses) {
+    const tests::TemporaryFolder folder;
+    const ColourSource colours = test::mottledColours();
+    for (const int faceSize : {256, 1000, 1 << 20}) {
+        const BakeSettings settings{.faceSize = 65, .chunkSize = 17, .colour = {.faceSize = faceSize}};
+        const Result<BakeEstimate> estimate = estimateBake(hillsSource(), settings, {}, &colours);
+        const Result<BakeReport> real = bake(hillsSource(), settings, folder / "never.chk", {}, &colours);
+        ASSERT_FALSE(estimate);
+        ASSERT_FALSE(real);
+        EXPECT_EQ(estimate.error().message, real.error().message);
+    }
+    ColourSource unreadable = colours;
+    unreadable.sample = [](const SampleTile&, std::span<glm::vec3>) -> Result<void> {
+        return ioError("map.jpg: cannot be read");
+    };
+    const Result<BakeEstimate> estimate =
+        estimateBake(hillsSource(), {.faceSize = 65, .chunkSize = 17}, {}, &unreadable);
+    ASSERT_FALSE(estimate);
+    EXPECT_EQ(estimate.error().message, "map.jpg: cannot be read");
 }
 
 }  // namespace

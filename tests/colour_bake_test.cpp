@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include "planet/chunk_file_format.h"
 #include "planet/colour_report.h"
 #include "planet/file_report.h"
+#include "planet/little_endian.h"
 #include "tests/synthetic_colours.h"
 #include "tests/synthetic_source.h"
 #include "tests/temporary_folder.h"
@@ -136,9 +138,92 @@ TEST(ColourBake, ADamagedTileIsAnErrorThatNamesIt) {
         ASSERT_TRUE(file);
         const auto tile = file->readColourRoot(Face::PosY);
         ASSERT_FALSE(tile);
-        EXPECT_NE(tile.error().message.find("y_pos/0/0/0 is damaged"), std::string::npos)
+        EXPECT_NE(tile.error().message.find("the block of colour tile y_pos/0/0/0 is damaged"),
+                  std::string::npos)
             << tile.error().message;
         EXPECT_TRUE(file->readColourRoot(Face::PosX));
+    }
+}
+
+// The file with its header's colours changed, under a right checksum.
+void changeHeader(const std::filesystem::path& path, const std::string& whole,
+                  const std::function<void(ChunkFileInfo&)>& change) {
+    std::ofstream(path, std::ios::binary) << whole;
+    ChunkFileInfo info = ChunkFile::open(path)->info();
+    change(info);
+    std::string bytes = whole;
+    const auto header = headerBytes(info, bytes.size());
+    std::memcpy(bytes.data(), header.data(), header.size());
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(ColourBake, AHeaderWithColoursThatCannotBeSaysWhatIsWrong) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.chk";
+    ASSERT_TRUE(bakeWithColours(path));
+    const std::string whole = contentOf(path);
+    struct Case {
+        std::function<void(ChunkFileInfo&)> change;
+        const char* said;
+    };
+    const std::uint64_t size = whole.size();
+    const std::vector<Case> cases = {
+        {[](ChunkFileInfo& info) { info.colour->leafLevel = maxColourLevel + 1; }, "12 levels of colours"},
+        {[](ChunkFileInfo& info) { info.colour->format = static_cast<ColourFormat>(5); },
+         "colours of kind 6"},
+        {[](ChunkFileInfo& info) { info.colour->roots[2].offset = 0; }, "colour tile y_pos/0/0/0"},
+        {[](ChunkFileInfo& info) { info.colour->roots[2].offset = 511; }, "colour tile y_pos/0/0/0"},
+        {[](ChunkFileInfo& info) { info.colour->roots[3].size = 0; }, "colour tile y_neg/0/0/0 of 0 bytes"},
+        {[](ChunkFileInfo& info) { info.colour->roots[3].size = 0xFFFFFFFF; }, "cannot hold"},
+        {[&](ChunkFileInfo& info) { info.colour->roots[0].offset = size; }, "cannot hold"},
+        {[](ChunkFileInfo& info) { info.colour->roots[0].offset = ~std::uint64_t{0} - 4; }, "cannot hold"},
+        {[](ChunkFileInfo& info) { info.colour->roots[5] = info.colour->roots[4]; },
+         "colour tile z_pos/0/0/0 and colour tile z_neg/0/0/0 that overlap"},
+        {[](ChunkFileInfo& info) { ++info.colour->roots[0].size; },
+         "colour tile x_pos/0/0/0 and colour tile x_neg/0/0/0 that overlap"},
+        {[](ChunkFileInfo& info) { info.colour->roots[1] = info.roots[0]; },
+         "colour tile x_neg/0/0/0 and chunk x_pos/0/0/0 that overlap"},
+    };
+    for (const Case& one : cases) {
+        changeHeader(path, whole, one.change);
+        const auto file = ChunkFile::open(path);
+        ASSERT_FALSE(file) << one.said;
+        EXPECT_EQ(file.error().kind, ErrorKind::BadInput);
+        EXPECT_NE(file.error().message.find(path.string()), std::string::npos);
+        EXPECT_NE(file.error().message.find(one.said), std::string::npos) << file.error().message;
+    }
+    changeHeader(path, whole, [](ChunkFileInfo&) {});
+    EXPECT_TRUE(ChunkFile::open(path));
+}
+
+TEST(ColourBake, ATileWhoseChildrenLieWhereTheyCannotIsRefused) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.chk";
+    ASSERT_TRUE(bakeWithColours(path));
+    const std::string whole = contentOf(path);
+    const BlockLocation root = ChunkFile::open(path)->info().colour->roots[0];
+    // A root's block begins with how far back its children's block lies, and how large that is.
+    for (const std::uint64_t distance : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{40}, root.offset,
+                                         root.offset + 1, ~std::uint64_t{0}}) {
+        std::string bytes = whole;
+        for (std::size_t i = 0; i < 8; ++i)
+            bytes[root.offset + i] = static_cast<char>(distance >> (8 * i) & 0xFF);
+        std::vector<std::byte> block(root.size);
+        std::memcpy(block.data(), bytes.data() + root.offset, root.size);
+        std::vector<std::byte> sum;
+        ByteWriter(sum).put(
+            colourRootChecksum(std::span(block).first(block.size() - checksumBytes), Face::PosX));
+        std::memcpy(bytes.data() + root.offset + root.size - checksumBytes, sum.data(), sum.size());
+        std::ofstream(path, std::ios::binary) << bytes;
+        const auto file = ChunkFile::open(path);
+        ASSERT_TRUE(file);
+        const auto tile = file->readColourRoot(Face::PosX);
+        const auto children = tile
+                                  ? file->readColourChildren(tile->id, tile->children).map([](const auto&) {})
+                                  : Result<void>(tl::unexpected(tile.error()));
+        ASSERT_FALSE(children) << distance;
+        EXPECT_NE(children.error().message.find("colour tile x_pos/0/0/0"), std::string::npos)
+            << children.error().message;
     }
 }
 

@@ -28,7 +28,8 @@ bool sameFile(const BakeRequest& a, const BakeRequest& b) {
     return a.source == b.source && a.settings.faceSize == b.settings.faceSize &&
            a.settings.chunkSize == b.settings.chunkSize && a.settings.radiusM == b.settings.radiusM &&
            a.settings.quantumM == b.settings.quantumM &&
-           a.settings.compressionLevel == b.settings.compressionLevel;
+           a.settings.compressionLevel == b.settings.compressionLevel && a.colour == b.colour &&
+           (a.colour.empty() || a.settings.colour == b.settings.colour);
 }
 
 // Another file is open than the one that was edited: what was chosen for that one is over.
@@ -38,6 +39,7 @@ void followOpenFile(const EditorView& view, BakePanelState& state) {
     state.edited.reset();
     state.estimateAtS.reset();
     setSource(view.bake.current.source, state.source);
+    setColour(view.bake.current, state.colour);
 }
 
 void edited(const BakeRequest& request, double timeS, BakePanelState& state) {
@@ -59,6 +61,11 @@ void parameterRow(const char* name, const std::string& value, bool live, const c
                  : "Stands in the file; changed below.");
 }
 
+std::string bakedColours(const EditorView& view) {
+    const std::optional<planet::ColourPyramid>& colour = view.planet->colour();
+    return colour ? colourText(view.bake.current.settings.colour) : "none";
+}
+
 void bakedRows(const EditorView& view) {
     const planet::BakeSettings& baked = view.bake.current.settings;
     parameterRow("Source",
@@ -78,6 +85,9 @@ void bakedRows(const EditorView& view) {
                  view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel)
                                             : "not recorded in the file",
                  false, "How hard the encoder tried. Reading takes the same time whatever it was.");
+    parameterRow(
+        "Colours", bakedColours(view), false,
+        view.planet->colour() ? view.planet->colour()->source.c_str() : "The file holds no tiles of colour.");
 }
 
 void liveRows(const ViewSettings& settings) {
@@ -87,7 +97,7 @@ void liveRows(const ViewSettings& settings) {
     parameterRow("Sea level", fmt::format("{:.0f} m", settings.surface.seaLevelM), true,
                  "In the Surface panel.");
     parameterRow("Memory", fmt::format("{} MiB", settings.paging.budgetMB), true,
-                 "For resident chunks. In the Paging panel.");
+                 "For resident chunks and tiles of colour. In the Paging panel.");
 }
 
 void openFileSection(const EditorView& view, const ViewSettings& settings) {
@@ -200,26 +210,43 @@ bool effortControls(const EditorView& view, BakeRequest& request) {
     return packed || threads;
 }
 
-void requestSection(const EditorView& view, BakePanelState& state) {
+// Also another source's colours.
+bool sourceSection(const EditorView& view, BakePanelState& state, BakeRequest& request) {
+    const std::filesystem::path colour = request.colour;
+    if (!sourceControls(view, state.source, request)) return false;
+    if (request.colour != colour)
+        setColour(request, state.colour);
+    else
+        followSource(request, state.colour);
+    state.preview.open = true;
+    return true;
+}
+
+void requestSection(const EditorView& view, BakePanelState& state, Commands& commands) {
     if (!section("Bake anew")) return;
     BakeRequest request = state.edited.value_or(view.bake.current);
     ImGui::BeginDisabled(view.bake.running.has_value());
-    const bool sourceChanged = sourceControls(view, state.source, request);
-    if (sourceChanged) state.preview.open = true;
-    bool changed = sourceChanged;
+    bool changed = sourceSection(view, state, request);
     changed |= chunkSizeControl(view.bake.current, request);
     changed |= faceSizeControl(view.bake.current, request);
     changed |= radiusControl(view.bake.current, request);
     changed |= quantumControl(view.bake.current, request);
+    changed |= colourControls(view, state.colour, request, commands);
     changed |= effortControls(view, request);
     ImGui::EndDisabled();
     if (changed) edited(request, view.timeS, state);
 }
 
+// Without the source's own image it is baked without; one that was named must be there.
+bool mayBake(const ColourEdit& colour) {
+    return colour.problem.empty() || colour.from == ColourEdit::From::Own;
+}
+
 void askForEstimate(const EditorView& view, BakePanelState& state, Commands& commands) {
     if (!state.estimateAtS || view.timeS < *state.estimateAtS || view.bake.running) return;
     state.estimateAtS.reset();
-    if (state.edited && state.source.problem.empty()) commands.push_back(EstimateBake{*state.edited});
+    if (state.edited && state.source.problem.empty() && mayBake(state.colour))
+        commands.push_back(EstimateBake{*state.edited});
 }
 
 // What the new file's size is against the open one's: "12.3 MiB, 1.4 x the open file".
@@ -227,6 +254,18 @@ std::string sizeText(const EditorView& view, double bytes) {
     if (!view.planet) return bytesText(bytes);
     const double open = static_cast<double>(view.planet->file().sizeBytes());
     return fmt::format("{}, {:.2f} x as now", bytesText(bytes), bytes / open);
+}
+
+std::string colourTilesText(const std::optional<planet::ColourEstimate>& colour) {
+    if (!colour) return {};
+    return fmt::format("{} tiles, {}", countText(static_cast<double>(colour->tiles)),
+                       bytesText(colour->fileBytes));
+}
+
+std::string colourMemoryText(const std::optional<planet::ColourEstimate>& colour) {
+    if (!colour) return {};
+    return fmt::format("{}, then {}", bytesText(static_cast<double>(colour->bakeBytes)),
+                       bytesText(static_cast<double>(colour->residentBytes)));
 }
 
 void estimateValues(const EditorView& view, const BakePanelState& state) {
@@ -258,13 +297,26 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
                                     planet::faceCells(e.shape) + 1);
              }),
              "Of the finest level.");
+    if (!state.edited->colour.empty()) {
+        valueRow(
+            "Colours", value([](const Estimate& e) { return colourTilesText(e.colour); }),
+            "Tiles of 256 x 256 texels, of all levels, and what they add to the file: packed from a few of "
+            "them.");
+        valueRow("Colours' time", value([](const Estimate& e) {
+                     return e.colour ? durationText(e.colour->seconds) : std::string();
+                 }),
+                 "Of the expected time, for reading the image and packing tiles.");
+        valueRow("Colours' memory", value([](const Estimate& e) { return colourMemoryText(e.colour); }),
+                 "While they are baked at most, the image's cache included; and on the GPU, were all tiles "
+                 "resident: only as many are as their share of the budget pays for.");
+    }
     endValues();
 }
 
 void bakeButtons(const EditorView& view, BakePanelState& state, Commands& commands) {
     const BakeRequest request = state.edited.value_or(view.bake.current);
     const bool same = sameFile(request, view.bake.current);
-    ImGui::BeginDisabled(!state.source.problem.empty());
+    ImGui::BeginDisabled(!state.source.problem.empty() || !mayBake(state.colour));
     if (button(
             same ? "Bake again" : "Bake",
             "Bakes in the background while the planet flies on; then the new one takes its place, with the "
@@ -279,6 +331,7 @@ void bakeButtons(const EditorView& view, BakePanelState& state, Commands& comman
         state.edited.reset();
         state.estimateAtS.reset();
         setSource(view.bake.current.source, state.source);
+        setColour(view.bake.current, state.colour);
     }
 }
 
@@ -291,7 +344,7 @@ void progressSection(const BakeView& bake, Commands& commands) {
     if (beginValues("progress")) {
         valueRow("Baking", sourceName(bake.running->source), bake.running->source.string().c_str());
         valueRow("Rate", begun ? fmt::format("{} samples/s", countText(progress.samplesPerS)) : "...",
-                 "Finest-level samples a second since the bake began.");
+                 "Finest-level samples, and texels of colour, a second since the bake began.");
         valueRow("Time left", begun ? durationText(progress.remainingS) : "...", "At this rate.");
         endValues();
     }
@@ -311,13 +364,19 @@ void outcomeLines(const BakeView& bake) {
         const std::string text = fmt::format(
             "Last bake: {} in {}, {:.2f} bits a sample; roots' delta_c {}, tight {}{}",
             bytesText(static_cast<double>(report.fileBytes)), durationText(report.seconds),
-            8 * static_cast<double>(report.fileBytes) / static_cast<double>(report.samples),
+            8 * static_cast<double>(report.fileBytes - report.colourBytes) /
+                static_cast<double>(report.samples),
             distanceText(static_cast<double>(report.largestDeltaCM)),
             distanceText(static_cast<double>(report.largestDeltaTightM)),
             report.missingSamples == 0 ? std::string()
                                        : fmt::format("; {} samples had no data",
                                                      countText(static_cast<double>(report.missingSamples))));
-        ImGui::TextColored(palette().good, "%s", text.c_str());
+        const std::string colours = report.colourTiles == 0
+                                        ? std::string()
+                                        : fmt::format("; {} tiles of colour, {} of it",
+                                                      countText(static_cast<double>(report.colourTiles)),
+                                                      bytesText(static_cast<double>(report.colourBytes)));
+        ImGui::TextColored(palette().good, "%s", (text + colours).c_str());
         tooltip(
             "The largest errors of the six root chunks: delta_c, which adds up what each level may lose, and "
             "the tight metric, how far the farthest finest sample really lies off.");
@@ -347,7 +406,7 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
     const bool pinned = ImGui::GetContentRegionAvail().y > ImGui::GetFontSize() * 12;
     if (pinned) ImGui::BeginChild("below the preview");
     previousSection(view.data, commands);
-    requestSection(view, state);
+    requestSection(view, state, commands);
     askForEstimate(view, state, commands);
     ImGui::Spacing();
     if (view.bake.running) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "ui/colour_controls.h"
 #include "ui/editor_view.h"
 #include "ui/source_controls.h"
 #include "ui/source_preview_box.h"
@@ -14,6 +15,7 @@ struct BakePanelState {
     std::optional<BakeRequest> edited;  // what the user has chosen; none: as the open file
     std::filesystem::path editedOf;     // the chunk file that was open then
     SourceEdit source;                  // of what was chosen
+    ColourEdit colour;
     PreviewBoxState preview;
     std::optional<double> estimateAtS;  // when to ask; none: has been asked
 };

@@ -20,7 +20,7 @@ void progressLines(const planet::BakeProgress& progress) {
     if (!beginValues("bake")) return;
     valueRow("Samples",
              fmt::format("{} of {}", countText(static_cast<double>(progress.samplesDone)), countText(total)),
-             "Heights of the finest level.");
+             "Heights of the finest level, and texels of colour.");
     valueRow("Rate", fmt::format("{} samples/s", countText(progress.samplesPerS)), "Since the bake began.");
     valueRow("Time left", progress.samplesDone == 0 ? "..." : durationText(progress.remainingS),
              "At this rate.");

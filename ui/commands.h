@@ -76,11 +76,16 @@ struct StepFrame {};
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
     std::filesystem::path file;
 };
-struct AskForFile {};  // shows the dialog that asks for a file to open
+struct AskForFile {};         // shows the dialog that asks for a file to open
+struct AskForColourImage {};  // the same for the Bake panel's image of colours
+struct ChooseColourImage {    // puts it into the Bake panel
+    std::filesystem::path file;
+};
 struct BakeRequest {
     std::filesystem::path source;
     planet::HeightSourceSettings sourceSettings;
     planet::BakeSettings settings;
+    std::filesystem::path colour{};  // image that its tiles of colour are made of; empty: none
 };
 struct StartBake {
     BakeRequest request;
@@ -210,16 +215,18 @@ struct CompareOverFlight {
 };
 struct CancelCompareFlight {};
 
-using Command = std::variant<
-    HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart, AddBookmark,
-    RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight, PausePaging, LoadOne, DropAll,
-    RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake, BakeAgain, EstimateBake, CancelBake,
-    ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine,
-    CopyText, TakeScreenshot, Quit, MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops,
-    GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording,
-    DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
-    SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
-    CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures, PreviewSource>;
+using Command =
+    std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
+                 AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
+                 PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile,
+                 StartBake, BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo,
+                 Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit,
+                 MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop,
+                 ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording,
+                 DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep,
+                 CancelSweep, SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare,
+                 MeasureCompare, CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet,
+                 ReloadLayerTextures, PreviewSource, AskForColourImage, ChooseColourImage>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

@@ -57,7 +57,7 @@ struct World {
     std::string name;   // "earth-amplified"
     std::string title;  // "Earth amplified"
     std::string about;
-    BakeRequest request;  // its source, radius and face size
+    BakeRequest request;  // its source, radius, face size and colours
 };
 
 // A shaded picture of a source.
@@ -75,6 +75,9 @@ struct BakeView {
     BakeRequest current;            // what the open file was baked with, as far as it is known
     bool compressionKnown = false;  // of current: only what was baked in this session
     bool canBake = false;           // the source is known and there
+    // What the open file's colours were made of, where it is not known where that lies: "colour.jpg, 2048 x
+    // 1024 uint8, equirectangular".
+    std::string lostColours{};
     std::optional<BakeRequest> running;
     bool stopping = false;  // cancelled, but not yet at its end
     planet::BakeProgress progress;

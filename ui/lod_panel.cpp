@@ -118,6 +118,9 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
     ImGui::BeginDisabled(!view.bake.canBake || running);
     const char* explanation =
         running ? "A bake is running; see the Bake panel."
+        : view.bake.canBake && !view.bake.lostColours.empty()
+            ? "Bakes the source again with this chunk size, without its colours, since it is not known where "
+              "their image lies: the Bake panel takes its name."
         : view.bake.canBake
             ? "Bakes the source again with this chunk size, while you fly on. The file in use is "
               "kept until the new one is whole."

@@ -24,9 +24,8 @@ bool exists(std::string_view path) {
     return std::filesystem::exists(std::filesystem::path(path), status);
 }
 
-}  // namespace
-
-std::optional<planet::ChunkId> chunkNamedIn(std::string_view text) {
+// The first name of a square of a face that is a tile of colour, or that is none.
+std::optional<planet::ChunkId> squareNamedIn(std::string_view text, bool colourTile) {
     std::size_t at = 0;
     while (at < text.size()) {
         if (!isNameCharacter(text[at])) {
@@ -35,10 +34,22 @@ std::optional<planet::ChunkId> chunkNamedIn(std::string_view text) {
         }
         std::size_t end = at;
         while (end < text.size() && isNameCharacter(text[end])) ++end;
-        if (const auto id = planet::chunkIdFromString(text.substr(at, end - at))) return id;
+        const bool isTile = text.substr(0, at).ends_with("colour tile ");
+        const auto id = planet::chunkIdFromString(text.substr(at, end - at));
+        if (id && isTile == colourTile) return id;
         at = end;
     }
     return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<planet::ChunkId> chunkNamedIn(std::string_view text) {
+    return squareNamedIn(text, false);
+}
+
+std::optional<planet::ChunkId> colourTileNamedIn(std::string_view text) {
+    return squareNamedIn(text, true);
 }
 
 std::optional<std::filesystem::path> fileNamedIn(std::string_view text) {

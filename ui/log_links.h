@@ -11,6 +11,8 @@ namespace ui {
 
 // The first chunk that a text names, "z_pos/3/1/2". Pure.
 std::optional<planet::ChunkId> chunkNamedIn(std::string_view text);
+// The first tile of colour, which is none: "colour tile z_pos/3/1/2". Pure.
+std::optional<planet::ChunkId> colourTileNamedIn(std::string_view text);
 
 // The first absolute path in a text that exists, the longest there: a name may hold blanks. Asks the file
 // system.

@@ -76,10 +76,12 @@ void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& c
     ImGui::EndDisabled();
 }
 
-// Selects the chunk that a line names, or else copies the path of the file.
+// Selects the chunk that a line names, looks at the tile of colour, or else copies the path of the file.
 void follow(const LogLine& line, Commands& commands) {
     if (const auto chunk = chunkNamedIn(line.text)) {
         commands.push_back(SelectChunk{chunk});
+    } else if (const auto tile = colourTileNamedIn(line.text)) {
+        commands.push_back(LookAtChunk{*tile});
     } else if (const auto file = fileNamedIn(line.text)) {
         commands.push_back(CopyText{file->string()});
     }
@@ -93,6 +95,10 @@ void lineMenu(const LogLine& line, Commands& commands) {
         if (ImGui::MenuItem(("Select " + name).c_str())) commands.push_back(SelectChunk{chunk});
         if (ImGui::MenuItem(("Look at " + name).c_str())) commands.push_back(LookAtChunk{*chunk});
     }
+    if (const auto tile = colourTileNamedIn(line.text)) {
+        if (ImGui::MenuItem(("Look at colour tile " + planet::toString(*tile)).c_str()))
+            commands.push_back(LookAtChunk{*tile});
+    }
     if (const auto file = fileNamedIn(line.text)) {
         if (ImGui::MenuItem("Copy path")) commands.push_back(CopyText{file->string()});
     }
@@ -104,6 +110,8 @@ void lineTooltip(const LogLine& line, Commands& commands) {
     if (const auto chunk = chunkNamedIn(line.text)) {
         commands.push_back(HoverChunk{*chunk});
         tooltip(fmt::format("Click: selects {}.", planet::toString(*chunk)).c_str());
+    } else if (const auto tile = colourTileNamedIn(line.text)) {
+        tooltip(fmt::format("Click: looks at colour tile {}.", planet::toString(*tile)).c_str());
     } else if (const auto file = fileNamedIn(line.text)) {
         tooltip(fmt::format("Click: copies {}.", file->string()).c_str());
     }

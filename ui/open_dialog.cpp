@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* title = "Open a file";
+constexpr const char* popup = "###open a file";
 
 void setPath(OpenDialogState& state, const std::string& path) {
     const std::size_t length = std::min(path.size(), state.path.size() - 1);
@@ -73,7 +73,10 @@ bool accept(OpenDialogState& state, Commands& commands) {
         listFolder(path, state);
         return false;
     }
-    commands.push_back(OpenFile{path});
+    if (state.forColours)
+        commands.push_back(ChooseColourImage{path});
+    else
+        commands.push_back(OpenFile{path});
     return true;
 }
 
@@ -115,11 +118,13 @@ void openDialog(OpenDialogState& state, Commands& commands) {
         std::error_code status;
         if (state.folder.empty()) state.folder = fs::current_path(status);
         listFolder(state.folder, state);
-        ImGui::OpenPopup(title);
+        ImGui::OpenPopup(popup);
         state.opening = false;
     }
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(title, nullptr,
+    const std::string title =
+        std::string(state.forColours ? "Choose an image of colours" : "Open a file") + popup;
+    if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
         return;
     if (ImGui::Button("Up") && state.folder.has_parent_path()) listFolder(state.folder.parent_path(), state);
@@ -133,9 +138,11 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     accepted |=
-        ImGui::InputTextWithHint("##path", "Path of a chunk file, an elevation image or a cube face",
+        ImGui::InputTextWithHint("##path",
+                                 state.forColours ? "Path of a colour image or of one of six faces"
+                                                  : "Path of a chunk file, an elevation image or a cube face",
                                  state.path.data(), state.path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-    accepted |= ImGui::Button("Open");
+    accepted |= ImGui::Button(state.forColours ? "Choose" : "Open");
     ImGui::SameLine();
     const bool cancelled =
         ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));

@@ -17,7 +17,8 @@ struct OpenDialogEntry {
 };
 
 struct OpenDialogState {
-    bool opening = false;  // shows the dialog with the next frame
+    bool opening = false;     // shows the dialog with the next frame
+    bool forColours = false;  // asks for the Bake panel's image of colours instead of a file to open
     std::filesystem::path folder;
     std::vector<OpenDialogEntry> entries;  // of the folder: folders first, by name
     std::string problem;                   // why they cannot be listed
@@ -30,7 +31,7 @@ bool mayBeOpened(const std::filesystem::path& file);
 // The folder's entries as the dialog lists them. Hidden ones are left out.
 void listFolder(const std::filesystem::path& folder, OpenDialogState& state);
 
-// Call every frame. Appends OpenFile.
+// Call every frame. Appends OpenFile or ChooseColourImage.
 void openDialog(OpenDialogState& state, Commands& commands);
 
 }  // namespace ui

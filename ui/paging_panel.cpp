@@ -36,7 +36,8 @@ constexpr std::size_t latencyBuckets = 36;
 void knobs(PagingKnobs& paging, bool hasColours) {
     const PagingKnobs defaults;
     slider("Budget", paging.budgetMB, defaults.budgetMB, 16, 65536, "%d MiB",
-           "Memory for resident chunks, CPU and GPU together, MiB. Smaller: when it is full, what is wanted "
+           "Memory for resident chunks and tiles of colour, CPU and GPU together, MiB. Smaller: when it is "
+           "full, what is wanted "
            "stays coarse, and turning back loads again. Larger: takes it from everything else.",
            ImGuiSliderFlags_Logarithmic);
     if (hasColours) {
@@ -69,8 +70,8 @@ void buttons(const EditorView& view, std::size_t failedBlocks, Commands& command
     ImGui::SameLine();
     if (button(
             "Drop all",
-            "Drops every chunk but the six roots, and every request that no loader has taken: shows how the "
-            "picture comes back."))
+            "Drops every chunk and every tile of colour but the six roots of each, and every request that no "
+            "loader has taken: shows how the picture comes back."))
         commands.push_back(DropAll{});
     if (failedBlocks == 0) return;
     ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
@@ -80,15 +81,48 @@ void buttons(const EditorView& view, std::size_t failedBlocks, Commands& command
     if (retry) commands.push_back(RetryFailed{});
     ImGui::PopStyleColor();
     tooltip(
-        "Blocks that could not be read are drawn as their parents, and are asked for again only by this.");
+        "Blocks that could not be read are drawn as their parents, those of colours as a loud checker, and "
+        "are "
+        "asked for again only by this.");
+}
+
+std::size_t tileBytes(const planet::Planet& planet) {
+    return planet::colourTileBytes(planet.colour()->format);
+}
+
+void colourMemory(const EditorView& view) {
+    const planet::ColourPagingCounters& p = view.stats.colourPaging;
+    const double bytes = static_cast<double>(tileBytes(*view.planet));
+    const double used = static_cast<double>(p.residentTiles) * bytes;
+    const double room = p.tileCapacity * bytes;
+    usageBar(room > 0 ? used / room : 0, fmt::format("colours {} of {}", bytesText(used), bytesText(room)));
+    const planet::PagingSettings& settings = view.planet->pagingSettings();
+    tooltip(
+        fmt::format("Resident tiles of colour against their share of the budget, all on the GPU: {} of {} "
+                    "tiles of {} each. The share, {:.2f}, is {}; no more of it is taken than the file's "
+                    "tiles fill, and no more than {} tiles.",
+                    p.residentTiles, p.tileCapacity, bytesText(bytes), settings.colourShare,
+                    bytesText(settings.colourShare * static_cast<double>(settings.budgetBytes)),
+                    settings.maxColourTiles)
+            .c_str());
+    if (p.budgetWaits > 0) {
+        wrappedText(
+            fmt::format("{} blocks of colours wanted have no room in their share.", countText(p.budgetWaits)),
+            palette().warning);
+    }
 }
 
 void memory(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingSettings& settings = view.planet->pagingSettings();
+    const bool hasColours = view.planet->colour().has_value();
     const double used = static_cast<double>(p.residentBytesCpu + p.residentBytesGpu);
-    const auto budget = static_cast<double>(view.planet->pagingSettings().budgetBytes);
-    usageBar(budget > 0 ? used / budget : 0, fmt::format("{} of {}", bytesText(used), bytesText(budget)));
-    tooltip(fmt::format("Resident chunks against the budget: {} chunks, {} on the CPU and {} on the GPU.",
+    const double budget =
+        static_cast<double>(settings.budgetBytes) * (hasColours ? 1 - settings.colourShare : 1);
+    usageBar(budget > 0 ? used / budget : 0,
+             fmt::format("{}{} of {}", hasColours ? "heights " : "", bytesText(used), bytesText(budget)));
+    tooltip(fmt::format("Resident chunks against {}: {} chunks, {} on the CPU and {} on the GPU.",
+                        hasColours ? "what the colours' share leaves of the budget" : "the budget",
                         countText(static_cast<double>(p.residentChunks)),
                         bytesText(static_cast<double>(p.residentBytesCpu)),
                         bytesText(static_cast<double>(p.residentBytesGpu)))
@@ -97,15 +131,53 @@ void memory(const EditorView& view) {
         wrappedText(fmt::format("{} blocks wanted have no room in the budget.", countText(p.budgetWaits)),
                     palette().warning);
     }
+    if (hasColours) colourMemory(view);
+}
+
+void kindRow(const char* name, const std::string& heights, const std::string& colours,
+             const char* explanation, bool bad = false) {
+    ImGui::TableNextRow();
+    cell(name, palette().dim);
+    tooltip(explanation);
+    for (const std::string& text : {heights, colours}) {
+        cell(text, bad ? palette().bad : palette().text);
+        tooltip(explanation);
+    }
+}
+
+// What is counted of each kind; the planet counts both together, and colours apart.
+void totalsByKind(const EditorView& view) {
+    const planet::PagingCounters& p = view.stats.paging;
+    const planet::ColourPagingCounters& c = view.stats.colourPaging;
+    constexpr std::array columns = {TableColumn{"By kind"}, TableColumn{"Heights"}, TableColumn{"Colours"}};
+    if (!beginListTable("kinds", columns, 7)) return;
+    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
+    kindRow("Loaded", count(p.loaded - c.loaded), count(c.loaded), "Blocks read and made resident.");
+    kindRow("Evicted", count(p.evicted - c.evicted), count(c.evicted),
+            "Blocks dropped, for the budget's sake.");
+    kindRow("Failed", count(p.failed - c.failed), count(c.failed), "Reads that failed; see the log.",
+            p.failed > 0);
+    kindRow("Read", bytesText(static_cast<double>(p.bytesRead - c.bytesRead)),
+            bytesText(static_cast<double>(c.bytesRead)), "From the file.");
+    kindRow("Resident", count(p.residentChunks), count(c.residentTiles),
+            "Chunks, and tiles of 256 x 256 texels of colour; the six roots of each always are.");
+    kindRow("No room", count(p.budgetWaits), count(c.budgetWaits),
+            "Blocks wanted last frame that the budget or its share has no room for.");
+    ImGui::EndTable();
 }
 
 void totals(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
+    const bool hasColours = view.planet->colour().has_value();
     if (!beginValues("totals")) return;
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
     valueRow("Requested", count(p.requested), "Page-ins put into the queue, since the file was opened.");
     valueRow("Merged", count(p.merged), "Asked for again while they were queued.");
     valueRow("Cancelled", count(p.cancelled), "Taken back by the opposite request, or no longer wanted.");
+    if (hasColours) {
+        endValues();
+        return totalsByKind(view);
+    }
     valueRow("Loaded", count(p.loaded), "Blocks read and made resident.");
     valueRow("Evicted", count(p.evicted), "Blocks paged out, for the budget's sake.");
     valueRow("Failed", count(p.failed), "Reads that failed; see the log.",
@@ -162,14 +234,21 @@ void badDisk(PagingKnobs& paging) {
 
 // What is read from the planet now and then.
 
-void sampleQueue(const planet::Planet& planet, int shownView, std::vector<PagingRow>& queue) {
+void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::Sample& sample) {
+    std::vector<PagingRow>& queue = sample.queue;
     queue.clear();
+    sample.hidden = 0;
     for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
         const auto requests = shownView < 0
                                   ? planet.pendingRequests(type)
                                   : planet.pendingRequests(type, static_cast<std::size_t>(shownView));
         for (const planet::PagingRequest& request : requests) {
-            PagingRow row{request.parent, type, request.priority, request.askedAtS, request.timesAsked};
+            if (sample.shownKind && request.kind != *sample.shownKind) {
+                ++sample.hidden;
+                continue;
+            }
+            PagingRow row{request.parent,   request.kind,     type,
+                          request.priority, request.askedAtS, request.timesAsked};
             for (std::size_t v = 0; v < request.viewPriority.size(); ++v)
                 if (request.viewPriority[v] > 0) row.views |= 1u << v;
             queue.push_back(row);
@@ -183,7 +262,12 @@ std::size_t countFailed(const planet::Planet& planet) {
     planet::forEachNode(planet.tree(), [&](planet::NodeIndex, const planet::ChunkNode& node) {
         if (node.childrenState == planet::ChildrenState::Failed) ++failed;
     });
+    for (const planet::ColourNode& node : planet.colourTree().nodes) failed += node.hasFailed ? 1 : 0;
     return failed;
+}
+
+bool isShown(planet::BlockKind kind, const std::optional<planet::BlockKind>& shownKind) {
+    return !shownKind || kind == *shownKind;
 }
 
 void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelState::Sample& sample) {
@@ -191,6 +275,7 @@ void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelStat
     std::vector<float> positions;
     for (const planet::PagingEvent& event : planet.pagingHistory()) {
         if (event.outcome != planet::PagingOutcome::Loaded) continue;
+        if (!isShown(event.kind, sample.shownKind)) continue;
         const double s = ofReading ? event.readS : event.waitedS;
         seconds.push_back(static_cast<float>(s));
         positions.push_back(static_cast<float>(logarithmicPosition(s, fastestS, slowestS)));
@@ -203,16 +288,19 @@ void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelStat
 
 void refresh(const EditorView& view, PagingPanelState& state) {
     if (state.shownView >= static_cast<int>(view.planet->viewCount())) state.shownView = -1;
+    if (!view.planet->colour()) state.shownKind.reset();
     PagingPanelState::Sample& sample = state.sample;
     const bool current = sample.planet == view.planet && sample.shownView == state.shownView &&
+                         sample.shownKind == state.shownKind &&
                          sample.latencyOfReading == state.latencyOfReading && view.timeS >= sample.takenAtS &&
                          view.timeS < sample.takenAtS + sampledEveryS;
     if (current) return;
     sample.takenAtS = view.timeS;
     sample.planet = view.planet;
     sample.shownView = state.shownView;
+    sample.shownKind = state.shownKind;
     sample.latencyOfReading = state.latencyOfReading;
-    sampleQueue(*view.planet, state.shownView, sample.queue);
+    sampleQueue(*view.planet, state.shownView, sample);
     sample.failedBlocks = countFailed(*view.planet);
     sampleLatency(*view.planet, state.latencyOfReading, sample);
 }
@@ -228,6 +316,7 @@ std::size_t wantingView(std::uint32_t views, std::size_t viewCount) {
 
 std::string reason(const planet::Planet& planet, const PagingRow& row, int shownView, double ageS) {
     if (row.type == planet::PagingType::PageOut) return pageOutReason(ageS);
+    if (row.kind == planet::BlockKind::Colours) return colourReason(row.priority);
     const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
     if (index == planet::noNode) return "its parent is gone";
     const std::size_t v =
@@ -241,9 +330,38 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     return text;
 }
 
-// A link as long as the row.
-void rowLink(const planet::ChunkId& id, const EditorView& view, Commands& commands) {
-    chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+// A link as long as the row, after its kind where there are two.
+void rowLink(const planet::ChunkId& id, planet::BlockKind kind, const EditorView& view, Commands& commands) {
+    const bool colours = kind == planet::BlockKind::Colours;
+    if (view.planet->colour()) cell(kindText(kind), colours ? palette().accent : palette().text);
+    if (!colours) return chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+    ImGui::TableNextColumn();
+    colourLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+}
+
+// Columns of a table of requests, the kind before the name where there are two.
+std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableColumn> columns,
+                                  std::size_t name) {
+    std::vector<TableColumn> all(columns.begin(), columns.end());
+    if (view.planet->colour())
+        all.insert(all.begin() + static_cast<std::ptrdiff_t>(name),
+                   TableColumn{"Kind", 0.9f,
+                               "Heights of chunks, or tiles of colour. A click on tiles selects the chunk on "
+                               "whose ground they lie, a double click looks at their square."});
+    return all;
+}
+
+void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = true) {
+    if (!view.planet->colour()) return;
+    const float width = ImGui::CalcTextSize("heights, colours").x + 2 * ImGui::GetFrameHeight();
+    if (goesOn) sameLineIfRoom(width);
+    ImGui::SetNextItemWidth(std::min(width, ImGui::GetContentRegionAvail().x));
+    int index = state.shownKind ? static_cast<int>(*state.shownKind) + 1 : 0;
+    if (combo("Kind", index, "heights, colours\0heights\0colours\0")) {
+        state.shownKind =
+            index == 0 ? std::nullopt : std::optional(static_cast<planet::BlockKind>(index - 1));
+    }
+    tooltip("Rows and latencies of both kinds of blocks, or of one.");
 }
 
 void queueFilter(const EditorView& view, PagingPanelState& state) {
@@ -251,7 +369,10 @@ void queueFilter(const EditorView& view, PagingPanelState& state) {
     tooltip("Blocks to be loaded, most urgent first.");
     ImGui::SameLine();
     ImGui::Checkbox("Page-out", &state.showPageOuts);
-    tooltip("Blocks out of use, the longest unused first. They stay until their room is needed.");
+    tooltip(
+        "Blocks out of use, the longest unused first. They stay until their room is needed. Colours have "
+        "none: what is out of use makes room the moment that it is needed.");
+    kindFilter(view, state);
     if (view.planet->viewCount() < 2) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
@@ -275,10 +396,11 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
 }
 
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
-    if (!state.sample.queue.empty()) return "No request of these kinds.";
+    if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No request of these kinds.";
     if (state.sample.failedBlocks > 0) return "The queue is empty: what is still missing could not be read.";
-    return view.stats.selection.waiting == 0 ? "The queue is empty: all that is wanted is resident."
-                                             : "The queue is empty.";
+    const bool waiting =
+        view.stats.selection.waiting > 0 || view.planet->colourSelection().counters.waiting > 0;
+    return !waiting ? "The queue is empty: all that is wanted is resident." : "The queue is empty.";
 }
 
 void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
@@ -288,12 +410,13 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Children of", 1.7f},
                                     TableColumn{"Priority", 0.9f}, TableColumn{"Age", 0.9f},
                                     TableColumn{"Why", 2.4f}};
-    if (!beginWideTable("queue", columns, 26)) return;
+    const std::vector<TableColumn> shown = withKind(view, columns, 1);
+    if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 30 : 26)) return;
     tableRows(queue.size(), [&](std::size_t at) {
         const PagingRow& row = queue[at];
         const double ageS = std::max(view.planet->seconds() - row.askedAtS, 0.0);
         cell(row.type == planet::PagingType::PageIn ? "in" : "out");
-        rowLink(row.parent, view, commands);
+        rowLink(row.parent, row.kind, view, commands);
         cell(axisText(row.priority));
         cell(latencyText(ageS));
         cell(reason(*view.planet, row, state.shownView, ageS));
@@ -301,15 +424,20 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     ImGui::EndTable();
 }
 
-void loadingTable(const EditorView& view, Commands& commands) {
-    const std::vector<planet::LoadInProgress> loading = view.planet->loadingNow();
+void loadingTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    std::vector<planet::LoadInProgress> loading = view.planet->loadingNow();
+    const bool any = !loading.empty();
+    std::erase_if(loading, [&](const auto& load) { return !isShown(load.kind, state.shownKind); });
+    kindFilter(view, state, false);
+    if (any && loading.empty()) return emptyState("Nothing of this kind is being read now.");
     if (loading.empty())
         return emptyState(view.pagingPaused ? "Paging is paused." : "Nothing is being read now.");
     constexpr std::array columns = {TableColumn{"Children of", 1.7f}, TableColumn{"Priority"},
                                     TableColumn{"Size"}, TableColumn{"For"}};
-    if (!beginWideTable("loading", columns, 20)) return;
+    const std::vector<TableColumn> shown = withKind(view, columns, 0);
+    if (!beginWideTable("loading", shown, shown.size() > columns.size() ? 24 : 20)) return;
     tableRows(loading.size(), [&](std::size_t row) {
-        rowLink(loading[row].parent, view, commands);
+        rowLink(loading[row].parent, loading[row].kind, view, commands);
         cell(axisText(loading[row].priority));
         cell(bytesText(loading[row].bytes));
         cell(latencyText(loading[row].seconds));
@@ -337,6 +465,7 @@ OutcomeLook lookOf(planet::PagingOutcome outcome) {
 
 bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
     if (state.onlyMerged && event.timesAsked < 2) return false;
+    if (!isShown(event.kind, state.shownKind)) return false;
     switch (event.outcome) {
         case planet::PagingOutcome::Loaded:
             return state.showLoaded;
@@ -350,7 +479,7 @@ bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
     return true;
 }
 
-void historyFilter(PagingPanelState& state) {
+void historyFilter(const EditorView& view, PagingPanelState& state) {
     ImGui::Checkbox("Loaded", &state.showLoaded);
     tooltip("Blocks read and made resident.");
     sameLineIfRoom(checkboxWidth("Failed"));
@@ -365,13 +494,14 @@ void historyFilter(PagingPanelState& state) {
     sameLineIfRoom(checkboxWidth("Merged only"));
     ImGui::Checkbox("Merged only", &state.onlyMerged);
     tooltip("Only requests that were asked for more than once.");
+    kindFilter(view, state);
 }
 
 void historyRow(const EditorView& view, const planet::PagingEvent& event, Commands& commands) {
     const OutcomeLook look = lookOf(event.outcome);
     const bool read = event.outcome == planet::PagingOutcome::Loaded;
     cell(look.name, look.colour);
-    rowLink(event.parent, view, commands);
+    rowLink(event.parent, event.kind, view, commands);
     cell(latencyText(event.waitedS));
     cell(read ? latencyText(event.readS) : "");
     cell(read ? bytesText(event.bytes) : "");
@@ -380,7 +510,7 @@ void historyRow(const EditorView& view, const planet::PagingEvent& event, Comman
 }
 
 void historyTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
-    historyFilter(state);
+    historyFilter(view, state);
     const std::deque<planet::PagingEvent>& history = view.planet->pagingHistory();
     std::vector<const planet::PagingEvent*> shown;
     shown.reserve(history.size());
@@ -392,7 +522,8 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
                                     TableColumn{"Waited"},        TableColumn{"Reading"},
                                     TableColumn{"Size"},          TableColumn{"Asked", 0.7f},
                                     TableColumn{"When", 1.2f}};
-    if (!beginWideTable("history", columns, 34)) return;
+    const std::vector<TableColumn> all = withKind(view, columns, 1);
+    if (!beginWideTable("history", all, all.size() > columns.size() ? 38 : 34)) return;
     tableRows(shown.size(), [&](std::size_t row) { historyRow(view, *shown[row], commands); });
     ImGui::EndTable();
 }
@@ -432,7 +563,13 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     constexpr double windowS = 0.5;
     const auto read = historyValues<double>(
         view.history, [](const FrameStats& s) { return static_cast<double>(s.paging.bytesRead) / 1e6; });
-    const std::array rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
+    std::vector<Series> rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
+    if (view.planet->colour()) {
+        const auto colours = historyValues<double>(view.history, [](const FrameStats& s) {
+            return static_cast<double>(s.colourPaging.bytesRead) / 1e6;
+        });
+        rate.push_back({"of colours", seriesColour(3), growthPerS(times, colours, windowS)});
+    }
     linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
     latencyHistogram(state, lines);
 }
@@ -452,7 +589,7 @@ void tables(const EditorView& view, PagingPanelState& state, Commands& commands)
         ImGui::EndTabItem();
     }
     if (ImGui::BeginTabItem(fmt::format("Loading {}###loading", p.loading).c_str())) {
-        loadingTable(view, commands);
+        loadingTable(view, state, commands);
         ImGui::EndTabItem();
     }
     if (ImGui::BeginTabItem("History")) {

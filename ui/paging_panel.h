@@ -1,6 +1,7 @@
 // Paging: the queue, what is being read, the history, memory; budget, threads, pause, and the bad disk.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace ui {
 // A pending request, as the table shows it.
 struct PagingRow {
     planet::ChunkId parent;  // whose children are meant
+    planet::BlockKind kind = planet::BlockKind::Heights;
     planet::PagingType type = planet::PagingType::PageIn;
     double priority = 0;
     double askedAtS = 0;  // seconds since the planet was opened
@@ -19,7 +21,8 @@ struct PagingRow {
 };
 
 struct PagingPanelState {
-    int shownView = -1;  // requests of one view, or -1 for all
+    int shownView = -1;                            // requests of one view, or -1 for all
+    std::optional<planet::BlockKind> shownKind{};  // rows of one kind, or of all
     bool showPageIns = true;
     bool showPageOuts = true;
     bool showLoaded = true;  // in the history
@@ -34,9 +37,11 @@ struct PagingPanelState {
         double takenAtS = -1;  // EditorView::timeS
         const planet::Planet* planet = nullptr;
         int shownView = -1;
+        std::optional<planet::BlockKind> shownKind{};
         bool latencyOfReading = false;
         std::vector<PagingRow> queue;  // page-ins, then page-outs, each most urgent first
-        std::size_t failedBlocks = 0;  // that are not asked for again until told to
+        std::size_t hidden = 0;        // requests of the other kind
+        std::size_t failedBlocks = 0;  // of both kinds, that are not asked for again until told to
         std::vector<float> latencyCounts;
         float medianS = 0;
         float slowestS = 0;  // 99 of 100 are faster

@@ -17,8 +17,16 @@ std::string pageInReason(double epsPx, double tauPx, double hysteresis, const ch
     return fmt::format("{}: no longer over {} {:.2f}", eps, tauSymbol, tauPx);
 }
 
+std::string colourReason(double timesTooFew) {
+    return fmt::format("{:.0f} % of its texels", 100 / timesTooFew);
+}
+
 std::string pageOutReason(double ageS) {
     return fmt::format("unused for {}", latencyText(ageS));
+}
+
+const char* kindText(planet::BlockKind kind) {
+    return kind == planet::BlockKind::Colours ? "colours" : "heights";
 }
 
 bool isBad(const planet::BadDiskSettings& disk) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planet/bad_disk.h"
+#include "planet/block_id.h"
 
 namespace ui {
 
@@ -11,8 +12,14 @@ namespace ui {
 // so. All in pixels; hysteresis is a share of tau.
 std::string pageInReason(double epsPx, double tauPx, double hysteresis, const char* epsSymbol,
                          const char* tauSymbol);
+// The same of a tile of colour, by its priority: how many times too few texels a pixel it has. "62 % of its
+// texels".
+std::string colourReason(double timesTooFew);
 // "unused for 12 s".
 std::string pageOutReason(double ageS);
+
+// "heights", "colours".
+const char* kindText(planet::BlockKind kind);
 
 // Whether the disk is made bad at all: a seed alone does nothing.
 bool isBad(const planet::BadDiskSettings& disk);

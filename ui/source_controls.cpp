@@ -149,6 +149,8 @@ bool worldControl(const EditorView& view, SourceEdit& edit, BakeRequest& request
         request.settings.radiusM = world.request.settings.radiusM;
         request.settings.faceSize = world.request.settings.faceSize;
         request.settings.quantumM.reset();
+        request.colour = world.request.colour;
+        request.settings.colour = {};
         setSource(request.source, edit);
         changed = true;
     }

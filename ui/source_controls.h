@@ -25,7 +25,8 @@ void setSource(const std::filesystem::path& source, SourceEdit& edit);
 // Puts it together; empty while there is nothing.
 std::filesystem::path sourceOf(const SourceEdit& edit);
 
-// Worlds, kind, knobs. True where the request's source has changed, or with a world its radius and face size.
+// Worlds, kind, knobs. True where the request's source has changed, or with a world its radius, face size and
+// colours.
 // Another kind or world takes the automatic quantum. Lit where it is not the open file's.
 bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& request);
 

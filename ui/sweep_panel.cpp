@@ -122,8 +122,10 @@ std::vector<int> chunksControl(const EditorView& view, SweepPanelState& state) {
         ImGui::EndDisabled();
         tooltip(problem.empty()
                     ? fmt::format("Chunks of {} vertices a side{}", size,
-                                  size == own ? ": the planet's own."
-                                              : ". Baked into the cache first where they are not there yet.")
+                                  size == own
+                                      ? ": the planet's own."
+                                      : ". Baked into the cache first, without colours, where they are "
+                                        "not there yet.")
                           .c_str()
                     : problem.c_str());
         if (on) wanted.push_back(size);

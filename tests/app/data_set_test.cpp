@@ -57,6 +57,30 @@ TEST(DataSet, AnImageIsBakedIntoTheCache) {
     EXPECT_EQ(set->chunkFile.extension(), ".chk");
     EXPECT_TRUE(set->chunkFile.filename().string().starts_with("moon-"));
     EXPECT_EQ(set->colourImage, folder.path() / "colour.png");
+    EXPECT_EQ(set->bakedColour, folder.path() / "colour.png");
+}
+
+TEST(DataSet, ColoursHaveABakeOfTheirOwn) {
+    const TemporaryFolder folder;
+    const fs::path image = folder.path() / "moon.tif";
+    const fs::path colour = folder.path() / "colour.png";
+    const fs::path other = folder.path() / "other.png";
+    for (const fs::path& file : {image, colour, other}) write(file, "x");
+    const fs::path without = cachedBakeOf(image, {});
+    const fs::path with = cachedBakeOf(image, {}, {}, colour);
+    EXPECT_NE(with, without);
+    EXPECT_EQ(findDataSet(image, {})->chunkFile, with);
+    const auto none = findDataSet(image, {}, {}, fs::path());
+    EXPECT_EQ(none->chunkFile, without);
+    EXPECT_TRUE(none->bakedColour.empty());
+    EXPECT_EQ(none->colourImage, colour);
+    EXPECT_EQ(findDataSet(image, {}, {}, other)->chunkFile, cachedBakeOf(image, {}, {}, other));
+    EXPECT_NE(cachedBakeOf(image, {}, {}, other), with);
+    EXPECT_NE(cachedBakeOf(image, {.colour = {.faceSize = 257}}, {}, colour), with);
+    EXPECT_NE(cachedBakeOf(image, {.colour = {.format = planet::ColourFormat::Lossless}}, {}, colour), with);
+    EXPECT_EQ(cachedBakeOf(image, {.colour = {.faceSize = 257}}), without);
+    write(colour, "changed");
+    EXPECT_NE(cachedBakeOf(image, {}, {}, colour), with);
 }
 
 TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {

@@ -24,6 +24,15 @@ TEST(LogLinks, whatIsNoChunkIsNotTakenForOne) {
     EXPECT_FALSE(chunkNamedIn("z_pos/3/1"));
 }
 
+TEST(LogLinks, aTileOfColourIsNoChunk) {
+    const planet::ChunkId id{planet::Face::PosZ, 3, 1, 2};
+    constexpr const char* text = "earth.chk: the block of colour tile z_pos/3/1/2 is damaged";
+    EXPECT_FALSE(chunkNamedIn(text));
+    EXPECT_EQ(colourTileNamedIn(text), id);
+    EXPECT_FALSE(colourTileNamedIn("earth.chk: the block of chunk z_pos/3/1/2 is damaged"));
+    EXPECT_EQ(chunkNamedIn("colour tile y_pos/0/0/0 and chunk z_pos/3/1/2"), id);
+}
+
 TEST(LogLinks, theFirstOfTwoChunksCounts) {
     EXPECT_EQ(chunkNamedIn("w_pos/1/0/0 beside x_neg/1/0/1 and y_pos/0/0/0"),
               (planet::ChunkId{planet::Face::NegX, 1, 0, 1}));

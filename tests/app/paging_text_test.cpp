@@ -18,6 +18,12 @@ TEST(PagingText, aRequestThatIsNoLongerNeededSaysSo) {
     EXPECT_EQ(pageInReason(2, 2, 0, "eps", "tau"), "eps 2.00: no longer over tau 2.00");
 }
 
+TEST(PagingText, aTileOfColourSaysWhatShareOfItsTexelsItHas) {
+    EXPECT_EQ(colourReason(2), "50 % of its texels");
+    EXPECT_STREQ(kindText(planet::BlockKind::Heights), "heights");
+    EXPECT_STREQ(kindText(planet::BlockKind::Colours), "colours");
+}
+
 TEST(PagingText, aPageOutSaysHowLongItIsUnused) {
     EXPECT_EQ(pageOutReason(12.3), "unused for 12.3 s");
     EXPECT_EQ(pageOutReason(0.05), "unused for 50 ms");

@@ -8,6 +8,7 @@
 
 #include "tests/panel_fixture.h"
 #include "tests/planet_fixture.h"
+#include "ui/chunk_link.h"
 #include "ui/panels.h"
 
 namespace ui {
@@ -137,6 +138,18 @@ TEST_F(PanelControls, oneRequestIsLetThroughOnlyWhilePaused) {
     ASSERT_TRUE(only<PausePaging>(resume));
     EXPECT_FALSE(only<PausePaging>(resume)->paused);
     EXPECT_TRUE(only<DropAll>(click(PanelId::Paging, "Drop all")));
+}
+
+TEST_F(PanelControls, aRowOfColoursSelectsTheChunkOnItsGround) {
+    openPlanet();
+    const planet::ChunkTree& tree = planet_->tree();
+    // Far below what is resident.
+    const planet::ChunkId deep{planet::Face::PosY, 12, 77, 1234};
+    const planet::ChunkId chunk = chunkAround(tree, deep);
+    EXPECT_NE(planet::findNode(tree, chunk), planet::noNode);
+    EXPECT_EQ(planet::ancestorOf(deep, chunk.level), chunk);
+    EXPECT_EQ(planet::findNode(tree, planet::ancestorOf(deep, chunk.level + 1)), planet::noNode);
+    EXPECT_EQ(chunkAround(tree, tree.nodes[0].id), tree.nodes[0].id);
 }
 
 TEST_F(PanelControls, aBadDiskIsTurnedOffButKeepsItsSeed) {

@@ -321,6 +321,79 @@ TEST_F(SessionTest, theColourImageStaysOverBakes) {
     EXPECT_TRUE(dataViewOf(session, {}).hasColourImage);
 }
 
+TEST_F(SessionTest, theSourcesOwnImageIsStreamedAndABakeOfTheSamePlanetKeepsIt) {
+    const fs::path source = writeSource();
+    ASSERT_TRUE(writePicture({2, 1, {255, 0, 0, 0, 255, 0}}, folder_ / "colour.png"));
+    Session session = sessionOf(source);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    ASSERT_TRUE(shownPlanet(session)->colour());
+    ui::BakeView bake = bakeViewOf(session);
+    EXPECT_EQ(bake.current.colour, folder_ / "colour.png");
+    EXPECT_EQ(bake.current.settings.colour.faceSize, 257);
+    EXPECT_EQ(bake.lostColours, "");
+
+    ui::BakeRequest request = bake.current;
+    request.settings.chunkSize = 17;
+    request.settings.colour.format = planet::ColourFormat::Lossless;
+    startBake(session, request, log_);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    ASSERT_TRUE(shownPlanet(session)->colour());
+    EXPECT_EQ(shownPlanet(session)->colour()->format, planet::ColourFormat::Lossless);
+    EXPECT_EQ(bakeViewOf(session).current.colour, folder_ / "colour.png");
+    EXPECT_EQ(bakeViewOf(session).lastReport->colourTiles, 6u);
+    expectLoads(*shownScene(session));
+
+    request.colour.clear();
+    startBake(session, request, log_);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    EXPECT_FALSE(shownPlanet(session)->colour());
+    EXPECT_TRUE(bakeViewOf(session).current.colour.empty());
+    showPreviousBake(session, true);
+    EXPECT_TRUE(shownPlanet(session)->colour());
+    EXPECT_EQ(bakeViewOf(session).current.colour, folder_ / "colour.png");
+}
+
+TEST_F(SessionTest, anOwnImageThatCannotBeReadIsLeftOutAndOneThatIsNamedIsAnError) {
+    const fs::path source = writeSource();
+    std::ofstream(folder_ / "colour.png") << "no picture";
+    Session session = sessionOf(source);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    ASSERT_NE(shownScene(session), nullptr);
+    const planet::Planet* before = shownPlanet(session);
+    EXPECT_FALSE(before->colour());
+    EXPECT_TRUE(bakeViewOf(session).current.colour.empty());
+    ui::BakeRequest request = requestFor(source, 17);
+    request.colour = folder_ / "colour.png";
+    startBake(session, request, log_);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    EXPECT_EQ(shownPlanet(session), before);
+    EXPECT_THAT(bakeViewOf(session).lastProblem, HasSubstr((folder_ / "colour.png").string()));
+    request.colour = "/nonexistent/map.png";
+    startBake(session, request, log_);
+    EXPECT_FALSE(bakeViewOf(session).running);
+    EXPECT_THAT(bakeViewOf(session).lastProblem, HasSubstr("/nonexistent/map.png: no such colour image"));
+    requestEstimate(session, request);
+    ASSERT_TRUE(advanceUntil(session, [&] { return !bakeViewOf(session).estimating; }));
+    EXPECT_THAT(bakeViewOf(session).estimateProblem, HasSubstr("/nonexistent/map.png"));
+}
+
+TEST_F(SessionTest, aFileThatIsMovedKnowsItsImageByNameOrSaysWhatItWas) {
+    const fs::path source = writeSource();
+    ASSERT_TRUE(writePicture({2, 1, {255, 0, 0, 0, 255, 0}}, folder_ / "colour.png"));
+    Session session = sessionOf(source);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    const fs::path beside = folder_ / "moved.chk";
+    fs::create_directories(folder_ / "away");
+    const fs::path away = folder_ / "away" / "moved.chk";
+    for (const fs::path& file : {beside, away}) fs::copy_file(session.open->data.chunkFile, file);
+    EXPECT_TRUE(openFile(session, beside, settings_, log_));
+    EXPECT_EQ(bakeViewOf(session).current.colour, folder_ / "colour.png");
+    EXPECT_TRUE(openFile(session, away, settings_, log_));
+    EXPECT_TRUE(shownPlanet(session)->colour());
+    EXPECT_TRUE(bakeViewOf(session).current.colour.empty());
+    EXPECT_THAT(bakeViewOf(session).lostColours, HasSubstr("colour.png, 2 x 1"));
+}
+
 TEST_F(SessionTest, theLastOfSeveralQuestionsIsAnswered) {
     const fs::path source = writeSource();
     Session session = sessionOf(source);

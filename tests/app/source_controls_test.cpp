@@ -124,6 +124,60 @@ TEST_F(BakePanelSource, DetailIsAddedToTheFileThatIsNamed) {
     EXPECT_EQ(estimate->request.source, "detail:seed=1,of=" + worlds_[0].request.source.string());
 }
 
+TEST_F(BakePanelSource, ColoursAreTheSourcesOwnAnotherImageOrNone) {
+    view_.bake.current = worlds_[0].request;
+    ASSERT_TRUE(view_.bake.current.colour.string().ends_with("colour.jpg"));
+    view_.bake.current.settings.colour.faceSize = 1025;
+    click("/Colours");
+    click("Colours: none");
+    const EstimateBake* none = askedFor<EstimateBake>();
+    ASSERT_TRUE(none);
+    EXPECT_TRUE(none->request.colour.empty());
+    EXPECT_FALSE(window_.isShown("/Colour face"));
+    click("/Colours");
+    click("Colours: the source's own");
+    const EstimateBake* own = askedFor<EstimateBake>();
+    ASSERT_TRUE(own);
+    EXPECT_EQ(own->request.colour, worlds_[0].request.colour);
+    click("/Colour face");
+    click("Colour face: 513 texels");
+    click("/Colour format");
+    click("Colour format: lossless");
+    const EstimateBake* small = askedFor<EstimateBake>();
+    ASSERT_TRUE(small);
+    EXPECT_EQ(small->request.settings.colour.faceSize, 513);
+    EXPECT_EQ(small->request.settings.colour.format, planet::ColourFormat::Lossless);
+}
+
+TEST_F(BakePanelSource, AnImageThatWasChosenIsTakenAndOneThatIsNotThereCannotBeBaked) {
+    view_.bake.current = worlds_[0].request;
+    frame();
+    const std::filesystem::path image = view_.bake.current.source;  // any image will do
+    states_.bake.colour.chosen = image;
+    const EstimateBake* chosen = askedFor<EstimateBake>();
+    ASSERT_TRUE(chosen);
+    EXPECT_EQ(chosen->request.colour, image);
+    click("/Bake");
+    EXPECT_TRUE(window_.isShown("/Choose"));
+    states_.bake.colour.chosen = "/nonexistent/map.png";
+    EXPECT_FALSE(askedFor<EstimateBake>());
+    EXPECT_THAT(states_.bake.colour.problem, HasSubstr("/nonexistent/map.png: there is no such image"));
+}
+
+TEST_F(BakePanelSource, AnotherWorldBringsItsOwnColours) {
+    view_.bake.current = worlds_[0].request;
+    click("/Preset");
+    click("Preset: Moon");
+    const EstimateBake* moon = askedFor<EstimateBake>();
+    ASSERT_TRUE(moon);
+    EXPECT_TRUE(moon->request.colour.empty());
+    click("/Preset");
+    click("Preset: Earth amplified");
+    const EstimateBake* amplified = askedFor<EstimateBake>();
+    ASSERT_TRUE(amplified);
+    EXPECT_EQ(amplified->request.colour, worlds_[0].request.colour);
+}
+
 TEST_F(BakePanelSource, ASourceThatIsNotThereCannotBeBaked) {
     view_.bake.current.source = "/nonexistent/elevation.tif";
     frame();

@@ -80,6 +80,64 @@ counts drawn -gt 0 || echo "a bake without a source leaves nothing"
     EXPECT_EQ(cameraAfter(0), cameraAfter(ran.errors.find("Copied: ") + 1));
 }
 
+void writeMap(const std::filesystem::path& file, int red) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << "P6\n64 32\n255\n";
+    for (int i = 0; i < 64 * 32; ++i) stream << static_cast<char>(red) << '\x40' << static_cast<char>(i % 64);
+}
+
+TEST_F(BakeWindowTest, ColoursAreChosenBakedStreamedAndKeptUntilTheyAreLeftOut) {
+    writeHills(folder);
+    writeMap(folder.path() / "map.ppm", 200);
+    writeMap(folder.path() / "red.ppm", 255);
+    std::ofstream(folder.path() / "broken.ppm", std::ios::binary) << "P6\n64 32\n255\ntoo short";
+    writeWindowSettings(folder, "[panels]\npaging_shown = false\nframe_shown = false\nlog_shown = false\n");
+    const Ran ran = runInWindow(folder, "hills.pgm", R"sh(
+counts colour_tiles -eq 0 || echo "there are colours already"
+plain=$(viewport); first=$(counter file)
+tab Bake; choose bake/Colours "another image"; enter bake/Image map.ppm; choose "bake/Colour face" "513 texels"
+click bake/Bake; expect counts colour_tiles -ge 6; settle
+differs "$plain" || echo "the colours are not drawn"
+coloured=$(counter file); [ "$coloured" != "$first" ] || echo "it is the same file"
+cp "$coloured" coloured.chk
+
+# Another chunk size keeps them, in the Bake panel and in the LOD panel.
+choose "bake/Chunk size" "17 vertices"; click bake/Bake; expect counts chunk_size -eq 17; settle
+counts colour_tiles -ge 6 || echo "a bake of another chunk size has lost the colours"
+tab LOD; choose "lod/Chunk size" "65 x 65"; click lod/Bake; expect counts chunk_size -eq 65; settle
+counts colour_tiles -ge 6 || echo "a bake from the LOD panel has lost the colours"
+tab Bake; kept=$(counter file)
+
+# What cannot be read is named and changes nothing.
+enter bake/Image broken.ppm; click bake/Bake; expect says 'error: .*broken.ppm'
+[ "$(counter file)" = "$kept" ] || echo "a broken image leaves $(counter file)"
+counts colour_tiles -ge 6 || echo "a broken image leaves no colours"
+
+# Large enough to be cancelled among them.
+files=$(ls cache/worldy | wc -l)
+enter bake/Image red.ppm; click "bake/Colour face"; reach "bake/Colour face: 513 texels" "bake/Colour face: 32769 texels"
+click "bake/Colour face: 32769 texels"; click bake/Bake; expect counts baking -eq 1
+click bake/Cancel; expect counts baking -eq 0; expect says 'The bake was cancelled'
+[ $(ls cache/worldy | wc -l) -eq $files ] || echo "a cancelled bake leaves $(ls cache/worldy)"
+[ "$(counter file)" = "$kept" ] || echo "a cancelled bake leaves $(counter file)"
+
+# A file dropped on the controls is the image of colours.
+choose "bake/Colour face" natural; enter bake/Image map.ppm; point bake/Image
+')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/red.ppm" || echo "the window does not take red.ppm"
+frames; before=$(viewport); click bake/Bake; expect counts baking -eq 0; expect differs "$before"
+counts colour_tiles -eq 6 || echo "$(counter colour_tiles) tiles of the dropped image"
+says 'red.ppm: ' && echo "the dropped image was opened as heights"
+
+choose bake/Colours none; click bake/Bake; expect counts colour_tiles -eq 0; settle
+)sh",
+                                "1280x1100");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+    const Ran told = runWorldy(folder, "info coloured.chk --json");
+    ASSERT_EQ(told.exitCode, 0) << told.errors;
+    EXPECT_NE(told.output.find("map.ppm"), std::string::npos) << told.output;
+}
+
 TEST_F(BakeWindowTest, ADroppedFileIsOpenedAndABrokenOneLeavesThePlanet) {
     bakePlanet(folder);
     ASSERT_EQ(runWorldy(folder, "bake hills.pgm -o other.chk --chunk-size 33 --radius 100000").exitCode, 0);

@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"shot junk.chk -o o.png --settings bad.toml", "bad.toml: line 2: lod.tau_px is 0"},
         BadCommand{"fly junk.chk --path none.toml --set lod.morph=2", "lod.morph is 2; true or false"},
         BadCommand{"fly junk.chk --path none.toml", "none.toml"}, BadCommand{"bench none.tif", "none.tif"},
-        BadCommand{"bench --rounds 0", "--rounds"},
+        BadCommand{"bench --rounds 0", "--rounds"}, BadCommand{"bench --parts colour", "--parts"},
         BadCommand{"sweep junk.chk --flight none.toml", "none.toml"},
         BadCommand{"sweep junk.chk --flight none.toml --suggest speed=3", "--suggest speed=3"},
         BadCommand{"sweep junk.chk --flight none.toml --chunk 34", "--chunk"},

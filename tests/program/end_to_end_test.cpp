@@ -291,7 +291,7 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     const json report = json::parse(contentOf(folder.path() / "out.json"));
     EXPECT_NE(report["machine"]["gl_renderer"], "");
-    for (const char* part : {"lod", "dynamic", "selection", "page_in", "bake", "file_size"}) {
+    for (const char* part : {"lod", "dynamic", "selection", "page_in", "bake", "file_size", "colours"}) {
         ASSERT_FALSE(report["parts"][part].empty()) << part;
         for (const json& row : report["parts"][part]) {
             EXPECT_GT(row["median"], 0) << row;
