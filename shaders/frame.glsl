@@ -35,6 +35,8 @@ layout(std140) uniform Frame {
     vec4 rampRises[32];  // of each: height of the one before, above the sea level; 1 / metres from there; unused
     ivec4 colouring;     // finest level of streamed colours; unused
     vec4 colourFilter;   // anisotropy of their sampler; levels finer than one texel a pixel; unused
+    ivec4 normalLevels;  // finest level of tiles of normals; unused
+    vec4 normalFilter;   // as of colours; metres that a slope of 1 rises along 1 of u or v; unused
 };
 
 // A program is compiled for the switches it is drawn with, in the constant variant: what is off costs nothing,
@@ -57,6 +59,7 @@ const int switchSlide = 16384;         // some vertices morph, or move onto a co
 const int switchMorph = 32768;         // some morph: light does, too
 const int switchGather = 65536;        // edges that morph let vertices go as a coarser chunk's stitched edge does
 const int switchTiles = 131072;        // the image is streamed in tiles (colour_tiles.glsl)
+const int switchNormalTiles = 2097152;   // normals finer than the mesh (normal_tiles.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)
 const int switchLayerPreview = 33554432;
 

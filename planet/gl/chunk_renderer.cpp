@@ -16,7 +16,6 @@
 
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_image.h"
-#include "planet/gl/colour_pool.h"
 #include "planet/gl/detail_noise.h"
 #include "planet/gl/frame_uniforms.h"
 #include "planet/gl/gl_objects.h"
@@ -26,6 +25,7 @@
 #include "planet/gl/layer_uniforms.h"
 #include "planet/gl/shader_source.h"
 #include "planet/gl/software_renderer.h"
+#include "planet/gl/tile_pool.h"
 
 namespace planet::gl {
 
@@ -33,9 +33,9 @@ namespace {
 
 constexpr std::array<std::string_view, 5> chunkVertexFiles = {"frame.glsl", "atmosphere.glsl", "ground.glsl",
                                                               "vertex_position.glsl", "chunk.vert"};
-constexpr std::array<std::string_view, 7> chunkFragmentFiles = {
-    "frame.glsl",  "atmosphere.glsl",   "ground.glsl", "tone.glsl",
-    "layers.glsl", "colour_tiles.glsl", "chunk.frag"};
+constexpr std::array<std::string_view, 9> chunkFragmentFiles = {
+    "frame.glsl",       "atmosphere.glsl",   "ground.glsl",       "tone.glsl", "layers.glsl",
+    "tile_lookup.glsl", "colour_tiles.glsl", "normal_tiles.glsl", "chunk.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 4> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "tone.glsl",
                                                               "sky.frag"};
@@ -51,6 +51,9 @@ constexpr GLint tilesUnit = 3;
 constexpr GLint pagesUnit = 4;
 constexpr GLint rootsUnit = 5;
 constexpr GLint layerAlbedoUnit = 8;
+constexpr GLint normalTilesUnit = 13;
+constexpr GLint normalPagesUnit = 14;
+constexpr GLint normalRootsUnit = 15;
 constexpr GLint layerSurfaceUnit = 9;
 constexpr int checkerSize = 64;  // until pictures are given
 
@@ -90,6 +93,9 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "colourRoots"), rootsUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "normalTiles"), normalTilesUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "normalPages"), normalPagesUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "normalRoots"), normalRootsUnit);
     glUseProgram(0);
 }
 
@@ -246,7 +252,9 @@ struct ChunkRenderer::State {
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
-    std::optional<ColourPool> colours;
+    std::optional<TilePool> colours;
+    std::optional<TilePool> normals;
+    double normalQuantumM = 1;
     LayerTextures layers;
     GpuTimer chunksTimer, skyTimer;
     std::uint32_t uploads = 0;  // since the last draw
@@ -262,6 +270,7 @@ struct ChunkRenderer::State {
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched);
     void fillFrame(const View& view, const RenderSettings& settings);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
+    bool drawsNormals(const RenderSettings& settings) const;
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
@@ -344,10 +353,10 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
     const int layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     const bool byVertex = (variant & switchLighting) != 0 && (variant & switchDetail) == 0 &&
-                          (layersSeen & switchLayers) == 0 &&
+                          (layersSeen & switchLayers) == 0 && !drawsNormals(settings) &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
     return variant | layersSeen | (byVertex ? switchLightByVertex : 0) |
-           slidingSwitches(items, settings.stitched);
+           (drawsNormals(settings) ? switchNormalTiles : 0) | slidingSwitches(items, settings.stitched);
 }
 
 // Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
@@ -386,8 +395,13 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
 }
 
 void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
-    const FrameUniforms uniforms =
-        frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
+    FrameUniforms uniforms = frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
+    if (normals) {
+        planet::gl::setNormals(config.shape,
+                               {normals->leafLevel(), static_cast<double>(normals->anisotropy()),
+                                settings.light.normals.texelsPerPixel, normalQuantumM},
+                               uniforms);
+    }
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
     const LayersUniforms layerUniforms =
@@ -398,8 +412,13 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
     if (!colours || !settings.streamed) return {.faceSizePx = image.faceSizePx()};
-    return {(colourTileCells << colours->config().leafLevel) + 1, true, colours->config().leafLevel,
-            colours->anisotropy(), settings.texelsPerPixel};
+    return {(tileCells << colours->leafLevel()) + 1, true, colours->leafLevel(), colours->anisotropy(),
+            settings.texelsPerPixel};
+}
+
+bool ChunkRenderer::State::drawsNormals(const RenderSettings& settings) const {
+    const bool seen = settings.lighting || isUsed(settings.layers.use, capabilities.software);
+    return normals && seen && isUsed(settings.light.normals.use, capabilities.software);
 }
 
 void ChunkRenderer::State::bindInputs() const {
@@ -418,6 +437,14 @@ void ChunkRenderer::State::bindInputs() const {
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->pages());
         glActiveTexture(GL_TEXTURE0 + rootsUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, colours->roots());
+    }
+    if (normals) {
+        glActiveTexture(GL_TEXTURE0 + normalTilesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->tiles());
+        glActiveTexture(GL_TEXTURE0 + normalPagesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->pages());
+        glActiveTexture(GL_TEXTURE0 + normalRootsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->roots());
     }
     glActiveTexture(GL_TEXTURE0 + noiseUnit);
     glBindTexture(GL_TEXTURE_3D, noise.name());
@@ -511,12 +538,26 @@ Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& co
         state_->colours.reset();
         return {};
     }
-    return ColourPool::create(*config).map([this](ColourPool pool) { state_->colours = std::move(pool); });
+    return TilePool::create(*config).map([this](TilePool pool) { state_->colours = std::move(pool); });
 }
 
 void ChunkRenderer::followColours(std::span<const ColourChange> changes) {
     assert(state_->colours || changes.empty());
     if (state_->colours) state_->colours->follow(changes);
+}
+
+Result<void> ChunkRenderer::setNormals(const std::optional<NormalPoolConfig>& config) {
+    if (!config) {
+        state_->normals.reset();
+        return {};
+    }
+    state_->normalQuantumM = config->quantumM;
+    return TilePool::create(*config).map([this](TilePool pool) { state_->normals = std::move(pool); });
+}
+
+void ChunkRenderer::followNormals(std::span<const TileChange> changes) {
+    assert(state_->normals || changes.empty());
+    if (state_->normals) state_->normals->follow(changes);
 }
 
 void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
@@ -618,7 +659,8 @@ GpuMemory ChunkRenderer::gpuMemory() const {
     return {state_->pool.layout().bytes(),
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms),
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
-                (state_->colours ? state_->colours->bytes() : 0)};
+                (state_->colours ? state_->colours->bytes() : 0) +
+                (state_->normals ? state_->normals->bytes() : 0)};
 }
 
 }  // namespace planet::gl
