@@ -1,6 +1,7 @@
 #include "ui/light_panel.h"
 
 #include "ui/feature_knob.h"
+#include "ui/normal_knobs.h"
 #include "ui/sun_knobs.h"
 #include "ui/widgets.h"
 
@@ -25,6 +26,7 @@ void lightPanel(const EditorView& view, ViewSettings& settings, Commands&) {
     SurfaceSettings& surface = settings.surface;
     if (section("Sun")) sunKnobs(view, surface);
     if (section("Light and air")) lightKnobs(surface);
+    if (section("Normals")) normalKnobs(view, settings);
 }
 
 }  // namespace ui
