@@ -66,14 +66,13 @@ void normalKnobs(const EditorView& view, ViewSettings& settings) {
                 "vertices' normals, smooth where the mesh is coarse; no memory is taken.",
                 "fine normals cost");
     ImGui::BeginDisabled(normals.use == planet::gl::FeatureUse::Off);
-    slider("Texels a pixel##normals", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel,
-           0.1, 4, "%.2f",
+    slider("Texels a pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
+           "%.2f",
            "A tile is derived in four finer ones while it has fewer texels than this for a pixel of the "
            "picture. Larger: sharper, up to four times the tiles for twice as many, and it may shimmer. "
            "Smaller: softer.",
            ImGuiSliderFlags_Logarithmic);
-    slider("Their share##normals", settings.paging.normalShare, defaults.paging.normalShare, 0.01, 0.9,
-           "%.2f",
+    slider("Share", settings.paging.normalShare, defaults.paging.normalShare, 0.01, 0.9, "%.2f",
            "Of what colours leave of the paging budget. Larger: finer light on coarse chunks; smaller: "
            "finer ground when the budget is full.");
     ImGui::EndDisabled();
