@@ -68,9 +68,19 @@ void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
 // A block of colours has the levels above those of chunks.
 constexpr int firstColourLevel = planet::maxLevel + 1;
 static_assert(firstColourLevel + planet::maxColourLevel < 32);
+// One of normals has a face that there is not, and its own in the level's place; its level follows.
+constexpr unsigned normalsFace = 7;
+static_assert(normalsFace >= planet::faceCount);
 
 void putBlock(ByteWriter& out, const BlockId& block) {
     ChunkId id = block.parent;
+    if (block.kind == BlockKind::Normals) {
+        out.put(static_cast<std::uint8_t>(normalsFace * 32 + static_cast<unsigned>(id.face)));
+        out.put(id.level);
+        putVarint(out, id.x);
+        putVarint(out, id.y);
+        return;
+    }
     if (block.kind == BlockKind::Colours) id.level = static_cast<std::uint8_t>(id.level + firstColourLevel);
     putId(out, id);
 }
@@ -198,22 +208,27 @@ public:
     }
     ChunkId id() {
         const BlockId named = block();
-        if (named.kind != BlockKind::Heights) fail("names a tile of colour where a chunk would be right");
+        if (named.kind != BlockKind::Heights) fail("names a tile where a chunk would be right");
         return named.parent;
     }
     BlockId block() {
-        const auto first = get<std::uint8_t>();
+        const unsigned first = get<std::uint8_t>();
+        BlockKind kind = first % 32 >= firstColourLevel ? BlockKind::Colours : BlockKind::Heights;
+        unsigned face = first / 32;
+        int level = static_cast<int>(first % 32) - (kind == BlockKind::Colours ? firstColourLevel : 0);
+        if (face == normalsFace) {
+            kind = BlockKind::Normals;
+            face = first % 32;
+            level = get<std::uint8_t>();
+        }
         const std::uint64_t x = varint(), y = varint();
-        const bool isColours = first % 32 >= firstColourLevel;
-        const int level = first % 32 - (isColours ? firstColourLevel : 0);
-        const int deepest = isColours ? planet::maxColourLevel : deepest_;
-        const std::uint64_t across = std::uint64_t{1} << level;
-        if (ok() && (first / 32 >= planet::faceCount || level > deepest || x >= across || y >= across))
+        const int deepest = kind == BlockKind::Heights ? deepest_ : planet::maxTileLevel;
+        if (ok() && (face >= planet::faceCount || level > deepest || x >> level > 0 || y >> level > 0))
             fail("names a chunk that there is not");
         if (!ok()) return {};
-        return {{static_cast<planet::Face>(first / 32), static_cast<std::uint8_t>(level),
+        return {{static_cast<planet::Face>(face), static_cast<std::uint8_t>(level),
                  static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)},
-                isColours ? BlockKind::Colours : BlockKind::Heights};
+                kind};
     }
     std::vector<BlockId> blocks() {
         std::vector<BlockId> all;

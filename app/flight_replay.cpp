@@ -118,8 +118,8 @@ Result<void> FlightReplay::step(const ReplayedPlanet& replayed) {
     follow(planet, frame.moves);
     std::vector<planet::ViewInput> views;
     for (const FlownView& view : frame.views)
-        views.push_back(
-            {view.view, lodSettingsOf(settings_), view.priorityFactor, colourSettingsOf(settings_)});
+        views.push_back({view.view, lodSettingsOf(settings_), view.priorityFactor,
+                         colourSettingsOf(settings_), normalSettingsOf(settings_)});
     planet.takeMoves();  // those of the calls are not compared
     planet.step(views, replayed.upload, frame.elapsedS);
     timeS_ += frame.elapsedS;

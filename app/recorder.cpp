@@ -25,6 +25,10 @@ ui::ViewSettings heldSettings(const planet::Planet& planet, ui::ViewSettings set
     settings.paging.loaderThreads = held.loaderThreads;
     settings.paging.uploadLimitMs = held.uploadLimitMs;
     settings.paging.badDisk = held.badDisk;
+    // What automatic is depends on the machine.
+    settings.surface.light.normals.use =
+        held.normals ? planet::gl::FeatureUse::On : planet::gl::FeatureUse::Off;
+    settings.paging.normalShare = held.normalShare;
     settings.paging.simulated = held.time == planet::PagingTime::Simulated;
     return settings;
 }

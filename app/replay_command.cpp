@@ -110,6 +110,7 @@ Result<bool> replayFlight(const ReplayOptions& options) {
         if (const Result<void> stepped = replay->step(headless(**planet)); !stepped)
             return tl::unexpected(stepped.error());
         static_cast<void>((*planet)->takeColourChanges());  // nothing draws them
+        static_cast<void>((*planet)->takeNormalChanges());
     }
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printReport(*replay);

@@ -48,6 +48,10 @@ planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before)
     return fitted;
 }
 
+bool drawsByCpu(const Scene& scene) {
+    return scene.renderer.capabilities().software;
+}
+
 planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wanted) {
     const planet::PagingSettings before = scene.planet->pagingSettings();
     if (wanted == before) {
@@ -104,6 +108,23 @@ void followColours(Scene& scene) {
     if (scene.drawsColours) scene.renderer.followColours(changes);
 }
 
+// And that of normals. Where the planet has none the pool is given back.
+void followNormals(Scene& scene) {
+    const planet::Planet& planet = *scene.planet;
+    std::optional<planet::gl::NormalPoolConfig> wanted;
+    if (planet.normalPaging().tileCapacity > 0)
+        wanted = {planet.normalLeafLevel(), planet.normalPaging().tileCapacity,
+                  planet.tree().storedShape.quantumM};
+    if (scene.normalPool != wanted) {
+        // Where there is no room for it the light follows the meshes.
+        scene.drawsNormals = scene.renderer.setNormals(wanted).has_value() && wanted;
+        if (!scene.drawsNormals) static_cast<void>(scene.renderer.setNormals(std::nullopt));
+        scene.normalPool = wanted;
+    }
+    const std::vector<planet::TileChange> changes = scene.planet->takeNormalChanges();
+    if (scene.drawsNormals) scene.renderer.followNormals(changes);
+}
+
 // Of the view that the level of detail is chosen for: shadows freeze with it.
 std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::ViewSettings& settings,
                                               const planet::gl::RenderSettings& render) {
@@ -118,11 +139,17 @@ void followClipmap(Scene& scene, const ui::ViewSettings& settings) {
                         colourSettingsOf(settings).enabled;
     int finestLevel = 0;
     for (std::size_t view = 0; view < scene.planet->viewCount(); ++view) {
-        const planet::ColourCounters& seen = scene.planet->colourSelection(view).counters;
+        const planet::TileCounters& seen = scene.planet->colourSelection(view).counters;
         finestLevel = std::max(finestLevel, static_cast<int>(seen.deepestLevel));
     }
     moveClipmap(scene.renderer, wanted ? std::optional(settings.surface.clipmapSizePx) : std::nullopt,
                 scene.planet->lodView().eyeM, finestLevel, scene.planet->seconds(), scene.clipmap);
+}
+
+planet::ViewInput viewInputOf(const planet::View& view, const ui::ViewSettings& settings,
+                              double priorityFactor = 1) {
+    return {view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
+            normalSettingsOf(settings)};
 }
 
 void beginFrame(Scene& scene, const ui::ViewSettings& settings) {
@@ -150,6 +177,10 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
         scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
         scene.hasColourImage = true;
     }
+    // Only now it is known who draws; what is refused is told of when settings are next applied.
+    if (auto applied = applyPaging(scene, pagingSettingsOf(settings, false, std::nullopt, drawsByCpu(scene)));
+        !applied)
+        scene.refusedPaging.reset();
     return scene;
 }
 
@@ -172,15 +203,22 @@ planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     return lod;
 }
 
-planet::ColourSettings colourSettingsOf(const ui::ViewSettings& settings) {
+planet::TileSettings colourSettingsOf(const ui::ViewSettings& settings) {
     const ui::SurfaceSettings& surface = settings.surface;
     const bool seen = surface.streamed && surface.surface == planet::gl::SurfaceColour::Image &&
                       surface.imageOpacity > 0 && !settings.overlay.cube;
     return {.enabled = seen, .texelsPerPixel = surface.texelsPerPixel};
 }
 
+// Without light nothing shows them but the layers, whose slopes are near enough by the mesh.
+planet::TileSettings normalSettingsOf(const ui::ViewSettings& settings) {
+    const planet::gl::NormalDrawing& normals = settings.surface.light.normals;
+    return {.enabled = settings.surface.lighting && normals.use != planet::gl::FeatureUse::Off,
+            .texelsPerPixel = normals.texelsPerPixel};
+}
+
 planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused,
-                                        std::optional<planet::PagingTime> time) {
+                                        std::optional<planet::PagingTime> time, bool software) {
     const planet::PagingTime asSet =
         settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock;
     return {.budgetBytes = static_cast<std::size_t>(settings.paging.budgetMB) << 20,
@@ -189,6 +227,9 @@ planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool p
             .paused = paused,
             .badDisk = settings.paging.badDisk,
             .colourShare = settings.paging.colourShare,
+            .normals =
+                settings.surface.lighting && planet::gl::isUsed(settings.surface.light.normals.use, software),
+            .normalShare = settings.paging.normalShare,
             .time = time.value_or(asSet)};
 }
 
@@ -229,7 +270,7 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& set
         scene.planet->setExaggeration(settings.surface.exaggeration);
         scene.renderer.setShape(scene.planet->shape());
     }
-    return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time));
+    return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time, drawsByCpu(scene)));
 }
 
 planet::UploadChunk uploadInto(Scene& scene) {
@@ -251,16 +292,14 @@ void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet
 
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                std::optional<double> elapsedS) {
-    const planet::ViewInput only{lodView, lodSettingsOf(settings), 1, colourSettingsOf(settings)};
+    const planet::ViewInput only = viewInputOf(lodView, settings);
     step(scene, settings, std::span(&only, 1), elapsedS);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
                const ui::ViewSettings& settings, std::optional<double> elapsedS) {
-    const planet::LodSettings lod = lodSettingsOf(settings);
-    const planet::ColourSettings colours = colourSettingsOf(settings);
     const std::array<planet::ViewInput, 2> views = {
-        {{lodView, lod, 1, colours}, {observerView, lod, observerPriorityFactor, colours}}};
+        viewInputOf(lodView, settings), viewInputOf(observerView, settings, observerPriorityFactor)};
     step(scene, settings, views, elapsedS);
 }
 
@@ -278,6 +317,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
     followColours(scene);
+    followNormals(scene);
     followClipmap(scene, settings);
     scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render));
     scene.drawCpuMs += watch.elapsedMs();
@@ -297,7 +337,7 @@ std::vector<std::string> takeLayerProblems(Scene& scene) {
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS) {
     beginFrame(scene, settings);
-    const planet::ViewInput only{lodView, lodSettingsOf(settings), 1, colourSettingsOf(settings)};
+    const planet::ViewInput only = viewInputOf(lodView, settings);
     return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
 }
 

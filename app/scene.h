@@ -31,6 +31,9 @@ struct Scene {
     std::optional<planet::gl::ColourPoolConfig> colourPool{};
     bool drawsColours = false;
     ClipmapTrace clipmap{};  // over those tiles
+    // The same of tiles of normals.
+    std::optional<planet::gl::NormalPoolConfig> normalPool{};
+    bool drawsNormals = false;
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
     LayerPictures layers{};               // read when they are first drawn
@@ -51,10 +54,13 @@ inline constexpr double observerPriorityFactor = 0.5;
 
 // The user's units into the library's, here and nowhere else.
 planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings);
-// time: in place of what the settings say.
-planet::ColourSettings colourSettingsOf(const ui::ViewSettings& settings);
+planet::TileSettings colourSettingsOf(const ui::ViewSettings& settings);
+planet::TileSettings normalSettingsOf(const ui::ViewSettings& settings);
+// time: in place of what the settings say. software: the CPU draws, or nothing does; normals that are used
+// automatically are then left out.
 planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused = false,
-                                        std::optional<planet::PagingTime> time = std::nullopt);
+                                        std::optional<planet::PagingTime> time = std::nullopt,
+                                        bool software = true);
 planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
                                             const planet::ChunkTree& tree);
 

@@ -88,6 +88,8 @@ void addPaging(Fields& fields, ui::PagingKnobs& paging) {
           Number{&paging.uploadLimitMs, {0.1, 100, "milliseconds"}}},
          {"paging", "colour_share", "Of the budget, for streamed colours where there are any.",
           Number{&paging.colourShare, {0.01, 0.9, ""}}},
+         {"paging", "normal_share", "Of what colours leave of the budget, for normals finer than the mesh.",
+          Number{&paging.normalShare, {0.01, 0.9, ""}}},
          {"paging", "simulated",
           "Reads end by the bad disk's settings and seed, in the time of frames, not by the clock.",
           Flag{&paging.simulated}},

@@ -10,12 +10,12 @@
 
 namespace planet {
 
-// The two quadtrees of a file.
-enum class BlockKind : std::uint8_t { Heights, Colours };
-inline constexpr int blockKindCount = 2;
+// The quadtrees of a planet. Normals are derived from heights, and have no block in the file.
+enum class BlockKind : std::uint8_t { Heights, Colours, Normals };
+inline constexpr int blockKindCount = 3;
 
 struct BlockId {
-    ChunkId parent;  // whose four children it holds: chunks, or tiles of colour
+    ChunkId parent;  // whose four children it holds: chunks, or tiles of colours or normals
     BlockKind kind = BlockKind::Heights;
 
     BlockId() = default;
@@ -28,7 +28,10 @@ struct BlockId {
 
 // "z_pos/3/5/2", and of colours "z_pos/3/5/2 (colours)".
 inline std::string toString(const BlockId& id) {
-    return toString(id.parent) + (id.kind == BlockKind::Colours ? " (colours)" : "");
+    const char* kind = id.kind == BlockKind::Heights   ? ""
+                       : id.kind == BlockKind::Colours ? " (colours)"
+                                                       : " (normals)";
+    return toString(id.parent) + kind;
 }
 
 }  // namespace planet

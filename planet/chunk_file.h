@@ -70,12 +70,14 @@ struct ChunkEntry {
     BlockLocation children;
 };
 
-// One tile of the colour quadtree as the file holds it.
-struct ColourTileData {
+// One tile of a quadtree of tiles: of colours as the file holds it, or of normals as derived from heights.
+struct TileData {
     ChunkId id;
-    BlockLocation children;         // none at the finest level
-    std::vector<std::byte> texels;  // as the GPU takes them: colourTileBytes
+    BlockLocation children;  // none at the finest level, nor where a tile is derived
+    // As the GPU takes them: colourTileBytes, or normalTileBytes.
+    std::vector<std::byte> texels;
 };
+using ColourTileData = TileData;
 
 // What a colour block says of one of its tiles.
 struct ColourEntry {

@@ -1,9 +1,6 @@
 // A tile of the colour quadtree: what it covers, how it is filled, and how it is packed.
 //
-// A tile of level l covers one of the 2^l x 2^l squares of its face, in the grid of colourTileCells << l
-// cells a side. It holds its own (cells + 1)^2 texels, those on its edges shared with the tiles beside it,
-// and a border of texels beyond them, over a face's edge the next face's; so that filtering never leaves the
-// tile. Of two tiles beside each other the shared texels are the same. Rows run along v upwards.
+// tile_layout.h says what it covers. Of two tiles beside each other the shared texels are the same.
 //
 // The quadtree is the mip chain too: a level's texels are the source filtered to that level's spacing.
 //
@@ -19,15 +16,16 @@
 #include "planet/chunk_id.h"
 #include "planet/colour_source.h"
 #include "planet/result.h"
+#include "planet/tile_layout.h"
 
 namespace planet {
 
-inline constexpr int colourTileCells = 256;
-inline constexpr int colourBorderBefore = 7;  // texels west of and below the tile's own
-inline constexpr int colourBorderAfter = 8;   // east of and above
-inline constexpr int colourTileTexels = colourBorderBefore + colourTileCells + 1 + colourBorderAfter;
+inline constexpr int colourTileCells = tileCells;
+inline constexpr int colourBorderBefore = tileBorderBefore;
+inline constexpr int colourBorderAfter = tileBorderAfter;
+inline constexpr int colourTileTexels = tileTexels;
 static_assert(colourTileTexels % 4 == 0 && colourTileCells % 4 == 0);
-inline constexpr int maxColourLevel = 10;  // faces of 262,145 texels a side: some 40 m on Earth
+inline constexpr int maxColourLevel = maxTileLevel;
 
 enum class ColourFormat : std::uint8_t { Bc1, Lossless };
 

@@ -70,6 +70,17 @@ void FinestHeights::keep(std::uint64_t key, std::shared_ptr<const HeldBlock> blo
     kept_.push_front({key, std::move(block), bytes});
     byKey_[key] = kept_.begin();
     bytes_ += bytes;
+    dropSurplus();
+}
+
+void FinestHeights::setCacheBytes(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    cacheBytes_ = bytes;
+    dropSurplus();
+}
+
+// Locked.
+void FinestHeights::dropSurplus() {
     while (bytes_ > cacheBytes_) {
         bytes_ -= kept_.back().bytes;
         byKey_.erase(kept_.back().key);

@@ -57,6 +57,8 @@ public:
     Result<void> forEachLeaf(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 
+    void setCacheBytes(std::size_t bytes);  // as above; what is too much then is dropped
+
     std::uint64_t blocksRead() const;
     std::size_t cachedBytes() const;
 
@@ -66,15 +68,16 @@ private:
         std::shared_ptr<const HeldBlock> block;
         std::size_t bytes = 0;
     };
+    void dropSurplus();
     std::shared_ptr<const HeldBlock> find(std::uint64_t key);
     void keep(std::uint64_t key, std::shared_ptr<const HeldBlock> block);
     Result<bool> visitLeaves(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 
     const LoadChildren load_;
-    const std::size_t cacheBytes_;
     mutable std::mutex mutex_;  // guards what follows
-    std::list<Kept> kept_;      // the last used first
+    std::size_t cacheBytes_;
+    std::list<Kept> kept_;  // the last used first
     std::unordered_map<std::uint64_t, std::list<Kept>::iterator> byKey_;
     std::size_t bytes_ = 0;
     std::uint64_t blocksRead_ = 0;

@@ -17,6 +17,7 @@ Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& re
     try {
         if (request.kind == BlockKind::Colours)
             return load.colours(request.parent, request.location).map(asLoaded);
+        if (request.kind == BlockKind::Normals) return load.normals(request.parent).map(asLoaded);
         return load.chunks(request.parent, request.location, *request.parentHeights).map(asLoaded);
     } catch (const std::exception& problem) {
         return ioError(fmt::format("children of chunk {}: {}", toString(request.block()), problem.what()));

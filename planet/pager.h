@@ -30,9 +30,10 @@
 namespace planet {
 
 using SiblingBlock = std::array<ChunkData, quadrantCount>;
-using ColourBlock = std::array<ColourTileData, quadrantCount>;
+using TileBlock = std::array<TileData, quadrantCount>;
+using ColourBlock = TileBlock;
 // By the request's kind.
-using LoadedBlock = std::variant<SiblingBlock, ColourBlock>;
+using LoadedBlock = std::variant<SiblingBlock, TileBlock>;
 
 // Reads the four children of a chunk, as ChunkFile::readChildren does. Called from loader threads, several at
 // once.
@@ -41,16 +42,20 @@ using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, B
 // The same for a tile of colour, as ChunkFile::readColourChildren does.
 using LoadColours = std::function<Result<ColourBlock>(const ChunkId& parent, BlockLocation location)>;
 
+// Derives the four children of a tile of normals. Called as the others are.
+using LoadNormals = std::function<Result<TileBlock>(const ChunkId& parent)>;
+
 struct BlockLoaders {
     LoadChildren chunks;
     LoadColours colours{};  // none where no colours are asked for
+    LoadNormals normals{};  // nor these where no normals are
 };
 
 struct FinishedLoad {
     PagingRequest request;  // as it was when a loader took it
     Result<LoadedBlock> block;
     double seconds = 0;       // reading and decoding, a bad disk's waiting included
-    std::uint32_t bytes = 0;  // read; 0 where a bad disk failed the read
+    std::uint32_t bytes = 0;  // of the block in the file; 0 where a bad disk failed the read, and of normals
 };
 
 // A request that a loader has taken.

@@ -1,9 +1,9 @@
 // What is to be loaded and dropped next, in order of urgency (paging queues after Zhu, MSV 2004).
 //
-// A request is about the sibling block under a chunk or a tile of colour: page it in or page it out. At most
-// one is pending for a block. Asking for the same again merges the two: in the same frame the higher priority
-// holds, in a later one the new one, since the eye has moved. Asking for the opposite cancels both, since the
-// block is then to stay as it is. Not safe for several threads at once.
+// A request is about the sibling block under a chunk or a tile of colours or normals: page it in or page it
+// out. At most one is pending for a block. Asking for the same again merges the two: in the same frame the
+// higher priority holds, in a later one the new one, since the eye has moved. Asking for the opposite cancels
+// both, since the block is then to stay as it is. Not safe for several threads at once.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct PagingRequest {
 
     // A page-in only: what a loader needs, and a number that no other request ever has.
     BlockLocation location{};
-    SharedHeights parentHeights{};  // null for colours
+    SharedHeights parentHeights{};  // null for tiles
     std::uint64_t ticket = 0;
 
     BlockId block() const { return {parent, kind}; }

@@ -27,6 +27,9 @@ Result<void> checkSettings(const PagingSettings& settings) {
     if (!(settings.colourShare >= 0.01 && settings.colourShare <= 0.9)) {
         return badInput(fmt::format("a share of {} for colours; 0.01 to 0.9 will do", settings.colourShare));
     }
+    if (!(settings.normalShare >= 0.01 && settings.normalShare <= 0.9)) {
+        return badInput(fmt::format("a share of {} for normals; 0.01 to 0.9 will do", settings.normalShare));
+    }
     return checkBadDisk(settings.badDisk);
 }
 
@@ -39,18 +42,41 @@ void applyTo(Pager& pager, const PagingSettings& settings) {
 // Slots for chunks and for tiles.
 struct Room {
     std::uint32_t slots = 0;
-    std::uint32_t tiles = 0;  // 0 without colours
+    std::uint32_t colours = 0;  // 0 without any
+    std::uint32_t normals = 0;  // 0 without any
+    std::size_t normalHeightBytes = 0;
+    std::string problem;  // why there are no normals
 };
+// Where there is too little for chunks or colours that is an Error; without normals the rest goes on.
 Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid>& colour,
                      const PagingSettings& settings) {
-    const std::size_t chunkBytes = chunkBudgetBytes(settings, colour.has_value());
+    const bool hasNormals = settings.normals && normalLeafLevel(shape) >= 0;
+    const BudgetShares shares = sharesOf(settings, colour.has_value(), hasNormals);
+    Room room;
+    std::size_t chunkBytes = shares.chunks;
+    if (hasNormals) {
+        const TilePyramid pyramid{"tiles of normals", normalLeafLevel(shape), normalTileBytes};
+        const Result<std::uint32_t> normals = tilesFor(pyramid, shares.normals, settings.maxNormalTiles);
+        if (normals && slotsFor(shape, chunkBytes)) {
+            room.normals = *normals;
+            room.normalHeightBytes = shares.normalHeights;
+        } else {
+            room.problem = (normals ? "what normals leave of the budget is too little for the chunks"
+                                    : normals.error().message) +
+                           "; the light follows the meshes' normals";
+            chunkBytes = sharesOf(settings, colour.has_value(), false).chunks;
+        }
+    }
     const Result<std::uint32_t> slots = slotsFor(shape, chunkBytes);
     if (!slots) return tl::unexpected(slots.error());
-    if (!colour) return Room{*slots};
+    room.slots = *slots;
+    if (!colour) return room;
     const Result<std::uint32_t> tiles =
-        tilesFor(*colour, settings.budgetBytes - chunkBytes, settings.maxColourTiles);
+        tilesFor({"tiles of colour", colour->leafLevel, colourTileBytes(colour->format)}, shares.colours,
+                 settings.maxColourTiles);
     if (!tiles) return tl::unexpected(tiles.error());
-    return Room{*slots, *tiles};
+    room.colours = *tiles;
+    return room;
 }
 
 }  // namespace
@@ -67,16 +93,30 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
     state->tree = std::move(*tree);
     state->slotCapacity = room->slots;
     state->freeSlots = freeSlotsFrom(faceCount, room->slots);
+    state->problems = std::move(source.problems);
     if (source.colour) {
-        state->colours.tree.leafLevel = source.colour->leafLevel;
-        state->colours.format = source.colour->format;
+        state->colours.leafLevel = source.colour->leafLevel;
+        state->colours.checkers = source.colour->format;
         state->colours.roots = std::move(source.colourRoots);
-        state->colours.begin(room->tiles);
+        state->colours.begin(room->colours);
         state->colour = std::move(source.colour);
-        state->problems = std::move(source.problems);
     }
-    state->pager = std::make_unique<Pager>(
-        BlockLoaders{std::move(source.loadChildren), std::move(source.loadColours)}, settings.loaderThreads);
+    state->normals.kind = BlockKind::Normals;
+    state->normals.leafLevel = planet::normalLeafLevel(source.shape);
+    if (state->normals.leafLevel >= 0) {
+        std::array<HeldChunk, faceCount> roots;
+        for (std::size_t face = 0; face < faceCount; ++face) {
+            const ChunkNode& root = state->tree.nodes[face];
+            roots[face] = {root.id, root.heights, root.children};
+        }
+        state->deriver = std::make_unique<NormalDeriver>(source.shape, roots, source.loadChildren);
+    }
+    state->beginNormals(room->normals, room->normalHeightBytes, room->problem);
+    BlockLoaders loaders{std::move(source.loadChildren), std::move(source.loadColours)};
+    loaders.normals = [deriver = state->deriver.get()](const ChunkId& parent) {
+        return deriver->childrenOf(parent);
+    };
+    state->pager = std::make_unique<Pager>(std::move(loaders), settings.loaderThreads);
     state->pager->setTime(settings.time);  // there is nothing to give up
     applyTo(*state->pager, settings);
     state->count();
@@ -182,7 +222,8 @@ bool Planet::settled() const {
     const State& state = *state_;
     const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
     return state.frame > 0 && !state.changed && state.pager->status().idle() &&
-           (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome;
+           (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome &&
+           !state.normals.roomToCome;
 }
 
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
@@ -199,7 +240,9 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     if (otherTime) state.putBack(state.pager->setTime(settings.time));
     const bool resized = room->slots != state.slotCapacity;
     if (resized) state.resize(room->slots);
-    if (room->tiles != state.colours.tileCapacity) state.resizeColours(room->tiles);
+    if (room->colours != state.colours.tileCapacity) state.resizeTiles(state.colours, room->colours);
+    if (room->normals != state.normals.tileCapacity || room->problem != state.normalProblem)
+        state.beginNormals(room->normals, room->normalHeightBytes, room->problem);
     state.count();
     return resized;
 }
@@ -257,6 +300,8 @@ void Planet::retryFailed() {
         if (node.childrenState == ChildrenState::Failed) node.childrenState = ChildrenState::Absent;
     }
     state_->colours.retryFailed();
+    state_->normals.retryFailed();
+    if (state_->normals.isOn() && state_->deriveNormalRoots()) beginNormalsAnew();
 }
 
 void Planet::uploadAll(const UploadChunk& upload) const {
@@ -348,7 +393,27 @@ std::vector<ColourChange> Planet::takeColourChanges() {
     return std::exchange(state_->colours.changes, {});
 }
 void Planet::beginColoursAnew() {
-    if (state_->colour) state_->resizeColours(state_->colours.tileCapacity);
+    if (state_->colour) state_->resizeTiles(state_->colours, state_->colours.tileCapacity);
+}
+
+int Planet::normalLeafLevel() const {
+    return state_->normals.leafLevel;
+}
+const TileTree& Planet::normalTree() const {
+    return state_->normals.tree;
+}
+const TileSelection& Planet::normalSelection(std::size_t view) const {
+    assert(view < viewCount());
+    return state_->views[view].normals;
+}
+const TilePagingCounters& Planet::normalPaging() const {
+    return state_->normals.counters;
+}
+std::vector<TileChange> Planet::takeNormalChanges() {
+    return std::exchange(state_->normals.changes, {});
+}
+void Planet::beginNormalsAnew() {
+    state_->resizeTiles(state_->normals, state_->normals.tileCapacity);
 }
 
 }  // namespace planet

@@ -23,12 +23,12 @@
 #include "planet/bad_disk.h"
 #include "planet/chunk_file.h"
 #include "planet/chunk_tree.h"
-#include "planet/colour_select.h"
-#include "planet/colour_tree.h"
 #include "planet/lod_select.h"
 #include "planet/pager.h"
 #include "planet/paging_queue.h"
 #include "planet/result.h"
+#include "planet/tile_select.h"
+#include "planet/tile_tree.h"
 
 namespace planet {
 
@@ -43,6 +43,14 @@ struct PagingSettings {
     // colours, and coarser ground when the budget is full.
     double colourShare = 0.25;
     std::uint32_t maxColourTiles = 2048;  // that the renderer's pool can hold at most
+    // Tiles of normals (normal_tile.h), where the heights fill any. Off: no memory is taken, and no view has
+    // them.
+    bool normals = false;
+    // What they and the heights kept to derive them take of the budget that colours leave, [0.01, 0.9];
+    // larger: finer light on coarse chunks, and coarser ground when the budget is full. Where it is too
+    // little for any there are none, and takeProblems() says so.
+    double normalShare = 0.2;
+    std::uint32_t maxNormalTiles = 2048;  // as of colours
     // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS, and a block arrives in
     // the first step at or past its end; uploadLimitMs does not hold. The same steps, settings and calls then
     // give the same selections, requests and arrivals, bit for bit, on any machine.
@@ -57,6 +65,7 @@ struct ViewInput {
     LodSettings lod;
     double priorityFactor = 1;  // of its requests against the other views'; > 0
     ColourSettings colours{};
+    TileSettings normals{};
 };
 
 enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };
@@ -109,24 +118,26 @@ struct PagingCounters {
     std::size_t residentBytesGpu = 0;  // now: heights in the pool that hold a resident chunk
 };
 
-// The same of tiles of colour, beside what is counted of both kinds together.
-struct ColourPagingCounters {
-    std::uint64_t loaded = 0;       // blocks read and made resident
-    std::uint64_t evicted = 0;      // blocks paged out
-    std::uint64_t failed = 0;       // blocks that could not be read
-    std::uint64_t bytesRead = 0;    // from the file
-    std::uint32_t budgetWaits = 0;  // blocks wanted last step that the share has no room for
-    std::size_t residentTiles = 0;  // now
-    std::uint32_t tileCapacity = 0;
+// The same of tiles of one kind, beside what is counted of all kinds together.
+struct TilePagingCounters {
+    std::uint64_t loaded = 0;        // blocks read and made resident
+    std::uint64_t evicted = 0;       // blocks paged out
+    std::uint64_t failed = 0;        // blocks that could not be read
+    std::uint64_t bytesRead = 0;     // from the file
+    std::uint32_t budgetWaits = 0;   // blocks wanted last step that the share has no room for
+    std::size_t residentTiles = 0;   // now
+    std::uint32_t tileCapacity = 0;  // 0: off, or no room for any
 };
+using ColourPagingCounters = TilePagingCounters;
 
 // What a pool of tiles has to do to keep up with a step, in order.
-struct ColourChange {
-    bool beginsAnew = false;                // every slot is empty, as when the planet was opened
-    std::optional<ChunkId> gone{};          // the tiles under this one are no longer resident
-    std::uint32_t firstSlot = 0;            // of those that have arrived
-    std::vector<ColourTileData> arrived{};  // a root alone, or four siblings in slots one after the other
+struct TileChange {
+    bool beginsAnew = false;          // every slot is empty, as when the planet was opened
+    std::optional<ChunkId> gone{};    // the tiles under this one are no longer resident
+    std::uint32_t firstSlot = 0;      // of those that have arrived
+    std::vector<TileData> arrived{};  // a root alone, or four siblings in slots one after the other
 };
+using ColourChange = TileChange;
 
 // What each stage of the last step took, milliseconds.
 struct StageTimes {
@@ -185,7 +196,8 @@ public:
 
     // New settings, at once, waiting for no read: loaders are started or sent home, blocks are dropped down
     // to a smaller budget, those out of use first. Where the paging's time changes, what is being read goes
-    // back into the queue, to be read anew. True if slotCapacity() has changed; then every slot has
+    // back into the queue, to be read anew. Where normals come on, those of the whole faces are derived at
+    // once, which reads. True if slotCapacity() has changed; then every slot has
     // moved, the selections are made anew, and the renderer wants a pool of that size and uploadAll. The
     // Error says what is wrong, as open's does, and nothing has changed.
     Result<bool> setPaging(const PagingSettings& settings);
@@ -230,6 +242,16 @@ public:
     std::vector<ColourChange> takeColourChanges();
     // For a renderer that was made anew: all tiles but the roots are dropped, and begin to come again.
     void beginColoursAnew();
+
+    // The finest level of tiles of normals that the heights fill, whether they are on or not; -1: there are
+    // none.
+    int normalLeafLevel() const;
+    // Of the same as above, of normals. A tree without nodes where they are off.
+    const TileTree& normalTree() const;
+    const TileSelection& normalSelection(std::size_t view = 0) const;
+    const TilePagingCounters& normalPaging() const;
+    std::vector<TileChange> takeNormalChanges();
+    void beginNormalsAnew();
 
     const ChunkFile& file() const;  // only of a planet that was opened from one
     const PlanetShape& shape() const;

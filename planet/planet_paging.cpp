@@ -48,9 +48,21 @@ std::vector<BlockSlots> freeSlotsFrom(std::uint32_t firstFree, std::uint32_t slo
     return free;
 }
 
-std::size_t chunkBudgetBytes(const PagingSettings& settings, bool hasColours) {
-    if (!hasColours) return settings.budgetBytes;
-    return static_cast<std::size_t>((1 - settings.colourShare) * static_cast<double>(settings.budgetBytes));
+BudgetShares sharesOf(const PagingSettings& settings, bool hasColours, bool hasNormals) {
+    // Some hundred blocks are enough for one tile and those beside it.
+    constexpr std::size_t mostHeights = std::size_t{8} << 20;
+    const auto without = [](std::size_t bytes, double share) {
+        return static_cast<std::size_t>((1 - share) * static_cast<double>(bytes));
+    };
+    BudgetShares shares;
+    const std::size_t rest =
+        hasColours ? without(settings.budgetBytes, settings.colourShare) : settings.budgetBytes;
+    shares.colours = settings.budgetBytes - rest;
+    shares.chunks = hasNormals ? without(rest, settings.normalShare) : rest;
+    const std::size_t ofNormals = rest - shares.chunks;
+    shares.normalHeights = std::min(mostHeights, ofNormals / 4);
+    shares.normals = ofNormals - shares.normalHeights;
+    return shares;
 }
 
 std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, const RequestsOf& requestsOf) {
@@ -91,8 +103,8 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, c
 void Planet::State::select(double fadeElapsedS) {
     for (PlanetView& view : views) {
         selectChunks(tree, view.input.lodView, view.input.lod, view.selection, fadeElapsedS);
-        selectColours(colours.tree, tree, view.input.lodView, view.input.colours, view.input.lod,
-                      view.colours);
+        selectTiles(colours.tree, tree, view.input.lodView, view.input.colours, view.input.lod, view.colours);
+        selectTiles(normals.tree, tree, view.input.lodView, view.input.normals, view.input.lod, view.normals);
     }
 }
 
@@ -114,7 +126,7 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     paging.bytesRead += load.bytes;
     paging.loadSeconds += load.seconds;
     if (!isKept(load.request)) return throwAway(load);
-    if (load.request.kind == BlockKind::Colours) return finishColours(std::move(load));
+    if (load.request.kind != BlockKind::Heights) return finishTiles(std::move(load));
     // Still there: a block above a block that is being loaded is never dropped, unless the load is thrown
     // away.
     const NodeIndex parent = findNode(tree, load.request.parent);
@@ -143,13 +155,14 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     note(load.request, PagingOutcome::Loaded, &load);
 }
 
-void Planet::State::finishColours(FinishedLoad&& load) {
-    colours.counters.bytesRead += load.bytes;
+void Planet::State::finishTiles(FinishedLoad&& load) {
+    TilePaging& tiles = tilesOf(load.request.kind);
+    tiles.counters.bytesRead += load.bytes;
     const bool loaded = load.block.has_value();
     if (loaded) {
-        colours.finish(load.request.parent, std::get<ColourBlock>(*std::move(load.block)), frame);
+        tiles.finish(load.request.parent, std::get<TileBlock>(*std::move(load.block)), frame);
     } else {
-        colours.fail(load.request.parent, frame);
+        tiles.fail(load.request.parent, frame);
         problems.push_back(std::move(load.block.error().message));
     }
     ++(loaded ? paging.loaded : paging.failed);
@@ -193,7 +206,10 @@ void Planet::State::markUsed(PagingQueue& queue) {
             queue.submit({.parent = parentId, .type = PagingType::PageIn, .renewedFrame = frame});
         }
     };
-    for (const PlanetView& view : views) colours.use(view.colours.touched, frame);
+    for (const PlanetView& view : views) {
+        colours.use(view.colours.touched, frame);
+        normals.use(view.normals.touched, frame);
+    }
     for (const PlanetView& view : views) {
         for (const VisitedNode& visited : view.selection.touched) use(visited.node);
         // What is about to be drawn, once a fade lets it.
@@ -221,8 +237,11 @@ void Planet::State::request(PagingQueue& queue) {
         views, [](const PlanetView& view) -> auto& { return view.selection.requests; });
     const std::vector<MergedRequest> wantedColours = mergeRequests(
         views, [](const PlanetView& view) -> auto& { return view.colours.requests; });
+    const std::vector<MergedRequest> wantedNormals = mergeRequests(
+        views, [](const PlanetView& view) -> auto& { return view.normals.requests; });
     renew(queue, wanted, BlockKind::Heights);
     renew(queue, wantedColours, BlockKind::Colours);
+    renew(queue, wantedNormals, BlockKind::Normals);
     for (const PagingRequest& stale : queue.cancelNotRenewed(PagingType::PageIn, frame)) withdraw(stale);
     paging.budgetWaits = 0;
     for (const MergedRequest& one : wanted) {
@@ -243,7 +262,8 @@ void Planet::State::request(PagingQueue& queue) {
                       .parentHeights = parent.heights,
                       .ticket = nextTicket++});
     }
-    requestColours(queue, wantedColours);
+    requestTiles(queue, colours, wantedColours);
+    requestTiles(queue, normals, wantedNormals);
 }
 
 void Planet::State::renew(PagingQueue& queue, const std::vector<MergedRequest>& pending,
@@ -258,21 +278,22 @@ void Planet::State::renew(PagingQueue& queue, const std::vector<MergedRequest>& 
     }
 }
 
-void Planet::State::requestColours(PagingQueue& queue, const std::vector<MergedRequest>& wantedColours) {
-    if (!colour) return;
+void Planet::State::requestTiles(PagingQueue& queue, TilePaging& tiles,
+                                 const std::vector<MergedRequest>& wantedTiles) {
+    if (!tiles.isOn()) return;
     const std::vector<MergedRequest> splits = mergeRequests(
-        views, [](const PlanetView& view) -> auto& { return view.colours.splits; });
-    const ColourPaging::Note noteOf = [this](const PagingRequest& request, PagingOutcome outcome) {
+        views, [&](const PlanetView& view) -> auto& { return view.tiles(tiles.kind).splits; });
+    const TilePaging::Note noteOf = [this](const PagingRequest& request, PagingOutcome outcome) {
         note(request, outcome);
     };
-    colours.request(queue, wantedColours, splits,
-                    {frame, nowS, nextTicket, noteOf, keepsMoves ? &moves.requested : nullptr});
+    tiles.request(queue, wantedTiles, splits,
+                  {frame, nowS, nextTicket, noteOf, keepsMoves ? &moves.requested : nullptr});
 }
 
 // Undoes what request did for a page-in that no loader has taken.
 void Planet::State::withdraw(const PagingRequest& request) {
-    if (request.kind == BlockKind::Colours) {
-        colours.withdraw(request.parent);
+    if (request.kind != BlockKind::Heights) {
+        tilesOf(request.kind).withdraw(request.parent);
         return note(request, PagingOutcome::Cancelled);
     }
     tree.nodes[findNode(tree, request.parent)].childrenState = ChildrenState::Absent;
@@ -430,21 +451,50 @@ void Planet::State::abandonLoads() {
     promised = 0;
 }
 
-void Planet::State::dropColours(PagingQueue& queue) {
-    if (!colour) return;
-    while (const PagingRequest* pending = queue.worst(PagingType::PageIn, BlockKind::Colours))
+void Planet::State::dropTiles(PagingQueue& queue, TilePaging& tiles) {
+    if (!tiles.isOn()) return;
+    while (const PagingRequest* pending = queue.worst(PagingType::PageIn, tiles.kind))
         note(*queue.cancel(pending->block()), PagingOutcome::Cancelled);
-    oldestColourTicketKept = nextTicket;
-    colours.begin(colours.tileCapacity);
+    tiles.oldestTicketKept = nextTicket;
+    tiles.begin(tiles.tileCapacity);
 }
 
-void Planet::State::resizeColours(std::uint32_t tileCapacity) {
+void Planet::State::resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity) {
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
-        dropColours(queue);
+        dropTiles(queue, tiles);
     });
-    colours.begin(tileCapacity);
+    tiles.begin(tileCapacity);
     afterDrops();
+}
+
+void Planet::State::beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes,
+                                 const std::string& problem) {
+    if (pager) resizeTiles(normals, 0);
+    if (!problem.empty() && problem != normalProblem) problems.push_back(problem);
+    normalProblem = problem;
+    if (!deriver) return;
+    deriver->keepHeights(heightBytes);
+    for (std::size_t face = 0; face < faceCount; ++face)
+        normals.roots[face] = {{static_cast<Face>(face), 0, 0, 0}, {}, {}};
+    if (tileCapacity > 0) deriveNormalRoots();
+    normals.begin(tileCapacity);
+    if (pager) afterDrops();
+}
+
+bool Planet::State::deriveNormalRoots() {
+    bool any = false;
+    for (TileData& root : normals.roots) {
+        if (!root.texels.empty()) continue;
+        Result<TileData> derived = deriver->tile(root.id);
+        if (derived) {
+            root = std::move(*derived);
+            any = true;
+        } else {
+            problems.push_back(std::move(derived.error().message));
+        }
+    }
+    return any;
 }
 
 // The lowest slots, in the order of the tree.
@@ -477,7 +527,8 @@ void Planet::State::dropEverything() {
         }
         abandonLoads();
         evictLeastUsed(queue, 0, noFrame);
-        dropColours(queue);
+        dropTiles(queue, colours);
+        dropTiles(queue, normals);
     });
     for (NodeIndex root = 0; root < faceCount; ++root) {
         ChildrenState& children = tree.nodes[root].childrenState;
@@ -510,7 +561,10 @@ void Planet::State::startAnew() {
     }
     freeSlots = freeSlotsFrom(faceCount, slotCapacity);
     promised = 0;
-    if (colour) colours.begin(colours.tileCapacity);
+    for (TilePaging* tiles : {&colours, &normals}) {
+        if (tiles->isOn()) tiles->begin(tiles->tileCapacity);
+        tiles->oldestTicketKept = nextTicket;
+    }
     watched.clear();
     yielding.clear();
     wanted.clear();
@@ -520,7 +574,6 @@ void Planet::State::startAnew() {
     frame = 0;
     changed = true;
     oldestTicketKept = nextTicket;
-    oldestColourTicketKept = nextTicket;
     moves = {};
 }
 
@@ -579,6 +632,11 @@ void Planet::State::count() {
     paging.merged = counters.merged;
     paging.cancelled = counters.opposed + counters.withdrawn + thrownAway;
     colours.count();
+    normals.count();
+    if (deriver) {
+        const std::uint64_t read = deriver->bytesRead();
+        paging.bytesRead += read - std::exchange(normals.counters.bytesRead, read);
+    }
     paging.residentChunks = tree.residentChunks;
     paging.residentBytesCpu = tree.residentChunks * chunkBytesCpu(tree.shape);
     paging.residentBytesGpu = tree.residentChunks * chunkBytesGpu(tree.shape);

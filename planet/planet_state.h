@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "planet/colour_paging.h"
+#include "planet/normal_tile.h"
 #include "planet/planet.h"
+#include "planet/tile_paging.h"
 
 namespace planet {
 
@@ -25,7 +26,12 @@ using BlockSlots = std::array<std::uint32_t, quadrantCount>;
 struct PlanetView {
     ViewInput input;
     Selection selection;
-    ColourSelection colours;
+    TileSelection colours;
+    TileSelection normals;
+
+    const TileSelection& tiles(BlockKind kind) const {
+        return kind == BlockKind::Colours ? colours : normals;
+    }
 };
 
 struct Planet::State {
@@ -48,7 +54,6 @@ struct Planet::State {
     bool changed = false;               // by something other than a step, since the last step
     std::uint64_t nextTicket = 1;
     std::uint64_t oldestTicketKept = 1;         // loads of older ones are thrown away
-    std::uint64_t oldestColourTicketKept = 1;   // the same of tiles of colour
     std::uint64_t thrownAway = 0;               // their number
     std::uint32_t blocksLoaded = 0;             // for ChunkNode::loadOrder
     Clock::time_point lastStep = Clock::now();  // or when it was opened
@@ -59,7 +64,10 @@ struct Planet::State {
     bool keepsMoves = false;
     PagingMoves moves;
     std::optional<ColourPyramid> colour;
-    ColourPaging colours;  // only where there is a pyramid
+    TilePaging colours;  // only where there is a pyramid
+    TilePaging normals;
+    std::string normalProblem;               // the last that was told
+    std::unique_ptr<NormalDeriver> deriver;  // only where there may be normals; loader threads use it
     std::unique_ptr<Pager> pager;
 
     double clockS();
@@ -76,12 +84,18 @@ struct Planet::State {
     void count();
 
     void finish(FinishedLoad&& load, const UploadChunk& upload);
-    void finishColours(FinishedLoad&& load);
-    void requestColours(PagingQueue& queue, const std::vector<MergedRequest>& wantedColours);
+    TilePaging& tilesOf(BlockKind kind) { return kind == BlockKind::Colours ? colours : normals; }
+    void finishTiles(FinishedLoad&& load);
+    void requestTiles(PagingQueue& queue, TilePaging& tiles, const std::vector<MergedRequest>& wantedTiles);
     void renew(PagingQueue& queue, const std::vector<MergedRequest>& pending, BlockKind kind) const;
     // Their requests too; those being read come to nothing.
-    void resizeColours(std::uint32_t tileCapacity);
-    void dropColours(PagingQueue& queue);
+    void resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity);
+    void dropTiles(PagingQueue& queue, TilePaging& tiles);
+    // Room for so many tiles of normals, 0: none, and for so many bytes of heights to derive them. What was
+    // resident of them is gone. problem: why there are none, to be told once.
+    void beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes, const std::string& problem);
+    // Those of whole faces that are not there yet. True if any is now.
+    bool deriveNormalRoots();
     void fail(NodeIndex parent, const FinishedLoad& load, std::string message);
     void throwAway(const FinishedLoad& load);
     void withdraw(const PagingRequest& request);
@@ -99,8 +113,8 @@ struct Planet::State {
 
     void note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load = nullptr);
     bool isKept(const PagingRequest& request) const {
-        const bool isColours = request.kind == BlockKind::Colours;
-        return request.ticket >= (isColours ? oldestColourTicketKept : oldestTicketKept);
+        if (request.kind == BlockKind::Heights) return request.ticket >= oldestTicketKept;
+        return request.ticket >= (request.kind == BlockKind::Colours ? colours : normals).oldestTicketKept;
     }
     // Of the queue that is locked, before it is changed.
     void noteTaken(const PagingQueue& queue);
@@ -123,8 +137,14 @@ inline double msSince(std::chrono::steady_clock::time_point start) {
 using RequestsOf = std::function<const std::vector<ChildrenRequest>&(const PlanetView&)>;
 std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, const RequestsOf& requestsOf);
 
-// What of a budget is for chunks.
-std::size_t chunkBudgetBytes(const PagingSettings& settings, bool hasColours);
+// What of a budget is for what, bytes.
+struct BudgetShares {
+    std::size_t chunks = 0;
+    std::size_t colours = 0;
+    std::size_t normals = 0;        // their tiles
+    std::size_t normalHeights = 0;  // that are kept to derive them
+};
+BudgetShares sharesOf(const PagingSettings& settings, bool hasColours, bool hasNormals);
 
 // The slots that a budget pays for: the roots' six and then whole sibling blocks, and no more than the planet
 // has chunks. The Error says what the least is: enough that the finest level can be reached in one place,

@@ -14,6 +14,7 @@ in float onSkirt;
 flat in vec3 faceU;
 flat in vec3 faceV;
 flat in vec4 tint;
+flat in float meshLevel;
 
 uniform sampler2DArray colourImage;  // a face a layer: roots of linear light; where water may be
 uniform sampler3D detailNoise;       // a slope and a height, in [-1, 1]
@@ -209,12 +210,19 @@ vec3 throughAir(vec3 light, vec3 ray, vec3 up) {
     return light * exp(-(amount + vec3(haze)) * air) + scattered(air, amount, airLit, dot(ray, sun.xyz));
 }
 
+vec3 groundNormal() {
+    vec3 normal = normalize(surfaceNormal.xyz);
+    if (isOn(switchNormalTiles)) normal = normalFromTiles(normal, meshLevel, facePlace);
+    return normal;
+}
+
 vec3 lightByPixel() {
     vec3 position = surface;
     float nearness = inversesqrt(dot(position, position));
     vec3 ray = position * nearness;
     vec3 up = normalize(eye.xyz + position);
-    vec3 normal = normalize(surfaceNormal.xyz);
+    vec3 bare = groundNormal();
+    vec3 normal = bare;
     Detail detail = noDetail();
     float rough = 0.0;
     float ragged = 0.0;
@@ -232,7 +240,7 @@ vec3 lightByPixel() {
         material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - material.water) * detail.height;
     float glint = 0.0;
     if (isOn(switchLayers)) {
-        Layered layered = layeredGround(position, up, normalize(surfaceNormal.xyz), facePlace.z - heights.w, material.albedo);
+        Layered layered = layeredGround(position, up, bare, facePlace.z - heights.w, material.albedo);
         float amount = layered.amount * (1.0 - material.water);
         material.albedo = mix(material.albedo, layered.albedo, amount);
         vec3 tilt = layered.tilt - normal * dot(layered.tilt, normal);
@@ -264,7 +272,7 @@ vec3 flatSurface() {
     Material material = materialAt(up, facePlace.z - heights.w, 0.0, noDetail(), 0.0);
     vec3 albedo = material.albedo;
     if (isOn(switchLayers)) {
-        Layered layered = layeredGround(surface, up, normalize(surfaceNormal.xyz), facePlace.z - heights.w, albedo);
+        Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - heights.w, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - material.water));
     }
     if (isOn(switchTint)) albedo = mix(albedo, decodeSrgb(tint.rgb), tint.a);
@@ -282,7 +290,7 @@ vec3 litSurface() {
 void main() {
     vec3 colour = isOn(switchLighting) ? litSurface() : flatSurface();
     if (isOn(switchLayerPreview))
-        colour = layerPreview(colour, surface, normalize(eye.xyz + surface), normalize(surfaceNormal.xyz),
+        colour = layerPreview(colour, surface, normalize(eye.xyz + surface), groundNormal(),
                               facePlace.z - heights.w);
     if (isOn(switchWireframe)) {
         vec3 lineColour = isOn(switchTint) ? tint.rgb : vec3(0.92, 0.96, 1.0);

@@ -24,6 +24,7 @@ out float onSkirt;        // 0 on the ground, 1 at the skirt's lower end
 flat out vec3 faceU;      // the face's axes
 flat out vec3 faceV;
 flat out vec4 tint;
+flat out float meshLevel;  // of tiles whose texels are the mesh's vertices
 
 invariant gl_Position;
 
@@ -70,22 +71,6 @@ vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slot
                           : 3 * here - 4 * before + after;
     float steepest = oneSided ? 0.0 : float(max(abs(here - before), abs(after - here)));
     return vec2(0.5 * float(twice), steepest) / float(apart);
-}
-
-// The cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the axes are the
-// chunk's own face's, whichever face reckons the position.
-vec3 normalOnSphere(FaceFrame face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
-    float u = coordinates.x;
-    float v = coordinates.y;
-    vec3 roots = sqrt(vec3(1.0 - 0.5 * (u * u + v * v) + u * u * v * v * (1.0 / 3.0),
-                           0.5 - v * v * (1.0 / 6.0), 0.5 - u * u * (1.0 / 6.0)));
-    float cross6 = -u * v * (1.0 / 6.0);
-    vec3 along = vec3(u * (v * v * (1.0 / 3.0) - 0.5) / roots.x, roots.y, cross6 / roots.z);
-    vec3 across = vec3(v * (u * u * (1.0 / 3.0) - 0.5) / roots.x, cross6 / roots.y, roots.z);
-    mat3 world = mat3(face.normal.xyz, face.u.xyz, face.v.xyz);
-    vec3 du = world * along;
-    vec3 dv = world * across;
-    return radius * cross(du, dv) + heightSlope.x * cross(d, dv) + heightSlope.y * cross(du, d);
 }
 
 void lightGround(vec3 position, vec3 up, float height) {
@@ -308,5 +293,6 @@ void main() {
     faceU = frame.u.xyz;
     faceV = frame.v.xyz;
     tint = chunkTint;
+    meshLevel = float(int(chunk.x >> 3u) + grid.y - 8);
     gl_Position = clipFromWorld * vec4(position, 1.0);
 }

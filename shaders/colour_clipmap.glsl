@@ -69,8 +69,8 @@ vec3 coloursOfClipmap(int level, vec2 place, float face, vec2 dx, vec2 dy) {
 vec3 clipmapColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
-    float level = wantedLevel(dx, dy);
-    if (level <= 0.0) return coloursOfRoot(place, face, dx, dy);
+    float level = levelWanted(dx, dy, colourFilter);
+    if (level <= 0.0) return rootTexel(colourRoots, place, face, dx, dy).rgb;
     level = min(level, finestOfClipmap(clipmapDistance(place, int(face + 0.5))));
     int coarser = int(floor(level));
     vec3 coarse = coloursOfClipmap(coarser, place, face, dx, dy);

@@ -36,6 +36,8 @@ layout(std140) uniform Frame {
     vec4 rampRises[32];  // of each: height of the one before, above the sea level; 1 / metres from there; unused
     ivec4 colouring;     // finest level of streamed colours; unused
     vec4 colourFilter;   // anisotropy of their sampler; levels finer than one texel a pixel; unused
+    ivec4 normalLevels;  // finest level of tiles of normals; unused
+    vec4 normalFilter;   // as of colours; metres that a slope of 1 rises along 1 of u or v; unused
 };
 
 // A program is compiled for the switches it is drawn with, in the constant variant: what is off costs nothing,
@@ -61,6 +63,7 @@ const int switchTiles = 131072;        // the image is streamed in tiles (colour
 const int switchPhysicalAir = 262144;  // the air of air.glsl, not the thin one
 const int switchSeaSurface = 524288;   // the sea is drawn at its level, as water (sea.glsl)
 const int switchShadows = 1048576;     // the ground's on itself (shadows.glsl)
+const int switchNormalTiles = 2097152;   // normals finer than the mesh (normal_tiles.glsl)
 const int switchLayers = 16777216;       // texture layers (layers.glsl)
 const int switchLayerPreview = 33554432;
 const int switchClipmap = 1073741824;    // of streamed tiles: from a clipmap (colour_clipmap.glsl)

@@ -14,3 +14,19 @@ float seaGlint(vec3 normal, vec3 toEye) {
     float core = halo * halo * halo * halo;
     return fresnel * (7.0 * core + 0.7 * halo);
 }
+
+// The cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the axes are the
+// chunk's own face's, whichever face reckons the position.
+vec3 normalOnSphere(FaceFrame face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
+    float u = coordinates.x;
+    float v = coordinates.y;
+    vec3 roots = sqrt(vec3(1.0 - 0.5 * (u * u + v * v) + u * u * v * v * (1.0 / 3.0),
+                           0.5 - v * v * (1.0 / 6.0), 0.5 - u * u * (1.0 / 6.0)));
+    float cross6 = -u * v * (1.0 / 6.0);
+    vec3 along = vec3(u * (v * v * (1.0 / 3.0) - 0.5) / roots.x, roots.y, cross6 / roots.z);
+    vec3 across = vec3(v * (u * u * (1.0 / 3.0) - 0.5) / roots.x, cross6 / roots.y, roots.z);
+    mat3 world = mat3(face.normal.xyz, face.u.xyz, face.v.xyz);
+    vec3 du = world * along;
+    vec3 dv = world * across;
+    return radius * cross(du, dv) + heightSlope.x * cross(d, dv) + heightSlope.y * cross(du, d);
+}

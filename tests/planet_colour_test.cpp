@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "planet/colour_select.h"
+#include "planet/tile_select.h"
 #include "tests/planet_fixture.h"
 
 namespace planet {

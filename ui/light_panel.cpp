@@ -4,6 +4,7 @@
 
 #include "ui/air_knobs.h"
 #include "ui/feature_knob.h"
+#include "ui/normal_knobs.h"
 #include "ui/sun_knobs.h"
 #include "ui/widgets.h"
 
@@ -67,6 +68,7 @@ void lightPanel(const EditorView& view, ViewSettings& settings, Commands&) {
     SurfaceSettings& surface = settings.surface;
     if (section("Sun")) sunKnobs(view, surface);
     if (section("Light")) lightKnobs(surface);
+    if (section("Normals")) normalKnobs(view, settings);
     if (section("Air")) airKnobs(view, surface);
     if (section("Water")) seaKnobs(view, surface.light.sea);
     if (section("Shadows")) shadowKnobs(view, surface.light.shadows);

@@ -18,7 +18,6 @@
 #include "planet/gl/chunk_grid.h"
 #include "planet/gl/colour_clipmap.h"
 #include "planet/gl/colour_image.h"
-#include "planet/gl/colour_pool.h"
 #include "planet/gl/detail_noise.h"
 #include "planet/gl/frame_uniforms.h"
 #include "planet/gl/gl_objects.h"
@@ -32,6 +31,7 @@
 #include "planet/gl/shadow_maps.h"
 #include "planet/gl/shadow_uniforms.h"
 #include "planet/gl/software_renderer.h"
+#include "planet/gl/tile_pool.h"
 
 namespace planet::gl {
 
@@ -41,7 +41,8 @@ constexpr auto chunkVertexFiles = std::to_array<std::string_view>(
     {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
 constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
     {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "sea.glsl", "shadows.glsl",
-     "layers.glsl", "colour_tiles.glsl", "colour_clipmap.glsl", "chunk.frag"});
+     "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl", "colour_clipmap.glsl", "normal_tiles.glsl",
+     "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
@@ -64,9 +65,12 @@ constexpr GLint pagesUnit = 4;
 constexpr GLint rootsUnit = 5;
 constexpr GLint shadowsUnit = 7;
 constexpr GLint layerAlbedoUnit = 8;
+constexpr GLint normalTilesUnit = 13;
+constexpr GLint normalPagesUnit = 14;
+constexpr GLint normalRootsUnit = 15;
 constexpr GLint layerSurfaceUnit = 9;
 constexpr GLint clipmapStackUnit = tilesUnit;  // drawn from in place of the tiles
-constexpr GLint clipmapBaseUnit = 14;
+constexpr GLint clipmapBaseUnit = 6;
 constexpr int checkerSize = 64;  // until pictures are given
 
 // One drawn chunk, as shaders/chunk.vert reads it.
@@ -115,6 +119,9 @@ void connect(const Program& program) {
     glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
     glUniform1i(glGetUniformLocation(program.name(), "clipmapStack"), clipmapStackUnit);
     glUniform1i(glGetUniformLocation(program.name(), "clipmapBase"), clipmapBaseUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "normalTiles"), normalTilesUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "normalPages"), normalPagesUnit);
+    glUniform1i(glGetUniformLocation(program.name(), "normalRoots"), normalRootsUnit);
     glUseProgram(0);
     AirTextures::connect(program.name());
 }
@@ -281,8 +288,10 @@ struct ChunkRenderer::State {
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
-    std::optional<ColourPool> colours;
+    std::optional<TilePool> colours;
     std::optional<ColourClipmap> clipmap;  // of those
+    std::optional<TilePool> normals;
+    double normalQuantumM = 1;
     LayerTextures layers;
     AirTextures air;
     bool airInBackground = false;
@@ -311,6 +320,7 @@ struct ChunkRenderer::State {
     void fillFrame(const View& view, const RenderSettings& settings);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
+    bool drawsNormals(const RenderSettings& settings) const;
     void bindInputs() const;
     void beginDepth() const;
     void endDepth() const;
@@ -397,11 +407,12 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     constexpr int seenByPixel = switchDetail | switchSeaSurface | switchShadows;
     const bool byVertex = (variant & switchLighting) != 0 && (variant & seenByPixel) == 0 &&
-                          (layersSeen & switchLayers) == 0 &&
+                          (layersSeen & switchLayers) == 0 && !drawsNormals(settings) &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
     const bool physicalAir = (variant & switchAir) != 0 && airIsPhysical(settings);
     return variant | layersSeen | (physicalAir ? switchPhysicalAir : 0) |
-           (byVertex ? switchLightByVertex : 0) | slidingSwitches(items, settings.stitched);
+           (byVertex ? switchLightByVertex : 0) | (drawsNormals(settings) ? switchNormalTiles : 0) |
+           slidingSwitches(items, settings.stitched);
 }
 
 bool ChunkRenderer::State::airIsPhysical(const RenderSettings& settings) const {
@@ -463,6 +474,12 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
 
 void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
     uniforms = frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
+    if (normals) {
+        planet::gl::setNormals(config.shape,
+                               {normals->leafLevel(), static_cast<double>(normals->anisotropy()),
+                                settings.light.normals.texelsPerPixel, normalQuantumM},
+                               uniforms);
+    }
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
     const LayersUniforms layerUniforms =
@@ -479,12 +496,17 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
 
 ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
     if (!colours || !settings.streamed) return {.faceSizePx = image.faceSizePx()};
-    return {(colourTileCells << colours->config().leafLevel) + 1,
+    return {(tileCells << colours->leafLevel()) + 1,
             true,
-            colours->config().leafLevel,
+            colours->leafLevel(),
             colours->anisotropy(),
             settings.texelsPerPixel,
             drawsClipmap()};
+}
+
+bool ChunkRenderer::State::drawsNormals(const RenderSettings& settings) const {
+    const bool seen = settings.lighting || isUsed(settings.layers.use, capabilities.software);
+    return normals && seen && isUsed(settings.light.normals.use, capabilities.software);
 }
 
 void ChunkRenderer::State::bindInputs() const {
@@ -514,6 +536,14 @@ void ChunkRenderer::State::bindInputs() const {
         glBindBufferBase(GL_UNIFORM_BUFFER, clipmapBinding, clipmapFrame.name());
         glActiveTexture(GL_TEXTURE0 + clipmapBaseUnit);
         glBindTexture(GL_TEXTURE_2D_ARRAY, clipmap->base());
+    }
+    if (normals) {
+        glActiveTexture(GL_TEXTURE0 + normalTilesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->tiles());
+        glActiveTexture(GL_TEXTURE0 + normalPagesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->pages());
+        glActiveTexture(GL_TEXTURE0 + normalRootsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->roots());
     }
     glActiveTexture(GL_TEXTURE0 + noiseUnit);
     glBindTexture(GL_TEXTURE_3D, noise.name());
@@ -658,7 +688,7 @@ Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& co
         state_->colours.reset();
         return {};
     }
-    return ColourPool::create(*config).map([this](ColourPool pool) {
+    return TilePool::create(*config).map([this](TilePool pool) {
         state_->clipmap.reset();
         state_->colours = std::move(pool);
     });
@@ -695,6 +725,20 @@ Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finest
 
 const ColourClipmapState* ChunkRenderer::colourClipmap() const {
     return state_->clipmap ? &state_->clipmap->state() : nullptr;
+}
+
+Result<void> ChunkRenderer::setNormals(const std::optional<NormalPoolConfig>& config) {
+    if (!config) {
+        state_->normals.reset();
+        return {};
+    }
+    state_->normalQuantumM = config->quantumM;
+    return TilePool::create(*config).map([this](TilePool pool) { state_->normals = std::move(pool); });
+}
+
+void ChunkRenderer::followNormals(std::span<const TileChange> changes) {
+    assert(state_->normals || changes.empty());
+    if (state_->normals) state_->normals->follow(changes);
 }
 
 void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
@@ -818,7 +862,8 @@ GpuMemory ChunkRenderer::gpuMemory() const {
             state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
                 sizeof(SeaUniforms) + (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
-                state_->air.figures().tableBytes + colourTiles + colourClipmap,
+                (state_->normals ? state_->normals->bytes() : 0) + state_->air.figures().tableBytes +
+                colourTiles + colourClipmap,
             colourTiles, colourClipmap, state_->shadows ? state_->shadows->bytes() : 0};
 }
 

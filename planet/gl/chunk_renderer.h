@@ -17,6 +17,7 @@
 #include "planet/gl/layer_drawing.h"
 #include "planet/gl/layer_picture.h"
 #include "planet/gl/light_drawing.h"
+#include "planet/gl/normal_pool_config.h"
 #include "planet/gl/projection.h"
 #include "planet/lod_select.h"
 #include "planet/planet.h"
@@ -146,6 +147,10 @@ public:
     // there is none any more.
     Result<void> moveColourClipmap(const glm::dvec3& eyeM, int finestLevel);
     const ColourClipmapState* colourClipmap() const;  // null where there is none
+    // The same for tiles of normals, which are drawn as LightDrawing::normals says: follow with all of
+    // Planet::takeNormalChanges().
+    Result<void> setNormals(const std::optional<NormalPoolConfig>& config);
+    void followNormals(std::span<const TileChange> changes);
 
     // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096].
     void setLayers(std::span<const LayerPicture> pictures, int size);

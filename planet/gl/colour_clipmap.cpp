@@ -76,8 +76,8 @@ ColourClipmap::ColourClipmap(const ClipmapLayout& layout, float anisotropy)
       framebuffer_(makeFramebuffer()),
       noVertices_(makeVertexArray()) {}
 
-Result<ColourClipmap> ColourClipmap::create(int sizePx, const ColourPool& pool) {
-    ColourClipmap clipmap(clipmapLayout(sizePx, pool.config().leafLevel), pool.anisotropy());
+Result<ColourClipmap> ColourClipmap::create(int sizePx, const TilePool& pool) {
+    ColourClipmap clipmap(clipmapLayout(sizePx, pool.leafLevel()), pool.anisotropy());
     const ClipmapLayout& layout = clipmap.windows_.layout();
     if (const Result<void> made = clipmap.makeBase(); !made) return tl::unexpected(made.error());
     if (const Result<void> made = clipmap.makeStack(layout.movingLevels()); !made)
@@ -121,7 +121,7 @@ void ColourClipmap::follow(std::span<const ColourChange> changes) {
     }
 }
 
-Result<void> ColourClipmap::move(const glm::dvec3& eyeM, int finestLevel, const ColourPool& pool,
+Result<void> ColourClipmap::move(const glm::dvec3& eyeM, int finestLevel, const TilePool& pool,
                                  GLuint fillProgram) {
     const ClipmapCentre centre = clipmapCentre(eyeM);
     std::vector<ClipmapUpdate> updates = windows_.move(centre, finestLevel);
@@ -138,7 +138,7 @@ Result<void> ColourClipmap::move(const glm::dvec3& eyeM, int finestLevel, const 
     return {};
 }
 
-void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const ColourPool& pool,
+void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const TilePool& pool,
                          GLuint program) const {
     const DrawingKept kept;
     const ClipmapLayout& layout = windows_.layout();

@@ -1,4 +1,4 @@
-// A clipmap of colours on the GPU, filled from the tiles of a ColourPool through its page table, so that it
+// A clipmap of colours on the GPU, filled from the tiles of a TilePool through its page table, so that it
 // shows what the tiles show: of what is not resident, what lies above.
 //
 // The base: a layer for each face with the levels that are kept whole, the finest in the corner, the others
@@ -14,7 +14,7 @@
 #include <glm/vec4.hpp>
 
 #include "planet/gl/colour_clipmap_state.h"
-#include "planet/gl/colour_pool.h"
+#include "planet/gl/tile_pool.h"
 #include "planet/gl/gl_objects.h"
 #include "planet/planet.h"
 #include "planet/result.h"
@@ -33,7 +33,7 @@ class ColourClipmap {
 public:
     // Of a pool's colours, in windows of so many pixels, [smallestClipmapPx, largestClipmapPx]. The Error
     // says what the context cannot hold.
-    static Result<ColourClipmap> create(int sizePx, const ColourPool& pool);
+    static Result<ColourClipmap> create(int sizePx, const TilePool& pool);
 
     // What the pool has followed.
     void follow(std::span<const ColourChange> changes);
@@ -42,7 +42,7 @@ public:
     // in; windows of levels finer than the one wanted go. Keeps what is bound for drawing and the viewport;
     // leaves depth test, culling, blending and scissor off. An Error says what the context has no room for:
     // then the windows are no longer to be drawn from.
-    Result<void> move(const glm::dvec3& eyeM, int finestLevel, const ColourPool& pool, GLuint fillProgram);
+    Result<void> move(const glm::dvec3& eyeM, int finestLevel, const TilePool& pool, GLuint fillProgram);
 
     bool isFilled() const { return filled_; }  // false until it is first moved
     GLuint base() const { return base_.name(); }
@@ -54,7 +54,7 @@ private:
     ColourClipmap(const ClipmapLayout& layout, float anisotropy);
     Result<void> makeBase();
     Result<void> makeStack(int layers);
-    void fill(std::span<const ClipmapUpdate> updates, const ColourPool& pool, GLuint program) const;
+    void fill(std::span<const ClipmapUpdate> updates, const TilePool& pool, GLuint program) const;
     void describe(std::vector<ClipmapUpdate> updates);
 
     ClipmapWindows windows_;

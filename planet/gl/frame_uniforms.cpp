@@ -120,6 +120,12 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
 
 }  // namespace
 
+void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUniforms& uniforms) {
+    uniforms.normalLevels = {normals.leafLevel, 0, 0, 0};
+    uniforms.normalFilter = glm::dvec4(normals.anisotropy, std::log2(normals.texelsPerPixel),
+                                       shape.radiusM * shape.quantumM / normals.quantumM, 0);
+}
+
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
                 const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software) {
     const bool withImage =

@@ -37,6 +37,7 @@ enum Switch : int {
     switchPhysicalAir = 262144,
     switchSeaSurface = 524288,
     switchShadows = 1048576,
+    switchNormalTiles = 2097152,
     switchLayers = 16777216,
     switchLayerPreview = 33554432,
     switchClipmap = 1073741824
@@ -59,9 +60,11 @@ struct FrameUniforms {
     std::array<glm::vec4, maxRampStops> rampColours, rampRises;
     glm::ivec4 colouring;
     glm::vec4 colourFilter;
+    glm::ivec4 normalLevels;
+    glm::vec4 normalFilter;
 };
 static_assert(sizeof(FaceUniforms) == 9 * 16 &&
-              sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1 + 1 + 64 + 2) * 16);
+              sizeof(FrameUniforms) == (6 * 9 + 4 + 10 + 9 + 2 + 1 + 1 + 64 + 2 + 2) * 16);
 
 // The colours that lie over the planet: an image, or streamed tiles.
 struct ColoursDrawn {
@@ -74,6 +77,16 @@ struct ColoursDrawn {
 
     bool exist() const { return faceSizePx > 0; }
 };
+
+// Tiles of normals that there are.
+struct NormalsDrawn {
+    int leafLevel = 0;
+    double anisotropy = 1;      // of the sampler, >= 1
+    double texelsPerPixel = 1;  // TileSettings
+    double quantumM = 1;        // of the heights that they are of
+};
+
+void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUniforms& uniforms);
 
 // The switches that follow from the settings and how near the ground is, metres. LightByVertex, Slide
 // and Morph follow from the chunks, and are left off. software: what is Automatic is left off too.

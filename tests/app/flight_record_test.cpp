@@ -68,7 +68,8 @@ protected:
             settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock));
         recorder.givenSettings(planet, settings, paused);
         const std::array<planet::ViewInput, 2> views = {
-            {{viewAt(frame), lodSettingsOf(settings)}, {viewAt(300 - frame), lodSettingsOf(settings), 0.5}}};
+            {{viewAt(frame), lodSettingsOf(settings), 1, {}, normalSettingsOf(settings)},
+             {viewAt(300 - frame), lodSettingsOf(settings), 0.5, {}, normalSettingsOf(settings)}}};
         planet.step(std::span(views).first(observed ? 2 : 1), headless(planet).upload, elapsedS);
         constexpr std::array<double, 2> factors = {1, 0.5};
         recorder.stepped(planet, factors);
@@ -234,6 +235,42 @@ TEST_F(FlightRecordTest, AFlightBySimulatedTimeReplaysExactlyEitherWay) {
     const FlightRecord record = loadFlightRecord(written(recorder)).value();
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+TEST_F(FlightRecordTest, AFlightWithTilesOfNormalsReplaysExactlyEitherWay) {
+    bakeTo("hills.chk", 513);
+    ui::ViewSettings settings = troubled(true);
+    settings.surface.light.normals = {planet::gl::FeatureUse::On, 2};
+    const auto planet = openPlanet(settings);
+    const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, settings, 120))).value();
+    std::size_t ofNormals = 0;
+    for (const FlightFrame& frame : record.frames) {
+        for (const planet::PagingMoves::Arrival& arrival : frame.moves.arrived)
+            ofNormals += arrival.block.kind == planet::BlockKind::Normals;
+    }
+    EXPECT_GT(ofNormals, 5u);
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+TEST_F(FlightRecordTest, WhetherNormalsAreUsedIsAsItWasOnTheMachineThatRecorded) {
+    ui::ViewSettings settings = troubled(true);
+    for (const bool used : {false, true}) {
+        planet::PagingSettings paging = pagingSettingsOf(settings);
+        paging.normals = used;
+        const auto planet = planet::Planet::open(folder_ / "hills.chk", paging).value();
+        Recorder recorder(*planet, "automatic");
+        recorder.givenSettings(*planet, settings, false);
+        planet->step(viewAt(0), lodSettingsOf(settings), headless(*planet).upload);
+        constexpr std::array<double, 1> factors = {1};
+        recorder.stepped(*planet, factors);
+        const FlightReplay replay =
+            FlightReplay::create(
+                std::make_shared<const FlightRecord>(loadFlightRecord(written(recorder)).value()),
+                ReplayPaging::AsRecorded, {})
+                .value();
+        EXPECT_EQ(replay.pagingAtStart().normals, used);
+    }
 }
 
 TEST_F(FlightRecordTest, AnotherSeedReplaysDifferently) {

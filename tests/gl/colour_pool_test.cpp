@@ -1,5 +1,5 @@
 // Streamed tiles of colour on the GPU, held to the colours that they were made of.
-#include "planet/gl/colour_pool.h"
+#include "planet/gl/tile_pool.h"
 
 #include <gmock/gmock.h>
 
@@ -85,7 +85,7 @@ TEST_F(StreamedColours, GiveWayToTheImageWhereTheyAreNotWanted) {
 }
 
 TEST_F(StreamedColours, MoreTilesThanTheContextHoldsAreRefused) {
-    const auto made = ColourPool::create({ColourFormat::Bc1, leaf, mostColourTiles() + 1});
+    const auto made = TilePool::create(ColourPoolConfig{ColourFormat::Bc1, leaf, mostColourTiles() + 1});
     ASSERT_FALSE(made);
     EXPECT_THAT(made.error().message, testing::HasSubstr("GL_MAX_ARRAY_TEXTURE_LAYERS"));
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gl_test.h"
-#include "planet/gl/colour_pool.h"
+#include "planet/gl/tile_pool.h"
 #include "test_planet.h"
 #include "tests/synthetic_colours.h"
 

@@ -1,4 +1,4 @@
-#include "planet/colour_select.h"
+#include "planet/tile_select.h"
 
 #include <algorithm>
 #include <cassert>
@@ -10,9 +10,9 @@ namespace planet {
 namespace {
 
 struct Frame {
-    const ColourTree& colours;
+    const TileTree& tiles;
     const ChunkTree& chunks;
-    const ColourSettings& settings;
+    const TileSettings& settings;
     glm::dvec3 eyeM;
     double scalePx;  // K'
     Culling culling;
@@ -25,13 +25,13 @@ NodeIndex chunkOver(const ChunkTree& chunks, NodeIndex above, const ChunkId& til
     return node.firstChild + static_cast<NodeIndex>(quadrantOf(ancestorOf(tile, node.id.level + 1)));
 }
 
-ChunkBounds boundsOf(const Frame& frame, const ColourNode& tile, const ChunkNode& ground) {
+ChunkBounds boundsOf(const Frame& frame, const TileNode& tile, const ChunkNode& ground) {
     return chunkBounds(tile.directions, frame.chunks.shape.radiusM, static_cast<double>(ground.minHeightM),
                        static_cast<double>(ground.maxHeightM));
 }
 
-void visit(const Frame& frame, NodeIndex index, NodeIndex chunkAbove, OpenTests open, ColourSelection& out) {
-    const ColourNode& tile = frame.colours.nodes[index];
+void visit(const Frame& frame, NodeIndex index, NodeIndex chunkAbove, OpenTests open, TileSelection& out) {
+    const TileNode& tile = frame.tiles.nodes[index];
     ++out.counters.visited;
     out.touched.push_back(index);
     const NodeIndex ground = chunkOver(frame.chunks, chunkAbove, tile.id);
@@ -46,7 +46,7 @@ void visit(const Frame& frame, NodeIndex index, NodeIndex chunkAbove, OpenTests 
         for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, tile.firstChild + q, ground, open, out);
         return;
     }
-    ColourCounters& counters = out.counters;
+    TileCounters& counters = out.counters;
     counters.deepestLevel = std::max<std::uint32_t>(counters.deepestLevel, tile.id.level);
     const auto texels = static_cast<float>(texelsPerPixel);
     counters.fewestTexelsPerPixel =
@@ -59,17 +59,17 @@ void visit(const Frame& frame, NodeIndex index, NodeIndex chunkAbove, OpenTests 
 }  // namespace
 
 double texelM(const PlanetShape& shape, int level) {
-    return 2 * shape.radiusM / (static_cast<double>(colourTileCells) * static_cast<double>(1 << level));
+    return 2 * shape.radiusM / (static_cast<double>(tileCells) * static_cast<double>(1 << level));
 }
 
-void selectColours(const ColourTree& colours, const ChunkTree& chunks, const View& lodView,
-                   const ColourSettings& settings, const LodSettings& lod, ColourSelection& selection) {
+void selectTiles(const TileTree& tiles, const ChunkTree& chunks, const View& lodView,
+                 const TileSettings& settings, const LodSettings& lod, TileSelection& selection) {
     selection.requests.clear();
     selection.splits.clear();
     selection.touched.clear();
     selection.counters = {};
-    if (colours.leafLevel < 0 || !settings.enabled) return;
-    const Frame frame{colours,
+    if (tiles.nodes.empty() || !settings.enabled) return;
+    const Frame frame{tiles,
                       chunks,
                       settings,
                       lodView.eyeM,

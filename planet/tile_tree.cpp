@@ -1,4 +1,4 @@
-#include "planet/colour_tree.h"
+#include "planet/tile_tree.h"
 
 #include <cassert>
 
@@ -6,18 +6,19 @@ namespace planet {
 
 namespace {
 
-ColourNode makeNode(const ColourTileData& tile, NodeIndex parent, std::uint32_t slot) {
-    ColourNode node;
+TileNode makeNode(const TileTree& tree, const TileData& tile, NodeIndex parent, std::uint32_t slot) {
+    const bool hasChildren = tree.isDerived ? tile.id.level < tree.leafLevel : tile.children.exists();
+    TileNode node;
     node.id = tile.id;
     node.directions = chunkDirections(tile.id);
     node.parent = parent;
-    node.childrenState = tile.children.exists() ? ChildrenState::Absent : ChildrenState::None;
+    node.childrenState = hasChildren ? ChildrenState::Absent : ChildrenState::None;
     node.children = tile.children;
     node.slot = slot;
     return node;
 }
 
-NodeIndex takeGroup(ColourTree& tree) {
+NodeIndex takeGroup(TileTree& tree) {
     if (!tree.freeGroups.empty()) {
         const NodeIndex first = tree.freeGroups.back();
         tree.freeGroups.pop_back();
@@ -30,23 +31,24 @@ NodeIndex takeGroup(ColourTree& tree) {
 
 }  // namespace
 
-ColourTree makeColourTree(int leafLevel, const std::array<ColourTileData, faceCount>& roots) {
-    assert(leafLevel >= 0 && leafLevel <= maxColourLevel);
-    ColourTree tree;
+TileTree makeTileTree(int leafLevel, bool isDerived, const std::array<TileData, faceCount>& roots) {
+    assert(leafLevel >= 0 && leafLevel <= maxTileLevel);
+    TileTree tree;
     tree.leafLevel = leafLevel;
-    for (const ColourTileData& root : roots)
-        tree.nodes.push_back(makeNode(root, noNode, static_cast<std::uint32_t>(tree.nodes.size())));
+    tree.isDerived = isDerived;
+    for (const TileData& root : roots)
+        tree.nodes.push_back(makeNode(tree, root, noNode, static_cast<std::uint32_t>(tree.nodes.size())));
     tree.residentTiles = faceCount;
     return tree;
 }
 
-NodeIndex addTiles(ColourTree& tree, NodeIndex parent,
-                   const std::array<ColourTileData, quadrantCount>& children, std::uint32_t firstSlot) {
+NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, quadrantCount>& children,
+                   std::uint32_t firstSlot) {
     assert(tree.nodes[parent].firstChild == noNode);
     const NodeIndex first = takeGroup(tree);
     for (std::uint32_t q = 0; q < quadrantCount; ++q) {
         assert(children[q].id == childOf(tree.nodes[parent].id, static_cast<int>(q)));
-        tree.nodes[first + q] = makeNode(children[q], parent, firstSlot + q);
+        tree.nodes[first + q] = makeNode(tree, children[q], parent, firstSlot + q);
     }
     tree.nodes[parent].firstChild = first;
     tree.nodes[parent].childrenState = ChildrenState::Resident;
@@ -54,7 +56,7 @@ NodeIndex addTiles(ColourTree& tree, NodeIndex parent,
     return first;
 }
 
-void removeTiles(ColourTree& tree, NodeIndex parent) {
+void removeTiles(TileTree& tree, NodeIndex parent) {
     const NodeIndex first = tree.nodes[parent].firstChild;
     assert(tree.nodes[parent].childrenState == ChildrenState::Resident);
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
@@ -68,7 +70,7 @@ void removeTiles(ColourTree& tree, NodeIndex parent) {
     tree.residentTiles -= quadrantCount;
 }
 
-NodeIndex findTile(const ColourTree& tree, const ChunkId& id) {
+NodeIndex findTile(const TileTree& tree, const ChunkId& id) {
     auto index = static_cast<NodeIndex>(id.face);
     for (int level = 1; level <= id.level; ++level) {
         if (tree.nodes[index].childrenState != ChildrenState::Resident) return noNode;

@@ -1,5 +1,6 @@
-// The resident part of the six colour quadtrees: plain data that colour selection reads and paging grows and
-// prunes. What the texels are is the renderer's; a tile is a slot in its pool. One thread at a time.
+// The resident part of the six quadtrees of tiles, of colours or of normals: plain data that selection reads
+// and paging grows and prunes. What the texels are is the renderer's; a tile is a slot in its pool. One
+// thread at a time.
 #pragma once
 
 #include <array>
@@ -9,10 +10,11 @@
 #include "planet/bounds.h"
 #include "planet/chunk_file.h"
 #include "planet/chunk_tree.h"
+#include "planet/tile_layout.h"
 
 namespace planet {
 
-struct ColourNode {
+struct TileNode {
     ChunkId id;
     ChunkDirections directions;
     NodeIndex parent = noNode;
@@ -24,25 +26,29 @@ struct ColourNode {
     std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
 };
 
-struct ColourTree {
-    int leafLevel = -1;                 // -1: the planet has no colours
-    std::vector<ColourNode> nodes;      // the first six are the roots, in face order; then free or in fours
+struct TileTree {
+    int leafLevel = -1;                 // -1: there are no tiles
+    bool isDerived = false;             // tiles are made of heights: children need no place in the file
+    std::vector<TileNode> nodes;        // the first six are the roots, in face order; then free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
     std::size_t residentTiles = 0;
 };
 
-// The tree with its six roots, given in face order; they stay resident and take slots 0 to 5.
-ColourTree makeColourTree(int leafLevel, const std::array<ColourTileData, faceCount>& roots);
+// The tree with its six roots, given in face order; they stay resident and take slots 0 to 5. leafLevel: [0,
+// maxTileLevel].
+TileTree makeTileTree(int leafLevel, bool isDerived, const std::array<TileData, faceCount>& roots);
 
 // Adds the four tiles under one whose children are not resident, in slots from the first on; returns the
 // first. They must be that node's children.
-NodeIndex addTiles(ColourTree& tree, NodeIndex parent,
-                   const std::array<ColourTileData, quadrantCount>& children, std::uint32_t firstSlot);
+NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, quadrantCount>& children,
+                   std::uint32_t firstSlot);
 
 // Removes a node's four resident children, none of which may have resident children of its own.
-void removeTiles(ColourTree& tree, NodeIndex parent);
+void removeTiles(TileTree& tree, NodeIndex parent);
 
 // The node of an id, or noNode if it is not resident.
-NodeIndex findTile(const ColourTree& tree, const ChunkId& id);
+NodeIndex findTile(const TileTree& tree, const ChunkId& id);
+
+using ColourTree = TileTree;
 
 }  // namespace planet

@@ -1,5 +1,5 @@
-// What tiles of colour stay resident, and what makes room: the colours' share of a Planet's paging. Inside
-// the library only.
+// What tiles of colours or of normals stay resident, and what makes room: their share of a Planet's paging.
+// Inside the library only.
 //
 // Slots come in fours, one four for each block of tiles. Each page-in that is queued or being read is
 // promised a four, without saying which: freeBlocks.size() >= promised. A tile that goes is no longer drawn
@@ -9,13 +9,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "planet/colour_select.h"
-#include "planet/colour_tree.h"
 #include "planet/pager.h"
 #include "planet/paging_queue.h"
 #include "planet/planet.h"
+#include "planet/tile_select.h"
+#include "planet/tile_tree.h"
 
 namespace planet {
 
@@ -27,21 +28,27 @@ struct MergedRequest {
     std::array<float, maxViews> viewPriority{};
 };
 
-struct ColourPaging {
-    ColourTree tree;
-    ColourFormat format = ColourFormat::Bc1;
-    std::array<ColourTileData, faceCount> roots;  // kept, so that they can be shown again
-    std::uint32_t tileCapacity = 0;               // slots of the pool of tiles, the roots' six included
-    std::vector<std::uint32_t> freeBlocks;        // first slots of fours
-    std::size_t promised = 0;                     // page-ins that will want slots
-    std::vector<ColourChange> changes;
-    ColourPagingCounters counters;
+struct TilePaging {
+    BlockKind kind = BlockKind::Colours;
+    int leafLevel = -1;  // of the pyramid; -1: the planet has none
+    // Of colours: a block that cannot be read is resident as this. Of normals none: it stays away.
+    std::optional<ColourFormat> checkers;
+    // Kept, so that they can be shown again. One without texels could not be had.
+    std::array<TileData, faceCount> roots;
+    TileTree tree;                          // empty where there is no room for any
+    std::uint32_t tileCapacity = 0;         // slots of the pool of tiles, the roots' six included; 0: off
+    std::vector<std::uint32_t> freeBlocks;  // first slots of fours
+    std::size_t promised = 0;               // page-ins that will want slots
+    std::uint64_t oldestTicketKept = 1;     // loads of older ones are thrown away
+    std::vector<TileChange> changes;
+    TilePagingCounters counters;
     bool roomToCome =
         false;  // in the last step something had to wait for a block to be out of use long enough
 
-    bool hasColours() const { return tree.leafLevel >= 0; }
+    bool isOn() const { return tileCapacity > 0; }
 
-    // Begins with the roots alone, in a pool of so many slots; whatever was resident is gone.
+    // Begins with the roots alone, in a pool of so many slots; whatever was resident is gone. 0: with
+    // nothing.
     void begin(std::uint32_t capacity);
 
     // Marks what views have looked at in a frame.
@@ -64,10 +71,10 @@ struct ColourPaging {
     void withdraw(const ChunkId& parent);
 
     // Makes a block resident that was read.
-    void finish(const ChunkId& parent, ColourBlock&& tiles, std::uint64_t frame);
-    // Makes a checker pattern resident in place of a block that could not be read.
+    void finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame);
+    // A block could not be read: makes a checker pattern resident in its place, or nothing.
     void fail(const ChunkId& parent, std::uint64_t frame);
-    // Drops those patterns, so that their blocks are asked for again.
+    // Drops those patterns, so that such blocks are asked for again.
     void retryFailed();
     void count();
 
@@ -83,6 +90,11 @@ private:
 
 // The tiles that a share of a budget pays for: the roots' six and then whole blocks, no more than there are
 // or than `most`. The Error says what the least is: enough that the finest level can be reached in one place.
-Result<std::uint32_t> tilesFor(const ColourPyramid& colour, std::size_t budgetBytes, std::uint32_t most);
+struct TilePyramid {
+    const char* name = "";  // "tiles of colour"
+    int leafLevel = 0;
+    std::size_t tileBytes = 0;
+};
+Result<std::uint32_t> tilesFor(const TilePyramid& pyramid, std::size_t budgetBytes, std::uint32_t most);
 
 }  // namespace planet

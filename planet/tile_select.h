@@ -1,6 +1,6 @@
-// Chooses which tiles of colour a view wants, independent of which chunks it draws.
+// Chooses which tiles of colours or of normals a view wants, independent of which chunks it draws.
 //
-// A texel of level l is at most s_l = 2 R / (colourTileCells 2^l) metres wide: Nowell's map gives the cube's
+// A texel of level l is at most s_l = 2 R / (tileCells 2^l) metres wide: Nowell's map gives the cube's
 // grid its own spacing at the middle of a face's edges, and stretches it nowhere more (in a face's middle it
 // is 0.71 of that). Seen from D metres it covers s_l K' / D pixels, so a tile is fine enough while
 //
@@ -16,42 +16,47 @@
 #include <vector>
 
 #include "planet/chunk_tree.h"
-#include "planet/colour_tree.h"
 #include "planet/lod_select.h"
+#include "planet/tile_tree.h"
 #include "planet/view.h"
 
 namespace planet {
 
-struct ColourSettings {
-    // On: tiles are asked for, and Planet::takeColourChanges() is to be called. Off: none below the roots.
+struct TileSettings {
+    // On: tiles are asked for, and what Planet::takeColourChanges() or takeNormalChanges() tells is to be
+    // taken. Off: none below the roots.
     bool enabled = false;
     // Larger: sharper, and four times the tiles for twice as many; [0.1, 4].
     double texelsPerPixel = 1;
 
-    bool operator==(const ColourSettings&) const = default;
+    bool operator==(const TileSettings&) const = default;
 };
 
-struct ColourCounters {
+struct TileCounters {
     std::uint32_t visited = 0;       // tiles looked at
     std::uint32_t waiting = 0;       // in view, and too coarse for lack of children
     std::uint32_t deepestLevel = 0;  // of what is in view
     float fewestTexelsPerPixel = 0;  // of what is in view; 0 where nothing is
 };
 
-struct ColourSelection {
-    // Priority: how many times too few texels a pixel the parent has. Highest first; nodes of the colour
-    // tree.
+struct TileSelection {
+    // Priority: how many times too few texels a pixel the parent has. Highest first; nodes of the tree
+    // of tiles.
     std::vector<ChildrenRequest> requests;
     std::vector<ChildrenRequest> splits;  // those whose children are resident and wanted, parents first
     std::vector<NodeIndex> touched;  // all visited, parents first: what is shown, and what stands above it
-    ColourCounters counters;
+    TileCounters counters;
 };
 
 // s_l above.
 double texelM(const PlanetShape& shape, int level);
 
 // Refills the selection, keeping its capacity. Culling as the settings of the chunks have it.
-void selectColours(const ColourTree& colours, const ChunkTree& chunks, const View& lodView,
-                   const ColourSettings& settings, const LodSettings& lod, ColourSelection& selection);
+void selectTiles(const TileTree& tiles, const ChunkTree& chunks, const View& lodView,
+                 const TileSettings& settings, const LodSettings& lod, TileSelection& selection);
+
+using ColourSettings = TileSettings;
+using ColourCounters = TileCounters;
+using ColourSelection = TileSelection;
 
 }  // namespace planet

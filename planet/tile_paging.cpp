@@ -1,4 +1,4 @@
-#include "planet/colour_paging.h"
+#include "planet/tile_paging.h"
 
 #include <fmt/format.h>
 
@@ -19,27 +19,29 @@ constexpr float yieldFactor = 1.5f;
 
 }  // namespace
 
-void ColourPaging::begin(std::uint32_t capacity) {
-    assert(capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0);
+void TilePaging::begin(std::uint32_t capacity) {
+    assert(capacity == 0 || (capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0));
     tileCapacity = capacity;
-    tree = makeColourTree(tree.leafLevel, roots);
+    tree = capacity > 0 ? makeTileTree(leafLevel, !checkers, roots) : TileTree{};
     promised = 0;
     freeBlocks.clear();
     for (std::uint32_t end = capacity; end > faceCount; end -= quadrantCount)
         freeBlocks.push_back(end - quadrantCount);
-    changes.clear();
-    changes.push_back({.beginsAnew = true});
-    for (std::uint32_t face = 0; face < faceCount; ++face)
-        changes.push_back({.firstSlot = face, .arrived = {roots[face]}});
     roomToCome = false;
+    changes.clear();
+    if (capacity == 0) return;
+    changes.push_back({.beginsAnew = true});
+    for (std::uint32_t face = 0; face < faceCount; ++face) {
+        if (!roots[face].texels.empty()) changes.push_back({.firstSlot = face, .arrived = {roots[face]}});
+    }
 }
 
-void ColourPaging::use(const std::vector<NodeIndex>& touched, std::uint64_t frame) {
+void TilePaging::use(const std::vector<NodeIndex>& touched, std::uint64_t frame) {
     for (const NodeIndex index : touched) tree.nodes[index].lastUsedFrame = frame;
 }
 
-void ColourPaging::request(PagingQueue& queue, const std::vector<MergedRequest>& wanted,
-                           const std::vector<MergedRequest>& splits, const Asking& asking) {
+void TilePaging::request(PagingQueue& queue, const std::vector<MergedRequest>& wanted,
+                         const std::vector<MergedRequest>& splits, const Asking& asking) {
     counters.budgetWaits = 0;
     roomToCome = false;
     for (const MergedRequest& one : wanted) {
@@ -48,12 +50,12 @@ void ColourPaging::request(PagingQueue& queue, const std::vector<MergedRequest>&
             ++counters.budgetWaits;
             continue;
         }
-        ColourNode& parent = tree.nodes[one.parent];
+        TileNode& parent = tree.nodes[one.parent];
         parent.childrenState = ChildrenState::Requested;
-        const BlockId block{one.parentId, BlockKind::Colours};
+        const BlockId block{one.parentId, kind};
         if (asking.requested) asking.requested->push_back(block);
         queue.submit({.parent = one.parentId,
-                      .kind = BlockKind::Colours,
+                      .kind = kind,
                       .priority = one.priority,
                       .renewedFrame = asking.frame,
                       .askedAtS = asking.nowS,
@@ -65,11 +67,11 @@ void ColourPaging::request(PagingQueue& queue, const std::vector<MergedRequest>&
 
 // Free slots first, then those of the block that is out of use longest, of one that is in use but wanted far
 // less, and those promised to a page-in that is wanted less.
-bool ColourPaging::promiseRoom(PagingQueue& queue, const MergedRequest& wanted,
-                               const std::vector<MergedRequest>& splits, const Asking& asking) {
+bool TilePaging::promiseRoom(PagingQueue& queue, const MergedRequest& wanted,
+                             const std::vector<MergedRequest>& splits, const Asking& asking) {
     if (freeBlocks.size() <= promised && !evictUnused(asking) &&
         !evictLessWanted(wanted.priority, splits, asking)) {
-        const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Colours);
+        const PagingRequest* least = queue.worst(PagingType::PageIn, kind);
         if (!least || least->priority >= static_cast<double>(wanted.priority)) return false;
         const PagingRequest cancelled = *queue.cancel(least->block());
         withdraw(cancelled.parent);
@@ -79,10 +81,10 @@ bool ColourPaging::promiseRoom(PagingQueue& queue, const MergedRequest& wanted,
     return true;
 }
 
-bool ColourPaging::evictUnused(const Asking& asking) {
+bool TilePaging::evictUnused(const Asking& asking) {
     NodeIndex oldest = noNode;
     const auto age = [&](NodeIndex parent) {
-        const ColourNode& first = tree.nodes[tree.nodes[parent].firstChild];
+        const TileNode& first = tree.nodes[tree.nodes[parent].firstChild];
         return std::pair(first.lastUsedFrame, -static_cast<int>(first.id.level));
     };
     for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
@@ -101,8 +103,8 @@ bool ColourPaging::evictUnused(const Asking& asking) {
 }
 
 // splits: of all views, the most wanted first.
-bool ColourPaging::evictLessWanted(float priority, const std::vector<MergedRequest>& splits,
-                                   const Asking& asking) {
+bool TilePaging::evictLessWanted(float priority, const std::vector<MergedRequest>& splits,
+                                 const Asking& asking) {
     for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
         if (priority <= yieldFactor * split->priority) return false;
         // Another of this step's requests may have had it already.
@@ -114,40 +116,38 @@ bool ColourPaging::evictLessWanted(float priority, const std::vector<MergedReque
 }
 
 // Not while anything below is resident or on its way.
-bool ColourPaging::mayBeEvicted(NodeIndex parent) const {
-    const ColourNode& node = tree.nodes[parent];
+bool TilePaging::mayBeEvicted(NodeIndex parent) const {
+    const TileNode& node = tree.nodes[parent];
     if (node.childrenState != ChildrenState::Resident) return false;
     const auto begin = tree.nodes.begin() + node.firstChild;
-    return std::none_of(begin, begin + quadrantCount, [](const ColourNode& child) {
+    return std::none_of(begin, begin + quadrantCount, [](const TileNode& child) {
         return child.childrenState == ChildrenState::Resident ||
                child.childrenState == ChildrenState::Requested;
     });
 }
 
-void ColourPaging::evict(NodeIndex parent, const Asking& asking) {
-    const PagingRequest request{.parent = tree.nodes[parent].id,
-                                .kind = BlockKind::Colours,
-                                .type = PagingType::PageOut,
-                                .askedAtS = asking.nowS};
+void TilePaging::evict(NodeIndex parent, const Asking& asking) {
+    const PagingRequest request{
+        .parent = tree.nodes[parent].id, .kind = kind, .type = PagingType::PageOut, .askedAtS = asking.nowS};
     remove(parent);
     ++counters.evicted;
     asking.note(request, PagingOutcome::Evicted);
 }
 
-void ColourPaging::remove(NodeIndex parent) {
+void TilePaging::remove(NodeIndex parent) {
     freeBlocks.push_back(tree.nodes[tree.nodes[parent].firstChild].slot);
     changes.push_back({.gone = tree.nodes[parent].id});
     removeTiles(tree, parent);
 }
 
-void ColourPaging::withdraw(const ChunkId& parent) {
+void TilePaging::withdraw(const ChunkId& parent) {
     const NodeIndex node = findTile(tree, parent);
     assert(node != noNode && tree.nodes[node].childrenState == ChildrenState::Requested);
     tree.nodes[node].childrenState = ChildrenState::Absent;
     --promised;
 }
 
-void ColourPaging::finish(const ChunkId& parent, ColourBlock&& tiles, std::uint64_t frame) {
+void TilePaging::finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame) {
     const NodeIndex node = findTile(tree, parent);
     assert(node != noNode && tree.nodes[node].childrenState == ChildrenState::Requested && promised > 0);
     --promised;
@@ -156,44 +156,51 @@ void ColourPaging::finish(const ChunkId& parent, ColourBlock&& tiles, std::uint6
     const NodeIndex first = addTiles(tree, node, tiles, slot);
     // As if used by the frame that asked for it, in case this one no longer does.
     for (NodeIndex q = 0; q < quadrantCount; ++q) tree.nodes[first + q].lastUsedFrame = frame - 1;
-    ColourChange change{.firstSlot = slot};
-    for (ColourTileData& tile : tiles) change.arrived.push_back(std::move(tile));
+    TileChange change{.firstSlot = slot};
+    for (TileData& tile : tiles) change.arrived.push_back(std::move(tile));
     changes.push_back(std::move(change));
     ++counters.loaded;
 }
 
-void ColourPaging::fail(const ChunkId& parent, std::uint64_t frame) {
-    ColourBlock checkers;
+void TilePaging::fail(const ChunkId& parent, std::uint64_t frame) {
+    ++counters.failed;
+    if (!checkers) {
+        withdraw(parent);
+        tree.nodes[findTile(tree, parent)].childrenState = ChildrenState::Failed;
+        return;
+    }
+    TileBlock block;
     for (int q = 0; q < quadrantCount; ++q)
-        checkers[static_cast<std::size_t>(q)] = {childOf(parent, q), {}, checkerTexels(format)};
-    finish(parent, std::move(checkers), frame);
+        block[static_cast<std::size_t>(q)] = {childOf(parent, q), {}, checkerTexels(*checkers)};
+    finish(parent, std::move(block), frame);
     tree.nodes[findTile(tree, parent)].hasFailed = true;
     --counters.loaded;
-    ++counters.failed;
 }
 
-void ColourPaging::retryFailed() {
+void TilePaging::retryFailed() {
     for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        if (tree.nodes[i].hasFailed) remove(i);
+        TileNode& node = tree.nodes[i];
+        if (node.hasFailed) remove(i);
+        if (node.childrenState == ChildrenState::Failed) node.childrenState = ChildrenState::Absent;
     }
 }
 
-void ColourPaging::count() {
+void TilePaging::count() {
     counters.residentTiles = tree.residentTiles;
     counters.tileCapacity = tileCapacity;
 }
 
-Result<std::uint32_t> tilesFor(const ColourPyramid& colour, std::size_t budgetBytes, std::uint32_t most) {
-    const std::size_t bytes = colourTileBytes(colour.format);
+Result<std::uint32_t> tilesFor(const TilePyramid& pyramid, std::size_t budgetBytes, std::uint32_t most) {
+    const std::size_t bytes = pyramid.tileBytes;
     // One path down, with the siblings of each tile beside it and the same once more where it meets others.
-    const std::uint64_t wanted = faceCount + 2 * quadrantCount * static_cast<std::uint64_t>(colour.leafLevel);
-    const std::uint64_t all = colourTileCount(colour.leafLevel);
+    const std::uint64_t wanted =
+        faceCount + 2 * quadrantCount * static_cast<std::uint64_t>(pyramid.leafLevel);
+    const std::uint64_t all = colourTileCount(pyramid.leafLevel);
     const std::uint64_t least = std::min(wanted, all);
     if (budgetBytes / bytes < least || most < least) {
-        return badInput(
-            fmt::format("room for {} tiles of colour is too little for this planet: it needs at least {}, "
-                        "{} bytes",
-                        std::min<std::uint64_t>(budgetBytes / bytes, most), least, least * bytes));
+        return badInput(fmt::format(
+            "room for {} {} is too little for this planet: it needs at least {}, {} bytes",
+            std::min<std::uint64_t>(budgetBytes / bytes, most), pyramid.name, least, least * bytes));
     }
     const std::uint64_t tiles = std::min({std::uint64_t{budgetBytes / bytes}, std::uint64_t{most}, all});
     return static_cast<std::uint32_t>(tiles - (tiles - faceCount) % quadrantCount);

@@ -1,0 +1,55 @@
+// Normals finer than the mesh: slopes from tiles that are as fine as the heights, as far as the screen shows
+// them (planet/normal_tile.h).
+//
+// A tile is taken where it is as fine as the chunk's own mesh or finer; elsewhere the mesh's normal stands. Of
+// one level the two are the same central differences, so going from pixels as wide as the mesh's cells to
+// finer ones the one is mixed into the other as levels are, and nothing shows where they meet.
+
+uniform sampler2DArray normalTiles;   // dh/du and dh/dv over the radius; a slot a layer
+uniform usampler2DArray normalPages;  // a face a layer, a level a mipmap, the finest first: slot, level
+uniform sampler2DArray normalRoots;   // a face a layer, with mipmaps
+
+// xy: slopes times z; z: the share that a tile has in them, 0 where none is fine enough.
+vec3 slopeOfLevel(int level, float meshLevel, vec2 place, float face, vec2 dx, vec2 dy) {
+    uvec2 page = tilePage(normalPages, normalLevels.x, level, place, face);
+    if (page.r == noTile || float(page.g) < meshLevel) return vec3(0.0);
+    return vec3(tileTexel(normalTiles, page, place, dx, dy).rg, 1.0);
+}
+
+vec3 slopeAt(float meshLevel, vec2 place, float face) {
+    vec2 dx = dFdx(place);
+    vec2 dy = dFdy(place);
+    float level = levelWanted(dx, dy, normalFilter);
+    if (level <= 0.0) {
+        bool isThere = meshLevel <= 0.0 && tilePage(normalPages, normalLevels.x, 0, place, face).r != noTile;
+        return isThere ? vec3(rootTexel(normalRoots, place, face, dx, dy).rg, 1.0) : vec3(0.0);
+    }
+    level = min(level, float(normalLevels.x));
+    int coarser = int(floor(level));
+    float finer = level - float(coarser);
+    vec3 slope = (1.0 - finer) * slopeOfLevel(coarser, meshLevel, place, face, dx, dy);
+    if (finer > 0.0) slope += finer * slopeOfLevel(coarser + 1, meshLevel, place, face, dx, dy);
+    return slope;
+}
+
+// Nowell's map.
+vec3 directionOf(FaceFrame face, vec2 c) {
+    vec3 roots = sqrt(vec3(1.0 - 0.5 * dot(c, c) + c.x * c.x * c.y * c.y * (1.0 / 3.0),
+                           0.5 - c.y * c.y * (1.0 / 6.0), 0.5 - c.x * c.x * (1.0 / 6.0)));
+    return roots.x * face.normal.xyz + c.x * roots.y * face.u.xyz + c.y * roots.z * face.v.xyz;
+}
+
+// meshNormal: unit; what there is without tiles. meshLevel: of tiles whose texels are the mesh's vertices.
+// place: [0, 1] along u and v; height, metres; the face.
+vec3 normalFromTiles(vec3 meshNormal, float meshLevel, vec4 place) {
+    vec3 slope = slopeAt(meshLevel, place.xy, place.w);
+    if (slope.z <= 0.0) return meshNormal;
+    FaceFrame face = faces[int(place.w + 0.5)];
+    vec2 coordinates = 2.0 * place.xy - 1.0;
+    vec2 heightSlope = slope.xy / slope.z * (normalFilter.z * heights.z);
+    vec3 normal = isOn(switchCube)
+                      ? face.normal.xyz * planet.w - heightSlope.x * face.u.xyz - heightSlope.y * face.v.xyz
+                      : normalOnSphere(face, coordinates, directionOf(face, coordinates), planet.x + place.z,
+                                       heightSlope);
+    return normalize(mix(meshNormal, normalize(normal), slope.z));
+}

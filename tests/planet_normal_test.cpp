@@ -1,0 +1,287 @@
+// Tiles of normals beside chunks in one planet: what is wanted, what is resident, and what a pool is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "planet/normal_tile.h"
+#include "tests/made_chunks.h"
+#include "tests/planet_fixture.h"
+
+namespace planet {
+namespace {
+
+using test::MadeChunks;
+using testing::HasSubstr;
+
+double hillsM(const glm::dvec3& d) {
+    return 900 * std::sin(3 * d.x + 1) * std::cos(4 * d.y) + 200 * std::sin(31 * d.z + 9 * d.x);
+}
+
+// 1024 cells a face: tiles of levels 0 to 2.
+MadeChunks madeChunks(int faceCellsLog2 = 10) {
+    return {{.radiusM = 1e5,
+             .quantumM = 0.1,
+             .baseHeightM = 0,
+             .faceCellsLog2 = faceCellsLog2,
+             .chunkCellsLog2 = 5},
+            hillsM};
+}
+
+PagingSettings roomForTiles(std::uint32_t tiles) {
+    PagingSettings settings;
+    settings.budgetBytes = std::size_t{128} << 20;
+    settings.normals = true;
+    settings.normalShare = 0.5;
+    settings.maxNormalTiles = tiles;
+    return settings;
+}
+
+ViewInput litFinely(const View& view, double texelsPerPixel = 1) {
+    LodSettings coarse;
+    coarse.tauPx = 200;
+    return {.lodView = view, .lod = coarse, .normals = {.enabled = true, .texelsPerPixel = texelsPerPixel}};
+}
+
+bool settled(Planet& planet, const View& view, double texelsPerPixel = 1) {
+    const ViewInput input = litFinely(view, texelsPerPixel);
+    return planet.settle({&input, 1}, noUpload, timeoutS);
+}
+
+// What a renderer would hold.
+struct TilePool {
+    std::map<std::uint32_t, ChunkId> tiles;  // by slot
+
+    void follow(Planet& planet) {
+        for (const TileChange& change : planet.takeNormalChanges()) {
+            if (change.beginsAnew) tiles.clear();
+            if (change.gone) {
+                std::erase_if(tiles, [&](const auto& slot) {
+                    return slot.second.level == change.gone->level + 1 &&
+                           parentOf(slot.second) == *change.gone;
+                });
+            }
+            for (std::uint32_t i = 0; i < change.arrived.size(); ++i) {
+                EXPECT_FALSE(tiles.contains(change.firstSlot + i)) << toString(change.arrived[i].id);
+                EXPECT_EQ(change.arrived[i].texels.size(), normalTileBytes);
+                tiles[change.firstSlot + i] = change.arrived[i].id;
+            }
+        }
+    }
+};
+
+void expectHolds(const Planet& planet, const TilePool& pool) {
+    const TileTree& tree = planet.normalTree();
+    std::size_t resident = 0;
+    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
+        if (i >= faceCount && tree.nodes[i].parent == noNode) continue;
+        ++resident;
+        const auto held = pool.tiles.find(tree.nodes[i].slot);
+        ASSERT_TRUE(held != pool.tiles.end()) << toString(tree.nodes[i].id);
+        EXPECT_EQ(held->second, tree.nodes[i].id);
+    }
+    EXPECT_EQ(pool.tiles.size(), resident);
+    EXPECT_LE(resident, planet.normalPaging().tileCapacity);
+}
+
+TEST(PlanetNormals, SettleOnAsManyTexelsAsAreWantedWhateverTheChunks) {
+    const MadeChunks made = madeChunks();
+    const auto planet = Planet::open(made.source(), roomForTiles(200)).value();
+    TilePool pool;
+    for (const double wanted : {0.3, 0.6, 1.0}) {
+        ASSERT_TRUE(settled(*planet, viewAt(20, 30, 240'000, -80), wanted));
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        const TileCounters& seen = planet->normalSelection().counters;
+        EXPECT_EQ(seen.waiting, 0u);
+        EXPECT_GE(seen.fewestTexelsPerPixel, wanted);
+        EXPECT_GT(seen.deepestLevel, 0u);
+    }
+    EXPECT_EQ(planet->selection().counters.deepestLevel, 0u);
+    EXPECT_GT(planet->normalPaging().bytesRead, 0u);
+    EXPECT_EQ(planet->paging().bytesRead, planet->normalPaging().bytesRead);
+    const PagingEvent& last = planet->pagingHistory().back();
+    EXPECT_EQ(last.kind, BlockKind::Normals);
+    EXPECT_THAT(toString(BlockId{last.parent, last.kind}), HasSubstr(" (normals)"));
+}
+
+TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
+    const MadeChunks made = madeChunks();
+    PagingSettings settings = roomForTiles(200);
+    settings.budgetBytes = std::size_t{64} << 20;  // less than all chunks and tiles
+    settings.normals = false;
+    const auto planet = Planet::open(made.source(), settings).value();
+    const std::uint32_t allSlots = planet->slotCapacity();
+    TilePool pool;
+    const View view = viewAt(20, 30, 60'000, -80);
+    ASSERT_TRUE(settled(*planet, view));
+    EXPECT_TRUE(planet->normalTree().nodes.empty());
+    EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
+    EXPECT_EQ(planet->normalPaging().bytesRead, 0u);
+    EXPECT_TRUE(planet->takeNormalChanges().empty());
+    EXPECT_EQ(planet->normalLeafLevel(), 2);
+
+    settings.normals = true;
+    ASSERT_TRUE(planet->setPaging(settings).value());
+    EXPECT_LT(planet->slotCapacity(), allSlots);
+    ASSERT_TRUE(settled(*planet, view));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    EXPECT_GT(pool.tiles.size(), 6u);
+
+    settings.normals = false;
+    ASSERT_TRUE(planet->setPaging(settings).value());
+    EXPECT_EQ(planet->slotCapacity(), allSlots);
+    EXPECT_TRUE(planet->normalTree().nodes.empty());
+    EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
+    EXPECT_TRUE(planet->takeNormalChanges().empty());
+}
+
+TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
+    const MadeChunks made = madeChunks();
+    PagingSettings settings = roomForTiles(6 + 4 * 8);
+    settings.time = PagingTime::Simulated;
+    settings.badDisk = {.latencyMs = 20, .seed = 5};
+    const auto planet = Planet::open(made.source(), settings).value();
+    ASSERT_EQ(planet->normalPaging().tileCapacity, 38u);
+    TilePool pool;
+    for (int i = 0; i < 60; ++i) {
+        const ViewInput input = litFinely(viewAt(20 + 0.1 * i, 30 + 1.5 * i, 40'000, -60));
+        planet->step({&input, 1}, noUpload, 1.0 / 30);
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(planet->normalPaging().evicted, 3u);
+    const View still = viewAt(26, 120, 20'000, -60);
+    ASSERT_TRUE(settled(*planet, still, 2));
+    ASSERT_GT(planet->normalPaging().budgetWaits, 0u);
+    const std::uint64_t loaded = planet->normalPaging().loaded;
+    const ViewInput input = litFinely(still, 2);
+    for (int i = 0; i < 60; ++i) planet->step({&input, 1}, noUpload, 1.0 / 30);
+    EXPECT_EQ(planet->normalPaging().loaded, loaded);
+}
+
+TEST(PlanetNormals, ABlockOfHeightsThatCannotBeReadLeavesTheMeshAndSaysSo) {
+    MadeChunks made = madeChunks();
+    made.broken = ChunkId{Face::PosX, 4, 9, 9};
+    const auto planet = Planet::open(made.source(), roomForTiles(300)).value();
+    TilePool pool;
+    const View view = viewAt(10, 10, 30'000, -80);
+    ASSERT_TRUE(settled(*planet, view));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    EXPECT_GT(planet->normalPaging().failed, 0u);
+    const std::vector<std::string> problems = planet->takeProblems();
+    ASSERT_FALSE(problems.empty());
+    EXPECT_THAT(problems.front(), HasSubstr("normals of tile x_pos/"));
+    EXPECT_THAT(problems.front(), HasSubstr("made.chk: the block of chunk x_pos/4/9/9 is damaged"));
+    const std::uint64_t failed = planet->normalPaging().failed;
+    made.broken.reset();
+    planet->retryFailed();
+    ASSERT_TRUE(settled(*planet, view));
+    EXPECT_EQ(planet->normalPaging().failed, failed);
+    EXPECT_EQ(planet->normalSelection().counters.waiting, 0u);
+    EXPECT_TRUE(planet->takeProblems().empty());
+}
+
+TEST(PlanetNormals, AFaceWhoseOwnTileCannotBeDerivedIsWithoutUntilItCan) {
+    MadeChunks made = madeChunks(9);
+    made.broken = ChunkId{Face::NegZ, 0, 0, 0};
+    const auto planet = Planet::open(made.source(), roomForTiles(30)).value();
+    const auto arrivals = [&] {
+        std::set<ChunkId> arrived;
+        for (const TileChange& change : planet->takeNormalChanges())
+            for (const TileData& tile : change.arrived) arrived.insert(tile.id);
+        return arrived;
+    };
+    // Those beside it need its samples too.
+    EXPECT_EQ(arrivals(), (std::set<ChunkId>{{Face::PosZ, 0, 0, 0}}));
+    EXPECT_EQ(planet->takeProblems().size(), 5u);
+    made.broken.reset();
+    planet->retryFailed();
+    EXPECT_EQ(arrivals().size(), 6u);
+    EXPECT_TRUE(planet->takeProblems().empty());
+}
+
+TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
+    const MadeChunks made = madeChunks();
+    PagingSettings tight = roomForTiles(20);
+    const auto planet = Planet::open(made.source(), tight).value();
+    EXPECT_THAT(planet->takeProblems(),
+                testing::ElementsAre(HasSubstr("room for 20 tiles of normals is too little")));
+    EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
+    ASSERT_TRUE(settled(*planet, viewAt(10, 10)));
+    tight.uploadLimitMs = 3;
+    EXPECT_TRUE(planet->setPaging(tight));
+    EXPECT_TRUE(planet->takeProblems().empty());  // told once
+
+    const auto small = Planet::open(fakePyramid().source(), roomForTiles(2000)).value();
+    EXPECT_EQ(small->normalLeafLevel(), fakePyramid().shape.faceCellsLog2 - 8);
+    const MadeChunks tiny = madeChunks(7);
+    const auto without = Planet::open(tiny.source(), roomForTiles(2000)).value();
+    EXPECT_EQ(without->normalLeafLevel(), -1);
+    ASSERT_TRUE(settled(*without, viewAt(10, 10)));
+    EXPECT_TRUE(without->takeNormalChanges().empty());
+
+    PagingSettings wrong = roomForTiles(200);
+    wrong.normalShare = 0.95;
+    const auto refused = Planet::open(made.source(), wrong);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("a share of 0.95 for normals"));
+}
+
+TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {
+    const MadeChunks made = madeChunks();
+    const auto planet = Planet::open(made.source(), roomForTiles(126)).value();
+    TilePool pool;
+    const View view = viewAt(20, 20, 60'000, -70);
+    ASSERT_TRUE(settled(*planet, view));
+    pool.follow(*planet);
+    const auto before = pool.tiles.size();
+    ASSERT_GT(before, 6u);
+    const auto comesAgain = [&] {
+        pool.follow(*planet);
+        EXPECT_EQ(pool.tiles.size(), 6u);
+        ASSERT_TRUE(settled(*planet, view));
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        EXPECT_EQ(pool.tiles.size(), before);
+    };
+    planet->dropAll();
+    comesAgain();
+    planet->beginNormalsAnew();
+    comesAgain();
+    planet->startAnew();
+    comesAgain();
+}
+
+TEST(PlanetNormals, ARecordingOfThemIsFollowedExactly) {
+    const MadeChunks made = madeChunks();
+    PagingSettings settings = roomForTiles(6 + 4 * 6);
+    settings.time = PagingTime::Simulated;
+    settings.badDisk = {.latencyMs = 30, .failureRate = 0.1, .shuffledOrder = true, .seed = 9};
+    const auto planet = Planet::open(made.source(), settings).value();
+    settings.time = PagingTime::Recorded;
+    const auto other = Planet::open(made.source(), settings).value();
+    planet->keepMoves(true);
+    other->keepMoves(true);
+    std::size_t ofNormals = 0;
+    for (int i = 0; i < 60; ++i) {
+        const ViewInput input = litFinely(viewAt(20, 30 + 2 * i, 60'000, -60));
+        planet->step({&input, 1}, noUpload, 1.0 / 30);
+        const PagingMoves moves = planet->takeMoves();
+        ASSERT_TRUE(other->follow(moves)) << i;
+        other->step({&input, 1}, noUpload, 1.0 / 30);
+        const PagingMoves again = other->takeMoves();
+        ASSERT_EQ(again.requested, moves.requested) << i;
+        ASSERT_EQ(again.arrived, moves.arrived) << i;
+        for (const PagingMoves::Arrival& arrival : moves.arrived)
+            ofNormals += arrival.block.kind == BlockKind::Normals;
+    }
+    EXPECT_GT(ofNormals, 5u);
+}
+
+}  // namespace
+}  // namespace planet
