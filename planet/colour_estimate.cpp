@@ -108,9 +108,10 @@ Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourB
     estimate.tiles = colourTileCount(*leafLevel);
     estimate.fileBytes = all.bytes;
     estimate.seconds = leaf->readS + all.seconds / threads;
-    const std::uint64_t tileTexels = std::uint64_t{colourTileTexels} * colourTileTexels;
+    const std::uint64_t texelsOfTile = std::uint64_t{colourTileTexels} * colourTileTexels;
     const std::uint64_t finestBlocks = (std::uint64_t{faceCount} << (2 * *leafLevel)) / quadrantCount + 1;
-    estimate.bakeBytes = cacheBytes + static_cast<std::uint64_t>(threads) * tileTexels * bytesPerTexelAtWork +
+    estimate.bakeBytes = cacheBytes +
+                         static_cast<std::uint64_t>(threads) * texelsOfTile * bytesPerTexelAtWork +
                          finestBlocks * sizeof(BlockLocation);
     estimate.residentBytes = estimate.tiles * colourTileBytes(settings.format);
     return estimate;

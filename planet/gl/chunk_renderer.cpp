@@ -97,12 +97,11 @@ struct Programs {
 };
 
 void connect(const Program& program) {
-    constexpr auto blocks =
-        std::to_array<std::pair<const char*, GLuint>>({{"Frame", frameBinding},
-                                                       {"Layers", layersBinding},
-                                                       {"Clipmap", clipmapBinding},
-                                                       {"Sea", seaBinding},
-                                                       {"Shadows", shadowsBinding}});
+    constexpr auto blocks = std::to_array<std::pair<const char*, GLuint>>({{"Frame", frameBinding},
+                                                                           {"Layers", layersBinding},
+                                                                           {"Clipmap", clipmapBinding},
+                                                                           {"Sea", seaBinding},
+                                                                           {"Shadows", shadowsBinding}});
     for (const auto& [name, binding] : blocks) {
         const GLuint block = glGetUniformBlockIndex(program.name(), name);
         if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
@@ -864,7 +863,9 @@ GpuMemory ChunkRenderer::gpuMemory() const {
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
                 (state_->normals ? state_->normals->bytes() : 0) + state_->air.figures().tableBytes +
                 colourTiles + colourClipmap,
-            colourTiles, colourClipmap, state_->shadows ? state_->shadows->bytes() : 0};
+            colourTiles,
+            colourClipmap,
+            state_->shadows ? state_->shadows->bytes() : 0};
 }
 
 }  // namespace planet::gl

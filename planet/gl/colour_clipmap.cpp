@@ -138,8 +138,7 @@ Result<void> ColourClipmap::move(const glm::dvec3& eyeM, int finestLevel, const 
     return {};
 }
 
-void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const TilePool& pool,
-                         GLuint program) const {
+void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const TilePool& pool, GLuint program) const {
     const DrawingKept kept;
     const ClipmapLayout& layout = windows_.layout();
     for (const GLenum test : std::to_array<GLenum>({GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST}))

@@ -14,8 +14,8 @@
 #include <glm/vec4.hpp>
 
 #include "planet/gl/colour_clipmap_state.h"
-#include "planet/gl/tile_pool.h"
 #include "planet/gl/gl_objects.h"
+#include "planet/gl/tile_pool.h"
 #include "planet/planet.h"
 #include "planet/result.h"
 

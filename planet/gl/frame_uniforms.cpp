@@ -143,8 +143,8 @@ int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings
     return (settings.lighting ? switchLighting : 0) | (seaSurface ? switchSeaSurface : 0) |
            (settings.wireframe ? switchWireframe : 0) | (settings.cube ? switchCube : 0) |
            (withImage ? switchImage : 0) | (tiles ? switchTiles : 0) |
-           (tiles && colours.fromClipmap ? switchClipmap : 0) |
-           (settings.sea ? switchSea : 0) | (air ? switchAir : 0) | (tinted ? switchTint : 0) |
+           (tiles && colours.fromClipmap ? switchClipmap : 0) | (settings.sea ? switchSea : 0) |
+           (air ? switchAir : 0) | (tinted ? switchTint : 0) |
            (rampSeen && !settings.ramp.empty() ? switchRamp : 0) |
            (withImage && rampSeen ? switchImageOverRamp : 0) | (settings.outlines ? switchOutlines : 0) |
            (settings.skirtPaint != SkirtPaint::AsGround ? switchLoudSkirts : 0) |
