@@ -168,7 +168,7 @@ BenchRows benchFormat(const planet::ColourSource& colours, ColourFormat format, 
     const auto count = static_cast<double>(tiles);
     rows.push_back(once(name, "file", fileBytes / count));
     rows.push_back(once(name, "GPU memory", static_cast<double>(pool->bytes) / count));
-    rows.push_back(once(name, "CPU memory", sizeof(planet::ColourNode)));
+    rows.push_back(once(name, "CPU memory", sizeof(planet::TileNode)));
     return rows;
 }
 

@@ -136,12 +136,6 @@ void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const Clipmap
                         planet::Lines& lines) {
     const planet::gl::ColourClipmapState* state = renderer.colourClipmap();
     if (!state) return;
-    for (const planet::gl::ColourClipmapState::Window& window : state->windows) {
-        const glm::vec3 colour = ui::levelColour(window.level);
-        const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
-        appendOutline({tree, renderView, window.face, window.level, lines}, window.texels,
-                      {byte(colour.x), byte(colour.y), byte(colour.z), 255});
-    }
     for (const ClipmapTrace::Filled& filled : trace.filled) {
         const double ageS = nowS - filled.atS;
         if (ageS > shownS) continue;
@@ -149,6 +143,13 @@ void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const Clipmap
         const GroundLines ground{tree, renderView, filled.update.face, filled.update.level, lines};
         appendOutline(ground, filled.update.texels, colour);
         appendBars(ground, filled.update.texels, colour);
+    }
+    // Over those that were filled as a whole.
+    for (const planet::gl::ColourClipmapState::Window& window : state->windows) {
+        const glm::vec3 colour = ui::levelColour(window.level);
+        const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
+        appendOutline({tree, renderView, window.face, window.level, lines}, window.texels,
+                      {byte(colour.x), byte(colour.y), byte(colour.z), 255});
     }
 }
 

@@ -262,7 +262,7 @@ std::size_t countFailed(const planet::Planet& planet) {
     planet::forEachNode(planet.tree(), [&](planet::NodeIndex, const planet::ChunkNode& node) {
         if (node.childrenState == planet::ChildrenState::Failed) ++failed;
     });
-    for (const planet::ColourNode& node : planet.colourTree().nodes) failed += node.hasFailed ? 1 : 0;
+    for (const planet::TileNode& node : planet.colourTree().nodes) failed += node.hasFailed ? 1 : 0;
     return failed;
 }
 

@@ -341,9 +341,9 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       instances(makeBuffer()),
       frame(makeBuffer()),
       layersFrame(makeBuffer()),
+      clipmapFrame(makeBuffer()),
       seaFrame(makeBuffer()),
       shadowsFrame(makeBuffer()),
-      clipmapFrame(makeBuffer()),
       layers({}, checkerSize) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);

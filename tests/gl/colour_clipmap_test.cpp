@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
+#include <glm/common.hpp>
 #include <random>
 #include <utility>
 
@@ -204,6 +205,48 @@ TEST_F(ClippedColours, AreTheSourcesBeyondTheWindowsToo) {
                 << latitude << " " << longitude << " " << altitudeM << " from afar";
         }
     }
+}
+
+// Each level in a colour of its own, asked for finer than there is: what is seen is how far the windows reach
+// and how they fade.
+TEST_F(ClippedColours, AreOfTheLevelsThatTheWindowsReach) {
+    useFormat(ColourFormat::Lossless);
+    const std::array<glm::ivec3, 3> ofLevel = {{{200, 40, 40}, {40, 180, 40}, {60, 60, 190}}};
+    addAll([&](const ChunkId& id) { return plainTile(id, ofLevel[id.level]); });
+    useClipmap(256);
+    settings_.texelsPerPixel = 64;
+    const auto linear = [&](int level, int channel) {
+        return std::pow((ofLevel[static_cast<std::size_t>(level)][channel] / 255.0 + 0.055) / 1.055, 2.4);
+    };
+    std::array<int, 3> seen{};
+    for (const auto& place : places) {
+        const View view = smallView(place, 3e6);
+        moveTo(view);
+        const Picture picture = drawn(view);
+        const ClipmapCentre centre = clipmapCentre(view.eyeM);
+        double sum = 0;
+        int pixels = 0;
+        for (int row = 0; row < view.heightPx; ++row) {
+            for (int column = 0; column < view.widthPx; ++column) {
+                const std::optional<glm::dvec3> ground = groundAt(view, column, row);
+                if (!ground) continue;
+                const FacePoint point = facePointFromDirection(*ground);
+                const double finest = clipmapFinest(
+                    state().layout,
+                    clipmapDistance(centre, point.face, {(point.u + 1) / 2, (point.v + 1) / 2}));
+                const int coarser = std::min(static_cast<int>(finest), 1);
+                ++seen[static_cast<std::size_t>(std::lround(finest))];
+                for (int channel = 0; channel < 3; ++channel) {
+                    const double mixed =
+                        glm::mix(linear(coarser, channel), linear(coarser + 1, channel), finest - coarser);
+                    sum += std::abs(picture.at(column, row)[channel] - srgb(1.2 * mixed));
+                    ++pixels;
+                }
+            }
+        }
+        EXPECT_LT(sum / pixels, 1.5) << place.first << " " << place.second;
+    }
+    for (const int pixels : seen) EXPECT_GT(pixels, 1000);
 }
 
 TEST_F(ClippedColours, AreBlurredAwayFromTheViewerAndSharpUnderHim) {
