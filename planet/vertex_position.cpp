@@ -57,7 +57,7 @@ VertexFrame vertexFrame(const PlanetShape& shape, const glm::dvec3& eyeM) {
 }
 
 // Twice the grid's coordinates from a face's middle are those of the cube of twice the grid's side, exactly.
-FaceGridPoint onOwningFace(const FaceGridPoint& point) {
+FineGridPoint onOwningFace(const FineGridPoint& point) {
     constexpr std::int32_t side = 1 << fineGridLog2;
     const std::int32_t alongU = 2 * point.gridU - side;
     const std::int32_t alongV = 2 * point.gridV - side;

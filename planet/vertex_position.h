@@ -45,17 +45,17 @@ struct VertexFrame {
 
 VertexFrame vertexFrame(const PlanetShape& shape, const glm::dvec3& eyeM);
 
-struct FaceGridPoint {
+struct FineGridPoint {
     Face face = Face::PosX;
     std::int32_t gridU = 0;
     std::int32_t gridV = 0;
 
-    bool operator==(const FaceGridPoint&) const = default;
+    bool operator==(const FineGridPoint&) const = default;
 };
 
 // On an edge or a corner of the cube the same point on the face of the lowest index that has it; elsewhere
 // the point itself.
-FaceGridPoint onOwningFace(const FaceGridPoint& point);
+FineGridPoint onOwningFace(const FineGridPoint& point);
 
 // Metres from the eye, world axes. The skirt drop is towards the planet's centre.
 glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face face, std::int32_t gridU, std::int32_t gridV,

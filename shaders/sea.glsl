@@ -60,16 +60,6 @@ vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
     return sunlight * (lit * fresnel * density / (4.0 * seenCosine * across2 * across2));
 }
 
-// The sky's light from a direction above the water, where the sky's light on the ground is as given: paler and
-// brighter towards the horizon, and there redder the lower the sun.
-vec3 mirroredSky(vec3 direction, vec3 up, vec3 skylight) {
-    if (!isOn(switchAir)) return vec3(0.0);
-    float rise = max(dot(direction, up), 0.0);
-    float low = exp(-5.0 * rise);
-    vec3 pale = mix(skylight, vec3(dot(skylight, vec3(0.3, 0.5, 0.2))) * vec3(1.05, 1.0, 0.95), 0.6);
-    return mix(0.75 * skylight, 1.9 * pale, low);
-}
-
 // Light that comes back out of water so deep, metres: from the bed as far as it is not taken away on both ways,
 // and scattered by the water itself.
 vec3 fromWater(float depth, vec3 downwelling) {
@@ -93,6 +83,6 @@ vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 sunlight, vec
     direction = normalize(direction + up * (max(-dot(direction, up), 0.0) + 0.5 * sqrt(waves.variance)));
     vec3 downwelling = sunlight * max(dot(up, sun.xyz), 0.0) + skylight;
     vec3 below = fromWater(max(-height, 0.0) * water.w, downwelling);
-    return mix(below, mirroredSky(direction, up, skylight), mirrored) +
+    return mix(below, skyRadianceAlong(direction, up), mirrored) +
            sunGlitter(normal, toEye, sunlight, waves.variance);
 }

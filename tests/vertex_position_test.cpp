@@ -131,7 +131,7 @@ TEST_F(VertexPosition, FacesMakeTheSameOfTheVerticesTheyShare) {
                                        {0, side - along}}) {
                 const glm::dvec3 cube = cubePoint(face, u * 2.0 / side - 1, v * 2.0 / side - 1);
                 byPlace[{cube.x, cube.y, cube.z}].push_back(vertexFromEyeM(frame, face, u, v, 77));
-                const FaceGridPoint owner = onOwningFace({face, u, v});
+                const FineGridPoint owner = onOwningFace({face, u, v});
                 EXPECT_EQ(cubePoint(owner.face, owner.gridU * 2.0 / side - 1, owner.gridV * 2.0 / side - 1),
                           cube);
                 EXPECT_EQ(owner.face, facePointFromCube(cube).face);
@@ -143,7 +143,7 @@ TEST_F(VertexPosition, FacesMakeTheSameOfTheVerticesTheyShare) {
         EXPECT_GE(positions.size(), 2u);
         for (const glm::vec3& position : positions) EXPECT_EQ(position, positions.front());
     }
-    const FaceGridPoint inside{Face::NegZ, 1, side - 1};
+    const FineGridPoint inside{Face::NegZ, 1, side - 1};
     EXPECT_EQ(onOwningFace(inside), inside);
 }
 

@@ -23,7 +23,7 @@ struct AirDrawing {
 // Not used: flat colours by depth.
 struct SeaDrawing {
     FeatureUse use = FeatureUse::Automatic;
-    double windMps = 6;    // rougher waves spread the sun's glint; [0, 30]
+    double windMps = 4;    // rougher waves spread the sun's glint; [0, 30]
     double clarityM = 12;  // depth that takes away all but 1 / e of green light, metres; [0.5, 100]
     double waves = 1;      // strength of the waves that are seen one by one; [0, 2]
 
