@@ -141,6 +141,9 @@ struct CommandHandler {
     void operator()(const ui::LoadLayerSet& command) const;
     void operator()(const ui::SaveLayerSet& command) const;
     void operator()(const ui::ReloadLayerTextures&) const { forgetLayerPictures(shownScene(session)); }
+    void operator()(const ui::TryCostlyParts&) const {
+        if (Scene* scene = shownScene(session)) scene->turnedDown = {.fastAtS = editor.timeS};
+    }
     void operator()(const ui::MeasureCosts&) const {
         const Scene* scene = shownScene(session);
         if (!scene) return;

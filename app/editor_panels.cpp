@@ -111,6 +111,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.layers = layersViewOf(editor.layers, scene, editor.settings.view.surface.layers);
     view.light.costs = editor.costs.costs;
     view.light.measured = editor.costs.meter ? editor.costs.meter->share() : 1;
+    if (scene) view.light.turnedDown = scene->turnedDown;
     view.light.software = scene && scene->renderer.capabilities().software;
     if (scene) view.light.air = scene->renderer.airFigures();
     view.undoName = editor.undo.undoName();

@@ -242,6 +242,17 @@ void probe(const Scene& scene, Editor& editor) {
     if (editor.focus.selected) editor.probe.selected = probeWorst(input, *editor.focus.selected);
 }
 
+// While nothing else is drawn for measuring.
+void watchCosts(Scene& scene, const Editor& editor, Log& log) {
+    if (scene.renderer.capabilities().software || editor.costs.meter) return;
+    const planet::gl::RenderCounters& drawn = scene.drawn;
+    const double gpuMs = drawn.chunksMs + drawn.skyMs + drawn.shadowsMs;
+    if (ui::watchPicture(scene.turnedDown, editor.settings.view.surface, gpuMs, editor.timeS))
+        log->info(
+            "A picture took {:.0f} ms of the GPU; part of it is turned down. The Light panel says which.",
+            gpuMs);
+}
+
 // A little in each frame, so that the window goes on.
 void measureCosts(Scene& scene, CostInstrument& instrument) {
     if (!instrument.meter || instrument.meter->step(scene)) return;
@@ -311,6 +322,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     pick(editor.viewport.main, scene, 0, commands);
     pick(editor.viewport.observer, scene, observerSelection(scene, editor), commands);
     ui::FrameStats stats = statsOf(scene);
+    watchCosts(scene, editor, log);
     stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
     stats.targetBytes = gpuBytes(editor.viewport) + gpuBytes(editor.compare);
     return stats;

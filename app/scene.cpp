@@ -146,6 +146,11 @@ void followClipmap(Scene& scene, const ui::ViewSettings& settings) {
                 scene.planet->lodView().eyeM, finestLevel, scene.planet->seconds(), scene.clipmap);
 }
 
+ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
+    ui::turnDown(scene.turnedDown, settings.surface);
+    return settings;
+}
+
 planet::ViewInput viewInputOf(const planet::View& view, const ui::ViewSettings& settings,
                               double priorityFactor = 1) {
     return {view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
@@ -263,8 +268,9 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     return render;
 }
 
-planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& settings, bool pagingPaused,
+planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& asked, bool pagingPaused,
                                        std::optional<planet::PagingTime> time) {
+    const ui::ViewSettings settings = afforded(scene, asked);
     if (scene.exaggeration != settings.surface.exaggeration) {
         scene.exaggeration = settings.surface.exaggeration;
         scene.planet->setExaggeration(settings.surface.exaggeration);
@@ -290,14 +296,16 @@ void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet
 
 }  // namespace
 
-void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
+void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked,
                std::optional<double> elapsedS) {
+    const ui::ViewSettings settings = afforded(scene, asked);
     const planet::ViewInput only = viewInputOf(lodView, settings);
     step(scene, settings, std::span(&only, 1), elapsedS);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
-               const ui::ViewSettings& settings, std::optional<double> elapsedS) {
+               const ui::ViewSettings& asked, std::optional<double> elapsedS) {
+    const ui::ViewSettings settings = afforded(scene, asked);
     const std::array<planet::ViewInput, 2> views = {
         viewInputOf(lodView, settings), viewInputOf(observerView, settings, observerPriorityFactor)};
     step(scene, settings, views, elapsedS);
@@ -309,9 +317,10 @@ void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSetti
               settings.seams.mode == planet::SeamMode::Stitched, tints);
 }
 
-void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& asked,
                std::span<const planet::DrawItem> items, bool stitched,
                std::span<const planet::gl::ChunkTint> tints) {
+    const ui::ViewSettings settings = afforded(scene, asked);
     const Stopwatch watch;
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
@@ -334,8 +343,8 @@ std::vector<std::string> takeLayerProblems(Scene& scene) {
     return std::exchange(scene.layers.untold, {});
 }
 
-bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
-                 double timeoutS) {
+bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked, double timeoutS) {
+    const ui::ViewSettings settings = afforded(scene, asked);
     beginFrame(scene, settings);
     const planet::ViewInput only = viewInputOf(lodView, settings);
     return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);

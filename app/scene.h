@@ -14,6 +14,7 @@
 #include "planet/debug_shapes.h"
 #include "planet/gl/chunk_renderer.h"
 #include "planet/planet.h"
+#include "ui/costly_parts.h"
 #include "ui/frame_stats.h"
 #include "ui/view_settings.h"
 
@@ -37,6 +38,7 @@ struct Scene {
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
     LayerPictures layers{};               // read when they are first drawn
+    ui::TurnedDown turnedDown{};          // of what is Automatic; by the window's own measuring
     std::optional<double> seaSurfaceM{};  // above the radius, where it is drawn as water
 };
 

@@ -48,13 +48,13 @@ void figures(const EditorView& view) {
 
 }  // namespace
 
-void airKnobs(const EditorView& view, SurfaceSettings& surface) {
+void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {
     const SurfaceSettings defaults;
     planet::gl::AirDrawing& air = surface.light.air;
     checkbox("Atmosphere", surface.atmosphere, defaults.atmosphere,
              "Haze and sky. Off: none, as on the Moon.");
     ImGui::BeginDisabled(!surface.atmosphere);
-    featureKnob("Physical air", air.use, view,
+    featureKnob("Physical air", CostlyPart::Air, view, surface, commands,
                 "Light is scattered and swallowed by molecules, haze and ozone as in the Earth's air, also "
                 "more than once. Off: a thin air in closed form, which costs next to nothing and leaves the "
                 "ground more contrast. Automatic: on, but off where the CPU draws.",

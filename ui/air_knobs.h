@@ -6,6 +6,6 @@
 namespace ui {
 
 // A section's inside.
-void airKnobs(const EditorView& view, SurfaceSettings& surface);
+void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands);
 
 }  // namespace ui

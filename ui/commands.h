@@ -142,6 +142,7 @@ struct SaveLayerSet {  // as one of the user's own
     std::string name;
 };
 struct ReloadLayerTextures {};
+struct TryCostlyParts {};  // those that were turned down
 
 // Instruments.
 struct MeasureCracks {};       // of the view as it is
@@ -226,7 +227,7 @@ using Command =
                  DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep,
                  CancelSweep, SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare,
                  MeasureCompare, CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet,
-                 ReloadLayerTextures, PreviewSource, AskForColourImage, ChooseColourImage>;
+                 ReloadLayerTextures, PreviewSource, AskForColourImage, ChooseColourImage, TryCostlyParts>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

@@ -1,14 +1,14 @@
 // The knob of a part of the picture that costs time.
 #pragma once
 
-#include "planet/gl/feature_use.h"
+#include "ui/costly_parts.h"
 #include "ui/editor_view.h"
 
 namespace ui {
 
 // Automatic, on or off; below it, when Automatic has turned it down, why. costs: "layers cost", as the
 // beginning of that sentence.
-void featureKnob(const char* label, planet::gl::FeatureUse& use, const EditorView& view,
-                 const char* explanation, const char* costs);
+void featureKnob(const char* label, CostlyPart part, const EditorView& view, SurfaceSettings& surface,
+                 Commands& commands, const char* explanation, const char* costs);
 
 }  // namespace ui

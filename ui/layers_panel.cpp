@@ -22,9 +22,11 @@ using planet::gl::LayerPreview;
 
 constexpr const char* dragKind = "texture layer";
 
-void useKnobs(const EditorView& view, LayerSettings& layers) {
+void useKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {
+    LayerSettings& layers = surface.layers;
     const LayerSettings defaults;
-    featureKnob("Layers", layers.use, view, "Materials painted on near ground.", "layers cost");
+    featureKnob("Layers", CostlyPart::Layers, view, surface, commands, "Materials painted on near ground.",
+                "layers cost");
     slider("Opacity", layers.opacity, defaults.opacity, 0, 1, "%.2f",
            "Of all layers over the image or the ramp, 0 to 1.");
     slider(
@@ -252,12 +254,13 @@ void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettin
 
 }  // namespace
 
-void layersSections(const EditorView& view, LayersPanelState& state, LayerSettings& layers,
+void layersSections(const EditorView& view, LayersPanelState& state, SurfaceSettings& surface,
                     Commands& commands) {
+    LayerSettings& layers = surface.layers;
     LayerList& list = layers.set.layers;
     ImGui::PushID("layers");
     if (section("Texture layers")) {
-        useKnobs(view, layers);
+        useKnobs(view, surface, commands);
         layerList(view, state, layers);
         state.chosen = std::min(state.chosen, list.empty() ? 0 : list.size() - 1);
         listButtons(state, list);

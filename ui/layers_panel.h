@@ -16,7 +16,7 @@ struct LayersPanelState {
 };
 
 // Sections of the current window.
-void layersSections(const EditorView& view, LayersPanelState& state, LayerSettings& layers,
+void layersSections(const EditorView& view, LayersPanelState& state, SurfaceSettings& surface,
                     Commands& commands);
 
 }  // namespace ui

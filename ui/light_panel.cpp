@@ -22,10 +22,11 @@ void lightKnobs(SurfaceSettings& surface) {
         "Roughens the ground between the samples. Invented: light and colour only, nothing measured moves.");
 }
 
-void seaKnobs(const EditorView& view, planet::gl::SeaDrawing& sea) {
+void seaKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {
+    planet::gl::SeaDrawing& sea = surface.light.sea;
     const planet::gl::SeaDrawing defaults;
     featureKnob(
-        "Sea surface", sea.use, view,
+        "Sea surface", CostlyPart::Sea, view, surface, commands,
         "Draws the sea at its level, as water: waves, the mirrored sky and sun, and the bed's depth in "
         "its colour. Off: flat colours on the sea's bed. What instruments measure is the bed.",
         "waves cost");
@@ -43,10 +44,11 @@ void seaKnobs(const EditorView& view, planet::gl::SeaDrawing& sea) {
         ImGuiSliderFlags_Logarithmic);
 }
 
-void shadowKnobs(const EditorView& view, planet::gl::ShadowDrawing& shadows) {
+void shadowKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {
+    planet::gl::ShadowDrawing& shadows = surface.light.shadows;
     const planet::gl::ShadowDrawing defaults;
     featureKnob(
-        "Shadows", shadows.use, view,
+        "Shadows", CostlyPart::Shadows, view, surface, commands,
         "The ground's shadows on itself: the drawn mesh as the sun sees it, in three maps one behind the "
         "other. They show what the level of detail does to them.",
         "drawing the ground three times more costs");
@@ -64,14 +66,14 @@ void shadowKnobs(const EditorView& view, planet::gl::ShadowDrawing& shadows) {
 
 }  // namespace
 
-void lightPanel(const EditorView& view, ViewSettings& settings, Commands&) {
+void lightPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
     SurfaceSettings& surface = settings.surface;
     if (section("Sun")) sunKnobs(view, surface);
     if (section("Light")) lightKnobs(surface);
-    if (section("Normals")) normalKnobs(view, settings);
-    if (section("Air")) airKnobs(view, surface);
-    if (section("Water")) seaKnobs(view, surface.light.sea);
-    if (section("Shadows")) shadowKnobs(view, surface.light.shadows);
+    if (section("Normals")) normalKnobs(view, settings, commands);
+    if (section("Air")) airKnobs(view, surface, commands);
+    if (section("Water")) seaKnobs(view, surface, commands);
+    if (section("Shadows")) shadowKnobs(view, surface, commands);
 }
 
 }  // namespace ui

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planet/gl/light_drawing.h"
+#include "ui/costly_parts.h"
 
 namespace ui {
 
@@ -18,6 +19,7 @@ struct PartCost {
 
 struct LightView {
     bool software = false;  // the CPU draws: what is Automatic is turned down
+    TurnedDown turnedDown;  // where the GPU draws
     planet::gl::AirFigures air;
     std::vector<PartCost> costs;  // as last measured
     double measured = 1;          // share of a measurement that is under way, [0, 1]; 1: none is

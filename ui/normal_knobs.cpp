@@ -56,11 +56,11 @@ void whyNone(const EditorView& view) {
 
 }  // namespace
 
-void normalKnobs(const EditorView& view, ViewSettings& settings) {
+void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands) {
     const ViewSettings defaults;
     planet::gl::NormalDrawing& normals = settings.surface.light.normals;
     ImGui::BeginDisabled(!settings.surface.lighting);
-    featureKnob("Fine normals", normals.use, view,
+    featureKnob("Fine normals", CostlyPart::Normals, view, settings.surface, commands,
                 "Chunks drawn with few vertices are lit by the slopes of the finest heights, as far as the "
                 "screen shows them, in tiles that are derived from the file's own heights. Off: by their "
                 "vertices' normals, smooth where the mesh is coarse; no memory is taken.",

@@ -6,6 +6,6 @@
 namespace ui {
 
 // A section's inside.
-void normalKnobs(const EditorView& view, ViewSettings& settings);
+void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands);
 
 }  // namespace ui

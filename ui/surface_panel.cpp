@@ -284,7 +284,7 @@ void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings
                "more chunks for the same tolerance, and shapes that no planet has.",
                ImGuiSliderFlags_Logarithmic);
     }
-    layersSections(view, state.layers, surface.layers, commands);
+    layersSections(view, state.layers, surface, commands);
 }
 
 }  // namespace ui
