@@ -86,8 +86,9 @@ void viewMenu(Workspace& workspace) {
     panelItems(workspace);
     ImGui::Separator();
     if (beginMenu("Theme")) {
-        if (menuItem("Dark", nullptr, workspace.theme == Theme::Dark)) workspace.theme = Theme::Dark;
-        if (menuItem("Light", nullptr, workspace.theme == Theme::Light)) workspace.theme = Theme::Light;
+        if (menuItem("Dark colours", nullptr, workspace.theme == Theme::Dark)) workspace.theme = Theme::Dark;
+        if (menuItem("Light colours", nullptr, workspace.theme == Theme::Light))
+            workspace.theme = Theme::Light;
         ImGui::EndMenu();
     }
     if (menuItem("Larger text", "Ctrl++")) workspace.scale = std::min(workspace.scale * 1.1, 3.0);
