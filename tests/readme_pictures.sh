@@ -43,7 +43,7 @@ slow_disk() { printf 'bad_disk.latency_ms = %s\nbad_disk.failure_rate = %s\n' "$
 only() {
     echo "window.left_width = $2"
     for panel in lod seams overlay surface camera presets quadtree chunk paging frame bake log \
-        errors cracks pops probe flight compare sweep; do
+        errors cracks pops probe flight compare sweep light; do
         [ "$panel" = "$1" ] && echo "panels.$panel = \"left\"" && echo "panels.${panel}_shown = true" && continue
         echo "panels.${panel}_shown = false"
     done
@@ -240,15 +240,65 @@ picture_light() {
     whole light
 }
 
+picture_light_panel() {
+    start < <(above_india; window 1400 1000; only light 320; echo 'surface.sun_follows = false'
+        echo 'surface.sun_by_date = true'; echo 'surface.sun_hour = 7'; echo 'light.sea = "on"')
+    settle; aside
+    dock light_panel
+}
+
+# Views of planets made for them, with every part of light, in software too.
+bake() { [ -f "$1" ] || "$binary" bake "${@:2}" -o "$1" >/dev/null 2>&1 || failures=$((failures + 1)); }
+detailed_earth() { bake earth_amplified.chk preset:earth-amplified --face-size 4097 --colour earth/colour.jpg; }
+ridged_world() { bake ridged.chk preset:ridged; }
+small_world() {
+    bake ridge.chk noise:ridged,seed=9,gain=0.5,amplitude_m=2600,feature_deg=6,offset_m=900 --radius 300000 \
+        --face-size 4097 --quantum 0.2
+}
+# view NAME FILE CAMERA SUN_NORTH SUN_EAST OPTIONS...
+view() {
+    "$binary" shot "$2" --camera "$3" --size 1280x720 --tau 1 -o view.png --set surface.sun_follows=false \
+        --set surface.sun_latitude_deg="$4" --set surface.sun_longitude_deg="$5" --set light.air=on \
+        --set light.sea=on --set light.shadows=on --set light.normals=on --set surface.layer_use=on "${@:6}" >/dev/null &&
+        convert view.png -strip -quality 88 "$out/$1.jpg" || failures=$((failures + 1))
+}
+view_whole_earth() { detailed_earth; view whole_earth earth_amplified.chk 22,38,15500000,0,-90 12 20; }
+view_sunset_limb() { detailed_earth; view sunset_limb earth_amplified.chk 20,60,400000,270,-17 -5.3 -45.9; }
+view_himalaya() {
+    detailed_earth
+    view himalaya earth_amplified.chk 27,86.4,20000,12,-12 10 35 --set light.air_rayleigh=0.5 \
+        --set light.air_haze=0.4 --set surface.layer_use=off
+}
+view_coast() { detailed_earth; view coast earth_amplified.chk 36.55,-5.2,3000,120,-12 20 35; }
+view_ridge() {
+    small_world
+    view ridge ridge.chk 32,40,1240,200,-6 25 85 --set surface.sea=false --set light.air_thickness=4 \
+        --set light.air_haze=0.5
+}
+view_ridged_world() {
+    ridged_world
+    view ridged_world ridged.chk 25,40,900000,20,-60 15 85 --set light.air_rayleigh=0.4 --set light.air_haze=0.5
+}
+
+for name in whole_earth sunset_limb himalaya coast ridge ridged_world; do
+    asked $name || continue
+    echo "$name"
+    view_$name
+done
+
+windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
+    chunk paging frame bake log true_error cracks pops precision flight sweep"
+any=no
+for name in $windows; do asked $name && any=yes; done
+[ $any = yes ] || exit $((failures > 0))
+
 echo "baking the Earth"
 start </dev/null
 until_true says 'Baked' || cat .stderr
 settle
 stop
 
-for name in editor errors observer light compare layers \
-    lod seams overlay surface camera presets quadtree chunk paging frame bake log \
-    true_error cracks pops precision flight sweep; do
+for name in $windows; do
     asked $name || continue
     echo "$name"
     picture_$name

@@ -284,7 +284,7 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
     const std::vector<ui::SettingDifference> all = differences(here, there);
-    EXPECT_EQ(all.size(), 99u);
+    EXPECT_EQ(all.size(), 102u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;
