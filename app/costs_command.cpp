@@ -41,11 +41,10 @@ Result<void> runCosts(const CostsOptions& options) {
     const Result<std::optional<Picture>> colour = colourPictureOf(options.file, options.colourImage);
     if (!colour) return tl::unexpected(colour.error());
     const SceneConfig config{options.file, {}, *colour ? &**colour : nullptr};
-    Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
-    if (!offscreen) return tl::unexpected(offscreen.error());
     // All that any part wants is loaded beforehand.
-    const bool hasColours = offscreen->scene.planet->colour().has_value();
-    const ui::ViewSettings all = partsOf(options.view, hasColours).back().settings;
+    const ui::ViewSettings all = partsOf(options.view, {}).back().settings;
+    Result<Offscreen> offscreen = openOffscreen(config, all, options.size, 1);
+    if (!offscreen) return tl::unexpected(offscreen.error());
     const double radiusM = offscreen->scene.planet->shape().radiusM;
     const SettledView at =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), all);

@@ -33,7 +33,7 @@ ui::ViewSettings barePicture(const ui::ViewSettings& settings) {
     return bare;
 }
 
-std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, bool hasColours) {
+std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, const PartsThere& there) {
     const ui::ViewSettings bare = barePicture(settings);
     ui::ViewSettings all = bare;
     std::vector<PartSettings> parts;
@@ -46,10 +46,11 @@ std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, bool hasColo
     add("physical air", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::On); });
     add("sea surface", [](ui::SurfaceSettings& surface) { surface.light.sea.use = FeatureUse::On; });
     add("shadows", [](ui::SurfaceSettings& surface) { surface.light.shadows.use = FeatureUse::On; });
-    add("normals", [](ui::SurfaceSettings& surface) { surface.light.normals.use = FeatureUse::On; });
+    if (there.normals)
+        add("normals", [](ui::SurfaceSettings& surface) { surface.light.normals.use = FeatureUse::On; });
     add("detail", [](ui::SurfaceSettings& surface) { surface.detail = true; });
     add("layers", [](ui::SurfaceSettings& surface) { surface.layers.use = FeatureUse::On; });
-    if (hasColours) add("streamed colours", [](ui::SurfaceSettings& surface) { surface.streamed = true; });
+    if (there.colours) add("streamed colours", [](ui::SurfaceSettings& surface) { surface.streamed = true; });
     parts.push_back({"all of them", all});
     return parts;
 }
@@ -66,9 +67,9 @@ planet::Result<CostMeter> CostMeter::create(const Scene& scene, const planet::Vi
                                             const ui::ViewSettings& settings, int rounds) {
     auto target = planet::gl::RenderTarget::create(view.widthPx, view.heightPx);
     if (!target) return tl::unexpected(target.error());
+    const PartsThere there{scene.planet->colour().has_value(), scene.planet->normalPaging().tileCapacity > 0};
     std::vector<Part> parts;
-    for (PartSettings& part : partsOf(settings, scene.planet->colour().has_value()))
-        parts.push_back({std::move(part), {}, {}});
+    for (PartSettings& part : partsOf(settings, there)) parts.push_back({std::move(part), {}, {}});
     return CostMeter(std::move(*target), view, barePicture(settings), std::move(parts), rounds);
 }
 

@@ -18,7 +18,12 @@ struct PartSettings {
     ui::ViewSettings settings;
 };
 ui::ViewSettings barePicture(const ui::ViewSettings& settings);
-std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, bool hasColours);
+// What is paged, and so is there to be drawn only where the planet has it and its paging was told.
+struct PartsThere {
+    bool colours = true;
+    bool normals = true;
+};
+std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, const PartsThere& there);
 
 class CostMeter {
 public:
