@@ -23,7 +23,8 @@ protected:
         for (int row = 0; row < 128; ++row) {
             for (int column = 0; column < 256; ++column) {
                 const double x = 2 * pi * column / 256, y = pi * row / 128;
-                stream.put(static_cast<char>(100 + 100 * std::sin(6 * x) * std::sin(y) * std::cos(5 * y)));
+                stream.put(static_cast<char>(
+                    std::lround(100 + 100 * std::sin(6 * x) * std::sin(y) * std::cos(5 * y))));
             }
         }
         stream.close();

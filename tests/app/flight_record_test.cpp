@@ -39,7 +39,8 @@ protected:
         std::ofstream stream(image, std::ios::binary);
         stream << "P5\n256 128\n255\n";
         for (int i = 0; i < 256 * 128; ++i)
-            stream.put(static_cast<char>(100 + 100 * std::sin(0.15 * (i % 256)) * std::cos(0.2 * (i / 256))));
+            stream.put(static_cast<char>(
+                std::lround(100 + 100 * std::sin(0.15 * (i % 256)) * std::cos(0.2 * (i / 256)))));
         stream.close();
         planet::HeightSourceSettings scale;
         scale.metresPerUnit = 20;
