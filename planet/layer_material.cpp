@@ -50,6 +50,12 @@ struct Dice {
     std::uint32_t count = 0;
     double operator()() { return tilingRandom(count++, 0x51u, seed); }
     double operator()(double least, double most) { return least + (most - least) * (*this)(); }
+    // One after the other: in which order a call works out its arguments is each compiler's own.
+    glm::dvec2 place() {
+        const double y = (*this)();
+        const double x = (*this)();
+        return {x, y};
+    }
 };
 
 double smooth(double from, double to, double value) {
@@ -92,7 +98,7 @@ void paintSand(Canvas& canvas, std::uint32_t seed) {
 
 // A leaf of grass bent over the ground; what stands higher hides what is below it.
 void paintBlade(Canvas& canvas, Dice& dice, const glm::dvec3& hue) {
-    const glm::dvec2 root(dice(), dice());
+    const glm::dvec2 root = dice.place();
     const double clump = 2 * pi * tilingNoise(root, 5, 77);
     const double angle = clump + dice(-1.3, 1.3);
     const double bow = dice(-1.1, 1.1);
@@ -144,8 +150,9 @@ void paintGrass(Canvas& canvas, std::uint32_t seed) {
 
 // A tree's crown from above: a lumpy dome.
 void paintCrown(Canvas& canvas, Dice& dice, std::uint32_t seed) {
-    const glm::dvec2 middle(dice(), dice());
-    const double radius = dice(0.012, 0.030) * (dice() > 0.85 ? 1.3 : 1.0);
+    const glm::dvec2 middle = dice.place();
+    const double usual = dice(0.012, 0.030);
+    const double radius = usual * (dice() > 0.85 ? 1.3 : 1.0);
     const double stands = dice(0.25, 0.75);
     const bool conifer = dice() > 0.55;
     glm::dvec3 hue = conifer
@@ -248,7 +255,7 @@ void paintSnow(Canvas& canvas, std::uint32_t seed) {
 
 // A pebble or a shell, half sunk.
 void paintPebble(Canvas& canvas, Dice& dice, std::uint32_t seed) {
-    const glm::dvec2 middle(dice(), dice());
+    const glm::dvec2 middle = dice.place();
     const double radius = 0.0035 + 0.013 * std::pow(dice(), 4.0);
     const double squeeze = dice(0.6, 1.0);
     const double turn = dice(0, 2 * pi);
