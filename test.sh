@@ -18,4 +18,5 @@ folder=build
 # The embedding program wants a display; the window's tests start their own.
 display=""
 [ -n "${DISPLAY:-}" ] || display='xvfb-run -a -s "-screen 0 1600x1000x24"'
-eval "exec $display"' ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@"'
+eval "$display"' ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@"'
+[ "$preset" != release ] || [ $# -gt 0 ] || cat build-fuzz/figures

@@ -35,7 +35,21 @@ xvfb                    a display for the window's tests
 xauth                   the same
 libx11-dev              drops files onto the window in its tests
 xdotool                 presses keys in the window's tests
-imagemagick             takes their screenshots"
+imagemagick             takes their screenshots
+clang                   fuzzers, and a second compiler
+libclang-rt-14-dev      its fuzzer and sanitizers"
+
+ci_packages="\
+clang-format            formatting
+qemu-user               a machine of the other byte order
+g++-s390x-linux-gnu     programs for it"
+
+# For that machine.
+machine_packages="\
+libfmt-dev:s390x        messages
+libsquish-dev:s390x     colour tiles from BC1
+libxxhash-dev:s390x     checksums
+libzstd-dev:s390x       lossless colour tiles"
 
 # install_missing ASSUME_YES PACKAGES...: lines of "package   what for".
 install_missing() {

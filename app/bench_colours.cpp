@@ -59,11 +59,11 @@ Result<planet::ChunkFile> bakeColours(const planet::ColourSource& colours, Colou
     return planet::ChunkFile::open(output);
 }
 
-Result<void> readUnder(const planet::ChunkFile& file, const planet::ColourTileData& tile) {
+Result<void> readUnder(const planet::ChunkFile& file, const planet::TileData& tile) {
     if (tile.id.level == file.info().colour->leafLevel) return {};
     const auto children = file.readColourChildren(tile.id, tile.children);
     if (!children) return tl::unexpected(children.error());
-    for (const planet::ColourTileData& child : *children) {
+    for (const planet::TileData& child : *children) {
         if (auto read = readUnder(file, child); !read) return read;
     }
     return {};

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <variant>
 
+#include "app/allocations.h"
 #include "app/bookmarks.h"
 #include "app/places.h"
 #include "app/recent_files.h"
@@ -76,8 +77,13 @@ struct CommandHandler {
     }
     void operator()(const ui::LoadOne&) const { call(FlightCall::LoadOne, &planet::Planet::loadOne); }
     void operator()(const ui::DropAll&) const { call(FlightCall::DropAll, &planet::Planet::dropAll); }
-    void operator()(const ui::RetryFailed&) const {
-        call(FlightCall::RetryFailed, &planet::Planet::retryFailed);
+    void operator()(const ui::RetryFailed& command) const {
+        if (!command.block) return call(FlightCall::RetryFailed, &planet::Planet::retryFailed);
+        Scene* scene = shownScene(session);
+        if (!scene || !mayTouchPaging()) return;
+        scene->planet->retryFailed(*command.block);
+        if (editor.desk.recorder)
+            editor.desk.recorder->called(*scene->planet, FlightCall::RetryBlock, *command.block);
     }
     // Settings of a replay are given back at its end.
     bool maySet() const {
@@ -143,6 +149,9 @@ struct CommandHandler {
     void operator()(const ui::ReloadLayerTextures&) const { forgetLayerPictures(shownScene(session)); }
     void operator()(const ui::TryCostlyParts&) const {
         if (Scene* scene = shownScene(session)) scene->turnedDown = {.fastAtS = editor.timeS};
+    }
+    void operator()(const ui::MarkAllocations&) const {
+        editor.allocations.now = editor.allocations.mark = countAllocations(session, editor);
     }
     void operator()(const ui::MeasureCosts&) const {
         const Scene* scene = shownScene(session);

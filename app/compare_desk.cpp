@@ -73,7 +73,7 @@ void beginMeters(CompareDesk& desk, const Scene& a) {
     if (desk.other) desk.meters[1].bytesReadBefore = desk.other->planet.scene.planet->paging().bytesRead;
     desk.measuredOf.reset();
     desk.difference.reset();
-    desk.lastPlanet = a.planet.get();
+    desk.lastScene = a.identity;
 }
 
 void keepPops(const Scene& scene, const planet::View& view, double timeS, planet::PopMeter& pops) {
@@ -251,7 +251,7 @@ void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log) {
     if (std::exchange(desk.ending, false)) stopCompare(desk);
     if (!desk.other) return;
     Scene& b = desk.other->planet.scene;
-    if (now.a.planet.get() != desk.lastPlanet) {
+    if (now.a.identity != desk.lastScene) {
         const Result<void> same = checkSameRadius(radiusOf(now.a), radiusOf(b));
         if (!same) {
             desk.problem = same.error().message;

@@ -47,7 +47,7 @@ struct MeasuredOf {
 struct CompareDesk {
     std::optional<ComparedOther> other{};
     std::array<ComparedMeters, 2> meters{};
-    const planet::Planet* lastPlanet = nullptr;  // of A, to see that another took its place
+    std::shared_ptr<const int> lastScene{};  // of A, to see that another took its place
     std::optional<MeasuredOf> measuredOf{};
     std::string problem{};  // why there is no B
     // Asked for; done with the next frame, since what is shown in this one still uses B's picture.

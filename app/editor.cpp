@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/allocations.h"
 #include "app/commands.h"
 #include "app/editor_panels.h"
 #include "app/editor_planet.h"
@@ -120,6 +121,7 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     stats.frameMs = 1000 * secondsSinceLast;
     stats.processBytes = residentProcessBytes();
     remember(stats, editor);
+    watchAllocations(session, editor);
     ++editor.frames;
     if (!editor.itemMapFile.empty())
         writeItemMap(editor.itemMapFile, items, countersOf(session, editor, stats));

@@ -46,11 +46,12 @@ struct Editor {
     bool pagingPaused = false;
     Viewport viewport;
     ui::ChunkFocus focus;
-    const planet::Planet* lastPlanet = nullptr;  // of the frame before, to see that another took its place
+    std::shared_ptr<const int> lastScene;  // of the frame before, to see that another took its place
     double lastRadiusM = 0;
 
     double timeS = 0;  // since the window opened
     ui::FrameStats stats;
+    ui::AllocationsView allocations;
     std::deque<ui::FrameSample> history;
     planet::LodChanges changes;
     Pops pops;

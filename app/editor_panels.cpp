@@ -114,6 +114,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     if (scene) view.light.turnedDown = scene->turnedDown;
     view.light.software = scene && scene->renderer.capabilities().software;
     if (scene) view.light.air = scene->renderer.airFigures();
+    view.allocations = editor.allocations;
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();
     return view;

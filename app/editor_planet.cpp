@@ -20,18 +20,19 @@ namespace {
 
 // Another planet has taken the place of the last one: the camera stays where it makes sense, what was counted
 // does not.
-void meetPlanet(planet::Planet& planet, Editor& editor, const Log& log) {
-    if (&planet == editor.lastPlanet) return;
+void meetPlanet(Scene& scene, Editor& editor, const Log& log) {
+    if (scene.identity == editor.lastScene) return;
+    planet::Planet& planet = *scene.planet;
     // Both are about the planet that they began with, which may be gone.
     stopRecording(editor.desk, nullptr, log);
     endReplay(editor, nullptr);
     planet.keepMoves(false);
     const double radiusM = planet.shape().radiusM;
-    if (radiusM != editor.lastRadiusM && editor.lastPlanet) {
+    if (radiusM != editor.lastRadiusM && editor.lastScene) {
         editor.rig.reset();
         editor.observer.reset();
     }
-    editor.lastPlanet = &planet;
+    editor.lastScene = scene.identity;
     editor.lastRadiusM = radiusM;
     editor.changes.clear();
     forgetPops(editor.pops);
@@ -289,7 +290,7 @@ void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selectio
 
 ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
                          ui::Commands& commands) {
-    meetPlanet(*scene.planet, editor, log);
+    meetPlanet(scene, editor, log);
     if (!editor.desk.replay) giveSettings(scene, editor, log);
     placeCameras(scene, pixelRatio, editor);
     const bool stepOne = std::exchange(editor.stepOneFrame, false);

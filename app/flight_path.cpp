@@ -57,7 +57,7 @@ Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::
             continue;
         }
         return planet::badInput(fmt::format(
-            "{}: key {}: {} is not known; a key has time_s, latitude_deg, longitude_deg, altitude_m, "
+            "{}: key {}: {:.40} is not known; a key has time_s, latitude_deg, longitude_deg, altitude_m, "
             "heading_deg and pitch_deg",
             placeOf(file, node), number, name.str()));
     }
@@ -178,17 +178,9 @@ double valueAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std:
            (t3 - t2) * toSlope;
 }
 
-}  // namespace
-
-Result<FlightPath> loadFlightPath(const fs::path& file) {
-    if (isFlightRecord(file)) {
-        return loadFlightRecord(file).and_then(
-            [&](const FlightRecord& record) { return pathOf(record, file); });
-    }
-    const Result<toml::table> document = parseTomlFile(file);
-    if (!document) return tl::unexpected(document.error());
+Result<FlightPath> flightPathOf(const fs::path& file, const toml::table& document) {
     FlightPath path;
-    for (const auto& [key, node] : *document) {
+    for (const auto& [key, node] : document) {
         if (key.str() == "name") {
             const Result<std::string> name = readText(file, "name", node);
             if (!name) return tl::unexpected(name.error());
@@ -197,8 +189,9 @@ Result<FlightPath> loadFlightPath(const fs::path& file) {
             if (Result<void> read = readKeys(file, *node.as_array(), path); !read)
                 return tl::unexpected(read.error());
         } else {
-            return planet::badInput(fmt::format("{}: {} is not known; name and [[key]] tables would be right",
-                                                placeOf(file, node), key.str()));
+            return planet::badInput(
+                fmt::format("{}: {:.40} is not known; name and [[key]] tables would be right",
+                            placeOf(file, node), key.str()));
         }
     }
     if (path.keys.size() < 2) {
@@ -206,6 +199,23 @@ Result<FlightPath> loadFlightPath(const fs::path& file) {
                                             file.string(), path.keys.size()));
     }
     return path;
+}
+
+}  // namespace
+
+Result<FlightPath> loadFlightPath(const fs::path& file) {
+    if (isFlightRecord(file)) {
+        return loadFlightRecord(file).and_then(
+            [&](const FlightRecord& record) { return pathOf(record, file); });
+    }
+    return parseTomlFile(file).and_then(
+        [&](const toml::table& document) { return flightPathOf(file, document); });
+}
+
+Result<FlightPath> flightPathFromText(std::string_view text, const fs::path& place) {
+    return parseTomlText(text, place).and_then([&](const toml::table& document) {
+        return flightPathOf(place, document);
+    });
 }
 
 double durationS(const FlightPath& path) {

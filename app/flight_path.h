@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planet/result.h"
@@ -34,6 +35,8 @@ struct FlightPath {
 // Also the way of a recorded .flight (app/flight_record.h). The Error names the file, the key's number from 1
 // and what would be right.
 planet::Result<FlightPath> loadFlightPath(const std::filesystem::path& file);
+// The same of a TOML file's text; place stands for the file's name in errors.
+planet::Result<FlightPath> flightPathFromText(std::string_view text, const std::filesystem::path& place);
 
 double durationS(const FlightPath& path);
 

@@ -41,6 +41,10 @@ constexpr std::size_t mostTextBytes = 1 << 16;
 constexpr int mostSidePx = 1 << 16;
 constexpr int compressionLevel = 9;
 
+// Of an arrival: Failed by bad data.
+constexpr std::uint8_t badDataOutcome = 4;
+static_assert(badDataOutcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled));
+
 // What of a frame is not as in the one before.
 constexpr int callsPart = 1, viewsPart = 2, drawnPart = 4, movesPart = 8, hashPart = 16;
 
@@ -95,7 +99,7 @@ void putMoves(ByteWriter& out, const PagingMoves& moves) {
     putBlocks(out, moves.taken);
     putVarint(out, moves.arrived.size());
     for (const PagingMoves::Arrival& arrival : moves.arrived) {
-        out.put(static_cast<std::uint8_t>(arrival.outcome));
+        out.put(arrival.badData ? badDataOutcome : static_cast<std::uint8_t>(arrival.outcome));
         putBlock(out, arrival.block);
     }
     putBlocks(out, moves.requested);
@@ -131,6 +135,7 @@ void putCalls(ByteWriter& out, const std::vector<CalledInFlight>& calls) {
             putVarint(out, called.settings.size());
             for (const std::string& assignment : called.settings) putText(out, assignment);
         }
+        if (called.call == FlightCall::RetryBlock) putBlock(out, called.block);
         putMoves(out, called.moves);
     }
 }
@@ -246,7 +251,9 @@ public:
         moves.taken = blocks();
         for (std::size_t left = count(4); left > 0 && ok(); --left) {
             PagingMoves::Arrival& arrival = moves.arrived.emplace_back();
-            const auto outcome = get<std::uint8_t>();
+            auto outcome = get<std::uint8_t>();
+            arrival.badData = outcome == badDataOutcome;
+            if (arrival.badData) outcome = static_cast<std::uint8_t>(planet::PagingOutcome::Failed);
             arrival.outcome = static_cast<planet::PagingOutcome>(outcome);
             if (outcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled) ||
                 arrival.outcome == planet::PagingOutcome::Evicted)
@@ -349,7 +356,7 @@ struct FlightSoFar {
 CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
     CalledInFlight called;
     const auto call = in.get<std::uint8_t>();
-    if (call > static_cast<std::uint8_t>(FlightCall::Settings)) in.fail("holds a call that there is not");
+    if (call > static_cast<std::uint8_t>(FlightCall::RetryBlock)) in.fail("holds a call that there is not");
     called.call = static_cast<FlightCall>(call);
     if (in.ok() && called.call == FlightCall::Settings) {
         called.pagingPaused = in.get<std::uint8_t>() != 0;
@@ -360,6 +367,7 @@ CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
         if (const Result<void> good = applyFlightSettings(called.settings, soFar.settings); !good)
             in.fail("holds a setting that is wrong: " + good.error().message);
     }
+    if (called.call == FlightCall::RetryBlock) called.block = in.block();
     called.moves = in.moves();
     return called;
 }
@@ -476,15 +484,12 @@ Result<std::vector<std::byte>> readWhole(const fs::path& file) {
     return bytes;
 }
 
-Result<std::vector<std::byte>> readContentBytes(const fs::path& file) {
+Result<std::vector<std::byte>> contentBytes(std::span<const std::byte> all, const fs::path& file) {
     const auto wrong = [&](const std::string& what) {
         return planet::badInput(fmt::format("{}: {}", file.string(), what));
     };
-    const Result<std::vector<std::byte>> bytes = readWhole(file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (std::memcmp(bytes->data(), magic.data(), magic.size()) != 0)
+    if (all.size() < headerBytes || std::memcmp(all.data(), magic.data(), magic.size()) != 0)
         return wrong("is no recorded flight; a .flight file by Worldy would be right");
-    const std::span<const std::byte> all(*bytes);
     ByteReader header(all.subspan(magic.size(), headerBytes - magic.size()));
     const auto version = header.get<std::uint32_t>();
     if (version != flightRecordVersion) {
@@ -496,8 +501,8 @@ Result<std::vector<std::byte>> readContentBytes(const fs::path& file) {
     if (size > maxFlightBytes + (1u << 20))
         return wrong(fmt::format("says that it holds {} bytes; {} is the most", size, maxFlightBytes));
     std::vector<std::byte> content(static_cast<std::size_t>(size));
-    const std::size_t got = ZSTD_decompress(content.data(), content.size(), bytes->data() + headerBytes,
-                                            bytes->size() - headerBytes);
+    const auto packed = all.subspan(headerBytes);
+    const std::size_t got = ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size());
     if (ZSTD_isError(got) || got != content.size() || hashOf(content) != checksum)
         return wrong("is damaged or truncated: its content does not match its checksum");
     return content;
@@ -529,22 +534,6 @@ Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, c
         return differs(fmt::format("{} bytes, not {}", recorded.fileBytes, present.fileBytes));
     if (recorded.headerHash != present.headerHash) return differs("its header is another");
     return {};
-}
-
-std::uint64_t selectionHashOf(const planet::Planet& planet) {
-    std::vector<std::byte> bytes;
-    ByteWriter out(bytes);
-    for (std::size_t v = 0; v < planet.viewCount(); ++v) {
-        const planet::Selection& selection = planet.selection(v);
-        out.put(static_cast<std::uint64_t>(selection.draw.size()));
-        for (const planet::DrawItem& item : selection.draw) {
-            out.put(planet::keyOf(item.id));
-            out.put(item.morph);
-            for (const std::uint8_t levels : item.coarserBy) out.put(levels);
-            for (const float morph : item.edgeMorph) out.put(morph);
-        }
-    }
-    return hashOf(bytes);
 }
 
 namespace {
@@ -634,20 +623,8 @@ Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
     out.put(static_cast<std::uint32_t>(frames_));
     content.insert(content.end(), bytes_.begin(), bytes_.end());
 
-    std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
-    const std::size_t size =
-        ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), compressionLevel);
-    if (ZSTD_isError(size)) {
-        return planet::ioError(
-            fmt::format("{}: cannot be compressed: {}", file.string(), ZSTD_getErrorName(size)));
-    }
-    packed.resize(size);
-    std::vector<std::byte> header;
-    ByteWriter head(header);
-    for (const char letter : magic) head.put(letter);
-    head.put(flightRecordVersion);
-    head.put(static_cast<std::uint64_t>(content.size()));
-    head.put(hashOf(content));
+    const Result<std::vector<std::byte>> bytes = flightFileBytes(content, compressionLevel);
+    if (!bytes) return planet::ioError(fmt::format("{}: {}", file.string(), bytes.error().message));
     Result<planet::AtomicFile> target = planet::AtomicFile::create(file);
     if (!target) return tl::unexpected(target.error());
     // From here on no other may write it.
@@ -656,15 +633,29 @@ Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
         return planet::ioError(
             fmt::format("{}: is there already; another name would be right", file.string()));
     }
-    return target->append(header).and_then([&] { return target->append(packed); }).and_then([&] {
-        return target->commit();
-    });
+    return target->append(*bytes).and_then([&] { return target->commit(); });
+}
+
+Result<std::vector<std::byte>> flightFileBytes(std::span<const std::byte> content, int level) {
+    std::vector<std::byte> bytes;
+    ByteWriter head(bytes);
+    for (const char letter : magic) head.put(letter);
+    head.put(flightRecordVersion);
+    head.put(static_cast<std::uint64_t>(content.size()));
+    head.put(hashOf(content));
+    bytes.resize(headerBytes + ZSTD_compressBound(content.size()));
+    const std::size_t size = ZSTD_compress(bytes.data() + headerBytes, bytes.size() - headerBytes,
+                                           content.data(), content.size(), level);
+    if (ZSTD_isError(size))
+        return planet::ioError(fmt::format("cannot be compressed: {}", ZSTD_getErrorName(size)));
+    bytes.resize(headerBytes + size);
+    return bytes;
 }
 
 namespace {
 
-Result<FlightRecord> readRecord(const fs::path& file) {
-    const Result<std::vector<std::byte>> content = readContentBytes(file);
+Result<FlightRecord> readRecord(std::span<const std::byte> bytes, const fs::path& file) {
+    const Result<std::vector<std::byte>> content = contentBytes(bytes, file);
     if (!content) return tl::unexpected(content.error());
     Reader in(*content, 0);
     FlightRecord record = readContent(in);
@@ -675,15 +666,27 @@ Result<FlightRecord> readRecord(const fs::path& file) {
         fmt::format("{}: {}: it {}; record it again", file.string(), where, in.problem()));
 }
 
-}  // namespace
-
-Result<FlightRecord> loadFlightRecord(const fs::path& file) {
+template <class Read>
+Result<FlightRecord> withinMemory(const fs::path& file, const Read& read) {
     try {
-        return readRecord(file);
+        return read();
     } catch (const std::bad_alloc&) {
         return planet::badInput(fmt::format(
             "{}: is too large for the memory there is; a shorter recording would be right", file.string()));
     }
+}
+
+}  // namespace
+
+Result<FlightRecord> loadFlightRecord(const fs::path& file) {
+    return withinMemory(file, [&] {
+        return readWhole(file).and_then(
+            [&](const std::vector<std::byte>& bytes) { return readRecord(bytes, file); });
+    });
+}
+
+Result<FlightRecord> flightRecordFromBytes(std::span<const std::byte> bytes, const fs::path& place) {
+    return withinMemory(place, [&] { return readRecord(bytes, place); });
 }
 
 namespace {

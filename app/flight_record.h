@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,11 @@ planet::Result<void> checkSameData(const std::filesystem::path& flight, const Fl
                                    const FlightData& present);
 
 // What was asked of the planet between two steps.
-enum class FlightCall : std::uint8_t { DropAll, LoadOne, RetryFailed, Settings };
+enum class FlightCall : std::uint8_t { DropAll, LoadOne, RetryFailed, Settings, RetryBlock };
 
 struct CalledInFlight {
     FlightCall call = FlightCall::DropAll;
+    planet::BlockId block{};  // of RetryBlock
     // Of Settings: "lod.tau_px=3", those that changed, all at the beginning; and whether paging is paused.
     std::vector<std::string> settings{};
     bool pagingPaused = false;
@@ -77,9 +79,6 @@ struct FlightRecord {
     FlightData data;
     std::vector<FlightFrame> frames;
 };
-
-// XXH3 over all that the planet's selections draw: ids in their order, and morphs to the last bit.
-std::uint64_t selectionHashOf(const planet::Planet& planet);
 
 // Settings of the view as assignments: all of them, or those in which `now` differs. Left out is how the
 // camera moves, which the recording itself says.
@@ -120,6 +119,12 @@ private:
 };
 
 planet::Result<FlightRecord> loadFlightRecord(const std::filesystem::path& file);
+// The same of a file's bytes; place stands for its name in errors.
+planet::Result<FlightRecord> flightRecordFromBytes(std::span<const std::byte> bytes,
+                                                   const std::filesystem::path& place);
+// What a file begins with and how it holds its content. The Error is of the compression.
+planet::Result<std::vector<std::byte>> flightFileBytes(std::span<const std::byte> content,
+                                                       int compressionLevel);
 
 // Its camera's way, to be flown by cameras that follow flights: ten keys a second at most, and at least two.
 // Where the camera was put elsewhere at once, by a bookmark, say, the way jumps too, with a key on either

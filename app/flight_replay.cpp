@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "app/recorder.h"
 #include "app/scene.h"
+#include "app/selection_hash.h"
 
 namespace worldy {
 
@@ -40,6 +42,20 @@ Blocks blocksOf(const std::vector<PagingMoves::Arrival>& arrivals) {
     return blocks;
 }
 
+// Before the first frame's settings, which are all that there were then. What was recorded before there were
+// retries knows of none: there were none.
+ui::ViewSettings settingsBefore(const FlightRecord& record) {
+    constexpr std::string_view assignment = "paging.retries=";
+    ui::ViewSettings settings;
+    const auto namesRetries = [&](const CalledInFlight& called) {
+        return std::any_of(called.settings.begin(), called.settings.end(),
+                           [&](const std::string& one) { return one.starts_with(assignment); });
+    };
+    const std::vector<CalledInFlight>& calls = record.frames[0].calls;
+    if (std::none_of(calls.begin(), calls.end(), namesRetries)) settings.paging.retries = 0;
+    return settings;
+}
+
 }  // namespace
 
 ReplayedPlanet headless(planet::Planet& planet) {
@@ -67,7 +83,7 @@ planet::PagingTime FlightReplay::time() const {
 }
 
 planet::PagingSettings FlightReplay::pagingAtStart() const {
-    ui::ViewSettings settings;
+    ui::ViewSettings settings = settingsBefore(*record_);
     bool paused = false;
     for (const CalledInFlight& called : record_->frames[0].calls) {
         if (called.call != FlightCall::Settings) continue;
@@ -81,7 +97,7 @@ planet::PagingSettings FlightReplay::pagingAtStart() const {
 void FlightReplay::rewind(planet::Planet& planet) {
     planet.startAnew();
     planet.keepMoves(true);
-    settings_ = {};
+    settings_ = settingsBefore(*record_);
     next_ = 0;
     timeS_ = 0;
     drawn_.clear();
@@ -106,6 +122,7 @@ Result<void> FlightReplay::repeat(const CalledInFlight& called, const ReplayedPl
     if (called.call == FlightCall::DropAll) replayed.planet.dropAll();
     if (called.call == FlightCall::LoadOne) replayed.planet.loadOne();
     if (called.call == FlightCall::RetryFailed) replayed.planet.retryFailed();
+    if (called.call == FlightCall::RetryBlock) replayed.planet.retryFailed(called.block);
     return {};
 }
 

@@ -29,6 +29,8 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("loaded", paging.loaded);
     add("evicted", paging.evicted);
     add("failed", paging.failed);
+    add("failed_for_good", paging.failedForGood);
+    add("awaiting_retry", paging.awaitingRetry);
     add("colour_tiles", stats.colourPaging.residentTiles);
     add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
     if (const Scene* scene = shownScene(session); scene && editor.rig) {

@@ -225,11 +225,11 @@ std::string layerLine(const TextureLayer& layer) {
     return fmt::format("{{ {} }}", text);
 }
 
-Result<planet::LayerSet> loadLayerSet(const fs::path& file) {
-    const Result<toml::table> document = parseTomlFile(file);
-    if (!document) return tl::unexpected(document.error());
+namespace {
+
+Result<planet::LayerSet> layerSetOf(const fs::path& file, const toml::table& document) {
     planet::LayerSet set;
-    for (const auto& [key, node] : *document) {
+    for (const auto& [key, node] : document) {
         if (Result<void> read = readSetKey(file, key.str(), node, set); !read)
             return tl::unexpected(read.error());
     }
@@ -237,6 +237,19 @@ Result<planet::LayerSet> loadLayerSet(const fs::path& file) {
         return planet::badInput(
             fmt::format("{}: has no layers; one [[layer]] or more would be right", file.string()));
     return set;
+}
+
+}  // namespace
+
+Result<planet::LayerSet> loadLayerSet(const fs::path& file) {
+    return parseTomlFile(file).and_then(
+        [&](const toml::table& document) { return layerSetOf(file, document); });
+}
+
+Result<planet::LayerSet> layerSetFromText(std::string_view text, const fs::path& place) {
+    return parseTomlText(text, place).and_then([&](const toml::table& document) {
+        return layerSetOf(place, document);
+    });
 }
 
 std::string layerSetText(const planet::LayerSet& set) {

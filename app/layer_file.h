@@ -27,6 +27,8 @@ inline constexpr std::array<std::string_view, 2> layerBlendNames = {"weight", "h
 // right. Ranges that contradict themselves are no Error: planet::layerProblem tells of them, and a checker
 // pattern is drawn in their layer's place.
 planet::Result<planet::LayerSet> loadLayerSet(const std::filesystem::path& file);
+// The same of text; place stands for the file's name in errors.
+planet::Result<planet::LayerSet> layerSetFromText(std::string_view text, const std::filesystem::path& place);
 
 // The file's text. Equal sets give equal text.
 std::string layerSetText(const planet::LayerSet& set);

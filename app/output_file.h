@@ -1,4 +1,5 @@
-// Writing files so that a killed program leaves the old one whole: under a temporary name, then renamed.
+// Writing files so that a killed program leaves the old one whole: under a temporary name, synced, then
+// renamed. What it leaves beside it is written over, and gone, with the next.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,8 @@
 
 namespace worldy {
 
-// Calls write with a name beside the target that has the same extension; removes it on any Error.
+// For libraries that write files by their names: calls write with a name beside the target that has the same
+// extension, and takes over what is there then. One writer a target at a time: a second one gets an Error.
 planet::Result<void> writeAtomically(
     const std::filesystem::path& target,
     const std::function<planet::Result<void>(const std::filesystem::path& temporary)>& write);

@@ -13,6 +13,9 @@ namespace {
 
 constexpr planet::LineColour hoverColour = {255, 255, 255, 230};
 constexpr planet::LineColour selectedColour = {255, 176, 32, 255};
+// Of chunks that stay coarse because what is finer could not be read.
+constexpr planet::LineColour failedColour = {255, 60, 50, 255};
+constexpr planet::LineColour awaitingRetryColour = {255, 190, 60, 255};
 
 planet::LineColour bytesOf(const glm::vec3& colour, std::uint8_t opacity) {
     const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
@@ -67,6 +70,13 @@ void appendFocus(const planet::ChunkTree& tree, const planet::ChunkId& id, const
     planet::appendOutline(tree, node, liftM(node, view), colour, lines);
 }
 
+void appendFailed(const planet::ChunkTree& tree, const planet::ChunkNode& node, const planet::View& view,
+                  planet::Lines& lines) {
+    const bool forGood = node.childrenState == planet::ChildrenState::Failed;
+    if (!forGood && node.childrenState != planet::ChildrenState::AwaitingRetry) return;
+    planet::appendOutline(tree, node, liftM(node, view), forGood ? failedColour : awaitingRetryColour, lines);
+}
+
 }  // namespace
 
 planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selection& selection,
@@ -77,6 +87,10 @@ planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selectio
             planet::appendBox(tree.nodes[item.node].bounds.box, bytesOf(ui::levelColour(item.id.level), 200),
                               lines);
         }
+    }
+    if (settings.overlay.outlines) {
+        for (const planet::DrawItem& item : selection.draw)
+            appendFailed(tree, tree.nodes[item.node], renderView, lines);
     }
     if (settings.seams.showPairs) {
         for (const planet::LevelSeam& seam : selection.seams) appendSeam(tree, seam, renderView, lines);

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "app/selection_hash.h"
+
 namespace worldy {
 
 namespace {
@@ -25,6 +27,8 @@ ui::ViewSettings heldSettings(const planet::Planet& planet, ui::ViewSettings set
     settings.paging.loaderThreads = held.loaderThreads;
     settings.paging.uploadLimitMs = held.uploadLimitMs;
     settings.paging.badDisk = held.badDisk;
+    settings.paging.retries = held.retry.retries;
+    settings.paging.retryDelayS = held.retry.delayS;
     // What automatic is depends on the machine.
     settings.surface.light.normals.use =
         held.normals ? planet::gl::FeatureUse::On : planet::gl::FeatureUse::Off;
@@ -53,8 +57,8 @@ Recorder::Recorder(planet::Planet& planet, std::string name)
     planet.keepMoves(true);
 }
 
-void Recorder::called(planet::Planet& planet, FlightCall call) {
-    frame_.calls.push_back({.call = call, .moves = planet.takeMoves()});
+void Recorder::called(planet::Planet& planet, FlightCall call, const planet::BlockId& block) {
+    frame_.calls.push_back({.call = call, .block = block, .moves = planet.takeMoves()});
 }
 
 void Recorder::givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused) {

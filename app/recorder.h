@@ -24,7 +24,8 @@ public:
 
     // After each call, in the order of the calls; settings may be told of in every frame. Of paging what the
     // planet has is recorded, which is not what was asked for where the GPU had no room for it.
-    void called(planet::Planet& planet, FlightCall call);
+    // block: of RetryBlock.
+    void called(planet::Planet& planet, FlightCall call, const planet::BlockId& block = {});
     void givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused);
     // priorityFactors: of the step's views. A frame that no file may hold is left out, and encoded() is full.
     void stepped(planet::Planet& planet, std::span<const double> priorityFactors);

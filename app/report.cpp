@@ -33,7 +33,7 @@ Json jsonOf(const ui::FrameStats& stats) {
             {"loading", stats.paging.loading},
             {"loaded_blocks", stats.paging.loaded},
             {"evicted_blocks", stats.paging.evicted},
-            {"failed_blocks", stats.paging.failed},
+            {"failed_blocks", stats.paging.failedForGood},
             {"budget_waits", stats.paging.budgetWaits},
             {"resident_chunks", stats.paging.residentChunks},
             {"resident_bytes_cpu", stats.paging.residentBytesCpu},

@@ -69,7 +69,7 @@ planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wan
     return applied;
 }
 
-planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers, double exaggeration) {
+planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers) {
     return {.use = layers.use,
             .set = layers.set,
             .pictures = {},
@@ -78,8 +78,7 @@ planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers, double 
             .opacity = layers.opacity,
             .colourBelow = layers.colourBelow,
             .preview = layers.preview,
-            .previewed = layers.previewed - 1,
-            .exaggeration = exaggeration};
+            .previewed = layers.previewed - 1};
 }
 
 // Only where layers are drawn: most of the time it is nothing to do.
@@ -104,7 +103,7 @@ void followColours(Scene& scene) {
         scene.clipmap.sizePx.reset();  // it went with the pool
         scene.drawsColours = made;
     }
-    const std::vector<planet::ColourChange> changes = scene.planet->takeColourChanges();
+    const std::vector<planet::TileChange> changes = scene.planet->takeColourChanges();
     if (scene.drawsColours) scene.renderer.followColours(changes);
 }
 
@@ -127,10 +126,16 @@ void followNormals(Scene& scene) {
 
 // Of the view that the level of detail is chosen for: shadows freeze with it.
 std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::ViewSettings& settings,
-                                              const planet::gl::RenderSettings& render) {
-    if (!scene.renderer.drawsShadows(render)) return {};
+                                              const planet::gl::RenderSettings& render,
+                                              std::span<const planet::DrawItem> items) {
+    // From far off nothing drawn is within their reach, and the walk would see every resident chunk.
+    const double reachM = render.light.shadows.reachM;
+    const bool mayBeSeen = std::any_of(items.begin(), items.end(), [&](const planet::DrawItem& item) {
+        return static_cast<double>(item.distanceM) < reachM;
+    });
+    if (!mayBeSeen || !scene.renderer.drawsShadows(render)) return {};
     return planet::shadowCasters(scene.planet->tree(), scene.planet->lodView(), lodSettingsOf(settings),
-                                 render.light.shadows.reachM);
+                                 reachM);
 }
 
 // The clipmap stands around the lod view, whose tiles it is filled from, whoever looks at it.
@@ -177,6 +182,7 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
         {(*planet)->shape(), (*planet)->slotCapacity(), config.shaderFolder});
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
+    scene.identity = std::make_shared<const int>(0);
     scene.exaggeration = settings.surface.exaggeration;
     if (config.colour) {
         scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
@@ -231,6 +237,7 @@ planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool p
             .uploadLimitMs = settings.paging.uploadLimitMs,
             .paused = paused,
             .badDisk = settings.paging.badDisk,
+            .retry = {settings.paging.retries, settings.paging.retryDelayS},
             .colourShare = settings.paging.colourShare,
             .normals =
                 settings.surface.lighting && planet::gl::isUsed(settings.surface.light.normals.use, software),
@@ -253,6 +260,7 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     for (planet::gl::RampStop& stop : render.ramp) stop.heightM *= tree.exaggeration;
     render.sea = surface.sea;
     render.seaLevelM = surface.seaLevelM * tree.exaggeration;
+    render.exaggeration = tree.exaggeration;
     render.wireframe = overlay.wireframe;
     render.outlines = overlay.outlines;
     render.skirtPaint = overlay.skirtPaint;
@@ -264,7 +272,7 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     render.sunDirection = surface.sunFollows ? morningSun(view.eyeM)
                                              : planet::directionFromGeographic(ui::sunOverheadOf(surface));
     render.light = surface.light;
-    render.layers = layerDrawingOf(surface.layers, tree.exaggeration);
+    render.layers = layerDrawingOf(surface.layers);
     return render;
 }
 
@@ -328,7 +336,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     followColours(scene);
     followNormals(scene);
     followClipmap(scene, settings);
-    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render));
+    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render, items));
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
     scene.drawn.chunks += counters.chunks;

@@ -40,6 +40,9 @@ struct Scene {
     LayerPictures layers{};               // read when they are first drawn
     ui::TurnedDown turnedDown{};          // of what is Automatic; by the window's own measuring
     std::optional<double> seaSurfaceM{};  // above the radius, where it is drawn as water
+    // Given by openScene; no two scenes have the same. Kept by who must see that another took its place: a
+    // new planet may lie where one that is gone has lain.
+    std::shared_ptr<const int> identity{};
 };
 
 struct SceneConfig {

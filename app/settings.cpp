@@ -56,6 +56,16 @@ Result<Settings> settingsOf(const fs::path& file, const toml::table& document, c
     return readDocument(file, document, settings).map([&](const auto&) { return std::move(settings); });
 }
 
+Result<ViewPart> viewPartOf(const fs::path& file, const toml::table& document) {
+    Settings settings;
+    const Result<std::vector<std::string>> names = readDocument(file, document, settings);
+    if (!names) return tl::unexpected(names.error());
+    ViewPart part{settings.view, {}};
+    std::copy_if(names->begin(), names->end(), std::back_inserter(part.names),
+                 [](const std::string& name) { return isViewTable(name.substr(0, name.find('.'))); });
+    return part;
+}
+
 template <class Wanted>
 std::string textOf(const Settings& settings, const Wanted& wanted) {
     Settings copy = settings;
@@ -107,12 +117,9 @@ toml::table valueFrom(const Field& field, std::string_view text) {
     if (!std::holds_alternative<Text>(field.value)) text = withoutSpaces(text);
     const bool quoted = text.starts_with('"') || text.starts_with('\'');
     if (!bare || quoted) {
-        try {
-            const toml::table parsed = toml::parse(fmt::format("value = {}", text));
-            // A copy has forgotten its line, which the user never saw.
-            if (parsed.size() == 1) return toml::table(parsed);
-        } catch (const toml::parse_error&) {
-        }
+        const Result<toml::table> parsed = parseTomlText(fmt::format("value = {}", text), {});
+        // A copy has forgotten its line, which the user never saw.
+        if (parsed && parsed->size() == 1) return toml::table(*parsed);
     }
     return toml::table{{"value", std::string(text)}};
 }
@@ -177,15 +184,14 @@ std::string viewSettingsText(const ui::ViewSettings& view) {
 }
 
 Result<ViewPart> loadViewPart(const fs::path& file) {
-    const Result<toml::table> document = parseTomlFile(file);
-    if (!document) return tl::unexpected(document.error());
-    Settings settings;
-    const Result<std::vector<std::string>> names = readDocument(file, *document, settings);
-    if (!names) return tl::unexpected(names.error());
-    ViewPart part{settings.view, {}};
-    std::copy_if(names->begin(), names->end(), std::back_inserter(part.names),
-                 [](const std::string& name) { return isViewTable(name.substr(0, name.find('.'))); });
-    return part;
+    return parseTomlFile(file).and_then(
+        [&](const toml::table& document) { return viewPartOf(file, document); });
+}
+
+Result<ViewPart> viewPartFromText(std::string_view text, const fs::path& place) {
+    return parseTomlText(text, place).and_then([&](const toml::table& document) {
+        return viewPartOf(place, document);
+    });
 }
 
 ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now) {

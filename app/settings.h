@@ -82,6 +82,8 @@ struct ViewPart {
 std::string viewSettingsText(const ui::ViewSettings& view);
 // Other settings in the file are checked but left out: a settings file serves too.
 planet::Result<ViewPart> loadViewPart(const std::filesystem::path& file);
+// The same of text; place stands for the file's name in errors.
+planet::Result<ViewPart> viewPartFromText(std::string_view text, const std::filesystem::path& place);
 // The settings as they are, but for what the part holds.
 ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now);
 // Where that would change something.

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -90,6 +91,10 @@ void addPaging(Fields& fields, ui::PagingKnobs& paging) {
           Number{&paging.colourShare, {0.01, 0.9, ""}}},
          {"paging", "normal_share", "Of what colours leave of the budget, for normals finer than the mesh.",
           Number{&paging.normalShare, {0.01, 0.9, ""}}},
+         {"paging", "retries", "How often a block that could not be read is asked for again by itself.",
+          Integer{&paging.retries, {0, 10, "retries"}}},
+         {"paging", "retry_delay_s", "Until the first retry, seconds; twice as long until each further one.",
+          Number{&paging.retryDelayS, {0, 60, "seconds"}}},
          {"paging", "simulated",
           "Reads end by the bad disk's settings and seed, in the time of frames, not by the clock.",
           Flag{&paging.simulated}},
@@ -558,8 +563,11 @@ bool isViewTable(std::string_view table) {
 const Field* findField(std::span<const Field> fields, std::string_view name) {
     const FormerName* former = findFormer(name);
     const std::string_view wanted = former ? former->now : name;
-    const auto found = std::find_if(fields.begin(), fields.end(),
-                                    [&](const Field& field) { return field.name() == wanted; });
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
+        const std::size_t dot = field.table.size();
+        return wanted.size() == dot + 1 + field.key.size() && wanted[dot] == '.' &&
+               wanted.starts_with(field.table) && wanted.ends_with(field.key);
+    });
     return found == fields.end() ? nullptr : &*found;
 }
 
@@ -580,11 +588,17 @@ Result<void> readField(const fs::path& file, const Field& field, std::string_vie
 
 tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::string_view name,
                                              std::span<const Field> fields) {
-    const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const Field& a, const Field& b) {
-        return editDistance(a.name(), name) < editDistance(b.name(), name);
-    });
+    // Of a name as long as a file its beginning, which is far from any already.
+    constexpr std::size_t mostLetters = 100;
+    std::string nearest;
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (const Field& field : fields) {
+        const std::size_t distance = editDistance(field.name(), name.substr(0, mostLetters));
+        if (distance < least) nearest = field.name();
+        least = std::min(least, distance);
+    }
     return planet::badInput(
-        fmt::format("{}: {} is not a setting; the nearest one is {}", place, name, nearest->name()));
+        fmt::format("{}: {:.60} is not a setting; the nearest one is {}", place, name, nearest));
 }
 
 std::string tomlText(const Field& field) {

@@ -38,6 +38,25 @@ Utf8Start utf8Start(unsigned char byte) {
     return {};
 }
 
+// A key's parts become tables in one another, and are let go of one in another too: a million of them would
+// overflow the stack. All dots of a line are counted, since a part in quotes may hold anything but a line's
+// end.
+constexpr std::size_t mostDotsALine = 5000;
+
+// The first line with more, 0 where there is none. A row of dots counts as one.
+std::size_t lineOfEndlessKey(std::string_view text) {
+    std::size_t line = 1, dots = 0;
+    char before = 0;  // but spaces
+    for (const char letter : text) {
+        if (letter == '.' && before != '.' && ++dots > mostDotsALine) return line;
+        if (letter != ' ' && letter != '\t') before = letter;
+        if (letter != '\n') continue;
+        ++line;
+        dots = 0;
+    }
+    return 0;
+}
+
 }  // namespace
 
 bool isUtf8(std::string_view text) {
@@ -86,6 +105,11 @@ planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
 }
 
 planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place) {
+    if (const std::size_t line = lineOfEndlessKey(text); line > 0) {
+        return planet::badInput(
+            fmt::format("{}: line {}: has more than {} dots; several lines would be right", place.string(),
+                        line, mostDotsALine));
+    }
     try {
         return toml::parse(text, place.string());
     } catch (const toml::parse_error& error) {

@@ -1,13 +1,13 @@
 #include "planet/atmosphere.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <numbers>
+
+#include "planet/parallel.h"
 
 namespace planet {
 
@@ -128,7 +128,8 @@ template <class Value>
 AirTable filled(int width, int height, int depth, const Value& value) {
     AirTable table{width, height, depth, {}};
     table.texels.resize(indexOf(table, 0, 0, depth));
-    tbb::parallel_for(0, height * depth, [&](int line) {
+    forEachInParallel(static_cast<std::size_t>(height * depth), [&](std::size_t index) {
+        const auto line = static_cast<int>(index);
         for (int x = 0; x < width; ++x) {
             const glm::dvec3 texel = value(x, line % height, line / height);
             table.texels[indexOf(table, x, line, 0)] = glm::vec4(texel, 0);

@@ -3,124 +3,118 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cassert>
 #include <cerrno>
-#include <cstring>
-#include <system_error>
 #include <utility>
 
 namespace planet {
 
 namespace {
 
-std::string describe(const std::filesystem::path& path, const char* what) {
-    return fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno));
+tl::unexpected<Error> systemError(const std::filesystem::path& path, const char* what) {
+    return ioError(fmt::format("{}: {}: {}", path.string(), what, lastSystemError()));
 }
 
-// The lock may have been won on a file that its last writer has renamed or removed meanwhile.
-bool stillHasName(int descriptor, const std::filesystem::path& path) {
+// The rename would put a file in the place of whatever is there, a device too.
+Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& calls) {
+    struct stat there {};
+    if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) {
+        if (errno == ENOENT) return {};
+        return systemError(path, "cannot be written");
+    }
+    if (S_ISREG(there.st_mode)) return {};
+    return ioError(path.string() + ": is a folder or a device; name a file");
+}
+
+// False where the lock was won on a file that its last writer has renamed or removed meanwhile.
+Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& temporary,
+                          const std::filesystem::path& path) {
     struct stat opened {};
     struct stat named {};
-    return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
-           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+    const FileCalls& calls = file.calls();
+    if (uninterrupted([&] { return calls.fstat(file.descriptor(), &opened); }) != 0)
+        return systemError(path, "cannot be written");
+    if (uninterrupted([&] { return calls.stat(temporary.c_str(), &named); }) != 0) {
+        if (errno == ENOENT) return false;
+        return systemError(path, "cannot be written");
+    }
+    return opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+void syncFolderOf(const std::filesystem::path& path, const FileCalls& calls) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const auto opened = OpenFile::open(folder, O_RDONLY | O_DIRECTORY, calls);
+    if (opened) uninterrupted([&] { return calls.fsync(opened->descriptor()); });
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor)
-    : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor) {}
+AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path temporary, OpenFile file)
+    : path_(std::move(path)), temporary_(std::move(temporary)), file_(std::move(file)) {}
 
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      temporary_(std::move(other.temporary_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      size_(other.size_) {}
-
-Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path) {
-    // The rename would put a file in the place of whatever is there, a device too.
-    std::error_code problem;
-    const std::filesystem::file_status there = std::filesystem::status(path, problem);
-    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
-        return ioError(path.string() + ": is a folder or a device; name a file");
-    }
+Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const FileCalls& calls) {
+    if (auto free = checkPlace(path, calls); !free) return tl::unexpected(std::move(free.error()));
     std::filesystem::path temporary = path;
     temporary.replace_filename("." + path.filename().string() + ".part");
     for (;;) {
-        const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (descriptor < 0) return ioError(describe(path, "cannot be written"));
-        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-            close(descriptor);
-            return ioError(path.string() +
-                           ": another program is writing this file; wait for it or name another");
+        const int descriptor =
+            uninterrupted([&] { return calls.open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644); });
+        if (descriptor < 0) return systemError(path, "cannot be written");
+        OpenFile opened(descriptor, path.string(), calls);
+        if (uninterrupted([&] { return calls.flock(descriptor, LOCK_EX | LOCK_NB); }) != 0) {
+            if (errno == EWOULDBLOCK)
+                return ioError(path.string() +
+                               ": another program is writing this file; wait for it or name another");
+            // Nobody can lock it, so it is nobody's.
+            const auto problem = systemError(path, "cannot be locked");
+            calls.unlink(temporary.c_str());
+            return problem;
         }
-        if (!stillHasName(descriptor, temporary)) {
-            close(descriptor);
+        // From here on the temporary file is removed on any Error.
+        AtomicFile file(path, temporary, std::move(opened));
+        const Result<bool> own = stillHasName(file.file_, temporary, path);
+        if (!own) return tl::unexpected(own.error());
+        if (!*own) {
+            file.file_.close();
             continue;
         }
-        AtomicFile file(path, std::move(temporary), descriptor);
-        if (ftruncate(descriptor, 0) != 0) return ioError(describe(path, "cannot be written"));
+        if (uninterrupted([&] { return calls.ftruncate(descriptor, 0); }) != 0)
+            return systemError(path, "cannot be written");
         return file;
     }
 }
 
 AtomicFile::~AtomicFile() {
-    if (descriptor_ < 0) return;
-    unlink(temporary_.c_str());
-    close(descriptor_);
-}
-
-Result<void> AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return ioError(describe(path_, "writing failed"));
-        bytes = bytes.subspan(static_cast<std::size_t>(count));
-        offset += static_cast<std::uint64_t>(count);
-    }
-    return {};
+    if (file_.descriptor() >= 0) file_.calls().unlink(temporary_.c_str());
 }
 
 Result<void> AtomicFile::append(std::span<const std::byte> bytes) {
-    const Result<void> written = write(size_, bytes);
+    const Result<void> written = file_.write(size_, bytes);
     if (written) size_ += bytes.size();
     return written;
 }
 
 Result<void> AtomicFile::overwrite(std::uint64_t offset, std::span<const std::byte> bytes) {
     assert(offset + bytes.size() <= size_);
-    return write(offset, bytes);
+    return file_.write(offset, bytes);
 }
 
 Result<void> AtomicFile::read(std::uint64_t offset, std::span<std::byte> out) const {
     assert(offset + out.size() <= size_);
-    while (!out.empty()) {
-        const ssize_t count = pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return ioError(describe(path_, "reading back failed"));
-        if (count == 0)
-            return ioError(path_.string() +
-                           ": was cut while it was written; leave it alone and write it again");
-        out = out.subspan(static_cast<std::size_t>(count));
-        offset += static_cast<std::uint64_t>(count);
-    }
-    return {};
+    return file_.read(offset, out);
 }
 
 Result<void> AtomicFile::commit() {
-    if (fsync(descriptor_) != 0) return ioError(describe(path_, "writing failed"));
-    if (rename(temporary_.c_str(), path_.c_str()) != 0)
-        return ioError(describe(path_, "cannot take this name"));
-    close(std::exchange(descriptor_, -1));
+    const FileCalls& calls = file_.calls();
+    if (uninterrupted([&] { return calls.fsync(file_.descriptor()); }) != 0)
+        return systemError(path_, "writing failed");
+    if (uninterrupted([&] { return calls.rename(temporary_.c_str(), path_.c_str()); }) != 0)
+        return systemError(path_, "cannot take this name");
+    // What closing can still say was said by the sync.
+    file_.close();
     // The name is durable once its folder is; where folders cannot be synced the file is whole all the same.
-    const std::filesystem::path folder = path_.has_parent_path() ? path_.parent_path() : ".";
-    const int folderDescriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folderDescriptor >= 0) {
-        fsync(folderDescriptor);
-        close(folderDescriptor);
-    }
+    syncFolderOf(path_, calls);
     return {};
 }
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <span>
 
+#include "planet/file_calls.h"
+#include "planet/open_file.h"
 #include "planet/result.h"
 
 namespace planet {
@@ -15,8 +17,9 @@ namespace planet {
 // One thread.
 class AtomicFile {
 public:
-    static Result<AtomicFile> create(const std::filesystem::path& path);
-    AtomicFile(AtomicFile&& other) noexcept;
+    static Result<AtomicFile> create(const std::filesystem::path& path,
+                                     const FileCalls& calls = systemFileCalls());
+    AtomicFile(AtomicFile&& other) noexcept = default;
     AtomicFile& operator=(AtomicFile&&) = delete;
     ~AtomicFile();
 
@@ -31,12 +34,11 @@ public:
     Result<void> commit();
 
 private:
-    AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
-    Result<void> write(std::uint64_t offset, std::span<const std::byte> bytes);
+    AtomicFile(std::filesystem::path path, std::filesystem::path temporary, OpenFile file);
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;
-    int descriptor_ = -1;
+    OpenFile file_;  // closed once it is committed
     std::uint64_t size_ = 0;
 };
 

@@ -18,6 +18,7 @@
 #include "planet/chunk_file_format.h"
 #include "planet/level_images.h"
 #include "planet/little_endian.h"
+#include "planet/parallel.h"
 
 namespace planet {
 
@@ -206,18 +207,6 @@ private:
     Clock::time_point reported_ = start_;
 };
 
-// oneTBB orders the stages of a pipeline, but a thread sanitizer cannot see into the library. What one stage
-// leaves for the next is therefore also handed over where it can see: give after writing, take before
-// reading.
-class Handover {
-public:
-    void give() { turn_.fetch_add(1, std::memory_order_release); }
-    void take() const { static_cast<void>(turn_.load(std::memory_order_acquire)); }
-
-private:
-    std::atomic<unsigned> turn_ = 0;
-};
-
 Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Assembler& assembler,
                        ProgressMeter& meter) {
     const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
@@ -232,6 +221,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
         handover.take();
         if (stop || next == tileCount) {
             control.stop();
+            handover.give();
             return {};
         }
         const ChunkId id = chunkInQuadtreeOrder(next++, tileLevel);
@@ -323,7 +313,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
         colourTiles = colourTileCount(*leaf);
     }
 
-    auto file = AtomicFile::create(output);
+    auto file = AtomicFile::create(output, settings.fileCalls);
     if (!file) return tl::unexpected(file.error());
     if (auto reserved = file->append(std::vector<std::byte>(chunkFileHeaderBytes)); !reserved) {
         return tl::unexpected(reserved.error());

@@ -21,6 +21,7 @@
 #include <optional>
 
 #include "planet/colour_bake.h"
+#include "planet/file_calls.h"
 #include "planet/height_codec.h"
 #include "planet/height_source.h"
 #include "planet/planet_shape.h"
@@ -44,7 +45,8 @@ struct BakeSettings {
     // 128 cells, but at least one: what neighbouring squares both sample is little then, and a square fits a
     // core's cache. The chunks are the same whatever it is; the order of their blocks may differ.
     std::optional<int> tileLevels{};
-    ColourBakeSettings colour{};  // of the colour source, where there is one
+    ColourBakeSettings colour{};              // of the colour source, where there is one
+    FileCalls fileCalls = systemFileCalls();  // by which the output is written
 };
 
 struct BakeProgress {

@@ -132,6 +132,8 @@ private:
         switch (node.childrenState) {
             case ChildrenState::Resident:
                 return splitWaits(node) ? WhyNotSplit::WaitingForMorph : WhyNotSplit::SeamLimit;
+            case ChildrenState::AwaitingRetry:
+                return WhyNotSplit::WaitingForRetry;
             case ChildrenState::Failed:
                 return WhyNotSplit::ChildrenFailed;
             case ChildrenState::Requested:
@@ -170,9 +172,11 @@ private:
         const ChunkNode& above = deepest();
         const ChunkId next = ancestorOf(id_, above.id.level + 1);
         out_.queuePlace = placeInQueue(above.id);
-        if (above.childrenState == ChildrenState::Failed) {
+        const bool awaitsRetry = above.childrenState == ChildrenState::AwaitingRetry;
+        if (awaitsRetry || above.childrenState == ChildrenState::Failed) {
             out_.state = ChunkState::Failed;
             out_.decidedBy = next;
+            out_.decidedByNotSplit = awaitsRetry ? WhyNotSplit::WaitingForRetry : WhyNotSplit::ChildrenFailed;
         } else if (above.childrenState == ChildrenState::Requested) {
             const bool queued = out_.queuePlace.has_value();
             out_.state = queued ? ChunkState::Requested : ChunkState::Loading;

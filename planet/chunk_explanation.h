@@ -21,7 +21,7 @@ enum class ChunkState : std::uint8_t {
     Requested,      // queued
     Loading,        // being read
     NotResident,    // in the file, not asked for
-    Failed,         // could not be read
+    Failed,         // could not be read; decidedByNotSplit says whether for good
     NotInFile,      // no such chunk: deeper than the leaves
 };
 
@@ -36,7 +36,8 @@ enum class WhyNotSplit : std::uint8_t {
     WaitingInQueue,   // for its children
     WaitingForRead,
     WaitingForBudget,
-    ChildrenFailed,
+    WaitingForRetry,  // its children could not be read, and will be asked for again
+    ChildrenFailed,   // for good
 };
 
 struct ChunkExplanation {

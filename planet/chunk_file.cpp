@@ -2,51 +2,20 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 #include "planet/chunk_file_format.h"
 #include "planet/height_codec.h"
 #include "planet/little_endian.h"
+#include "planet/open_file.h"
 
 namespace planet {
 
 namespace {
-
-struct Descriptor {
-    explicit Descriptor(int opened) : number(opened) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number >= 0) close(number);
-    }
-    int number;
-};
-
-ReadAt readerOf(std::shared_ptr<const Descriptor> descriptor, std::string name) {
-    return [descriptor = std::move(descriptor), name = std::move(name)](
-               std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
-        while (!out.empty()) {
-            const ssize_t count =
-                pread(descriptor->number, out.data(), out.size(), static_cast<off_t>(offset));
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) return ioError(fmt::format("{}: reading failed: {}", name, std::strerror(errno)));
-            if (count == 0)
-                return ioError(
-                    fmt::format("{}: ended at byte {} while open: it was truncated", name, offset));
-            out = out.subspan(static_cast<std::size_t>(count));
-            offset += static_cast<std::uint64_t>(count);
-        }
-        return {};
-    };
-}
 
 // No honest block is larger: the codec never needs 4 bytes a sample.
 std::uint64_t largestBlockBytes(const PlanetShape& shape) {
@@ -98,17 +67,18 @@ std::string nameOf(const BlockId& id) {
 
 }  // namespace
 
-Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path) {
-    const std::string name = path.string();
-    auto descriptor = std::make_shared<const Descriptor>(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (descriptor->number < 0)
-        return ioError(fmt::format("{}: cannot open it: {}", name, std::strerror(errno)));
+Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path, const FileCalls& calls) {
+    // Opening a pipe would wait for somebody to write into it.
+    Result<OpenFile> opened = OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls);
+    if (!opened) return tl::unexpected(std::move(opened.error()));
+    const auto file = std::make_shared<const OpenFile>(std::move(*opened));
     struct stat status {};
-    if (fstat(descriptor->number, &status) != 0)
-        return ioError(fmt::format("{}: {}", name, std::strerror(errno)));
+    if (uninterrupted([&] { return calls.fstat(file->descriptor(), &status); }) != 0)
+        return ioError(fmt::format("{}: cannot be read: {}", file->name(), lastSystemError()));
     if (!S_ISREG(status.st_mode))
-        return badInput(fmt::format("{}: not a file; name a baked chunk file", name));
-    return open(name, static_cast<std::uint64_t>(status.st_size), readerOf(std::move(descriptor), name));
+        return badInput(fmt::format("{}: not a file; name a baked chunk file", file->name()));
+    return open(file->name(), static_cast<std::uint64_t>(status.st_size),
+                [file](std::uint64_t offset, std::span<std::byte> out) { return file->read(offset, out); });
 }
 
 Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, ReadAt readAt) {
@@ -229,6 +199,8 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
                                                                      BlockLocation location) const {
     assert(parent.level + 1 < leafLevel(info_.shape));
     constexpr std::size_t entriesBytes = quadrantCount * chunkEntryBytes;
+    if (location.size < entriesBytes + checksumBytes)
+        return tl::unexpected(nonsense(parent, "it is too small for its index"));
     const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
     if (!bytes) return tl::unexpected(bytes.error());
     std::array<ChunkEntry, quadrantCount> entries;
@@ -243,8 +215,8 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
     return entries;
 }
 
-Result<std::vector<ColourTileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,
-                                                               std::span<const ChunkId> tiles) const {
+Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,
+                                                         std::span<const ChunkId> tiles) const {
     const ColourPyramid& pyramid = *info_.colour;
     const BlockId id(block, BlockKind::Colours);
     const std::size_t entriesBytes = tiles.size() * colourEntryBytes;
@@ -258,7 +230,7 @@ Result<std::vector<ColourTileData>> ChunkFile::readColourBlock(const ChunkId& bl
         id, *bytes,
         tiles[0].level == 0 ? colourRootChecksum(summed, block.face) : colourSiblingChecksum(summed, block));
     if (!content) return tl::unexpected(content.error());
-    std::vector<ColourTileData> read;
+    std::vector<TileData> read;
     std::span<const std::byte> packed = content->subspan(entriesBytes);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const ColourEntry entry = colourEntryFrom(
@@ -279,7 +251,7 @@ Result<std::vector<ColourTileData>> ChunkFile::readColourBlock(const ChunkId& bl
     return read;
 }
 
-Result<ColourTileData> ChunkFile::readColourRoot(Face face) const {
+Result<TileData> ChunkFile::readColourRoot(Face face) const {
     assert(info_.colour);
     const ChunkId root{face, 0, 0, 0};
     auto tiles = readColourBlock(root, info_.colour->roots[static_cast<std::size_t>(face)], {&root, 1});
@@ -287,15 +259,15 @@ Result<ColourTileData> ChunkFile::readColourRoot(Face face) const {
     return std::move(tiles->front());
 }
 
-Result<std::array<ColourTileData, quadrantCount>> ChunkFile::readColourChildren(
-    const ChunkId& parent, BlockLocation location) const {
+Result<std::array<TileData, quadrantCount>> ChunkFile::readColourChildren(const ChunkId& parent,
+                                                                          BlockLocation location) const {
     assert(info_.colour && parent.level < info_.colour->leafLevel);
     std::array<ChunkId, quadrantCount> ids;
     for (int quadrant = 0; quadrant < quadrantCount; ++quadrant)
         ids[static_cast<std::size_t>(quadrant)] = childOf(parent, quadrant);
     auto tiles = readColourBlock(parent, location, ids);
     if (!tiles) return tl::unexpected(std::move(tiles.error()));
-    std::array<ColourTileData, quadrantCount> children;
+    std::array<TileData, quadrantCount> children;
     std::move(tiles->begin(), tiles->end(), children.begin());
     return children;
 }
@@ -304,6 +276,8 @@ Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(cons
                                                                             BlockLocation location) const {
     assert(info_.colour && parent.level + 1 < info_.colour->leafLevel);
     constexpr std::size_t entriesBytes = quadrantCount * colourEntryBytes;
+    if (location.size < entriesBytes + checksumBytes)
+        return tl::unexpected(nonsense({parent, BlockKind::Colours}, "it is too small for its index"));
     const auto bytes = readBlock({parent, BlockKind::Colours}, {location.offset, entriesBytes},
                                  {entriesBytes, entriesBytes});
     if (!bytes) return tl::unexpected(bytes.error());

@@ -33,6 +33,7 @@
 #include "planet/block_id.h"
 #include "planet/chunk_id.h"
 #include "planet/colour_tile.h"
+#include "planet/file_calls.h"
 #include "planet/planet_shape.h"
 #include "planet/result.h"
 
@@ -77,7 +78,6 @@ struct TileData {
     // As the GPU takes them: colourTileBytes, or normalTileBytes.
     std::vector<std::byte> texels;
 };
-using ColourTileData = TileData;
 
 // What a colour block says of one of its tiles.
 struct ColourEntry {
@@ -113,8 +113,9 @@ using ReadAt = std::function<Result<void>(std::uint64_t offset, std::span<std::b
 // An open file. Reading is const and may be done by several threads at once.
 class ChunkFile {
 public:
-    static Result<ChunkFile> open(const std::filesystem::path& path);
-    // The same over any bytes: tests and failing disks. The name is for messages.
+    static Result<ChunkFile> open(const std::filesystem::path& path,
+                                  const FileCalls& calls = systemFileCalls());
+    // The same over any bytes. The name is for messages.
     static Result<ChunkFile> open(std::string name, std::uint64_t sizeBytes, ReadAt readAt);
 
     const ChunkFileInfo& info() const { return info_; }
@@ -133,9 +134,9 @@ public:
                                                               BlockLocation location) const;
 
     // Of a file with colours. As for chunks: where its children lie is known of a tile that has been read.
-    Result<ColourTileData> readColourRoot(Face face) const;
-    Result<std::array<ColourTileData, quadrantCount>> readColourChildren(const ChunkId& parent,
-                                                                         BlockLocation location) const;
+    Result<TileData> readColourRoot(Face face) const;
+    Result<std::array<TileData, quadrantCount>> readColourChildren(const ChunkId& parent,
+                                                                   BlockLocation location) const;
     // As readEntries: where the four tiles' own children lie, of tiles above the finest level.
     Result<std::array<ColourEntry, quadrantCount>> readColourEntries(const ChunkId& parent,
                                                                      BlockLocation location) const;
@@ -149,8 +150,8 @@ private:
     };
     Result<std::vector<std::byte>> readBlock(const BlockId& id, BlockLocation location,
                                              const BlockBytes& bytes) const;
-    Result<std::vector<ColourTileData>> readColourBlock(const ChunkId& block, BlockLocation location,
-                                                        std::span<const ChunkId> tiles) const;
+    Result<std::vector<TileData>> readColourBlock(const ChunkId& block, BlockLocation location,
+                                                  std::span<const ChunkId> tiles) const;
     Result<std::span<const std::byte>> checkedContent(const BlockId& id, std::span<const std::byte> block,
                                                       std::uint64_t expectedChecksum) const;
     Error nonsense(const BlockId& id, std::string_view what) const;

@@ -180,6 +180,17 @@ ColourEntry colourEntryFrom(std::span<const std::byte, colourEntryBytes> bytes, 
     return entry;
 }
 
+Result<void> spendOn(const ChunkFile& file, BlockLocation block, std::uint64_t& bytesLeft) {
+    if (block.size > bytesLeft) {
+        return badInput(
+            fmt::format("{}: the index is damaged: it tells of more blocks than the file's {} bytes can "
+                        "hold; bake it again",
+                        file.name(), file.sizeBytes()));
+    }
+    bytesLeft -= block.size;
+    return {};
+}
+
 std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face) {
     return checksum(bytes, rootSeed | keyOf({face, 0, 0, 0}));
 }

@@ -35,6 +35,11 @@ std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& p
 std::uint64_t colourRootChecksum(std::span<const std::byte> bytes, Face face);
 std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
 
+// For who follows the index, which no checksum was looked at for: a hostile one leads to the same block by
+// many ways, or in circles. Takes a block from what the file's blocks can be in all, sizeBytes() at first;
+// the Error says that they are more.
+Result<void> spendOn(const ChunkFile& file, BlockLocation block, std::uint64_t& bytesLeft);
+
 // Of the header, all but its last checksumBytes.
 std::uint64_t headerChecksum(std::span<const std::byte> bytes);
 std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "planet/geometric_error.h"
+#include "planet/node_groups.h"
 
 namespace planet {
 
@@ -103,17 +104,6 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     node.slot = slot;
     node.heights = std::make_shared<const std::vector<std::int16_t>>(std::move(data.heights));
     return node;
-}
-
-NodeIndex takeGroup(ChunkTree& tree) {
-    if (!tree.freeGroups.empty()) {
-        const NodeIndex first = tree.freeGroups.back();
-        tree.freeGroups.pop_back();
-        return first;
-    }
-    const auto first = static_cast<NodeIndex>(tree.nodes.size());
-    tree.nodes.resize(tree.nodes.size() + quadrantCount);
-    return first;
 }
 
 // Where a ray from the planet's centre meets a triangle's plane, and how far inside the triangle: the least
@@ -236,14 +226,15 @@ Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
 
 NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
                       const std::array<std::uint32_t, quadrantCount>& slots) {
-    assert(tree.nodes[parent].childrenState != ChildrenState::Resident);
+    if (tree.nodes[parent].childrenState == ChildrenState::Absent)
+        changeState(tree.nodes[parent].childrenState, ChildrenState::Requested);
     const NodeIndex first = takeGroup(tree);
     for (std::uint32_t q = 0; q < quadrantCount; ++q) {
         assert(children[q].id == childOf(tree.nodes[parent].id, static_cast<int>(q)));
         tree.nodes[first + q] = makeNode(tree, std::move(children[q]), parent, slots[q]);
     }
     tree.nodes[parent].firstChild = first;
-    tree.nodes[parent].childrenState = ChildrenState::Resident;
+    changeState(tree.nodes[parent].childrenState, ChildrenState::Resident);
     tree.residentChunks += quadrantCount;
     return first;
 }
@@ -258,7 +249,7 @@ void removeChildren(ChunkTree& tree, NodeIndex parent) {
     }
     tree.freeGroups.push_back(first);
     above.firstChild = noNode;
-    above.childrenState = ChildrenState::Absent;
+    changeState(above.childrenState, ChildrenState::Absent);
     tree.residentChunks -= quadrantCount;
 }
 

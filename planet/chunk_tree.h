@@ -20,6 +20,7 @@
 #include <memory>
 #include <vector>
 
+#include "planet/block_state.h"
 #include "planet/bounds.h"
 #include "planet/chunk_file.h"
 
@@ -30,14 +31,6 @@ inline constexpr NodeIndex noNode = ~NodeIndex{0};
 
 // Shared with loader threads, which refine a parent's heights while the tree may already have dropped it.
 using SharedHeights = std::shared_ptr<const std::vector<std::int16_t>>;
-
-enum class ChildrenState : std::uint8_t {
-    None,       // a leaf
-    Absent,     // in the file, not asked for
-    Requested,  // queued or being read
-    Resident,   // all four are nodes
-    Failed,     // could not be read; not asked for again until told to
-};
 
 // A chunk that is loaded and drawable.
 struct ChunkNode {
@@ -102,8 +95,8 @@ double curvatureErrorM(const PlanetShape& shape, int level);
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
                            const std::array<ChunkData, quadrantCount>& children);
 
-// Adds the four children of a node whose children are not resident, in the given slots; returns the first.
-// They must pass checkChildren.
+// Adds the four children of a node whose children are Requested, in the given slots; returns the first. They
+// must pass checkChildren. Where nobody has a queue they may be Absent too.
 NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
                       const std::array<std::uint32_t, quadrantCount>& slots);
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "planet/chunk_file_format.h"
 #include "planet/colour_tile.h"
 
 namespace planet {
@@ -17,16 +18,18 @@ namespace {
 constexpr std::size_t mostProblems = 100;
 
 Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLocation block,
-                           std::vector<ColourLevelReport>& levels) {
+                           std::vector<ColourLevelReport>& levels, std::uint64_t& bytesLeft) {
     ColourLevelReport& level = levels[parent.level + 1u];
     level.tiles += quadrantCount;
     level.bytes += block.size;
+    if (auto spent = spendOn(file, block, bytesLeft); !spent) return spent;
     if (level.level == file.info().colour->leafLevel) return {};
     const auto entries = file.readColourEntries(parent, block);
     if (!entries) return tl::unexpected(entries.error());
     for (std::size_t q = 0; q < entries->size(); ++q) {
         const ChunkId child = childOf(parent, static_cast<int>(q));
-        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels); !done) return done;
+        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels, bytesLeft); !done)
+            return done;
     }
     return {};
 }
@@ -72,7 +75,7 @@ public:
     }
 
 private:
-    Result<void> visit(const ColourTileData& tile) {
+    Result<void> visit(const TileData& tile) {
         if (goOn_ && !goOn_()) return cancelled();
         ++report_.tiles;
         const std::vector<std::uint8_t> rgb = rgbOfColourTexels(colour_.format, tile.texels);
@@ -86,7 +89,7 @@ private:
             problem(children.error().message);
             return {};
         }
-        for (const ColourTileData& child : *children) {
+        for (const TileData& child : *children) {
             if (auto done = visit(child); !done) return done;
         }
         return {};
@@ -110,7 +113,7 @@ private:
         open_.erase(seen);
     }
 
-    Result<void> compare(const ColourTileData& tile) {
+    Result<void> compare(const TileData& tile) {
         std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
         if (auto sampled = sampleColourTile(*source_, tile.id, rgb); !sampled) return sampled;
         ++report_.compared;
@@ -141,6 +144,7 @@ Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file) {
     const ColourPyramid& colour = *file.info().colour;
     std::vector<ColourLevelReport> levels(static_cast<std::size_t>(colour.leafLevel) + 1);
     for (std::size_t i = 0; i < levels.size(); ++i) levels[i].level = static_cast<int>(i);
+    std::uint64_t bytesLeft = file.sizeBytes();
     for (const Face face : allFaces) {
         const BlockLocation block = colour.roots[static_cast<std::size_t>(face)];
         levels[0].tiles += 1;
@@ -148,7 +152,7 @@ Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file) {
         if (colour.leafLevel == 0) continue;
         const auto root = file.readColourRoot(face);
         if (!root) return tl::unexpected(root.error());
-        if (auto done = tallyChildren(file, root->id, root->children, levels); !done)
+        if (auto done = tallyChildren(file, root->id, root->children, levels, bytesLeft); !done)
             return tl::unexpected(done.error());
     }
     return levels;

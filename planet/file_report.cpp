@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "planet/chunk_file_format.h"
 #include "planet/chunk_surface.h"
 #include "planet/finest_distance.h"
 #include "planet/geometric_error.h"
@@ -46,17 +47,19 @@ struct LevelTally {
 };
 
 Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLocation block,
-                           std::vector<LevelTally>& levels) {
+                           std::vector<LevelTally>& levels, std::uint64_t& bytesLeft) {
     LevelTally& level = levels[parent.level + 1u];
     level.chunks += quadrantCount;
     level.bytes += block.size;
+    if (auto spent = spendOn(file, block, bytesLeft); !spent) return spent;
     if (parent.level + 1 == leafLevel(file.info().shape)) return {};  // leaves: delta_c is 0, no index
     const auto entries = file.readEntries(parent, block);
     if (!entries) return tl::unexpected(entries.error());
     for (const ChunkEntry& entry : *entries) level.add(entry.deltaCM, entry.deltaTightM);
     for (std::size_t q = 0; q < entries->size(); ++q) {
         const ChunkId child = childOf(parent, static_cast<int>(q));
-        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels); !done) return done;
+        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels, bytesLeft); !done)
+            return done;
     }
     return {};
 }
@@ -284,9 +287,11 @@ private:
         const double step = square.side / chunkCells(shape_);
         for (std::size_t i = 0; i < chunk.heights.size(); ++i) {
             const std::int16_t height = chunk.heights[i];
+            const std::size_t row = i / side;
+            const std::size_t column = i % side;
             const glm::dvec3 direction =
-                sphereFromCube(cubePoint(chunk.id.face, square.u + step * static_cast<double>(i % side),
-                                         square.v + step * static_cast<double>(i / side)));
+                sphereFromCube(cubePoint(chunk.id.face, square.u + step * static_cast<double>(column),
+                                         square.v + step * static_cast<double>(row)));
             if (height < chunk.minStep || height > chunk.maxStep) {
                 return chunkProblem(chunk.id, "a height lies outside its recorded extremes");
             }
@@ -398,6 +403,7 @@ private:
 Result<FileReport> reportFile(const ChunkFile& file) {
     const PlanetShape& shape = file.info().shape;
     std::vector<LevelTally> tallies(static_cast<std::size_t>(leafLevel(shape)) + 1);
+    std::uint64_t bytesLeft = file.sizeBytes();
     for (const Face face : allFaces) {
         const auto root = file.readRoot(face);
         if (!root) return tl::unexpected(root.error());
@@ -405,7 +411,7 @@ Result<FileReport> reportFile(const ChunkFile& file) {
         tallies[0].bytes += file.info().roots[static_cast<std::size_t>(face)].size;
         tallies[0].add(root->deltaCM, root->deltaTightM);
         if (leafLevel(shape) == 0) continue;
-        if (auto done = tallyChildren(file, root->id, root->children, tallies); !done)
+        if (auto done = tallyChildren(file, root->id, root->children, tallies, bytesLeft); !done)
             return tl::unexpected(done.error());
     }
     FileReport report;

@@ -16,6 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "planet/file_calls.h"
 #include "planet/result.h"
 
 namespace planet {
@@ -166,10 +167,12 @@ struct RasterMemory {
 // A tiled image is read tile by tile. An untiled one is held whole where it fits; else it is copied once to
 // a temporary file that has no name, and so is gone with the raster however the program ends.
 Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
-                                     const HeightConversion& conversion, const RasterMemory& memory);
+                                     const HeightConversion& conversion, const RasterMemory& memory,
+                                     const FileCalls& calls = systemFileCalls());
 
 // A headerless file of size x size samples, rows from the top. The file's length must have been checked.
 Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
-                                   const HeightConversion& conversion, const RasterMemory& memory);
+                                   const HeightConversion& conversion, const RasterMemory& memory,
+                                   const FileCalls& calls = systemFileCalls());
 
 }  // namespace planet

@@ -1,6 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planet/height_raster.h"
+#include "planet/open_file.h"
 
 namespace planet {
 
@@ -19,58 +20,22 @@ constexpr int spillBlockWidth = 256;         // samples
 constexpr int spillBlockHeight = 64;         // samples
 constexpr std::size_t bandBytes = 8u << 20;  // rows of an image read at once
 
-std::string lastSystemError() {
-    return std::error_code(errno, std::generic_category()).message();
-}
-
-// An open file descriptor; reads and writes at a place are safe from any thread.
-class File {
-public:
-    File(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    ~File() { ::close(descriptor_); }
-
-    Result<void> read(std::uint64_t offset, std::span<std::byte> into) const {
-        while (!into.empty()) {
-            const ::ssize_t got =
-                ::pread(descriptor_, into.data(), into.size(), static_cast<::off_t>(offset));
-            if (got < 0 && errno == EINTR) continue;
-            if (got < 0) return ioError(fmt::format("{}: cannot be read: {}", name_, lastSystemError()));
-            if (got == 0) return ioError(fmt::format("{}: has become shorter while being read", name_));
-            offset += static_cast<std::uint64_t>(got);
-            into = into.subspan(static_cast<std::size_t>(got));
-        }
-        return {};
-    }
-
-    Result<void> write(std::uint64_t offset, std::span<const std::byte> from) const {
-        while (!from.empty()) {
-            const ::ssize_t put =
-                ::pwrite(descriptor_, from.data(), from.size(), static_cast<::off_t>(offset));
-            if (put < 0 && errno == EINTR) continue;
-            if (put < 0) return ioError(fmt::format("{}: cannot be written: {}", name_, lastSystemError()));
-            offset += static_cast<std::uint64_t>(put);
-            from = from.subspan(static_cast<std::size_t>(put));
-        }
-        return {};
-    }
-
-private:
-    int descriptor_;
-    std::string name_;
-};
-
-// In the system's temporary folder, and removed from it at once: what is left is the open descriptor.
-Result<std::shared_ptr<const File>> createTemporaryFile() {
+// In the system's temporary folder, and without a name, so that it is gone however the program ends. Where
+// the folder's file system knows no such files it has one for a moment.
+Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& calls) {
     std::error_code problem;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
     if (problem) return ioError(fmt::format("no temporary folder: {}", problem.message()));
-    std::string name = (folder / "planet-heights-XXXXXX").string();
-    const int descriptor = ::mkstemp(name.data());
+    const std::string name = "temporary file in " + folder.string();
+    int descriptor = uninterrupted(
+        [&] { return calls.open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR); });
+    if (descriptor < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
+        std::string named = (folder / "planet-heights-XXXXXX").string();
+        descriptor = uninterrupted([&] { return ::mkostemp(named.data(), O_CLOEXEC); });
+        if (descriptor >= 0) calls.unlink(named.c_str());
+    }
     if (descriptor < 0) return ioError(fmt::format("{}: cannot be created: {}", name, lastSystemError()));
-    ::unlink(name.c_str());
-    return std::make_shared<const File>(descriptor, "temporary file in " + folder.string());
+    return std::make_shared<const OpenFile>(descriptor, name, calls);
 }
 
 // Where the spilled file keeps its blocks: one after another, row-major, whole ones at the edges too.
@@ -94,7 +59,7 @@ struct SpillLayout {
 };
 
 // Writes rows, whole ones of the image, all of one row of blocks.
-Result<void> spillRows(const File& file, const ImageLayout& image, int firstRow, int count,
+Result<void> spillRows(const OpenFile& file, const ImageLayout& image, int firstRow, int count,
                        std::span<const std::byte> native) {
     const SpillLayout layout(image);
     const std::size_t rowBytes = static_cast<std::size_t>(image.width) * layout.sampleBytes;
@@ -151,8 +116,8 @@ Result<HeightRaster> openWhole(ImageFile& image, const HeightConversion& convers
 }
 
 Result<HeightRaster> openSpilled(ImageFile& image, const HeightConversion& conversion,
-                                 const RasterMemory& memory) {
-    const Result<std::shared_ptr<const File>> file = createTemporaryFile();
+                                 const RasterMemory& memory, const FileCalls& calls) {
+    const Result<std::shared_ptr<const OpenFile>> file = createTemporaryFile(calls);
     if (!file) return tl::unexpected(file.error());
     const ImageLayout layout = image.layout();
     HeightStatistics statistics;
@@ -179,7 +144,8 @@ Result<HeightRaster> openSpilled(ImageFile& image, const HeightConversion& conve
 }  // namespace
 
 Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
-                                     const HeightConversion& conversion, const RasterMemory& memory) {
+                                     const HeightConversion& conversion, const RasterMemory& memory,
+                                     const FileCalls& calls) {
     const ImageLayout& layout = image->layout();
     assert(conversion.type == layout.type);
     if (layout.tileWidth > 0) {
@@ -194,16 +160,15 @@ Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
     const std::uint64_t wholeBytes =
         static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height) * sizeof(float);
     return wholeBytes <= memory.wholeLimitBytes ? openWhole(*image, conversion)
-                                                : openSpilled(*image, conversion, memory);
+                                                : openSpilled(*image, conversion, memory, calls);
 }
 
 Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
-                                   const HeightConversion& conversion, const RasterMemory& memory) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) {
-        return ioError(fmt::format("{}: cannot be opened: {}", path.string(), lastSystemError()));
-    }
-    const auto file = std::make_shared<const File>(descriptor, path.string());
+                                   const HeightConversion& conversion, const RasterMemory& memory,
+                                   const FileCalls& calls) {
+    Result<OpenFile> opened = OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls);
+    if (!opened) return tl::unexpected(std::move(opened.error()));
+    const auto file = std::make_shared<const OpenFile>(std::move(*opened));
     const std::size_t sampleBytes = bytesOf(conversion.type);
     const auto readBlock = [=](int blockX, int blockY, std::span<std::byte> native) -> Result<void> {
         const int x = blockX * rawBlockSide;

@@ -69,39 +69,6 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
 
 }  // namespace
 
-HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type) {
-    HeightConversion conversion;
-    conversion.type = type;
-    conversion.metresPerUnit = settings.metresPerUnit;
-    conversion.offsetM = settings.offsetM;
-    conversion.noDataValue = settings.noDataValue;
-    conversion.fillM = static_cast<float>(settings.fillM);
-    if (settings.colourChannel) {
-        const bool isInteger = type != SampleType::Float && type != SampleType::Double;
-        const auto bits = static_cast<int>(8 * bytesOf(type));
-        conversion.metresPerUnit = isInteger ? 1 / (std::ldexp(1.0, bits) - 1) : 1;
-        conversion.offsetM = 0;
-        conversion.fillM = 0;
-        conversion.decodesSrgb = isInteger;
-    }
-    return conversion;
-}
-
-void describeHeights(HeightSource& source, const HeightConversion& conversion,
-                     const HeightStatistics& statistics) {
-    const bool isFloat = conversion.type == SampleType::Float || conversion.type == SampleType::Double;
-    source.stepM = isFloat ? 0 : std::abs(conversion.metresPerUnit);
-    source.minM = statistics.minM;
-    source.maxM = statistics.maxM;
-    source.missingCount = statistics.missingCount;
-}
-
-int powerOfTwoCells(double count) {
-    int log2 = 0;
-    while (log2 < maxFaceCellsLog2 && std::ldexp(1.0, log2) < count) ++log2;
-    return 1 << log2;
-}
-
 Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings) {
     if (Result<void> check = checkSettings(settings); !check) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "planet/cube_sphere.h"
+#include "planet/file_calls.h"
 #include "planet/result.h"
 
 namespace planet {
@@ -67,6 +68,7 @@ struct HeightSourceSettings {
     // Most memory spent on heights, 4 bytes each. A source that takes more is read in blocks; one whose file
     // has none, a PNG say, is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;
+    FileCalls fileCalls = systemFileCalls();  // of raw faces and of that temporary file
 };
 
 // The files that a path stands for, taken as openHeightSource takes it. A terrain's text stands for those of

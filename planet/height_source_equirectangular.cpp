@@ -340,7 +340,7 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     const HeightConversion conversion = conversionFor(settings, layout.type);
     const RasterMemory memory{std::make_shared<HeightBlockCache>(settings.cacheBytes), 0,
                               settings.cacheBytes};
-    const Result<HeightRaster> image = openImageRaster(*file, conversion, memory);
+    const Result<HeightRaster> image = openImageRaster(*file, conversion, memory, settings.fileCalls);
     if (!image) return tl::unexpected(image.error());
     const Result<HeightStatistics> statistics = image->statistics();
     if (!statistics) return tl::unexpected(statistics.error());

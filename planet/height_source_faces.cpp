@@ -457,8 +457,9 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     for (int i = 0; i < faceCount; ++i) {
         const auto face = static_cast<std::size_t>(i);
         const RasterMemory memory{cache, i, settings.cacheBytes / faceCount};
-        Result<HeightRaster> raster = raw ? openRawRaster(files.paths[face], format->size, conversion, memory)
-                                          : openImageRaster(images[face], conversion, memory);
+        Result<HeightRaster> raster =
+            raw ? openRawRaster(files.paths[face], format->size, conversion, memory, settings.fileCalls)
+                : openImageRaster(images[face], conversion, memory, settings.fileCalls);
         if (!raster) return tl::unexpected(raster.error());
         set.faces[face] = std::move(*raster);
     }

@@ -24,8 +24,16 @@ Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& re
     }
 }
 
-Result<LoadedBlock> failedOnPurpose(const BlockId& block, std::uint32_t seed) {
+Result<LoadedBlock> failedOnPurpose(const BlockId& block, std::uint32_t seed,
+                                    ErrorKind kind = ErrorKind::Io) {
+    if (kind == ErrorKind::BadInput)
+        return badInput(
+            fmt::format("{}: was not what it should be, when this was recorded", toString(block)));
     return ioError(fmt::format("{}: read failed on purpose (bad disk, seed {})", toString(block), seed));
+}
+
+std::optional<ErrorKind> failureOf(const DiskFault& fault) {
+    return fault.fails ? std::optional(ErrorKind::Io) : std::nullopt;
 }
 
 }  // namespace
@@ -80,7 +88,7 @@ void Pager::setBadDisk(const BadDiskSettings& settings) {
     if (time_ != PagingTime::Simulated) return;
     for (VirtualReading& reading : virtualReadings_) {
         const DiskFault fault = nextFault(reading.request);
-        reading.fails = fault.fails;
+        reading.failure = failureOf(fault);
         reading.endS = std::max(reading.sinceS + fault.waitS, nowS_);
     }
 }
@@ -209,7 +217,7 @@ void Pager::startVirtualReads() {
     while (virtualReadings_.size() < loadersWanted_ && mayTake()) {
         PagingRequest request = takeNext();
         const DiskFault fault = nextFault(request);
-        virtualReadings_.push_back({std::move(request), nowS_, nowS_ + fault.waitS, fault.fails});
+        virtualReadings_.push_back({std::move(request), nowS_, nowS_ + fault.waitS, failureOf(fault)});
     }
 }
 
@@ -254,12 +262,12 @@ bool Pager::take(const BlockId& block) {
     assert(time_ == PagingTime::Recorded);
     const PagingRequest* queued = queue_.find(block);
     if (!queued || queued->type != PagingType::PageIn) return false;
-    virtualReadings_.push_back({*queue_.pop(block), nowS_, nowS_, false});
+    virtualReadings_.push_back({*queue_.pop(block), nowS_, nowS_});
     taken_.push_back(block);
     return true;
 }
 
-bool Pager::finish(const BlockId& block, bool fails, bool last) {
+bool Pager::finish(const BlockId& block, std::optional<ErrorKind> failure, bool last) {
     const std::lock_guard lock(mutex_);
     assert(time_ == PagingTime::Recorded);
     std::optional<std::size_t> found;
@@ -267,7 +275,7 @@ bool Pager::finish(const BlockId& block, bool fails, bool last) {
         if (virtualReadings_[i].request.block() == block) found = i;
     }
     if (!found) return false;
-    virtualReadings_[*found].fails = fails;
+    virtualReadings_[*found].failure = failure;
     endVirtualRead(*found);
     return true;
 }
@@ -286,10 +294,10 @@ std::optional<FinishedLoad> Pager::readFinished(Lock& lock) {
     const std::uint32_t seed = badDisk_.seed;
     lock.unlock();
     FinishedLoad load;
-    load.block =
-        reading.fails ? failedOnPurpose(reading.request.block(), seed) : loadSafely(load_, reading.request);
+    load.block = reading.failure ? failedOnPurpose(reading.request.block(), seed, *reading.failure)
+                                 : loadSafely(load_, reading.request);
     load.seconds = reading.endS - reading.sinceS;
-    load.bytes = reading.fails ? 0 : reading.request.location.size;
+    load.bytes = reading.failure ? 0 : reading.request.location.size;
     load.request = std::move(reading.request);
     return load;
 }

@@ -31,7 +31,6 @@ namespace planet {
 
 using SiblingBlock = std::array<ChunkData, quadrantCount>;
 using TileBlock = std::array<TileData, quadrantCount>;
-using ColourBlock = TileBlock;
 // By the request's kind.
 using LoadedBlock = std::variant<SiblingBlock, TileBlock>;
 
@@ -40,7 +39,7 @@ using LoadedBlock = std::variant<SiblingBlock, TileBlock>;
 using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, BlockLocation location,
                                                         std::span<const std::int16_t> parentHeights)>;
 // The same for a tile of colour, as ChunkFile::readColourChildren does.
-using LoadColours = std::function<Result<ColourBlock>(const ChunkId& parent, BlockLocation location)>;
+using LoadColours = std::function<Result<TileBlock>(const ChunkId& parent, BlockLocation location)>;
 
 // Derives the four children of a tile of normals. Called as the others are.
 using LoadNormals = std::function<Result<TileBlock>(const ChunkId& parent)>;
@@ -142,7 +141,8 @@ public:
     // is none such. Of several reads of the same block all but the last taken are such as will be thrown
     // away.
     bool take(const BlockId& block);
-    bool finish(const BlockId& block, bool fails, bool last = true);
+    // failure: of what kind, where the read is to fail.
+    bool finish(const BlockId& block, std::optional<ErrorKind> failure, bool last = true);
 
     // The blocks that were taken since the last call of this, in order. withQueue sees to it that none is
     // taken in between: call it from there.
@@ -175,7 +175,7 @@ private:
         PagingRequest request;
         double sinceS = 0;
         double endS = 0;
-        bool fails = false;
+        std::optional<ErrorKind> failure{};  // where it fails
     };
     struct VirtualLoaders {
         Pager& pager;

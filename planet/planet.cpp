@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <thread>
 #include <utility>
 
 #include "planet/planet_state.h"
@@ -29,6 +31,12 @@ Result<void> checkSettings(const PagingSettings& settings) {
     }
     if (!(settings.normalShare >= 0.01 && settings.normalShare <= 0.9)) {
         return badInput(fmt::format("a share of {} for normals; 0.01 to 0.9 will do", settings.normalShare));
+    }
+    if (settings.retry.retries < 0 || settings.retry.retries > 10)
+        return badInput(fmt::format("{} retries of a failed read; 0 to 10 will do", settings.retry.retries));
+    if (!(settings.retry.delayS >= 0 && settings.retry.delayS <= 60)) {
+        return badInput(
+            fmt::format("a retry {} s after a failed read; 0 to 60 s will do", settings.retry.delayS));
     }
     return checkBadDisk(settings.badDisk);
 }
@@ -86,7 +94,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
     const Result<Room> room = roomFor(source.shape, source.colour, settings);
     if (!room) return tl::unexpected(room.error());
     auto tree = makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots));
-    if (!tree) return tl::unexpected(std::move(tree.error()));
+    if (!tree) return tl::unexpected(namingFile(source.file.get(), std::move(tree.error())));
     auto state = std::make_unique<State>();
     state->settings = settings;
     state->file = std::move(source.file);
@@ -98,7 +106,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
         state->colours.leafLevel = source.colour->leafLevel;
         state->colours.checkers = source.colour->format;
         state->colours.roots = std::move(source.colourRoots);
-        state->colours.begin(room->colours);
+        state->colours.begin(room->colours, 0);
         state->colour = std::move(source.colour);
     }
     state->normals.kind = BlockKind::Normals;
@@ -153,6 +161,7 @@ void Planet::State::step(std::span<const ViewInput> inputs, const UploadChunk& u
     ++frame;
     changed = false;
     nowS += elapsedS;
+    sinceAnewS += elapsedS;
     lastElapsedS = elapsedS;
     views.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
@@ -193,8 +202,16 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
         if (settled()) return true;
         if (Clock::now() >= deadline || state_->settings.time == PagingTime::Recorded) return false;
         const PagerStatus status = state_->pager->status();
-        if (status.queued > 0 && status.atRest()) return false;  // paused
-        state_->pager->waitForFinished(deadline);
+        const std::optional<double> untilRetryS = state_->untilRetryS();
+        if (status.held && status.atRest() && (status.queued > 0 || untilRetryS)) return false;  // paused
+        const Clock::time_point until =
+            untilRetryS ? std::min(deadline, Clock::now() + std::chrono::ceil<Clock::duration>(
+                                                                std::chrono::duration<double>(*untilRetryS)))
+                        : deadline;
+        if (status.idle() && untilRetryS)
+            std::this_thread::sleep_until(until);
+        else
+            state_->pager->waitForFinished(until);
     }
 }
 
@@ -209,9 +226,14 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
         state_->step(views, upload, stepS, std::numeric_limits<double>::infinity());
         if (settled()) return true;
         const PagerStatus status = state_->pager->status();
-        if ((status.queued > 0 && status.atRest()) || leftS <= 0) return false;  // paused, or too late
+        const std::optional<double> untilEndS = state_->pager->untilNextEnd();
+        const std::optional<double> untilRetryS = state_->untilRetryS();
+        const bool paused = status.held && status.atRest() && (status.queued > 0 || untilRetryS);
+        if (paused || leftS <= 0) return false;
+        const double untilNextS = std::min(untilEndS.value_or(untilRetryS.value_or(idleStepS)),
+                                           untilRetryS.value_or(untilEndS.value_or(idleStepS)));
         // The last step goes to the end of the time, so that settling on goes on from there.
-        stepS = std::min(std::max(state_->pager->untilNextEnd().value_or(idleStepS), leastStepS), leftS);
+        stepS = std::min(std::max(untilNextS, leastStepS), leftS);
         leftS -= stepS;
     }
 }
@@ -223,7 +245,7 @@ bool Planet::settled() const {
     const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
     return state.frame > 0 && !state.changed && state.pager->status().idle() &&
            (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome &&
-           !state.normals.roomToCome;
+           !state.normals.roomToCome && !state.untilRetryS();
 }
 
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
@@ -279,8 +301,10 @@ bool Planet::follow(const PagingMoves& moves) {
     bool whole = true;
     for (const BlockId& block : moves.taken) whole &= pager.take(block);
     for (const PagingMoves::Arrival& arrival : moves.arrived) {
-        whole &= pager.finish(arrival.block, arrival.outcome == PagingOutcome::Failed,
-                              arrival.outcome != PagingOutcome::Cancelled);
+        std::optional<ErrorKind> failure;
+        if (arrival.outcome == PagingOutcome::Failed)
+            failure = arrival.badData ? ErrorKind::BadInput : ErrorKind::Io;
+        whole &= pager.finish(arrival.block, failure, arrival.outcome != PagingOutcome::Cancelled);
     }
     return whole;
 }
@@ -292,16 +316,6 @@ void Planet::setExaggeration(double factor) {
     if (possible == tree.exaggeration) return;
     planet::setExaggeration(tree, possible);
     state_->changed = true;
-}
-
-void Planet::retryFailed() {
-    state_->changed = true;
-    for (ChunkNode& node : state_->tree.nodes) {
-        if (node.childrenState == ChildrenState::Failed) node.childrenState = ChildrenState::Absent;
-    }
-    state_->colours.retryFailed();
-    state_->normals.retryFailed();
-    if (state_->normals.isOn() && state_->deriveNormalRoots()) beginNormalsAnew();
 }
 
 void Planet::uploadAll(const UploadChunk& upload) const {
@@ -379,17 +393,17 @@ double Planet::seconds() const {
 const std::optional<ColourPyramid>& Planet::colour() const {
     return state_->colour;
 }
-const ColourTree& Planet::colourTree() const {
+const TileTree& Planet::colourTree() const {
     return state_->colours.tree;
 }
-const ColourSelection& Planet::colourSelection(std::size_t view) const {
+const TileSelection& Planet::colourSelection(std::size_t view) const {
     assert(view < viewCount());
     return state_->views[view].colours;
 }
-const ColourPagingCounters& Planet::colourPaging() const {
+const TilePagingCounters& Planet::colourPaging() const {
     return state_->colours.counters;
 }
-std::vector<ColourChange> Planet::takeColourChanges() {
+std::vector<TileChange> Planet::takeColourChanges() {
     return std::exchange(state_->colours.changes, {});
 }
 void Planet::beginColoursAnew() {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "planet/bad_disk.h"
+#include "planet/block_failures.h"
 #include "planet/chunk_file.h"
 #include "planet/chunk_tree.h"
 #include "planet/lod_select.h"
@@ -39,6 +40,9 @@ struct PagingSettings {
     double uploadLimitMs = 4;  // >= 0, of a frame, for making loaded chunks drawable; at least one block is
     bool paused = false;       // loaders take nothing but what loadOne() lets through
     BadDiskSettings badDisk{};
+    // How often a block that could not be read is asked for again by itself, and how long after the first
+    // failure; after each further one twice as long. What is read and wrong is not.
+    RetryRules retry{};
     // Of a planet with colours: the share of the budget that is for their tiles, [0.01, 0.9]; larger: sharper
     // colours, and coarser ground when the budget is full.
     double colourShare = 0.25;
@@ -64,12 +68,12 @@ struct ViewInput {
     View lodView;
     LodSettings lod;
     double priorityFactor = 1;  // of its requests against the other views'; > 0
-    ColourSettings colours{};
+    TileSettings colours{};
     TileSettings normals{};
 };
 
 enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };
-// How a request ended.
+// How a request ended. A block that is asked for again after it has failed is another request.
 struct PagingEvent {
     ChunkId parent;  // of the block
     BlockKind kind = BlockKind::Heights;
@@ -89,6 +93,7 @@ struct PagingMoves {
     struct Arrival {
         BlockId block;
         PagingOutcome outcome = PagingOutcome::Loaded;  // Cancelled: thrown away
+        bool badData = false;  // Failed by what was read, not by reading: not to be asked for again
 
         bool operator==(const Arrival&) const = default;
     };
@@ -108,8 +113,10 @@ struct PagingCounters {
     std::uint64_t loaded = 0;          // blocks read and made resident
     double loadSeconds = 0;            // spent on reading and decoding blocks, over all loader threads
     std::uint64_t evicted = 0;         // blocks paged out
-    std::uint64_t failed = 0;          // blocks that could not be read
+    std::uint64_t failed = 0;          // reads that failed
     std::uint64_t bytesRead = 0;       // from the file
+    std::uint32_t failedForGood = 0;   // blocks, now: not asked for again until told to
+    std::uint32_t awaitingRetry = 0;   // other blocks, now, whose last read failed
     std::uint32_t queued = 0;          // now
     std::uint32_t loading = 0;         // now being read, or read and waiting for their upload
     std::uint32_t budgetWaits = 0;     // blocks wanted last step that the budget has no room for
@@ -122,13 +129,12 @@ struct PagingCounters {
 struct TilePagingCounters {
     std::uint64_t loaded = 0;        // blocks read and made resident
     std::uint64_t evicted = 0;       // blocks paged out
-    std::uint64_t failed = 0;        // blocks that could not be read
+    std::uint64_t failed = 0;        // reads that failed
     std::uint64_t bytesRead = 0;     // from the file
     std::uint32_t budgetWaits = 0;   // blocks wanted last step that the share has no room for
     std::size_t residentTiles = 0;   // now
     std::uint32_t tileCapacity = 0;  // 0: off, or no room for any
 };
-using ColourPagingCounters = TilePagingCounters;
 
 // What a pool of tiles has to do to keep up with a step, in order.
 struct TileChange {
@@ -137,7 +143,6 @@ struct TileChange {
     std::uint32_t firstSlot = 0;      // of those that have arrived
     std::vector<TileData> arrived{};  // a root alone, or four siblings in slots one after the other
 };
-using ColourChange = TileChange;
 
 // What each stage of the last step took, milliseconds.
 struct StageTimes {
@@ -158,7 +163,7 @@ struct PlanetSource {
     LoadChildren loadChildren;
     // Colours: none without a pyramid.
     std::optional<ColourPyramid> colour{};
-    std::array<ColourTileData, faceCount> colourRoots{};
+    std::array<TileData, faceCount> colourRoots{};
     LoadColours loadColours{};
     std::vector<std::string> problems{};    // that it is opened in spite of, for takeProblems()
     std::shared_ptr<const ChunkFile> file;  // what the above comes from; null where there is no file
@@ -169,7 +174,8 @@ public:
     // The Error names the file and what is wrong with it, or a setting and its range; for a budget that is
     // too small it says the least that will do.
     static Result<std::unique_ptr<Planet>> open(const std::filesystem::path& path,
-                                                const PagingSettings& settings);
+                                                const PagingSettings& settings,
+                                                const FileCalls& calls = systemFileCalls());
     static Result<std::unique_ptr<Planet>> open(ChunkFile file, const PagingSettings& settings);
     static Result<std::unique_ptr<Planet>> open(PlanetSource source, const PagingSettings& settings);
     ~Planet();  // joins the loader threads
@@ -234,12 +240,12 @@ public:
 
     // Of the file, if it has colours.
     const std::optional<ColourPyramid>& colour() const;
-    const ColourTree& colourTree() const;
+    const TileTree& colourTree() const;
     // Of the last step, as selection().
-    const ColourSelection& colourSelection(std::size_t view = 0) const;
-    const ColourPagingCounters& colourPaging() const;
+    const TileSelection& colourSelection(std::size_t view = 0) const;
+    const TilePagingCounters& colourPaging() const;
     // What has become of tiles since the last call; to be called after each step where colours are drawn.
-    std::vector<ColourChange> takeColourChanges();
+    std::vector<TileChange> takeColourChanges();
     // For a renderer that was made anew: all tiles but the roots are dropped, and begin to come again.
     void beginColoursAnew();
 
@@ -262,12 +268,17 @@ public:
     const PagingCounters& paging() const;
     const StageTimes& times() const;
     std::uint32_t slotCapacity() const;  // slots of the pool of heights that the budget pays for
-    // True when the last selection waits for nothing that can still arrive.
+    // True when the last selection waits for nothing that can still arrive, a block that is to be tried again
+    // included.
     bool settled() const;
-    // Messages of blocks that failed since the last call, for a log.
+    // Messages of blocks that have failed for good since the last call, for a log; the first 1000.
     std::vector<std::string> takeProblems();
-    // Lets blocks that failed be asked for again.
+    // The blocks that could not be read and have not been since, of heights, then of colours, then of
+    // normals, each in their order; of the latest 4096 of each kind.
+    std::vector<FailedBlock> failedBlocks() const;
+    // Lets blocks that failed be asked for again at once, as if they never had; all, or one.
     void retryFailed();
+    void retryFailed(const BlockId& block);
     // The pending requests of a type, most urgent first: a copy, for display. Page-outs are the blocks out of
     // use, the longest unused first; they stay resident until their room is needed.
     std::vector<PagingRequest> pendingRequests(PagingType type) const;

@@ -1,5 +1,7 @@
 // Opening a planet from a chunk file: all that the run time needs of the file itself.
-#include "planet/planet.h"
+#include <fmt/format.h>
+
+#include "planet/planet_state.h"
 
 namespace planet {
 
@@ -8,7 +10,7 @@ namespace {
 Result<std::array<ChunkData, faceCount>> readRoots(const ChunkFile& file) {
     std::array<ChunkData, faceCount> roots;
     for (const Face face : allFaces) {
-        Result<ChunkData> root = file.readRoot(face);
+        Result<ChunkData> root = readRoot([&] { return file.readRoot(face); });
         if (!root) return tl::unexpected(std::move(root.error()));
         roots[static_cast<std::size_t>(face)] = std::move(*root);
     }
@@ -18,8 +20,9 @@ Result<std::array<ChunkData, faceCount>> readRoots(const ChunkFile& file) {
 // A root that cannot be read is a checker pattern, with nothing under it.
 void readColourRoots(const ChunkFile& file, PlanetSource& source) {
     for (const Face face : allFaces) {
-        ColourTileData& root = source.colourRoots[static_cast<std::size_t>(face)];
-        if (Result<ColourTileData> read = file.readColourRoot(face)) {
+        TileData& root = source.colourRoots[static_cast<std::size_t>(face)];
+        Result<TileData> read = readRoot([&] { return file.readColourRoot(face); });
+        if (read) {
             root = std::move(*read);
         } else {
             source.problems.push_back(std::move(read.error().message));
@@ -30,16 +33,23 @@ void readColourRoots(const ChunkFile& file, PlanetSource& source) {
 
 }  // namespace
 
+Error namingFile(const ChunkFile* file, Error error) {
+    if (file) error.message = fmt::format("{}: {}; bake it again", file->name(), error.message);
+    return error;
+}
+
 Result<ChunkTree> makeChunkTree(const ChunkFile& file) {
     auto roots = readRoots(file);
     if (!roots) return tl::unexpected(std::move(roots.error()));
     const ChunkFileInfo& info = file.info();
-    return makeChunkTree(info.shape, info.minStep, info.maxStep, std::move(*roots));
+    auto tree = makeChunkTree(info.shape, info.minStep, info.maxStep, std::move(*roots));
+    if (!tree) return tl::unexpected(namingFile(&file, std::move(tree.error())));
+    return tree;
 }
 
 Result<std::unique_ptr<Planet>> Planet::open(const std::filesystem::path& path,
-                                             const PagingSettings& settings) {
-    Result<ChunkFile> file = ChunkFile::open(path);
+                                             const PagingSettings& settings, const FileCalls& calls) {
+    Result<ChunkFile> file = ChunkFile::open(path, calls);
     if (!file) return tl::unexpected(std::move(file.error()));
     return open(std::move(*file), settings);
 }

@@ -132,11 +132,12 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     const NodeIndex parent = findNode(tree, load.request.parent);
     assert(parent != noNode && tree.nodes[parent].childrenState == ChildrenState::Requested);
     --promised;
-    if (!load.block) return fail(parent, load, std::move(load.block.error().message));
+    if (!load.block) return fail(parent, load, std::move(load.block.error()));
     SiblingBlock& children = std::get<SiblingBlock>(*load.block);
     if (auto checked = checkChildren(tree, parent, children); !checked) {
-        return fail(parent, load, std::move(checked.error().message));
+        return fail(parent, load, namingFile(file.get(), std::move(checked.error())));
     }
+    failures.forget(load.request.parent);
     assert(!freeSlots.empty());
     const BlockSlots slots = freeSlots.back();
     freeSlots.pop_back();
@@ -148,6 +149,9 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
         tree.nodes[child].lastUsedFrame = frame - 1;
         tree.nodes[child].loadedAtS = nowS;
         tree.nodes[child].loadOrder = blocksLoaded;
+        ChildrenState& below = tree.nodes[child].childrenState;
+        const ChildrenState known = failures.stateAt(tree.nodes[child].id, sinceAnewS);
+        if (below == ChildrenState::Absent && known != below) changeState(below, known);
     }
     watched.push_back(first);
     ++paging.loaded;
@@ -158,24 +162,31 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
 void Planet::State::finishTiles(FinishedLoad&& load) {
     TilePaging& tiles = tilesOf(load.request.kind);
     tiles.counters.bytesRead += load.bytes;
-    const bool loaded = load.block.has_value();
-    if (loaded) {
-        tiles.finish(load.request.parent, std::get<TileBlock>(*std::move(load.block)), frame);
-    } else {
-        tiles.fail(load.request.parent, frame);
-        problems.push_back(std::move(load.block.error().message));
+    if (!load.block) {
+        const bool badData = load.block.error().kind == ErrorKind::BadInput;
+        tiles.fail(load.request.parent, std::move(load.block.error()), frame, sinceAnewS, settings.retry);
+        return noteFailure(load, tiles.failures, badData);
     }
-    ++(loaded ? paging.loaded : paging.failed);
-    const PagingOutcome outcome = loaded ? PagingOutcome::Loaded : PagingOutcome::Failed;
-    if (keepsMoves) moves.arrived.push_back({load.request.block(), outcome});
-    note(load.request, outcome, &load);
+    tiles.finish(load.request.parent, std::get<TileBlock>(*std::move(load.block)), frame, sinceAnewS);
+    ++paging.loaded;
+    if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Loaded});
+    note(load.request, PagingOutcome::Loaded, &load);
 }
 
-void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, std::string message) {
-    tree.nodes[parent].childrenState = ChildrenState::Failed;
-    problems.push_back(std::move(message));
+void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, Error error) {
+    const bool badData = error.kind == ErrorKind::BadInput;
+    const bool forGood = failures.failed(load.request.parent, std::move(error), sinceAnewS, settings.retry);
+    changeState(tree.nodes[parent].childrenState,
+                forGood ? ChildrenState::Failed : ChildrenState::AwaitingRetry);
+    noteFailure(load, failures, badData);
+}
+
+// One that is tried again is not worth a line in a log yet.
+void Planet::State::noteFailure(const FinishedLoad& load, const BlockFailures& known, bool badData) {
+    const ChunkId& parent = load.request.parent;
+    if (known.isForGood(parent)) tell(known.messageOf(parent));
     ++paging.failed;
-    if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Failed});
+    if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Failed, badData});
     note(load.request, PagingOutcome::Failed, &load);
 }
 
@@ -244,14 +255,15 @@ void Planet::State::request(PagingQueue& queue) {
     renew(queue, wantedNormals, BlockKind::Normals);
     for (const PagingRequest& stale : queue.cancelNotRenewed(PagingType::PageIn, frame)) withdraw(stale);
     paging.budgetWaits = 0;
+    failures.beginStep();
     for (const MergedRequest& one : wanted) {
         ChunkNode& parent = tree.nodes[one.parent];
-        if (parent.childrenState != ChildrenState::Absent) continue;
+        if (!failures.mayAsk(one.parentId, parent.childrenState, sinceAnewS)) continue;
         if (!promiseRoom(queue, one.priority)) {
             ++paging.budgetWaits;
             continue;
         }
-        parent.childrenState = ChildrenState::Requested;
+        changeState(parent.childrenState, ChildrenState::Requested);
         if (keepsMoves) moves.requested.push_back(one.parentId);
         queue.submit({.parent = one.parentId,
                       .priority = one.priority,
@@ -287,7 +299,7 @@ void Planet::State::requestTiles(PagingQueue& queue, TilePaging& tiles,
         note(request, outcome);
     };
     tiles.request(queue, wantedTiles, splits,
-                  {frame, nowS, nextTicket, noteOf, keepsMoves ? &moves.requested : nullptr});
+                  {frame, nowS, sinceAnewS, nextTicket, noteOf, keepsMoves ? &moves.requested : nullptr});
 }
 
 // Undoes what request did for a page-in that no loader has taken.
@@ -296,7 +308,7 @@ void Planet::State::withdraw(const PagingRequest& request) {
         tilesOf(request.kind).withdraw(request.parent);
         return note(request, PagingOutcome::Cancelled);
     }
-    tree.nodes[findNode(tree, request.parent)].childrenState = ChildrenState::Absent;
+    changeState(tree.nodes[findNode(tree, request.parent)].childrenState, ChildrenState::Absent);
     --promised;
     note(request, PagingOutcome::Cancelled);
 }
@@ -445,7 +457,8 @@ void Planet::State::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::
 // resident.
 void Planet::State::abandonLoads() {
     for (ChunkNode& node : tree.nodes) {
-        if (node.childrenState == ChildrenState::Requested) node.childrenState = ChildrenState::Absent;
+        if (node.childrenState == ChildrenState::Requested)
+            changeState(node.childrenState, ChildrenState::Absent);
     }
     oldestTicketKept = nextTicket;
     promised = 0;
@@ -456,7 +469,7 @@ void Planet::State::dropTiles(PagingQueue& queue, TilePaging& tiles) {
     while (const PagingRequest* pending = queue.worst(PagingType::PageIn, tiles.kind))
         note(*queue.cancel(pending->block()), PagingOutcome::Cancelled);
     tiles.oldestTicketKept = nextTicket;
-    tiles.begin(tiles.tileCapacity);
+    tiles.begin(tiles.tileCapacity, sinceAnewS);
 }
 
 void Planet::State::resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity) {
@@ -464,21 +477,21 @@ void Planet::State::resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity) {
         noteTaken(queue);
         dropTiles(queue, tiles);
     });
-    tiles.begin(tileCapacity);
+    tiles.begin(tileCapacity, sinceAnewS);
     afterDrops();
 }
 
 void Planet::State::beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes,
                                  const std::string& problem) {
     if (pager) resizeTiles(normals, 0);
-    if (!problem.empty() && problem != normalProblem) problems.push_back(problem);
+    if (!problem.empty() && problem != normalProblem) tell(problem);
     normalProblem = problem;
     if (!deriver) return;
     deriver->keepHeights(heightBytes);
     for (std::size_t face = 0; face < faceCount; ++face)
         normals.roots[face] = {{static_cast<Face>(face), 0, 0, 0}, {}, {}};
     if (tileCapacity > 0) deriveNormalRoots();
-    normals.begin(tileCapacity);
+    normals.begin(tileCapacity, sinceAnewS);
     if (pager) afterDrops();
 }
 
@@ -486,12 +499,12 @@ bool Planet::State::deriveNormalRoots() {
     bool any = false;
     for (TileData& root : normals.roots) {
         if (!root.texels.empty()) continue;
-        Result<TileData> derived = deriver->tile(root.id);
+        Result<TileData> derived = readRoot([&] { return deriver->tile(root.id); });
         if (derived) {
             root = std::move(*derived);
             any = true;
         } else {
-            problems.push_back(std::move(derived.error().message));
+            tell(std::move(derived.error().message));
         }
     }
     return any;
@@ -520,6 +533,7 @@ void Planet::State::resize(std::uint32_t newCapacity) {
 }
 
 void Planet::State::dropEverything() {
+    forgetFailures();
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
         for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame)) {
@@ -530,10 +544,7 @@ void Planet::State::dropEverything() {
         dropTiles(queue, colours);
         dropTiles(queue, normals);
     });
-    for (NodeIndex root = 0; root < faceCount; ++root) {
-        ChildrenState& children = tree.nodes[root].childrenState;
-        if (children == ChildrenState::Failed) children = ChildrenState::Absent;
-    }
+    retryAll();
     pager->forgetAttempts();
     afterDrops();
 }
@@ -554,15 +565,18 @@ void Planet::State::startAnew() {
     tree.nodes.resize(faceCount);
     tree.freeGroups.clear();
     tree.residentChunks = faceCount;
+    sinceAnewS = 0;
+    forgetFailures();
     for (ChunkNode& root : tree.nodes) {
-        if (root.childrenState != ChildrenState::None) root.childrenState = ChildrenState::Absent;
+        if (root.childrenState != ChildrenState::None && root.childrenState != ChildrenState::Absent)
+            changeState(root.childrenState, ChildrenState::Absent);
         root.firstChild = noNode;
         root.lastUsedFrame = 0;
     }
     freeSlots = freeSlotsFrom(faceCount, slotCapacity);
     promised = 0;
     for (TilePaging* tiles : {&colours, &normals}) {
-        if (tiles->isOn()) tiles->begin(tiles->tileCapacity);
+        if (tiles->isOn()) tiles->begin(tiles->tileCapacity, sinceAnewS);
         tiles->oldestTicketKept = nextTicket;
     }
     watched.clear();
@@ -636,6 +650,11 @@ void Planet::State::count() {
     if (deriver) {
         const std::uint64_t read = deriver->bytesRead();
         paging.bytesRead += read - std::exchange(normals.counters.bytesRead, read);
+    }
+    paging.failedForGood = paging.awaitingRetry = 0;
+    for (const BlockFailures* known : {&failures, &colours.failures, &normals.failures}) {
+        paging.failedForGood += static_cast<std::uint32_t>(known->countForGood());
+        paging.awaitingRetry += static_cast<std::uint32_t>(known->count() - known->countForGood());
     }
     paging.residentChunks = tree.residentChunks;
     paging.residentBytesCpu = tree.residentChunks * chunkBytesCpu(tree.shape);

@@ -34,6 +34,9 @@ struct PlanetView {
     }
 };
 
+// What is wrong with chunks whose checksums match, with the name of the file that they come from, if any.
+Error namingFile(const ChunkFile* file, Error error);
+
 struct Planet::State {
     using Clock = std::chrono::steady_clock;
 
@@ -58,9 +61,11 @@ struct Planet::State {
     std::uint32_t blocksLoaded = 0;             // for ChunkNode::loadOrder
     Clock::time_point lastStep = Clock::now();  // or when it was opened
     double nowS = 0;                            // since it was opened, as of the last step
+    double sinceAnewS = 0;                      // the same since startAnew: by this, blocks are tried again
+    BlockFailures failures;                     // of heights
     std::deque<PagingEvent> history;
-    std::vector<std::string> problems;
-    double lastElapsedS = 0;  // of the last step: since the one before
+    std::vector<std::string> problems;  // for takeProblems()
+    double lastElapsedS = 0;            // of the last step: since the one before
     bool keepsMoves = false;
     PagingMoves moves;
     std::optional<ColourPyramid> colour;
@@ -96,7 +101,15 @@ struct Planet::State {
     void beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes, const std::string& problem);
     // Those of whole faces that are not there yet. True if any is now.
     bool deriveNormalRoots();
-    void fail(NodeIndex parent, const FinishedLoad& load, std::string message);
+    void fail(NodeIndex parent, const FinishedLoad& load, Error error);
+    void tell(std::string problem);
+    void noteFailure(const FinishedLoad& load, const BlockFailures& known, bool badData);
+    // Seconds until the first block that is wanted may be tried again; none where none waits for that.
+    std::optional<double> untilRetryS() const;
+    // Lets blocks that failed be asked for again.
+    void retryAll();
+    void retryOne(const BlockId& block);
+    void forgetFailures();
     void throwAway(const FinishedLoad& load);
     void withdraw(const PagingRequest& request);
     bool promiseRoom(PagingQueue& queue, double priority);
@@ -131,6 +144,15 @@ private:
 
 inline double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// For what is there from the start or not at all: a disk that stumbles is asked again at once.
+template <class Read>
+auto readRoot(const Read& read) {
+    constexpr int attempts = 3;
+    auto root = read();
+    for (int i = 1; i < attempts && !root && root.error().kind == ErrorKind::Io; ++i) root = read();
+    return root;
 }
 
 // The requests or the splits of all views, merged by parent, the largest priority first.

@@ -1,11 +1,10 @@
 #include "planet/pop_meter.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "planet/parallel.h"
 #include "planet/percentile.h"
 
 namespace planet {
@@ -150,7 +149,7 @@ void PopMeter::measure(const PlanetShape& shape, const Frame& now, std::vector<S
         const KeptChunk& chunk = frame.chunks[place];
         return DrawnChunk{chunk.item, chunk.heights, isStitched(frame.settings)};
     };
-    tbb::parallel_for(std::size_t{0}, switches.size(), [&](std::size_t i) {
+    forEachInParallel(switches.size(), [&](std::size_t i) {
         Switch& change = switches[i];
         const Frame& coarse = change.merged ? now : *before_;
         const Frame& fine = change.merged ? *before_ : now;

@@ -17,9 +17,18 @@ constexpr std::uint64_t framesKept = 4;
 // A block yields to one that is wanted so many times as much.
 constexpr float yieldFactor = 1.5f;
 
+// A tile has become resident whose children may be known to fail. Those that are shown as checkers are Absent
+// until there is room for these.
+void recall(const BlockFailures& failures, TileNode& node, bool staysAway, double sinceAnewS) {
+    if (node.childrenState != ChildrenState::Absent) return;
+    const ChildrenState known = failures.stateAt(node.id, sinceAnewS);
+    if (known == ChildrenState::AwaitingRetry || (known == ChildrenState::Failed && staysAway))
+        changeState(node.childrenState, known);
+}
+
 }  // namespace
 
-void TilePaging::begin(std::uint32_t capacity) {
+void TilePaging::begin(std::uint32_t capacity, double sinceAnewS) {
     assert(capacity == 0 || (capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0));
     tileCapacity = capacity;
     tree = capacity > 0 ? makeTileTree(leafLevel, !checkers, roots) : TileTree{};
@@ -28,9 +37,11 @@ void TilePaging::begin(std::uint32_t capacity) {
     for (std::uint32_t end = capacity; end > faceCount; end -= quadrantCount)
         freeBlocks.push_back(end - quadrantCount);
     roomToCome = false;
+    failures.beginStep();
     changes.clear();
     if (capacity == 0) return;
     changes.push_back({.beginsAnew = true});
+    for (TileNode& root : tree.nodes) recall(failures, root, !checkers, sinceAnewS);
     for (std::uint32_t face = 0; face < faceCount; ++face) {
         if (!roots[face].texels.empty()) changes.push_back({.firstSlot = face, .arrived = {roots[face]}});
     }
@@ -44,14 +55,19 @@ void TilePaging::request(PagingQueue& queue, const std::vector<MergedRequest>& w
                          const std::vector<MergedRequest>& splits, const Asking& asking) {
     counters.budgetWaits = 0;
     roomToCome = false;
+    failures.beginStep();
     for (const MergedRequest& one : wanted) {
-        if (tree.nodes[one.parent].childrenState != ChildrenState::Absent) continue;
+        if (!failures.mayAsk(one.parentId, tree.nodes[one.parent].childrenState, asking.sinceAnewS)) continue;
         if (!promiseRoom(queue, one, splits, asking)) {
             ++counters.budgetWaits;
             continue;
         }
         TileNode& parent = tree.nodes[one.parent];
-        parent.childrenState = ChildrenState::Requested;
+        changeState(parent.childrenState, ChildrenState::Requested);
+        if (failures.isForGood(one.parentId)) {
+            showCheckers(one.parentId, asking.frame, asking.sinceAnewS);
+            continue;
+        }
         const BlockId block{one.parentId, kind};
         if (asking.requested) asking.requested->push_back(block);
         queue.submit({.parent = one.parentId,
@@ -69,8 +85,7 @@ void TilePaging::request(PagingQueue& queue, const std::vector<MergedRequest>& w
 // less, and those promised to a page-in that is wanted less.
 bool TilePaging::promiseRoom(PagingQueue& queue, const MergedRequest& wanted,
                              const std::vector<MergedRequest>& splits, const Asking& asking) {
-    if (freeBlocks.size() <= promised && !evictUnused(asking) &&
-        !evictLessWanted(wanted.priority, splits, asking)) {
+    if (freeBlocks.size() <= promised && !evictUnused(asking) && !evictLessWanted(wanted, splits, asking)) {
         const PagingRequest* least = queue.worst(PagingType::PageIn, kind);
         if (!least || least->priority >= static_cast<double>(wanted.priority)) return false;
         const PagingRequest cancelled = *queue.cancel(least->block());
@@ -103,10 +118,13 @@ bool TilePaging::evictUnused(const Asking& asking) {
 }
 
 // splits: of all views, the most wanted first.
-bool TilePaging::evictLessWanted(float priority, const std::vector<MergedRequest>& splits,
+bool TilePaging::evictLessWanted(const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
                                  const Asking& asking) {
     for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
-        if (priority <= yieldFactor * split->priority) return false;
+        if (wanted.priority <= yieldFactor * split->priority) return false;
+        // A tile may be wanted more than the one above it, since their bounds do not lie in each other; it is
+        // needed all the same.
+        if (split->parent == tree.nodes[wanted.parent].parent) continue;
         // Another of this step's requests may have had it already.
         if (!mayBeEvicted(split->parent) || tree.nodes[split->parent].id != split->parentId) continue;
         evict(split->parent, asking);
@@ -143,11 +161,18 @@ void TilePaging::remove(NodeIndex parent) {
 void TilePaging::withdraw(const ChunkId& parent) {
     const NodeIndex node = findTile(tree, parent);
     assert(node != noNode && tree.nodes[node].childrenState == ChildrenState::Requested);
-    tree.nodes[node].childrenState = ChildrenState::Absent;
+    changeState(tree.nodes[node].childrenState, ChildrenState::Absent);
     --promised;
 }
 
-void TilePaging::finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame) {
+void TilePaging::finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame, double sinceAnewS) {
+    failures.forget(parent);
+    addResident(parent, std::move(tiles), frame, sinceAnewS);
+    ++counters.loaded;
+}
+
+void TilePaging::addResident(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame,
+                             double sinceAnewS) {
     const NodeIndex node = findTile(tree, parent);
     assert(node != noNode && tree.nodes[node].childrenState == ChildrenState::Requested && promised > 0);
     --promised;
@@ -155,34 +180,55 @@ void TilePaging::finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t 
     freeBlocks.pop_back();
     const NodeIndex first = addTiles(tree, node, tiles, slot);
     // As if used by the frame that asked for it, in case this one no longer does.
-    for (NodeIndex q = 0; q < quadrantCount; ++q) tree.nodes[first + q].lastUsedFrame = frame - 1;
+    for (NodeIndex q = 0; q < quadrantCount; ++q) {
+        tree.nodes[first + q].lastUsedFrame = frame - 1;
+        recall(failures, tree.nodes[first + q], !checkers, sinceAnewS);
+    }
     TileChange change{.firstSlot = slot};
     for (TileData& tile : tiles) change.arrived.push_back(std::move(tile));
     changes.push_back(std::move(change));
-    ++counters.loaded;
 }
 
-void TilePaging::fail(const ChunkId& parent, std::uint64_t frame) {
+bool TilePaging::fail(const ChunkId& parent, Error error, std::uint64_t frame, double sinceAnewS,
+                      const RetryRules& rules) {
     ++counters.failed;
-    if (!checkers) {
-        withdraw(parent);
-        tree.nodes[findTile(tree, parent)].childrenState = ChildrenState::Failed;
-        return;
+    const bool forGood = failures.failed(parent, std::move(error), sinceAnewS, rules);
+    if (forGood && checkers) {
+        showCheckers(parent, frame, sinceAnewS);
+        return true;
     }
+    const NodeIndex node = findTile(tree, parent);
+    assert(node != noNode && promised > 0);
+    changeState(tree.nodes[node].childrenState,
+                forGood ? ChildrenState::Failed : ChildrenState::AwaitingRetry);
+    --promised;
+    return forGood;
+}
+
+void TilePaging::showCheckers(const ChunkId& parent, std::uint64_t frame, double sinceAnewS) {
     TileBlock block;
     for (int q = 0; q < quadrantCount; ++q)
         block[static_cast<std::size_t>(q)] = {childOf(parent, q), {}, checkerTexels(*checkers)};
-    finish(parent, std::move(block), frame);
+    addResident(parent, std::move(block), frame, sinceAnewS);
     tree.nodes[findTile(tree, parent)].hasFailed = true;
-    --counters.loaded;
 }
 
-void TilePaging::retryFailed() {
-    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        TileNode& node = tree.nodes[i];
-        if (node.hasFailed) remove(i);
-        if (node.childrenState == ChildrenState::Failed) node.childrenState = ChildrenState::Absent;
-    }
+void TilePaging::retry(NodeIndex index) {
+    TileNode& node = tree.nodes[index];
+    if (node.hasFailed) remove(index);
+    if (node.childrenState == ChildrenState::Failed || node.childrenState == ChildrenState::AwaitingRetry)
+        changeState(node.childrenState, ChildrenState::Absent);
+}
+
+void TilePaging::retryAll() {
+    failures.clear();
+    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) retry(i);
+}
+
+void TilePaging::retryOne(const ChunkId& parent) {
+    failures.forget(parent);
+    if (!isOn()) return;
+    if (const NodeIndex node = findTile(tree, parent); node != noNode) retry(node);
 }
 
 void TilePaging::count() {

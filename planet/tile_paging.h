@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "planet/block_failures.h"
 #include "planet/pager.h"
 #include "planet/paging_queue.h"
 #include "planet/planet.h"
@@ -31,7 +32,7 @@ struct MergedRequest {
 struct TilePaging {
     BlockKind kind = BlockKind::Colours;
     int leafLevel = -1;  // of the pyramid; -1: the planet has none
-    // Of colours: a block that cannot be read is resident as this. Of normals none: it stays away.
+    // Of colours: a block that has failed for good is resident as this. Of normals none: it stays away.
     std::optional<ColourFormat> checkers;
     // Kept, so that they can be shown again. One without texels could not be had.
     std::array<TileData, faceCount> roots;
@@ -44,12 +45,13 @@ struct TilePaging {
     TilePagingCounters counters;
     bool roomToCome =
         false;  // in the last step something had to wait for a block to be out of use long enough
+    BlockFailures failures;
 
     bool isOn() const { return tileCapacity > 0; }
 
     // Begins with the roots alone, in a pool of so many slots; whatever was resident is gone. 0: with
-    // nothing.
-    void begin(std::uint32_t capacity);
+    // nothing. What has failed is still known.
+    void begin(std::uint32_t capacity, double sinceAnewS);
 
     // Marks what views have looked at in a frame.
     void use(const std::vector<NodeIndex>& touched, std::uint64_t frame);
@@ -60,6 +62,7 @@ struct TilePaging {
     struct Asking {
         std::uint64_t frame;
         double nowS;
+        double sinceAnewS;
         std::uint64_t& nextTicket;
         const Note& note;
         std::vector<BlockId>* requested;  // where they are told of too; null: nowhere
@@ -71,21 +74,28 @@ struct TilePaging {
     void withdraw(const ChunkId& parent);
 
     // Makes a block resident that was read.
-    void finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame);
-    // A block could not be read: makes a checker pattern resident in its place, or nothing.
-    void fail(const ChunkId& parent, std::uint64_t frame);
-    // Drops those patterns, so that such blocks are asked for again.
-    void retryFailed();
+    void finish(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame, double sinceAnewS);
+    // A block could not be read. Where that is for good, makes a checker pattern resident in its place, or
+    // nothing, and returns true.
+    bool fail(const ChunkId& parent, Error error, std::uint64_t frame, double sinceAnewS,
+              const RetryRules& rules);
+    // Drops those patterns, so that such blocks are asked for again; all, or one.
+    void retryAll();
+    void retryOne(const ChunkId& parent);
     void count();
 
 private:
     bool promiseRoom(PagingQueue& queue, const MergedRequest& wanted,
                      const std::vector<MergedRequest>& splits, const Asking& asking);
     bool evictUnused(const Asking& asking);
-    bool evictLessWanted(float priority, const std::vector<MergedRequest>& splits, const Asking& asking);
+    bool evictLessWanted(const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
+                         const Asking& asking);
     bool mayBeEvicted(NodeIndex parent) const;
     void evict(NodeIndex parent, const Asking& asking);
     void remove(NodeIndex parent);
+    void addResident(const ChunkId& parent, TileBlock&& tiles, std::uint64_t frame, double sinceAnewS);
+    void showCheckers(const ChunkId& parent, std::uint64_t frame, double sinceAnewS);
+    void retry(NodeIndex node);
 };
 
 // The tiles that a share of a budget pays for: the roots' six and then whole blocks, no more than there are

@@ -55,8 +55,4 @@ double texelM(const PlanetShape& shape, int level);
 void selectTiles(const TileTree& tiles, const ChunkTree& chunks, const View& lodView,
                  const TileSettings& settings, const LodSettings& lod, TileSelection& selection);
 
-using ColourSettings = TileSettings;
-using ColourCounters = TileCounters;
-using ColourSelection = TileSelection;
-
 }  // namespace planet

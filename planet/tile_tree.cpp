@@ -1,4 +1,5 @@
 #include "planet/tile_tree.h"
+#include "planet/node_groups.h"
 
 #include <cassert>
 
@@ -16,17 +17,6 @@ TileNode makeNode(const TileTree& tree, const TileData& tile, NodeIndex parent, 
     node.children = tile.children;
     node.slot = slot;
     return node;
-}
-
-NodeIndex takeGroup(TileTree& tree) {
-    if (!tree.freeGroups.empty()) {
-        const NodeIndex first = tree.freeGroups.back();
-        tree.freeGroups.pop_back();
-        return first;
-    }
-    const auto first = static_cast<NodeIndex>(tree.nodes.size());
-    tree.nodes.resize(tree.nodes.size() + quadrantCount);
-    return first;
 }
 
 }  // namespace
@@ -51,7 +41,7 @@ NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, 
         tree.nodes[first + q] = makeNode(tree, children[q], parent, firstSlot + q);
     }
     tree.nodes[parent].firstChild = first;
-    tree.nodes[parent].childrenState = ChildrenState::Resident;
+    changeState(tree.nodes[parent].childrenState, ChildrenState::Resident);
     tree.residentTiles += quadrantCount;
     return first;
 }
@@ -65,7 +55,7 @@ void removeTiles(TileTree& tree, NodeIndex parent) {
     }
     tree.freeGroups.push_back(first);
     tree.nodes[parent].firstChild = noNode;
-    tree.nodes[parent].childrenState = ChildrenState::Absent;
+    changeState(tree.nodes[parent].childrenState, ChildrenState::Absent);
     tree.nodes[parent].hasFailed = false;
     tree.residentTiles -= quadrantCount;
 }

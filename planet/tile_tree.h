@@ -38,7 +38,7 @@ struct TileTree {
 // maxTileLevel].
 TileTree makeTileTree(int leafLevel, bool isDerived, const std::array<TileData, faceCount>& roots);
 
-// Adds the four tiles under one whose children are not resident, in slots from the first on; returns the
+// Adds the four tiles under one whose children are Requested, in slots from the first on; returns the
 // first. They must be that node's children.
 NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, quadrantCount>& children,
                    std::uint32_t firstSlot);
@@ -48,7 +48,5 @@ void removeTiles(TileTree& tree, NodeIndex parent);
 
 // The node of an id, or noNode if it is not resident.
 NodeIndex findTile(const TileTree& tree, const ChunkId& id);
-
-using ColourTree = TileTree;
 
 }  // namespace planet

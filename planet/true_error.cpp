@@ -1,7 +1,5 @@
 #include "planet/true_error.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -16,6 +14,7 @@
 #include <unordered_map>
 
 #include "planet/drawn_surface.h"
+#include "planet/parallel.h"
 #include "planet/percentile.h"
 
 namespace planet {
@@ -359,7 +358,7 @@ public:
     }
 
     Result<void> run() {
-        tbb::parallel_for(std::size_t{0}, pieces_.size(), [this](std::size_t i) {
+        forEachInParallel(pieces_.size(), [this](std::size_t i) {
             if (!stopped_) measure(i);
         });
         if (problem_) return tl::unexpected(problem_->error);

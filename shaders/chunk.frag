@@ -53,13 +53,6 @@ Detail detailAt(vec3 position) {
                   coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
 }
 
-// The image knows sea ice, and coasts finer than the mesh: water is blue, and dark or, over shallows, far from grey.
-float waterOf(vec3 colour) {
-    float blue = smoothstep(0.0, 0.008, colour.b - 1.15 * colour.r);
-    float shallow = smoothstep(1.5, 2.2, colour.b / max(colour.r, 1e-4));
-    return blue * max(1.0 - smoothstep(0.10, 0.30, colour.g), shallow);
-}
-
 // The image, its lookup moved by a part of a step so that its blobs get ragged edges. On a face's edge it only moves
 // along, where the next face's does the same.
 vec4 imageColour(Detail detail, float strength) {

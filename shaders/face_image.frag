@@ -35,9 +35,5 @@ vec3 imageColour(vec3 up) {
 
 void main() {
     vec3 image = imageColour(normalize(sphereFromCube(faceNormal + faceAt.x * faceU + faceAt.y * faceV)));
-    // As in chunk.frag.
-    float blue = smoothstep(0.0, 0.008, image.b - 1.15 * image.r);
-    float shallow = smoothstep(1.5, 2.2, image.b / max(image.r, 1e-4));
-    float water = blue * max(1.0 - smoothstep(0.10, 0.30, image.g), shallow);
-    fragment = vec4(sqrt(image), water);
+    fragment = vec4(sqrt(image), waterOf(image));
 }

@@ -193,6 +193,11 @@ TEST(ChunkExplanation, OfAChunkThatWaitsForItsChildren) {
     EXPECT_EQ(scene.explain(deeper).state, ChunkState::NotResident);
     EXPECT_EQ(scene.explain(deeper).decidedByNotSplit, WhyNotSplit::WaitingForRead);
 
+    scene.node(child).childrenState = ChildrenState::AwaitingRetry;
+    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::WaitingForRetry);
+    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::Failed);
+    EXPECT_EQ(scene.explain(grandchild).decidedByNotSplit, WhyNotSplit::WaitingForRetry);
+
     scene.node(child).childrenState = ChildrenState::Failed;
     EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::ChildrenFailed);
     EXPECT_EQ(scene.explain(grandchild).state, ChunkState::Failed);

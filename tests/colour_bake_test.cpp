@@ -35,13 +35,13 @@ Result<BakeReport> bakeWithColours(const std::filesystem::path& path, BakeSettin
     return bake(test::hillsSource(), settings, path, progress, &colours);
 }
 
-void visitTiles(const ChunkFile& file, const ColourTileData& tile,
-                const std::function<void(const ColourTileData&)>& visit) {
+void visitTiles(const ChunkFile& file, const TileData& tile,
+                const std::function<void(const TileData&)>& visit) {
     visit(tile);
     if (tile.id.level == file.info().colour->leafLevel) return;
     const auto children = file.readColourChildren(tile.id, tile.children);
     ASSERT_TRUE(children) << children.error().message;
-    for (const ColourTileData& child : *children) visitTiles(file, child, visit);
+    for (const TileData& child : *children) visitTiles(file, child, visit);
 }
 
 TEST(ColourBake, EveryTileOfEveryLevelIsTheSourcesOwn) {
@@ -59,7 +59,7 @@ TEST(ColourBake, EveryTileOfEveryLevelIsTheSourcesOwn) {
         for (const Face face : allFaces) {
             const auto root = file->readColourRoot(face);
             ASSERT_TRUE(root) << root.error().message;
-            visitTiles(*file, *root, [&](const ColourTileData& tile) {
+            visitTiles(*file, *root, [&](const TileData& tile) {
                 ++tiles;
                 std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
                 ASSERT_TRUE(sampleColourTile(test::mottledColours(), tile.id, rgb));

@@ -58,11 +58,32 @@ public:
         view.camera.heightAboveGroundM = pose_.altitudeM;
         view.camera.bookmarks = bookmarks_;
         view.presets = presets_;
+        view.allocations.now = allocations();
+        view.allocations.mark = allocations();
+        view.allocations.mark.heapBytes -= 3 << 20;
+        view.allocations.mark.threads = 5;
         if (!planet_->selection().draw.empty()) {
             view.focus.selected = planet_->selection().draw.front().id;
             view.focus.hovered = planet_->selection().draw.back().id;
         }
         return view;
+    }
+
+    ui::Allocations allocations() const {
+        ui::Allocations held;
+        held.residentBytes = 412 << 20;
+        held.heapBytes = 138 << 20;
+        held.openFiles = 11;
+        held.threads = 7;
+        held.gpu.heightPool = 64 << 20;
+        held.gpu.textures = 31 << 20;
+        held.objects = {41, 57, 9, 12, 2, 14, 0, 18};
+        held.planets = 1;
+        held.chunks = planet_->paging().residentChunks;
+        held.chunkSlots = planet_->slotCapacity();
+        held.rememberedEnds = planet_->pagingHistory().size();
+        held.frameSamples = history_.size();
+        return held;
     }
 
     double altitudeM = 60'000;

@@ -342,7 +342,7 @@ TEST(HeightSourceFaces, FileCutOffAfterOpeningIsAnError) {
     std::vector<float> out(65 * 65);
     const Result<void> done = source.sample({Face::PosY, 64, 0, 0, 65, 65}, out);
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, HasSubstr("earth65_y_pos.raw: has become shorter"));
+    EXPECT_THAT(done.error().message, HasSubstr("earth65_y_pos.raw: ended at byte 100"));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct MadeChunks {
     static constexpr std::int16_t lowest = std::numeric_limits<std::int16_t>::min();
     static constexpr std::int16_t highest = std::numeric_limits<std::int16_t>::max();
     std::optional<ChunkId> broken;  // whose block of children cannot be read
+    ErrorKind brokenBy = ErrorKind::BadInput;
 
     MadeChunks(const PlanetShape& planetShape, std::function<double(const glm::dvec3&)> height)
         : shape(planetShape), heightM(std::move(height)) {}
@@ -60,8 +61,10 @@ struct MadeChunks {
     }
 
     Result<SiblingBlock> children(const ChunkId& parent) const {
-        if (parent == broken)
-            return badInput("made.chk: the block of chunk " + toString(parent) + " is damaged");
+        if (parent == broken) {
+            const std::string message = "made.chk: the block of chunk " + toString(parent) + " is damaged";
+            return tl::unexpected(Error{brokenBy, message});
+        }
         SiblingBlock block;
         for (int q = 0; q < quadrantCount; ++q)
             block[static_cast<std::size_t>(q)] = chunk(childOf(parent, q));

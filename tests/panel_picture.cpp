@@ -1,15 +1,19 @@
-// Draws one panel into a PNG, without a window: panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light]
-// To look at what a change does to a panel. PANEL is a key of ui/panel_list.h, as "quadtree".
+// Draws one panel into a PNG, without a window:
+//     panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]
+// To look at what a change does to a panel. PANEL is a key of ui/panel_list.h, as "quadtree"; with failing
+// some blocks cannot be read; ITEM is what ui/item_map.h calls it, and is clicked before.
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <cstdio>
+#include <span>
 #include <string_view>
 
 #include "app/picture.h"
 #include "planet/gl/offscreen_context.h"
 #include "planet/gl/render_target.h"
 #include "tests/editor_fixture.h"
+#include "ui/item_map.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -24,14 +28,29 @@ const ui::PanelInfo* panelNamed(std::string_view key) {
     return nullptr;
 }
 
-void drawFrames(const ui::EditorView& view, const ui::PanelInfo& panel, int width, int height) {
+// Where an item lies whose name ends so; beside the panel where there is none.
+ImVec2 middleOf(const std::vector<ui::ItemPlace>& items, std::string_view name) {
+    for (const ui::ItemPlace& item : items) {
+        if (!name.empty() && item.name.ends_with(name))
+            return {item.rect.x + item.rect.width / 2, item.rect.y + item.rect.height / 2};
+    }
+    return {-1, -1};
+}
+
+void drawFrames(const ui::EditorView& view, const ui::PanelInfo& panel, int width, int height,
+                std::string_view clicked) {
+    std::vector<ui::ItemPlace> items;
     ui::PanelStates states;
     if (!view.presets.empty()) states.presets.selected = view.presets.front().name;
     ui::ViewSettings settings;
     ui::Commands commands;
     ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     // Some frames until what sizes itself has done so.
-    for (int frame = 0; frame < 4; ++frame) {
+    for (int frame = 0; frame < 10; ++frame) {
+        ImGui::GetIO().MousePos = frame < 7 ? middleOf(items, clicked) : ImVec2{-1, -1};
+        ImGui::GetIO().MouseDown[0] = frame == 5;
+        items.clear();
+        ui::collectItems(&items);
         ImGui::GetIO().DeltaTime = 1.0f / 60;
         ImGui_ImplOpenGL3_NewFrame();
         ImGui::NewFrame();
@@ -39,6 +58,7 @@ void drawFrames(const ui::EditorView& view, const ui::PanelInfo& panel, int widt
         ui::drawPanel(panel.id, view, states, settings, commands);
         ImGui::End();
         ImGui::Render();
+        ui::collectItems(nullptr);
     }
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
@@ -47,10 +67,21 @@ int run(int argumentCount, char** arguments) {
     const ui::PanelInfo* panel = argumentCount > 4 ? panelNamed(arguments[2]) : nullptr;
     int width = 0, height = 0;
     if (!panel || std::sscanf(arguments[3], "%dx%d", &width, &height) != 2) {
-        std::fputs("panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light]\n", stderr);
+        std::fputs("panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]\n",
+                   stderr);
         return 2;
     }
-    auto planet = planet::Planet::open(arguments[1], {});
+    constexpr std::string_view click = "click=";
+    bool light = false;
+    std::string_view clicked;
+    planet::PagingSettings paging;
+    for (const std::string_view extra :
+         std::span(arguments + 5, static_cast<std::size_t>(argumentCount - 5))) {
+        light |= extra == "light";
+        if (extra == "failing") paging.badDisk.failureRate = 0.5;
+        if (extra.starts_with(click)) clicked = extra.substr(click.size());
+    }
+    auto planet = planet::Planet::open(arguments[1], paging);
     auto context = planet::gl::OffscreenContext::create();
     auto target = context ? planet::gl::RenderTarget::create(width, height)
                           : planet::Result<planet::gl::RenderTarget>(tl::unexpected(context.error()));
@@ -67,11 +98,10 @@ int run(int argumentCount, char** arguments) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui_ImplOpenGL3_Init("#version 330 core");
-    const bool light = argumentCount > 5 && std::string_view(arguments[5]) == "light";
     ui::applyTheme(light ? ui::Theme::Light : ui::Theme::Dark, 1);
     target->bind();
     glViewport(0, 0, width, height);
-    drawFrames(fixture.view(), *panel, width, height);
+    drawFrames(fixture.view(), *panel, width, height, clicked);
     const auto written = writePicture({width, height, target->readRgb()}, arguments[4]);
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <set>
 
+#include "planet/tile_paging.h"
 #include "planet/tile_select.h"
+#include "tests/held_tiles.h"
 #include "tests/planet_fixture.h"
 
 namespace planet {
@@ -18,17 +19,17 @@ using testing::HasSubstr;
 constexpr int leaf = 6;
 
 // A tile whose texels begin with its own name.
-ColourTileData fakeTile(const ChunkId& id) {
-    ColourTileData tile{id, {}, std::vector<std::byte>(colourTileBytes(ColourFormat::Bc1))};
+TileData fakeTile(const ChunkId& id) {
+    TileData tile{id, {}, std::vector<std::byte>(colourTileBytes(ColourFormat::Bc1))};
     if (id.level < leaf) tile.children = {1000 + keyOf(id) % 100'000, 77};
     const std::uint64_t key = keyOf(id);
     std::memcpy(tile.texels.data(), &key, sizeof key);
     return tile;
 }
 
-Result<ColourBlock> loadFakeTiles(const ChunkId& parent, BlockLocation location) {
+Result<TileBlock> loadFakeTiles(const ChunkId& parent, BlockLocation location) {
     if (location != fakeTile(parent).children) return badInput("wrong place for " + toString(parent));
-    ColourBlock block;
+    TileBlock block;
     for (int q = 0; q < quadrantCount; ++q) block[static_cast<std::size_t>(q)] = fakeTile(childOf(parent, q));
     return block;
 }
@@ -61,49 +62,23 @@ bool settled(Planet& planet, const View& view, double texelsPerPixel = 1) {
     return planet.settle({&input, 1}, noUpload, timeoutS);
 }
 
-// What a renderer would hold.
-struct TilePool {
-    std::map<std::uint32_t, ChunkId> tiles;  // by slot
+struct TilePool : HeldTiles {
     std::set<ChunkId> checkers;
 
     void follow(Planet& planet) {
-        for (const ColourChange& change : planet.takeColourChanges()) {
-            if (change.beginsAnew) tiles.clear();
-            if (change.gone) {
-                std::erase_if(tiles, [&](const auto& slot) {
-                    return slot.second.level == change.gone->level + 1 &&
-                           parentOf(slot.second) == *change.gone;
-                });
-            }
-            for (std::uint32_t i = 0; i < change.arrived.size(); ++i) {
-                const ColourTileData& tile = change.arrived[i];
-                EXPECT_FALSE(tiles.contains(change.firstSlot + i)) << toString(tile.id);
-                tiles[change.firstSlot + i] = tile.id;
-                if (tile.texels == checkerTexels(ColourFormat::Bc1)) checkers.insert(tile.id);
-            }
-        }
+        HeldTiles::follow(planet.takeColourChanges(), [this](const TileData& tile) {
+            if (tile.texels == checkerTexels(ColourFormat::Bc1)) checkers.insert(tile.id);
+        });
     }
 };
 
-// Each resident tile has a slot of its own that holds it, and nothing else is held.
 void expectHolds(const Planet& planet, const TilePool& pool) {
-    const ColourTree& tree = planet.colourTree();
-    std::size_t resident = 0;
-    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        if (i >= faceCount && tree.nodes[i].parent == noNode) continue;
-        ++resident;
-        const auto held = pool.tiles.find(tree.nodes[i].slot);
-        ASSERT_TRUE(held != pool.tiles.end()) << toString(tree.nodes[i].id);
-        EXPECT_EQ(held->second, tree.nodes[i].id);
-    }
-    EXPECT_EQ(pool.tiles.size(), resident);
-    EXPECT_EQ(tree.residentTiles, resident);
-    EXPECT_LE(resident, planet.colourPaging().tileCapacity);
+    expectHolds(planet.colourTree(), planet.colourPaging().tileCapacity, pool);
 }
 
 // The tiles that a view shows, whatever may be resident under them.
 std::set<ChunkId> shown(const Planet& planet) {
-    const ColourTree& tree = planet.colourTree();
+    const TileTree& tree = planet.colourTree();
     std::set<ChunkId> ids;
     for (const NodeIndex i : planet.colourSelection().touched) ids.insert(tree.nodes[i].id);
     for (const ChildrenRequest& split : planet.colourSelection().splits) ids.erase(split.parentId);
@@ -118,7 +93,7 @@ TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
         ASSERT_TRUE(settled(*planet, view, wanted));
         pool.follow(*planet);
         expectHolds(*planet, pool);
-        const ColourSelection& selection = planet->colourSelection();
+        const TileSelection& selection = planet->colourSelection();
         EXPECT_TRUE(selection.requests.empty());
         EXPECT_EQ(selection.counters.waiting, 0u);
         EXPECT_GT(selection.counters.deepestLevel, 1u);
@@ -183,7 +158,7 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
     expectHolds(*planet, pool);
     // What waits is wanted no more than half as much again as what is there.
     ASSERT_GT(planet->colourPaging().budgetWaits, 0u);
-    const ColourSelection& selection = planet->colourSelection();
+    const TileSelection& selection = planet->colourSelection();
     float leastSplit = 1e9f;
     for (const ChildrenRequest& split : selection.splits) leastSplit = std::min(leastSplit, split.priority);
     ASSERT_FALSE(selection.requests.empty());
@@ -193,13 +168,15 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
 TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
     std::atomic<bool> broken = true;
     const ChunkId bad{Face::PosX, 1, 1, 1};
+    PagingSettings settings = roomForTiles(800);
+    settings.retry.retries = 0;
     const auto planet =
         Planet::open(colouredSource([&](const ChunkId& parent, BlockLocation location) {
                          if (broken && parent == bad)
-                             return Result<ColourBlock>(ioError("colours of x_pos/1/1/1 are gone"));
+                             return Result<TileBlock>(ioError("colours of x_pos/1/1/1 are gone"));
                          return loadFakeTiles(parent, location);
                      }),
-                     roomForTiles(800))
+                     settings)
             .value();
     TilePool pool;
     const View view = viewAt(20, 20, 40'000, -70);
@@ -269,24 +246,44 @@ TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
     const auto planet = Planet::open(colouredSource(), settings).value();
     settings.time = PagingTime::Recorded;
     const auto other = Planet::open(colouredSource(), settings).value();
-    planet->keepMoves(true);
-    other->keepMoves(true);
-    std::size_t ofColours = 0;
-    for (int i = 0; i < 200; ++i) {
-        const ViewInput input = coloured(viewAt(20, 30 + 0.3 * i, 40'000, -60));
-        planet->step({&input, 1}, noUpload, 1.0 / 60);
-        const PagingMoves moves = planet->takeMoves();
-        ASSERT_TRUE(other->follow(moves)) << i;
-        other->step({&input, 1}, noUpload, 1.0 / 60);
-        const PagingMoves again = other->takeMoves();
-        ASSERT_EQ(again.requested, moves.requested) << i;
-        ASSERT_EQ(again.arrived, moves.arrived) << i;
-        ASSERT_EQ(shown(*other), shown(*planet)) << i;
-        for (const PagingMoves::Arrival& arrival : moves.arrived)
-            ofColours += arrival.block.kind == BlockKind::Colours;
-    }
+    const std::size_t ofColours = followExactly(
+        *planet, *other, BlockKind::Colours, 200, 1.0 / 60,
+        [](int i) { return coloured(viewAt(20, 30 + 0.3 * i, 40'000, -60)); },
+        [&](int i) { EXPECT_EQ(shown(*other), shown(*planet)) << i; });
     EXPECT_GT(ofColours, 20u);
     EXPECT_GT(planet->colourPaging().failed, 0u);
+}
+
+// A tile that holds the eye in its bounds is wanted more than the one above it, whose bounds may not.
+TEST(PlanetColours, ABlockIsNotDroppedForWhatIsToComeUnderIt) {
+    TilePaging tiles;
+    tiles.leafLevel = leaf;
+    tiles.checkers = ColourFormat::Bc1;
+    for (const Face face : allFaces) tiles.roots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
+    tiles.begin(faceCount + quadrantCount, 0);
+    PagingQueue queue;
+    std::uint64_t nextTicket = 1;
+    const TilePaging::Note ignore = [](const PagingRequest&, PagingOutcome) {};
+    const auto request = [&](const ChunkId& parent, float priority,
+                             const std::vector<MergedRequest>& splits) {
+        const MergedRequest wanted{findTile(tiles.tree, parent), parent, priority};
+        tiles.request(queue, {wanted}, splits, {1, 0, 0, nextTicket, ignore, nullptr});
+    };
+    const ChunkId root{Face::PosX, 0, 0, 0}, child = childOf(root, 2);
+    request(root, 2, {});
+    ASSERT_TRUE(queue.pop({root, BlockKind::Colours}));
+    tiles.finish(root, loadFakeTiles(root, fakeTile(root).children).value(), 1, 0);
+    tiles.use({0, findTile(tiles.tree, child)}, 1);
+    const MergedRequest split{findTile(tiles.tree, root), root, 2};
+    request(child, 100, {split});
+    EXPECT_EQ(queue.count(PagingType::PageIn), 0u);
+    EXPECT_EQ(tiles.counters.budgetWaits, 1u);
+    EXPECT_NE(findTile(tiles.tree, child), noNode);
+    // Elsewhere it yields.
+    const ChunkId other{Face::NegX, 0, 0, 0};
+    request(other, 100, {split});
+    EXPECT_TRUE(queue.find({other, BlockKind::Colours}));
+    EXPECT_EQ(findTile(tiles.tree, child), noNode);
 }
 
 TEST(PlanetColours, AChunksBlockAndATilesOfTheSameNameAreTwoRequests) {

@@ -85,7 +85,7 @@ TEST_F(PlanetFile, damagedBlockIsReportedAndDrawnAsItsParent) {
 }
 
 TEST_F(PlanetFile, fileTruncatedWhileOpenGoesOnWithWhatIsResident) {
-    const auto planet = Planet::open(path_, PagingSettings{});
+    const auto planet = Planet::open(path_, PagingSettings{.retry = {.delayS = 0.001}});
     ASSERT_TRUE(planet);
     std::filesystem::resize_file(path_, chunkFileHeaderBytes);
     ASSERT_TRUE((*planet)->settle(overHills(), LodSettings{.tauPx = 3}, ignoreUpload, 60));

@@ -21,11 +21,13 @@ inline std::size_t bytesOf(std::size_t chunks) {
     return chunks * (chunkBytesCpu(shape) + chunkBytesGpu(shape));
 }
 
+// With a failure that is final: what is tried again is in planet_retry_test.cpp.
 inline std::unique_ptr<Planet> openFake(PlanetSource source = fakePyramid().source(),
                                         std::size_t budgetChunks = 100'000, int loaderThreads = 1) {
     PagingSettings settings;
     settings.budgetBytes = bytesOf(budgetChunks);
     settings.loaderThreads = loaderThreads;
+    settings.retry.retries = 0;
     return Planet::open(std::move(source), settings).value();
 }
 

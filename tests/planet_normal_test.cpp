@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 
 #include "planet/normal_tile.h"
+#include "tests/held_tiles.h"
 #include "tests/made_chunks.h"
 #include "tests/planet_fixture.h"
 
@@ -49,40 +49,16 @@ bool settled(Planet& planet, const View& view, double texelsPerPixel = 1) {
     return planet.settle({&input, 1}, noUpload, timeoutS);
 }
 
-// What a renderer would hold.
-struct TilePool {
-    std::map<std::uint32_t, ChunkId> tiles;  // by slot
-
+struct TilePool : HeldTiles {
     void follow(Planet& planet) {
-        for (const TileChange& change : planet.takeNormalChanges()) {
-            if (change.beginsAnew) tiles.clear();
-            if (change.gone) {
-                std::erase_if(tiles, [&](const auto& slot) {
-                    return slot.second.level == change.gone->level + 1 &&
-                           parentOf(slot.second) == *change.gone;
-                });
-            }
-            for (std::uint32_t i = 0; i < change.arrived.size(); ++i) {
-                EXPECT_FALSE(tiles.contains(change.firstSlot + i)) << toString(change.arrived[i].id);
-                EXPECT_EQ(change.arrived[i].texels.size(), normalTileBytes);
-                tiles[change.firstSlot + i] = change.arrived[i].id;
-            }
-        }
+        HeldTiles::follow(planet.takeNormalChanges(), [](const TileData& tile) {
+            EXPECT_EQ(tile.texels.size(), normalTileBytes) << toString(tile.id);
+        });
     }
 };
 
 void expectHolds(const Planet& planet, const TilePool& pool) {
-    const TileTree& tree = planet.normalTree();
-    std::size_t resident = 0;
-    for (NodeIndex i = 0; i < tree.nodes.size(); ++i) {
-        if (i >= faceCount && tree.nodes[i].parent == noNode) continue;
-        ++resident;
-        const auto held = pool.tiles.find(tree.nodes[i].slot);
-        ASSERT_TRUE(held != pool.tiles.end()) << toString(tree.nodes[i].id);
-        EXPECT_EQ(held->second, tree.nodes[i].id);
-    }
-    EXPECT_EQ(pool.tiles.size(), resident);
-    EXPECT_LE(resident, planet.normalPaging().tileCapacity);
+    expectHolds(planet.normalTree(), planet.normalPaging().tileCapacity, pool);
 }
 
 TEST(PlanetNormals, SettleOnAsManyTexelsAsAreWantedWhateverTheChunks) {
@@ -186,6 +162,42 @@ TEST(PlanetNormals, ABlockOfHeightsThatCannotBeReadLeavesTheMeshAndSaysSo) {
     EXPECT_TRUE(planet->takeProblems().empty());
 }
 
+TEST(PlanetNormals, ABlockThatADiskFailsToReadIsTriedAgain) {
+    MadeChunks made = madeChunks();
+    made.broken = ChunkId{Face::PosX, 4, 9, 9};
+    made.brokenBy = ErrorKind::Io;
+    PagingSettings settings = roomForTiles(300);
+    settings.time = PagingTime::Simulated;
+    settings.retry = {.retries = 3, .delayS = 0.5};
+    const auto planet = Planet::open(made.source(), settings).value();
+    const ViewInput input = litFinely(viewAt(10, 10, 30'000, -80));
+    const auto awaiting = [&] {
+        std::size_t ofNormals = 0;
+        for (const FailedBlock& failed : planet->failedBlocks())
+            ofNormals += failed.block.kind == BlockKind::Normals && failed.retryInS;
+        return ofNormals;
+    };
+    for (int i = 0; i < 100 && awaiting() == 0; ++i) planet->step({&input, 1}, noUpload, 1.0 / 60);
+    ASSERT_GT(awaiting(), 0u);
+    EXPECT_GT(planet->normalPaging().failed, 0u);
+    EXPECT_FALSE(planet->settled());
+    made.broken.reset();
+    ASSERT_TRUE(planet->settle({&input, 1}, noUpload, 100));
+    EXPECT_TRUE(planet->failedBlocks().empty());
+    EXPECT_TRUE(planet->takeProblems().empty());
+    EXPECT_EQ(planet->normalSelection().counters.waiting, 0u);
+    // And where the disk stays as it is the light is the mesh's.
+    made.broken = ChunkId{Face::PosX, 4, 9, 9};
+    const auto broken = Planet::open(made.source(), settings).value();
+    ASSERT_TRUE(broken->settle({&input, 1}, noUpload, 100));
+    EXPECT_GT(broken->paging().failedForGood, 0u);
+    EXPECT_EQ(broken->paging().awaitingRetry, 0u);
+    for (const FailedBlock& failed : broken->failedBlocks()) EXPECT_EQ(failed.attempts, 4u);
+    TilePool pool;
+    pool.follow(*broken);
+    expectHolds(*broken, pool);
+}
+
 TEST(PlanetNormals, AFaceWhoseOwnTileCannotBeDerivedIsWithoutUntilItCan) {
     MadeChunks made = madeChunks(9);
     made.broken = ChunkId{Face::NegZ, 0, 0, 0};
@@ -265,21 +277,9 @@ TEST(PlanetNormals, ARecordingOfThemIsFollowedExactly) {
     const auto planet = Planet::open(made.source(), settings).value();
     settings.time = PagingTime::Recorded;
     const auto other = Planet::open(made.source(), settings).value();
-    planet->keepMoves(true);
-    other->keepMoves(true);
-    std::size_t ofNormals = 0;
-    for (int i = 0; i < 60; ++i) {
-        const ViewInput input = litFinely(viewAt(20, 30 + 2 * i, 60'000, -60));
-        planet->step({&input, 1}, noUpload, 1.0 / 30);
-        const PagingMoves moves = planet->takeMoves();
-        ASSERT_TRUE(other->follow(moves)) << i;
-        other->step({&input, 1}, noUpload, 1.0 / 30);
-        const PagingMoves again = other->takeMoves();
-        ASSERT_EQ(again.requested, moves.requested) << i;
-        ASSERT_EQ(again.arrived, moves.arrived) << i;
-        for (const PagingMoves::Arrival& arrival : moves.arrived)
-            ofNormals += arrival.block.kind == BlockKind::Normals;
-    }
+    const std::size_t ofNormals = followExactly(
+        *planet, *other, BlockKind::Normals, 60, 1.0 / 30,
+        [](int i) { return litFinely(viewAt(20, 30 + 2 * i, 60'000, -60)); }, [](int) {});
     EXPECT_GT(ofNormals, 5u);
 }
 

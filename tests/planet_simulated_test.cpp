@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -191,8 +192,9 @@ TEST(SimulatedPaging, TheSeedSaysWhatFails) {
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
     EXPECT_GT(planet->paging().failed, 0u);
     EXPECT_GT(planet->paging().loaded, 0u);
+    std::map<ChunkId, std::uint32_t> attempts;
     for (const PagingEvent& event : planet->pagingHistory()) {
-        const bool fails = diskFault(disk, event.parent, 0, 100).fails;
+        const bool fails = diskFault(disk, event.parent, attempts[event.parent]++, 100).fails;
         EXPECT_EQ(event.outcome, fails ? PagingOutcome::Failed : PagingOutcome::Loaded);
     }
 }

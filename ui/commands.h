@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planet/bake.h"
+#include "planet/block_id.h"
 #include "planet/chunk_id.h"
 #include "planet/height_source.h"
 #include "planet/view.h"
@@ -64,7 +65,9 @@ struct PausePaging {
 };
 struct LoadOne {};
 struct DropAll {};
-struct RetryFailed {};
+struct RetryFailed {
+    std::optional<planet::BlockId> block{};  // or all
+};
 
 // Frames.
 struct PauseFrames {  // nothing moves, is chosen or loaded but by StepFrame
@@ -142,7 +145,8 @@ struct SaveLayerSet {  // as one of the user's own
     std::string name;
 };
 struct ReloadLayerTextures {};
-struct TryCostlyParts {};  // those that were turned down
+struct MarkAllocations {};  // what is held from now on is compared with what is held now
+struct TryCostlyParts {};   // those that were turned down
 
 // Instruments.
 struct MeasureCracks {};       // of the view as it is
@@ -216,18 +220,17 @@ struct CompareOverFlight {
 };
 struct CancelCompareFlight {};
 
-using Command =
-    std::variant<HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart,
-                 AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
-                 PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile,
-                 StartBake, BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo,
-                 Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit,
-                 MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop,
-                 ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording,
-                 DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep,
-                 CancelSweep, SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare,
-                 MeasureCompare, CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet,
-                 ReloadLayerTextures, PreviewSource, AskForColourImage, ChooseColourImage, TryCostlyParts>;
+using Command = std::variant<
+    HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart, AddBookmark,
+    RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight, PausePaging, LoadOne, DropAll,
+    RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake, BakeAgain, EstimateBake, CancelBake,
+    ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine,
+    CopyText, TakeScreenshot, Quit, MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops,
+    GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording,
+    DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
+    SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
+    CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures, PreviewSource, AskForColourImage,
+    ChooseColourImage, TryCostlyParts, MarkAllocations>;
 using Commands = std::vector<Command>;
 
 }  // namespace ui

@@ -12,6 +12,7 @@
 #include "planet/bake_estimate.h"
 #include "planet/lod_changes.h"
 #include "planet/planet.h"
+#include "ui/allocations_view.h"
 #include "ui/commands.h"
 #include "ui/compare_view.h"
 #include "ui/cracks_view.h"
@@ -148,6 +149,7 @@ struct EditorView {
     SweepView sweep{};
     LayersView layers{};
     LightView light{};
+    AllocationsView allocations{};
 };
 
 }  // namespace ui

@@ -58,6 +58,8 @@ std::string drawnText(const ChunkExplanation& chunk) {
             return wanted("its children are being read");
         case WhyNotSplit::WaitingForBudget:
             return wanted("the memory budget has no room for its children");
+        case WhyNotSplit::WaitingForRetry:
+            return wanted("its children could not be read, and are asked for again in a while");
         case WhyNotSplit::ChildrenFailed:
             return wanted("its children could not be read");
         case WhyNotSplit::IsSplit:
@@ -97,6 +99,9 @@ std::string insteadText(const ChunkExplanation& chunk) {
             return above + " comes first, and is being read.";
         case WhyNotSplit::WaitingForBudget:
             return above + " is drawn, since the memory budget has no room for its children.";
+        case WhyNotSplit::WaitingForRetry:
+            return above +
+                   " is drawn, since its children could not be read; they are asked for again in a while.";
         case WhyNotSplit::ChildrenFailed:
             return above + " is drawn, since its children could not be read.";
         case WhyNotSplit::IsSplit:
@@ -133,7 +138,10 @@ std::string whyText(const ChunkExplanation& chunk) {
         case ChunkState::NotResident:
             return "Not loaded: " + insteadText(chunk);
         case ChunkState::Failed:
-            return fmt::format("Not loaded: {} could not be read.", decider(chunk));
+            return fmt::format("Not loaded: {} could not be read{}.", decider(chunk),
+                               chunk.decidedByNotSplit == WhyNotSplit::WaitingForRetry
+                                   ? ", and is asked for again in a while"
+                                   : "");
         case ChunkState::NotInFile:
             break;
     }

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "ui/allocation_table.h"
 #include "ui/columns.h"
 #include "ui/history.h"
 #include "ui/item_map.h"
@@ -178,6 +179,8 @@ void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
                                 Column{"Counts and memory", 1, 0, [&] {
                                            counts(view);
                                            memory(view);
+                                           if (section("Allocations"))
+                                               allocationTable(view.allocations, view.timeS, commands);
                                        }}};
     drawColumns("frame", columns);
 }

@@ -21,7 +21,7 @@ struct ClipmapStats {
 struct FrameStats {
     planet::SelectionCounters selection;
     planet::PagingCounters paging;
-    planet::ColourPagingCounters colourPaging;  // of planets with colours
+    planet::TilePagingCounters colourPaging;  // of planets with colours
     planet::StageTimes stages;
     planet::gl::RenderCounters render;
     planet::gl::GpuMemory gpuMemory;  // of the renderer

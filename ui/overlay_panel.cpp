@@ -51,8 +51,10 @@ void colourKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
 }
 
 void drawnKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
-    checkbox("Outlines", overlay.outlines, defaults.outlines,
-             "The chunks' borders. Many small chunks far away run into one another.");
+    checkbox(
+        "Outlines", overlay.outlines, defaults.outlines,
+        "The chunks' borders; red where finer chunks could not be read, amber where they are tried again. "
+        "Many small chunks far away run into one another.");
     secondColumn();
     checkbox("Bounds", overlay.bounds, defaults.bounds,
              "The boxes that hold all that a chunk and those below it can draw; distances and culling go by "

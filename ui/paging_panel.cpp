@@ -11,6 +11,7 @@
 #include "planet/percentile.h"
 #include "ui/chunk_link.h"
 #include "ui/columns.h"
+#include "ui/failed_blocks.h"
 #include "ui/history.h"
 #include "ui/item_map.h"
 #include "ui/paging_text.h"
@@ -55,9 +56,18 @@ void knobs(PagingKnobs& paging, bool hasColours) {
         "Time a frame spends on making loaded chunks drawable, milliseconds; at least one block is. Larger: "
         "detail arrives sooner, but frames stutter while it does.",
         ImGuiSliderFlags_Logarithmic);
+    slider(
+        "Retries", paging.retries, defaults.retries, 0, 10, "%d",
+        "How often a block that could not be read is asked for again by itself; then it has failed for "
+        "good. Fewer: a disk that stumbles leaves holes in the detail. More: a broken one is asked longer. "
+        "Data that was read and is wrong is not asked for again.");
+    slider("Retry after", paging.retryDelayS, defaults.retryDelayS, 0, 60, "%.2f s",
+           "From a failed read to the first retry, seconds; twice as long to each further one. Smaller: "
+           "detail comes sooner, but a disk in trouble gets no rest.",
+           ImGuiSliderFlags_Logarithmic);
 }
 
-void buttons(const EditorView& view, std::size_t failedBlocks, Commands& commands) {
+void buttons(const EditorView& view, Commands& commands) {
     bool paused = view.pagingPaused;
     if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PausePaging{paused});
     noteItem("Pause");
@@ -73,17 +83,19 @@ void buttons(const EditorView& view, std::size_t failedBlocks, Commands& command
             "Drops every chunk and every tile of colour but the six roots of each, and every request that no "
             "loader has taken: shows how the picture comes back."))
         commands.push_back(DropAll{});
-    if (failedBlocks == 0) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-    const std::string label = fmt::format("Retry {} failed###retry", failedBlocks);
+    const planet::PagingCounters& p = view.stats.paging;
+    if (p.failedForGood + p.awaitingRetry == 0) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, p.failedForGood > 0 ? palette().bad : palette().warning);
+    const std::string label = fmt::format("Retry {} failed###retry", p.failedForGood + p.awaitingRetry);
     const bool retry = ImGui::Button(label.c_str());
     noteItem("Retry failed");
     if (retry) commands.push_back(RetryFailed{});
     ImGui::PopStyleColor();
     tooltip(
-        "Blocks that could not be read are drawn as their parents, those of colours as a loud checker, and "
-        "are "
-        "asked for again only by this.");
+        "Blocks that could not be read are drawn as their parents, and asked for again some times by "
+        "themselves. Those that have failed for good, of colours drawn as a loud checker, are asked for "
+        "again "
+        "only by this. \"Failed\" lists them.");
 }
 
 std::size_t tileBytes(const planet::Planet& planet) {
@@ -91,7 +103,7 @@ std::size_t tileBytes(const planet::Planet& planet) {
 }
 
 void colourMemory(const EditorView& view) {
-    const planet::ColourPagingCounters& p = view.stats.colourPaging;
+    const planet::TilePagingCounters& p = view.stats.colourPaging;
     const double bytes = static_cast<double>(tileBytes(*view.planet));
     const double used = static_cast<double>(p.residentTiles) * bytes;
     const double room = p.tileCapacity * bytes;
@@ -148,15 +160,15 @@ void kindRow(const char* name, const std::string& heights, const std::string& co
 // What is counted of each kind; the planet counts both together, and colours apart.
 void totalsByKind(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
-    const planet::ColourPagingCounters& c = view.stats.colourPaging;
+    const planet::TilePagingCounters& c = view.stats.colourPaging;
     constexpr std::array columns = {TableColumn{"By kind"}, TableColumn{"Heights"}, TableColumn{"Colours"}};
     if (!beginListTable("kinds", columns, 7)) return;
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
     kindRow("Loaded", count(p.loaded - c.loaded), count(c.loaded), "Blocks read and made resident.");
     kindRow("Evicted", count(p.evicted - c.evicted), count(c.evicted),
             "Blocks dropped, for the budget's sake.");
-    kindRow("Failed", count(p.failed - c.failed), count(c.failed), "Reads that failed; see the log.",
-            p.failed > 0);
+    kindRow("Failed", count(p.failed - c.failed), count(c.failed),
+            "Reads that failed, those that were tried again included.", p.failed > 0);
     kindRow("Read", bytesText(static_cast<double>(p.bytesRead - c.bytesRead)),
             bytesText(static_cast<double>(c.bytesRead)), "From the file.");
     kindRow("Resident", count(p.residentChunks), count(c.residentTiles),
@@ -180,7 +192,7 @@ void totals(const EditorView& view) {
     }
     valueRow("Loaded", count(p.loaded), "Blocks read and made resident.");
     valueRow("Evicted", count(p.evicted), "Blocks paged out, for the budget's sake.");
-    valueRow("Failed", count(p.failed), "Reads that failed; see the log.",
+    valueRow("Failed", count(p.failed), "Reads that failed, those that were tried again included.",
              p.failed > 0 ? &palette().bad : nullptr);
     valueRow("Read", bytesText(static_cast<double>(p.bytesRead)), "From the file.");
     endValues();
@@ -256,16 +268,6 @@ void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::
     }
 }
 
-std::size_t countFailed(const planet::Planet& planet) {
-    if (planet.paging().failed == 0) return 0;
-    std::size_t failed = 0;
-    planet::forEachNode(planet.tree(), [&](planet::NodeIndex, const planet::ChunkNode& node) {
-        if (node.childrenState == planet::ChildrenState::Failed) ++failed;
-    });
-    for (const planet::TileNode& node : planet.colourTree().nodes) failed += node.hasFailed ? 1 : 0;
-    return failed;
-}
-
 bool isShown(planet::BlockKind kind, const std::optional<planet::BlockKind>& shownKind) {
     return !shownKind || kind == *shownKind;
 }
@@ -292,7 +294,8 @@ void refresh(const EditorView& view, PagingPanelState& state) {
     PagingPanelState::Sample& sample = state.sample;
     const bool current = sample.planet == view.planet && sample.shownView == state.shownView &&
                          sample.shownKind == state.shownKind &&
-                         sample.latencyOfReading == state.latencyOfReading && view.timeS >= sample.takenAtS &&
+                         sample.latencyOfReading == state.latencyOfReading &&
+                         sample.failedShown == state.failedShown && view.timeS >= sample.takenAtS &&
                          view.timeS < sample.takenAtS + sampledEveryS;
     if (current) return;
     sample.takenAtS = view.timeS;
@@ -300,8 +303,10 @@ void refresh(const EditorView& view, PagingPanelState& state) {
     sample.shownView = state.shownView;
     sample.shownKind = state.shownKind;
     sample.latencyOfReading = state.latencyOfReading;
+    sample.failedShown = state.failedShown;
     sampleQueue(*view.planet, state.shownView, sample);
-    sample.failedBlocks = countFailed(*view.planet);
+    sample.failed = state.failedShown ? view.planet->failedBlocks() : std::vector<planet::FailedBlock>();
+    sortFailed(sample.failed);
     sampleLatency(*view.planet, state.latencyOfReading, sample);
 }
 
@@ -397,7 +402,10 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
 
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
     if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No request of these kinds.";
-    if (state.sample.failedBlocks > 0) return "The queue is empty: what is still missing could not be read.";
+    const planet::PagingCounters& p = view.stats.paging;
+    if (p.awaitingRetry > 0)
+        return "The queue is empty: what is still missing could not be read, and is tried again in a while.";
+    if (p.failedForGood > 0) return "The queue is empty: what is still missing could not be read.";
     const bool waiting =
         view.stats.selection.waiting > 0 || view.planet->colourSelection().counters.waiting > 0;
     return !waiting ? "The queue is empty: all that is wanted is resident." : "The queue is empty.";
@@ -574,11 +582,27 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     latencyHistogram(state, lines);
 }
 
-void controls(const EditorView& view, const PagingPanelState& state, ViewSettings& settings,
-              Commands& commands) {
+void controls(const EditorView& view, ViewSettings& settings, Commands& commands) {
     memory(view);
     knobs(settings.paging, view.planet->colour().has_value());
-    buttons(view, state.sample.failedBlocks, commands);
+    buttons(view, commands);
+}
+
+// Beside those that are read or to be read; its name says that there are any.
+void failedTab(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    const planet::PagingCounters& p = view.stats.paging;
+    const std::uint32_t failed = p.failedForGood + p.awaitingRetry;
+    const ImVec4 colour = p.failedForGood > 0 ? palette().bad : palette().warning;
+    if (failed > 0) ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    const bool open = ImGui::BeginTabItem(fmt::format("Failed {}###failed", failed).c_str());
+    if (failed > 0) ImGui::PopStyleColor();
+    noteItem("Failed blocks");
+    tooltip(
+        "Blocks that could not be read: those that are tried again, and those that have failed for good.");
+    state.failedShown = open;
+    if (!open) return;
+    failedTable(view, state.sample.failed, commands);
+    ImGui::EndTabItem();
 }
 
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
@@ -592,6 +616,7 @@ void tables(const EditorView& view, PagingPanelState& state, Commands& commands)
         loadingTable(view, state, commands);
         ImGui::EndTabItem();
     }
+    failedTab(view, state, commands);
     if (ImGui::BeginTabItem("History")) {
         historyTable(view, state, commands);
         ImGui::EndTabItem();
@@ -617,7 +642,7 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     constexpr float tableLines = 13;
     const std::array columns = {Column{"Paging", 1.2f, 0,
                                        [&] {
-                                           controls(view, state, settings, commands);
+                                           controls(view, settings, commands);
                                            if (wide && section("Bad disk")) badDisk(settings.paging);
                                        }},
                                 Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},

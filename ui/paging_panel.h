@@ -30,6 +30,7 @@ struct PagingPanelState {
     bool showCancelled = true;
     bool showEvicted = true;
     bool onlyMerged = false;        // those asked for more than once
+    bool failedShown = false;       // the list of failed blocks, in the frame before
     bool latencyOfReading = false;  // the histogram: of reading alone; else from asking to loaded
 
     // Read from the planet some ten times a second: copying a long queue takes longer than drawing it.
@@ -39,9 +40,10 @@ struct PagingPanelState {
         int shownView = -1;
         std::optional<planet::BlockKind> shownKind{};
         bool latencyOfReading = false;
-        std::vector<PagingRow> queue;  // page-ins, then page-outs, each most urgent first
-        std::size_t hidden = 0;        // requests of the other kind
-        std::size_t failedBlocks = 0;  // of both kinds, that are not asked for again until told to
+        std::vector<PagingRow> queue;             // page-ins, then page-outs, each most urgent first
+        std::size_t hidden = 0;                   // requests of the other kind
+        std::vector<planet::FailedBlock> failed;  // where they are shown
+        bool failedShown = false;
         std::vector<float> latencyCounts;
         float medianS = 0;
         float slowestS = 0;  // 99 of 100 are faster

@@ -26,6 +26,7 @@ std::string pageOutReason(double ageS) {
 }
 
 const char* kindText(planet::BlockKind kind) {
+    if (kind == planet::BlockKind::Normals) return "normals";
     return kind == planet::BlockKind::Colours ? "colours" : "heights";
 }
 

@@ -18,7 +18,7 @@ std::string colourReason(double timesTooFew);
 // "unused for 12 s".
 std::string pageOutReason(double ageS);
 
-// "heights", "colours".
+// "heights", "colours", "normals".
 const char* kindText(planet::BlockKind kind);
 
 // Whether the disk is made bad at all: a seed alone does nothing.

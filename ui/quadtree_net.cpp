@@ -391,6 +391,7 @@ ChunkState missingChildrenState(const ChunkNode& node, std::span<const ChunkId> 
             return std::find(loading.begin(), loading.end(), node.id) != loading.end()
                        ? ChunkState::Loading
                        : ChunkState::Requested;
+        case planet::ChildrenState::AwaitingRetry:
         case planet::ChildrenState::Failed:
             return ChunkState::Failed;
         case planet::ChildrenState::Absent:

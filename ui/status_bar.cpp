@@ -73,9 +73,14 @@ std::size_t problemsIn(const std::deque<LogLine>& log) {
 void warningCells(const EditorView& view, Cells& cells) {
     const Palette& colours = palette();
     const planet::PagingCounters& paging = view.stats.paging;
-    if (paging.failed > 0) {
-        cells.add(fmt::format("{} failed", paging.failed),
-                  "Blocks that could not be read: see Paging and Log.", colours.bad);
+    if (paging.failedForGood > 0) {
+        cells.add(fmt::format("{} failed", paging.failedForGood),
+                  "Blocks that could not be read: see Failed in Paging, and Log.", colours.bad);
+    }
+    if (paging.awaitingRetry > 0) {
+        cells.add(fmt::format("{} to retry", paging.awaitingRetry),
+                  "Blocks that could not be read, and are tried again in a while: see Failed in Paging.",
+                  colours.warning);
     }
     if (paging.budgetWaits > 0) {
         cells.add("memory full", "Chunks that this view wants do not fit into the budget: see Paging.",

@@ -114,8 +114,8 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     ImGui::EndDisabled();
     const std::string& problem = view.stats.clipmap.problem;
     if (!problem.empty()) wrappedText(problem, palette().warning);
-    const planet::ColourCounters& seen = view.planet->colourSelection().counters;
-    const planet::ColourPagingCounters& paging = view.planet->colourPaging();
+    const planet::TileCounters& seen = view.planet->colourSelection().counters;
+    const planet::TilePagingCounters& paging = view.planet->colourPaging();
     if (!beginValues("streamed")) return;
     valueRow(
         "Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),

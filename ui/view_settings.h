@@ -43,6 +43,8 @@ struct PagingKnobs {
     double uploadLimitMs = 4;   // time a frame spent on loaded chunks, ms, [0.1, 100]
     double colourShare = 0.25;  // of the budget, for streamed colours where there are any, [0.01, 0.9]
     double normalShare = 0.2;   // of what they leave of it, for tiles of normals where drawn, [0.01, 0.9]
+    int retries = 4;            // of a read that failed, [0, 10]
+    double retryDelayS = 0.25;  // before the first of them, s, [0, 60]; twice as long before each further
     planet::BadDiskSettings badDisk;
     bool simulated = false;  // reads end by the bad disk and its seed in the time of frames, not by the clock
 

@@ -40,37 +40,39 @@ namespace {
 constexpr auto chunkVertexFiles = std::to_array<std::string_view>(
     {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
 constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "sea.glsl", "shadows.glsl",
-     "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl", "colour_clipmap.glsl", "normal_tiles.glsl",
-     "chunk.frag"});
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "water.glsl", "sea.glsl",
+     "shadows.glsl", "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl", "colour_clipmap.glsl",
+     "normal_tiles.glsl", "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
                                                               "tone.glsl", "sky.frag"};
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
-constexpr std::array<std::string_view, 1> faceImageFragmentFiles = {"face_image.frag"};
+constexpr std::array<std::string_view, 2> faceImageFragmentFiles = {"water.glsl", "face_image.frag"};
 constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
 constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
 
+// Uniform blocks. The air's is 5 (air_textures.cpp).
 constexpr GLuint frameBinding = 0;
 constexpr GLuint layersBinding = 4;
 constexpr GLuint seaBinding = 6;
 constexpr GLuint shadowsBinding = 7;
 constexpr GLuint clipmapBinding = 12;
+// Texture units. The air's are 10 to 12.
 constexpr GLint heightUnit = 0;
 constexpr GLint imageUnit = 1;
 constexpr GLint noiseUnit = 2;
 constexpr GLint tilesUnit = 3;
 constexpr GLint pagesUnit = 4;
 constexpr GLint rootsUnit = 5;
+constexpr GLint clipmapStackUnit = tilesUnit;  // drawn from in place of the tiles
+constexpr GLint clipmapBaseUnit = 6;
 constexpr GLint shadowsUnit = 7;
 constexpr GLint layerAlbedoUnit = 8;
+constexpr GLint layerSurfaceUnit = 9;
 constexpr GLint normalTilesUnit = 13;
 constexpr GLint normalPagesUnit = 14;
 constexpr GLint normalRootsUnit = 15;
-constexpr GLint layerSurfaceUnit = 9;
-constexpr GLint clipmapStackUnit = tilesUnit;  // drawn from in place of the tiles
-constexpr GLint clipmapBaseUnit = 6;
 constexpr int checkerSize = 64;  // until pictures are given
 
 // One drawn chunk, as shaders/chunk.vert reads it.
@@ -106,21 +108,23 @@ void connect(const Program& program) {
         const GLuint block = glGetUniformBlockIndex(program.name(), name);
         if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
     }
+    constexpr auto samplers =
+        std::to_array<std::pair<const char*, GLint>>({{"heightPool", heightUnit},
+                                                      {"colourImage", imageUnit},
+                                                      {"detailNoise", noiseUnit},
+                                                      {"colourTiles", tilesUnit},
+                                                      {"colourPages", pagesUnit},
+                                                      {"colourRoots", rootsUnit},
+                                                      {"clipmapStack", clipmapStackUnit},
+                                                      {"clipmapBase", clipmapBaseUnit},
+                                                      {"shadowMaps", shadowsUnit},
+                                                      {"layerAlbedo", layerAlbedoUnit},
+                                                      {"layerSurface", layerSurfaceUnit},
+                                                      {"normalTiles", normalTilesUnit},
+                                                      {"normalPages", normalPagesUnit},
+                                                      {"normalRoots", normalRootsUnit}});
     glUseProgram(program.name());
-    glUniform1i(glGetUniformLocation(program.name(), "heightPool"), heightUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "colourImage"), imageUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "detailNoise"), noiseUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "colourTiles"), tilesUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "colourPages"), pagesUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "colourRoots"), rootsUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "shadowMaps"), shadowsUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "layerAlbedo"), layerAlbedoUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "layerSurface"), layerSurfaceUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "clipmapStack"), clipmapStackUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "clipmapBase"), clipmapBaseUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "normalTiles"), normalTilesUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "normalPages"), normalPagesUnit);
-    glUniform1i(glGetUniformLocation(program.name(), "normalRoots"), normalRootsUnit);
+    for (const auto& [name, unit] : samplers) glUniform1i(glGetUniformLocation(program.name(), name), unit);
     glUseProgram(0);
     AirTextures::connect(program.name());
 }
@@ -295,8 +299,8 @@ struct ChunkRenderer::State {
     AirTextures air;
     bool airInBackground = false;
     std::optional<ShadowMaps> shadows;  // while they are drawn
-    int shadowsAskedPx = 0;
-    FrameUniforms uniforms{};  // as last filled
+    int shadowsAskedPx = 0;             // the maps' size that was last asked for; 0: none are drawn
+    FrameUniforms uniforms{};           // as last filled
     GpuTimer chunksTimer, skyTimer, shadowsTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
@@ -482,10 +486,11 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
     const LayersUniforms layerUniforms =
-        layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), layers.means());
+        layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), settings.exaggeration,
+                       layers.means());
     glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
-    const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.layers.exaggeration);
+    const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.exaggeration);
     glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
     if (!airIsPhysical(settings)) return;
@@ -572,12 +577,17 @@ bool ChunkRenderer::State::drawsShadows(const RenderSettings& settings) const {
 // Whether there are maps to draw shadows with, and ground near enough for them. Maps that are out of use go.
 bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items) {
     const ShadowDrawing& wanted = settings.light.shadows;
+    if (!drawsShadows(settings)) {
+        shadows.reset();
+        shadowsAskedPx = 0;
+        return false;
+    }
     const auto isNear = [&](const DrawItem& item) {
         return static_cast<double>(item.distanceM) < wanted.reachM;
     };
-    if (!drawsShadows(settings)) shadows.reset();
-    if (!drawsShadows(settings) || !std::any_of(items.begin(), items.end(), isNear)) return false;
-    if (shadowsAskedPx != wanted.mapSizePx || !shadows) {
+    if (!std::any_of(items.begin(), items.end(), isNear)) return false;
+    // What could not be made is not tried again in each frame.
+    if (shadowsAskedPx != wanted.mapSizePx) {
         shadows.reset();
         shadowsAskedPx = wanted.mapSizePx;
         if (Result<ShadowMaps> made = ShadowMaps::create(wanted.mapSizePx)) shadows = std::move(*made);
@@ -693,7 +703,7 @@ Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& co
     });
 }
 
-void ChunkRenderer::followColours(std::span<const ColourChange> changes) {
+void ChunkRenderer::followColours(std::span<const TileChange> changes) {
     assert(state_->colours || changes.empty());
     if (state_->colours) state_->colours->follow(changes);
     if (state_->clipmap) state_->clipmap->follow(changes);

@@ -52,13 +52,15 @@ struct RenderSettings {
     bool streamed =
         true;  // the planet's own colours, where setColours was given a pool, instead of the image
     double texelsPerPixel =
-        1;  // of streamed colours, as ColourSettings has it; larger: sharper, and may shimmer
+        1;                   // of streamed colours, as TileSettings has it; larger: sharper, and may shimmer
     double rampTopM = 6000;  // the height ramp's highest band, > 0; the sea is darkest as far below 0
     // Drawn instead of the built-in ramp where there are any, lowest first; at most maxRampStops. The
     // built-in sea keeps its colours unless a stop lies below the sea level.
     std::vector<RampStop> ramp;
-    bool sea = true;         // what lies below the sea level is sea; off: dry land, as on the Moon
-    double seaLevelM = 0;    // metres above the planet's radius
+    bool sea = true;       // what lies below the sea level is sea; off: dry land, as on the Moon
+    double seaLevelM = 0;  // metres above the planet's radius
+    double exaggeration =
+        1;  // of the heights drawn, > 0: waves, and layers' heights and slopes, mean true ones
     bool wireframe = false;  // the mesh's lines over a dimmed surface
     bool outlines = false;   // the chunks' borders
     SkirtPaint skirtPaint = SkirtPaint::AsGround;
@@ -135,7 +137,7 @@ public:
     // with all of Planet::takeColourChanges() since beginColoursAnew() or the planet's opening. On an Error
     // what there was stays.
     Result<void> setColours(const std::optional<ColourPoolConfig>& config);
-    void followColours(std::span<const ColourChange> changes);
+    void followColours(std::span<const TileChange> changes);
 
     // The same colours from a clipmap instead, filled from the pool: windows of so many texels a side that
     // follow a viewer (planet/colour_clipmap.h). None: from the tiles again, and its memory is free. There

@@ -108,8 +108,8 @@ Result<void> ColourClipmap::makeStack(int layers) {
     return {};
 }
 
-void ColourClipmap::follow(std::span<const ColourChange> changes) {
-    for (const ColourChange& change : changes) {
+void ColourClipmap::follow(std::span<const TileChange> changes) {
+    for (const TileChange& change : changes) {
         if (change.beginsAnew) windows_.forget();
         if (change.gone) windows_.changeBlock(*change.gone);
         if (change.arrived.empty()) continue;

@@ -36,7 +36,7 @@ public:
     static Result<ColourClipmap> create(int sizePx, const TilePool& pool);
 
     // What the pool has followed.
-    void follow(std::span<const ColourChange> changes);
+    void follow(std::span<const TileChange> changes);
 
     // Puts the windows around the viewer, and fills with fillProgram what that and the changes since bring
     // in; windows of levels finer than the one wanted go. Keeps what is bound for drawing and the viewport;

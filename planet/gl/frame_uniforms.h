@@ -72,7 +72,7 @@ struct ColoursDrawn {
     bool streamed = false;  // what follows is of streamed ones
     int leafLevel = 0;
     double anisotropy = 1;      // of the sampler, >= 1
-    double texelsPerPixel = 1;  // ColourSettings
+    double texelsPerPixel = 1;  // TileSettings
     bool fromClipmap = false;   // instead of the tiles themselves
 
     bool exist() const { return faceSizePx > 0; }

@@ -23,8 +23,7 @@ struct LayerDrawing {
     double opacity = 1;        // over what lies below, [0, 1]
     double colourBelow = 0.4;  // how much of its colour goes through them, [0, 1]
     LayerPreview preview = LayerPreview::Off;
-    int previewed = 0;        // a layer of the set
-    double exaggeration = 1;  // of the heights drawn; ranges mean true heights and slopes; > 0
+    int previewed = 0;  // a layer of the set
 };
 
 }  // namespace planet::gl

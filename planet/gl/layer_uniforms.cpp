@@ -71,8 +71,8 @@ int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGrou
 }
 
 LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, double reliefBoost,
-                              std::span<const glm::vec3> means) {
-    assert(drawing.set.layers.size() <= maxLayers && drawing.exaggeration > 0);
+                              double exaggeration, std::span<const glm::vec3> means) {
+    assert(drawing.set.layers.size() <= maxLayers && exaggeration > 0);
     LayersUniforms uniforms{};
     std::vector<double> noiseSizes;
     int drawn = 0;
@@ -106,7 +106,7 @@ LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, dou
     uniforms.mix = glm::dvec4(drawing.beginM, 1 / std::max(drawing.endM - drawing.beginM, 1e-3),
                               std::clamp(drawing.opacity, 0.0, 1.0), sharpness);
     uniforms.truth =
-        glm::dvec4(1 / drawing.exaggeration, 1 / (reliefBoost * drawing.exaggeration),
+        glm::dvec4(1 / exaggeration, 1 / (reliefBoost * exaggeration),
                    std::clamp(drawing.colourBelow, 0.0, 1.0), layerRepeatPx / screenScalePx(view));
     return uniforms;
 }

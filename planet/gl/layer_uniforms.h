@@ -37,9 +37,10 @@ static_assert(sizeof(LayerUniform) == 6 * 16 &&
 // The switches of shaders/frame.glsl for layers. software: Automatic leaves them off.
 int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM);
 
-// reliefBoost: by how much slopes are lit steeper than they are drawn, >= 1. means: linear albedo of each
+// reliefBoost: by how much slopes are lit steeper than they are drawn, >= 1. exaggeration: of the heights
+// drawn, > 0; layers' ranges mean true heights and slopes. means: linear albedo of each
 // slice of the textures, the checker's first.
 LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, double reliefBoost,
-                              std::span<const glm::vec3> means);
+                              double exaggeration, std::span<const glm::vec3> means);
 
 }  // namespace planet::gl

@@ -68,6 +68,9 @@ TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {
               "Wanted to split: eps 3.1 px > tau 2.0 px; its children are being read.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForBudget, 3.1),
               "Wanted to split: eps 3.1 px > tau 2.0 px; the memory budget has no room for its children.");
+    EXPECT_EQ(drawn(WhyNotSplit::WaitingForRetry, 3.1),
+              "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read, and are asked for "
+              "again in a while.");
     EXPECT_EQ(drawn(WhyNotSplit::ChildrenFailed, 3.1),
               "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read.");
 }
@@ -148,6 +151,9 @@ TEST(ExplanationText, OfMissingChunksSaysWhatTheyWaitFor) {
     EXPECT_EQ(missing(WhyNotSplit::WaitingForBudget),
               "Not loaded: z_pos/4/3/2 above it is drawn, since the memory budget has no room for its "
               "children.");
+    EXPECT_EQ(missing(WhyNotSplit::WaitingForRetry),
+              "Not loaded: z_pos/4/3/2 above it is drawn, since its children could not be read; they are "
+              "asked for again in a while.");
     EXPECT_EQ(missing(WhyNotSplit::ChildrenFailed),
               "Not loaded: z_pos/4/3/2 above it is drawn, since its children could not be read.");
     EXPECT_EQ(missing(WhyNotSplit::NotDrawn), "Not loaded: nothing has asked for it.");

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "app/selection_hash.h"
 #include "tests/app/session_fixture.h"
 
 namespace worldy {

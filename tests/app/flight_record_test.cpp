@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "app/flight_replay.h"
@@ -97,6 +98,11 @@ protected:
                 planet.retryFailed();
                 recorder.called(planet, FlightCall::RetryFailed);
             }
+            if (frame == 105 && !planet.failedBlocks().empty()) {
+                const planet::BlockId block = planet.failedBlocks().front().block;
+                planet.retryFailed(block);
+                recorder.called(planet, FlightCall::RetryBlock, block);
+            }
             step(planet, recorder, settings, frame, frame > 110, paused);
             if (!settings.paging.simulated) std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
@@ -107,7 +113,7 @@ protected:
         settings.lod.tauPx = 1.5;
         settings.paging.simulated = simulated;
         settings.paging.loaderThreads = 2;
-        settings.paging.badDisk = {.latencyMs = simulated ? 20.0 : 0.3, .failureRate = 0.05, .seed = 3};
+        settings.paging.badDisk = {.latencyMs = simulated ? 20.0 : 0.3, .failureRate = 0.15, .seed = 3};
         return settings;
     }
 
@@ -236,6 +242,51 @@ TEST_F(FlightRecordTest, AFlightBySimulatedTimeReplaysExactlyEitherWay) {
     const FlightRecord record = loadFlightRecord(written(recorder)).value();
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+TEST_F(FlightRecordTest, AFlightOverADamagedFileReplaysExactlyThoughTheFileIsMended) {
+    const std::filesystem::path file = folder_ / "hills.chk";
+    std::stringstream whole;
+    whole << std::ifstream(file, std::ios::binary).rdbuf();
+    const auto chunks = planet::ChunkFile::open(file).value();
+    const planet::BlockLocation damaged = chunks.readRoot(planet::Face::PosX).value().children;
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(static_cast<std::streamoff>(damaged.offset + 40));
+    stream << "damage";
+    stream.close();
+    const auto planet = openPlanet(troubled(true));
+    const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 120))).value();
+    EXPECT_GT(planet->paging().failedForGood, 0u);
+    std::size_t bad = 0, failed = 0, byName = 0;
+    for (const FlightFrame& frame : record.frames) {
+        for (const planet::PagingMoves::Arrival& arrival : frame.moves.arrived) {
+            bad += arrival.badData;
+            failed += arrival.outcome == planet::PagingOutcome::Failed;
+        }
+        for (const CalledInFlight& called : frame.calls) byName += called.call == FlightCall::RetryBlock;
+    }
+    EXPECT_GT(bad, 0u);
+    EXPECT_GT(failed, bad);
+    EXPECT_EQ(byName, 1u);
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << whole.str();
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+TEST_F(FlightRecordTest, WhatWasRecordedBeforeThereWereRetriesHasNone) {
+    const auto planet = openPlanet(troubled(true));
+    FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 5))).value();
+    const auto retriesOf = [](const FlightRecord& flown) {
+        const auto shared = std::make_shared<const FlightRecord>(flown);
+        return FlightReplay::create(shared, ReplayPaging::AsRecorded).value().pagingAtStart().retry.retries;
+    };
+    EXPECT_EQ(retriesOf(record), planet::RetryRules{}.retries);
+    for (CalledInFlight& called : record.frames[0].calls) {
+        std::erase_if(called.settings,
+                      [](const std::string& one) { return one.starts_with("paging.retries="); });
+    }
+    EXPECT_EQ(retriesOf(record), 0);
 }
 
 TEST_F(FlightRecordTest, AFlightWithTilesOfNormalsReplaysExactlyEitherWay) {

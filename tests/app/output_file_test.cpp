@@ -59,6 +59,39 @@ TEST(OutputFile, TheTemporaryNameKeepsTheExtension) {
     EXPECT_EQ(seen.parent_path(), folder.path());
 }
 
+TEST(OutputFile, WhatAKilledWriterLeftIsGoneWithTheNext) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a.png";
+    std::ofstream(folder / ".a.png.part") << "half of one that was killed";
+    std::ofstream(folder / ".a.new.png") << "half of one that was killed";
+    ASSERT_TRUE(writeAtomically(file, [](const fs::path& temporary) {
+        std::ofstream(temporary) << "new";
+        return planet::Result<void>();
+    }));
+    EXPECT_EQ(contentOf(file), "new");
+    EXPECT_EQ(fileCount(folder.path()), 1u);
+}
+
+TEST(OutputFile, ASecondWriterOfTheSameNameIsRefusedMeanwhile) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a.png";
+    const auto write = [&](const std::string& text) {
+        return [text](const fs::path& temporary) {
+            std::ofstream(temporary) << text;
+            return planet::Result<void>();
+        };
+    };
+    planet::Result<void> second;
+    ASSERT_TRUE(writeAtomically(file, [&](const fs::path& temporary) {
+        second = writeAtomically(file, write("second"));
+        return write("first")(temporary);
+    }));
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message, testing::HasSubstr("another program is writing"));
+    EXPECT_EQ(contentOf(file), "first");
+    EXPECT_EQ(fileCount(folder.path()), 1u);
+}
+
 TEST(OutputFile, AFolderThatIsNotThereIsAnErrorThatNamesTheFile) {
     const planet::Result<void> written = writeTextFile("/nonexistent/folder/a.txt", "x");
     ASSERT_FALSE(written);

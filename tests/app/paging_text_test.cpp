@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
+#include "ui/failed_blocks.h"
+
 namespace ui {
 namespace {
 
@@ -22,6 +27,25 @@ TEST(PagingText, aTileOfColourSaysWhatShareOfItsTexelsItHas) {
     EXPECT_EQ(colourReason(2), "50 % of its texels");
     EXPECT_STREQ(kindText(planet::BlockKind::Heights), "heights");
     EXPECT_STREQ(kindText(planet::BlockKind::Colours), "colours");
+}
+
+TEST(PagingText, aFailedBlockSaysWhenItIsTriedAgain) {
+    EXPECT_EQ(retryText(std::nullopt), "for good");
+    EXPECT_EQ(retryText(1.25), "in 1.25 s");
+    EXPECT_EQ(retryText(0), "when wanted");
+    EXPECT_STREQ(kindText(planet::BlockKind::Normals), "normals");
+}
+
+TEST(PagingText, blocksThatHaveFailedForGoodComeFirstThenTheSoonest) {
+    const auto block = [](std::uint32_t x, std::optional<double> retryInS) {
+        return planet::FailedBlock{planet::ChunkId{planet::Face::PosX, 3, x, 0}, 1, "bad", retryInS};
+    };
+    std::vector<planet::FailedBlock> blocks = {block(1, 2), block(2, 0), block(4, std::nullopt),
+                                               block(5, 0.5), block(3, std::nullopt)};
+    sortFailed(blocks);
+    std::vector<std::uint32_t> order;
+    for (const planet::FailedBlock& failed : blocks) order.push_back(failed.block.parent.x);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{3, 4, 2, 5, 1}));
 }
 
 TEST(PagingText, aPageOutSaysHowLongItIsUnused) {

@@ -140,6 +140,42 @@ TEST_F(PanelControls, oneRequestIsLetThroughOnlyWhilePaused) {
     EXPECT_TRUE(only<DropAll>(click(PanelId::Paging, "Drop all")));
 }
 
+TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAll) {
+    planet::Faulty faulty;
+    planet_ = planet::openFake(faulty.source());
+    planet::LodSettings fine = planet::fineSettings();
+    fine.frustumCulling = fine.horizonCulling = false;
+    fine.tauPx = 0.02;
+    ASSERT_TRUE(planet_->settle(planet::viewAt(10, 20, 2e4), fine, planet::noUpload, planet::timeoutS));
+    view_.planet = planet_.get();
+    view_.lodView = planet_->lodView();
+    stats_.paging = planet_->paging();
+    const std::vector<planet::FailedBlock> failed = planet_->failedBlocks();
+    ASSERT_GT(failed.size(), 2u);
+    const Commands all = click(PanelId::Paging, "Retry failed");
+    ASSERT_TRUE(only<RetryFailed>(all));
+    EXPECT_FALSE(only<RetryFailed>(all)->block);
+    EXPECT_FALSE(window_.isShown("Retry " + toString(failed[1].block)));
+    EXPECT_TRUE(click(PanelId::Paging, "Failed blocks").empty());
+    for (int i = 0; i < 12; ++i) {
+        view_.timeS += 0.1;
+        frame(PanelId::Paging);
+    }
+    const Commands one = click(PanelId::Paging, "Retry " + toString(failed[1].block));
+    ASSERT_TRUE(only<RetryFailed>(one));
+    EXPECT_EQ(only<RetryFailed>(one)->block, failed[1].block);
+    // Without any, the list says so and asks for nothing.
+    faulty.broken = false;
+    planet_->retryFailed();
+    stats_.paging = planet_->paging();
+    for (int i = 0; i < 12; ++i) {
+        view_.timeS += 0.1;
+        EXPECT_TRUE(frame(PanelId::Paging).empty());
+    }
+    EXPECT_FALSE(window_.isShown("Retry failed"));
+    EXPECT_FALSE(window_.isShown("Retry " + toString(failed[1].block)));
+}
+
 TEST_F(PanelControls, aRowOfColoursSelectsTheChunkOnItsGround) {
     openPlanet();
     const planet::ChunkTree& tree = planet_->tree();

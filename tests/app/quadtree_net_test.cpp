@@ -175,6 +175,8 @@ TEST(QuadtreeNet, MissingChildrenAreRequestedLoadingOrFailedAsTheirParentSays) {
     EXPECT_EQ(missingChildrenState(node, {}), ChunkState::NotResident);
     node.childrenState = planet::ChildrenState::Failed;
     EXPECT_EQ(missingChildrenState(node, loading), ChunkState::Failed);
+    node.childrenState = planet::ChildrenState::AwaitingRetry;
+    EXPECT_EQ(missingChildrenState(node, loading), ChunkState::Failed);
     node.childrenState = planet::ChildrenState::None;
     EXPECT_EQ(missingChildrenState(node, {}), ChunkState::NotInFile);
 }

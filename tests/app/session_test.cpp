@@ -418,5 +418,20 @@ TEST_F(SessionTest, anEstimateThatCannotBeMadeSaysWhy) {
     EXPECT_THAT(bakeViewOf(session).estimateProblem, HasSubstr("face size 1000"));
 }
 
+// As when several are dropped onto the window at once: the planet of the last may lie where that of the first
+// has lain.
+TEST_F(SessionTest, FilesOpenedInARowAreToldFromWhatWasThereBefore) {
+    const std::array files = {bakeTo("a.chk", {.faceSize = 65, .chunkSize = 17}),
+                              bakeTo("b.chk", {.faceSize = 65, .chunkSize = 33})};
+    Session session = sessionOf(files[0]);
+    ASSERT_TRUE(advanceUntil(session, [&] { return session.open.has_value(); }));
+    for (int i = 0; i < 8; ++i) {
+        const std::shared_ptr<const int> seen = shownScene(session)->identity;
+        ASSERT_TRUE(openFile(session, files[1], settings_, log_));
+        ASSERT_TRUE(openFile(session, files[0], settings_, log_));
+        EXPECT_NE(shownScene(session)->identity, seen);
+    }
+}
+
 }  // namespace
 }  // namespace worldy

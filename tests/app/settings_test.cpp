@@ -100,7 +100,7 @@ TEST(Settings, EveryFieldOfTheViewAndTheWorkspaceStandsInTheTable) {
     Settings counted;
     for (const Field& field : fieldsOf(counted))
         EXPECT_TRUE(names.insert(field.name()).second) << field.name();
-    EXPECT_EQ(names.size(), 2u + 9 + 5 + 6 + 5 + 12 + 14 + 13 + 8 + 5 + 5 + 11 + 7 + 7 + 2 * ui::panelCount +
+    EXPECT_EQ(names.size(), 2u + 9 + 5 + 8 + 5 + 12 + 14 + 13 + 8 + 5 + 5 + 11 + 7 + 7 + 2 * ui::panelCount +
                                 ui::dockCount + 3 + 4);
     for (std::size_t i = 0; i < names.size(); ++i) {
         Settings one;
@@ -284,7 +284,7 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
     const std::vector<ui::SettingDifference> all = differences(here, there);
-    EXPECT_EQ(all.size(), 102u);
+    EXPECT_EQ(all.size(), 104u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;

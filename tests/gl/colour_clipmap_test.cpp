@@ -55,8 +55,8 @@ protected:
     }
 
     // No two texels alike, and no level like another: whatever is off by a texel or a level shows.
-    ColourTileData noiseTile(const ChunkId& id) const {
-        ColourTileData tile{id, {}, std::vector<std::byte>(colourTileBytes(format_))};
+    TileData noiseTile(const ChunkId& id) const {
+        TileData tile{id, {}, std::vector<std::byte>(colourTileBytes(format_))};
         // Bytes of a block of BC1, or of a texel, and blocks or texels from one tile to the next: what tiles
         // share is the same in both.
         const bool blocks = format_ == ColourFormat::Bc1;

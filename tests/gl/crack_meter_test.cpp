@@ -225,7 +225,8 @@ TEST_F(CrackMeter, AMovedVertexIsAGapOfItsHeightAndACrackThereOnly) {
         const auto inItsColumn = std::count_if(map.pixels.begin(), map.pixels.end(), [&](const auto& pixel) {
             return pixel.x == static_cast<int>(before.x);
         });
-        EXPECT_NEAR(static_cast<double>(inItsColumn), before.y - after.y, 2);
+        // Where it is lowest a classic depth buffer cannot tell it from what lies behind it.
+        EXPECT_NEAR(static_cast<double>(inItsColumn), before.y - after.y, hasClipControl() ? 2 : 4);
     }
 }
 

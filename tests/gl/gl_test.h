@@ -32,6 +32,10 @@ protected:
         EXPECT_TRUE(reported_.empty()) << reported_;
     }
 
+    // Without it depth is as OpenGL always had it.
+    static bool hasClipControl() {
+        return epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
+    }
     void forgetReported() { reported_.clear(); }
     const OffscreenContext& context() const { return *context_; }
 
@@ -58,6 +62,7 @@ struct Picture {
     int height = 0;
     std::vector<std::uint8_t> rgb;
     std::vector<float> depth;  // empty with several samples
+    float clearDepth = 0;      // where nothing was drawn
 
     glm::ivec3 at(int x, int y) const {
         const std::size_t first =
@@ -72,6 +77,7 @@ struct Picture {
         return depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                      static_cast<std::size_t>(x)];
     }
+    bool isGround(int x, int y) const { return depthAt(x, y) != clearDepth; }
 };
 
 inline Picture drawPicture(ChunkRenderer& renderer, const View& view, std::span<const DrawItem> items,
@@ -81,7 +87,8 @@ inline Picture drawPicture(ChunkRenderer& renderer, const View& view, std::span<
     target.bind();
     renderer.draw(view, items, settings, tints);
     target.resolve();
-    Picture picture{view.widthPx, view.heightPx, target.readRgb(), {}};
+    Picture picture{
+        view.widthPx, view.heightPx, target.readRgb(), {}, renderer.projection().reversedZ ? 0.0f : 1.0f};
     if (samples == 1) picture.depth = target.readDepth();
     return picture;
 }

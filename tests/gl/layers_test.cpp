@@ -169,7 +169,7 @@ TEST_F(Layers, ExaggeratedAndBoostedReliefIsWeighedAsItTrulyIs) {
     EXPECT_NEAR(place.heightM, hills(direction), 1.0);
     ASSERT_GT(place.slopeDeg, 5);
     settings_.layers.preview = LayerPreview::Mask;
-    settings_.layers.exaggeration = 3;
+    settings_.exaggeration = 3;
     TextureLayer& layer = settings_.layers.set.layers[0];
     layer.slopeDeg = {place.slopeDeg, 90, 8};
     const glm::dvec3 pointM = (6.371e6 + 3 * place.heightM) * direction;

@@ -50,7 +50,7 @@ protected:
         const Picture closed = drawPicture(planet_.renderer(), view, items, settings);
         int cracks = 0;
         for (std::size_t i = 0; i < open.depth.size(); ++i)
-            cracks += open.depth[i] == 0 && closed.depth[i] > 0;
+            cracks += open.depth[i] == open.clearDepth && closed.depth[i] != closed.clearDepth;
         return cracks;
     }
 

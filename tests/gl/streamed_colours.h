@@ -43,17 +43,17 @@ protected:
             planet_.renderer().setColours(ColourPoolConfig{format, leaf, static_cast<std::uint32_t>(6 * 21)});
         ASSERT_TRUE(made) << made.error().message;
         slot_ = 0;
-        ColourChange anew;
+        TileChange anew;
         anew.beginsAnew = true;
         planet_.renderer().followColours({&anew, 1});
     }
 
-    ColourTileData tileOf(const ColourSource& source, const ChunkId& id) const {
+    TileData tileOf(const ColourSource& source, const ChunkId& id) const {
         std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
         EXPECT_TRUE(sampleColourTile(source, id, rgb));
         return {id, {}, colourTexels(format_, rgb)};
     }
-    ColourTileData plainTile(const ChunkId& id, const glm::ivec3& colour) const {
+    TileData plainTile(const ChunkId& id, const glm::ivec3& colour) const {
         std::vector<std::uint8_t> rgb;
         for (std::size_t i = 0; i < colourTileBytes(ColourFormat::Lossless) / 3; ++i)
             for (int channel = 0; channel < 3; ++channel)
@@ -64,7 +64,7 @@ protected:
     template <class MakeTile>
     void addRoots(const MakeTile& make) {
         for (const Face face : allFaces) {
-            ColourChange change;
+            TileChange change;
             change.firstSlot = slot_++;
             change.arrived = {make(ChunkId{face, 0, 0, 0})};
             planet_.renderer().followColours({&change, 1});
@@ -72,14 +72,14 @@ protected:
     }
     template <class MakeTile>
     void addChildren(const ChunkId& parent, const MakeTile& make) {
-        ColourChange change;
+        TileChange change;
         change.firstSlot = slot_;
         slot_ += quadrantCount;
         for (int q = 0; q < quadrantCount; ++q) change.arrived.push_back(make(childOf(parent, q)));
         planet_.renderer().followColours({&change, 1});
     }
     void removeChildren(const ChunkId& parent) {
-        ColourChange change;
+        TileChange change;
         change.gone = parent;
         planet_.renderer().followColours({&change, 1});
     }

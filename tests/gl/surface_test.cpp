@@ -206,7 +206,7 @@ TEST_F(PaintedSkirts, LoudAloneDrawsTheSkirtsAndNothingElse) {
     const Picture picture = drawn(view_);
     std::map<bool, int> grounds;
     for (int i = 0; i < 300 * 300; ++i)
-        if (picture.depthAt(i % 300, i / 300) > 0)
+        if (picture.isGround(i % 300, i / 300))
             ++grounds[picture.at(i % 300, i / 300) == glm::ivec3(255, 0, 204)];
     EXPECT_GT(grounds[true], 1000);
     EXPECT_EQ(grounds[false], 0);

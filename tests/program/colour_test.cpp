@@ -60,7 +60,7 @@ protected:
     // Bytes of the block that holds the children of the +x face's root tile.
     void damageChildren() {
         const planet::ChunkFile file = planet::ChunkFile::open(planetFile()).value();
-        const planet::ColourTileData root = file.readColourRoot(planet::Face::PosX).value();
+        const planet::TileData root = file.readColourRoot(planet::Face::PosX).value();
         std::fstream stream(planetFile(), std::ios::in | std::ios::out | std::ios::binary);
         stream.seekp(static_cast<std::streamoff>(root.children.offset + 200));
         for (int i = 0; i < 4; ++i) stream.put('\x5A');

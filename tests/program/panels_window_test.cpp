@@ -158,11 +158,13 @@ loaded=$(counter loaded)
 click "paging/Load one"; expect counts loaded -eq $((loaded + 1))
 click paging/Pause; expect counts triangles -eq $triangles
 
-slide paging/Failures 1
-click "paging/Drop all"; expect counts failed -gt 0; settle
+slide "paging/Retry after" 0; slide paging/Failures 1
+click "paging/Drop all"; expect counts failed_for_good -gt 0; expect counts awaiting_retry -eq 0; settle
+counts failed -eq $((5 * $(counter failed_for_good))) || echo "$(counter failed) reads failed in all"
 counts resident -eq 6 || echo "on a disk that fails, $(counter resident) chunks are resident"
 expect says 'read failed on purpose'
-click paging/Off; expect hidden paging/Off; click "paging/Retry failed"; expect counts triangles -eq $triangles
+click paging/Off; expect hidden paging/Off; click "paging/Failed blocks"; click "paging/Retry failed"
+expect counts triangles -eq $triangles; expect counts failed_for_good -eq 0; expect hidden "paging/Retry failed"
 )sh");
 }
 

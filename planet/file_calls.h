@@ -1,0 +1,31 @@
+// The system calls by which chunk files and raw heights are read and files are written: what a test puts in
+// their place to play a failing disk. Each acts as the call of its name: below 0 is a failure, and errno says
+// which. Called from any thread, several at once.
+#pragma once
+
+#include <sys/stat.h>
+#include <sys/types.h>
+
+#include <cstddef>
+#include <functional>
+
+namespace planet {
+
+struct FileCalls {
+    std::function<int(const char* path, int flags, mode_t mode)> open;
+    std::function<int(int descriptor)> close;  // closes even where it fails: never to be called again
+    std::function<int(const char* path, struct stat* status)> stat;
+    std::function<int(int descriptor, struct stat* status)> fstat;
+    std::function<ssize_t(int descriptor, void* out, std::size_t bytes, off_t offset)> pread;
+    std::function<ssize_t(int descriptor, const void* from, std::size_t bytes, off_t offset)> pwrite;
+    std::function<int(int descriptor, off_t bytes)> ftruncate;
+    std::function<int(int descriptor)> fsync;
+    std::function<int(int descriptor, int operation)> flock;
+    std::function<int(const char* from, const char* to)> rename;
+    std::function<int(const char* path)> unlink;
+};
+
+// The system's own.
+FileCalls systemFileCalls();
+
+}  // namespace planet

@@ -1,0 +1,21 @@
+// Room for four siblings in a quadtree's list of nodes. Internal to the library.
+#pragma once
+
+#include "planet/chunk_tree.h"
+
+namespace planet {
+
+// The first of four nodes in a row that are free, or new. Tree: with nodes and freeGroups, as ChunkTree.
+template <class Tree>
+NodeIndex takeGroup(Tree& tree) {
+    if (!tree.freeGroups.empty()) {
+        const NodeIndex first = tree.freeGroups.back();
+        tree.freeGroups.pop_back();
+        return first;
+    }
+    const auto first = static_cast<NodeIndex>(tree.nodes.size());
+    tree.nodes.resize(tree.nodes.size() + quadrantCount);
+    return first;
+}
+
+}  // namespace planet

@@ -1,0 +1,153 @@
+// The chunk file's reader: a file is refused, or what it says of its tree can be relied on. Most inputs have
+// their checksums made right, so that nonsense gets past them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "planet/chunk_tree.h"
+#include "planet/colour_report.h"
+#include "planet/file_report.h"
+#include "tests/chunk_blocks.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace planet;
+using fuzz::isRead;
+using fuzz::require;
+
+constexpr std::size_t mostSamples = 15'000;  // read of a file, so that an input takes some milliseconds
+
+Result<ChunkFile> openBytes(std::span<const std::byte> bytes) {
+    return ChunkFile::open("fuzzed.chk", bytes.size(), [=](std::uint64_t offset, std::span<std::byte> out) {
+        require(offset <= bytes.size() && out.size() <= bytes.size() - offset, "reads stay in the file");
+        const auto from = bytes.subspan(static_cast<std::size_t>(offset), out.size());
+        std::copy(from.begin(), from.end(), out.begin());
+        return Result<void>{};
+    });
+}
+
+std::size_t blocksToRead(const PlanetShape& shape) {
+    return std::max<std::size_t>(mostSamples / static_cast<std::size_t>(chunkVertexCount(shape)), 2);
+}
+
+void checkNode(const ChunkNode& node) {
+    require(std::isfinite(node.deltaCM) && node.deltaCM >= 0, "errors are finite");
+    require(node.deltaTightM >= 0 && node.deltaTightM <= node.deltaCM, "the tight metric is the smaller");
+    require(node.minHeightM <= node.maxHeightM, "extremes are in order");
+    for (int axis = 0; axis < 3; ++axis)
+        require(std::isfinite(node.bounds.box.centreM[axis]), "bounds are finite");
+}
+
+// As a planet does it: what checkChildren lets pass becomes part of the tree. False where there is none.
+bool growTree(const ChunkFile& file) {
+    std::array<ChunkData, faceCount> roots;
+    for (const Face face : allFaces) {
+        auto root = file.readRoot(face);
+        if (!isRead(root)) return false;
+        roots[static_cast<std::size_t>(face)] = std::move(*root);
+    }
+    const ChunkFileInfo& info = file.info();
+    Result<ChunkTree> tree = makeChunkTree(info.shape, info.minStep, info.maxStep, std::move(roots));
+    if (!isRead(tree)) return false;
+    std::uint32_t slot = faceCount;
+    std::size_t left = blocksToRead(file.info().shape);
+    for (NodeIndex at = 0; at < tree->nodes.size() && left > 0; ++at) {
+        const ChunkNode node = tree->nodes[at];
+        checkNode(node);
+        if (node.childrenState != ChildrenState::Absent) continue;
+        --left;
+        if (node.id.level + 1 < leafLevel(info.shape))
+            static_cast<void>(isRead(file.readEntries(node.id, node.children)));
+        auto children = file.readChildren(node.id, node.children, *node.heights);
+        if (!isRead(children) || !isRead(checkChildren(*tree, at, *children))) continue;
+        addChildren(*tree, at, std::move(*children), {slot, slot + 1, slot + 2, slot + 3});
+        slot += quadrantCount;
+    }
+    setExaggeration(*tree, largestExaggeration(*tree));
+    forEachNode(*tree, [](NodeIndex, const ChunkNode& node) { checkNode(node); });
+    require(std::isfinite(residentHeightM(*tree, {0.3, -0.5, 0.8})), "heights are finite");
+    return true;
+}
+
+// Where there is no tree, the blocks that can be read all the same.
+void readHeights(const ChunkFile& file) {
+    std::vector<ChunkData> open;
+    for (const Face face : allFaces) {
+        auto root = file.readRoot(face);
+        if (isRead(root)) open.push_back(std::move(*root));
+    }
+    const std::size_t most = blocksToRead(file.info().shape);
+    for (std::size_t i = 0; i < open.size() && i < most; ++i) {
+        const ChunkData chunk = open[i];
+        if (chunk.id.level == leafLevel(file.info().shape)) continue;
+        auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);
+        if (!isRead(children)) continue;
+        for (ChunkData& child : *children) open.push_back(std::move(child));
+    }
+}
+
+void readColours(const ChunkFile& file) {
+    const ColourPyramid& colour = *file.info().colour;
+    std::vector<TileData> open;
+    for (const Face face : allFaces) {
+        auto root = file.readColourRoot(face);
+        if (isRead(root)) open.push_back(std::move(*root));
+    }
+    constexpr std::size_t mostTiles = 7;
+    for (std::size_t i = 0; i < open.size() && i < mostTiles; ++i) {
+        const TileData tile = open[i];
+        require(tile.texels.size() == colourTileBytes(colour.format), "tiles are whole");
+        if (tile.id.level == colour.leafLevel) continue;
+        if (tile.id.level + 1 < colour.leafLevel)
+            static_cast<void>(isRead(file.readColourEntries(tile.id, tile.children)));
+        auto children = file.readColourChildren(tile.id, tile.children);
+        if (!isRead(children)) continue;
+        for (TileData& child : *children) open.push_back(std::move(child));
+    }
+}
+
+// One block's bytes, or the header's, are changed in their place; else any of all, and more or fewer.
+std::size_t mutatedPart(std::span<std::uint8_t> file, std::size_t maxSize, std::minstd_rand& random) {
+    const auto bytes = std::as_writable_bytes(file);
+    const Result<ChunkFileInfo> info = test::infoOf(bytes);
+    const unsigned kind = random() % 8;
+    if (!info || kind == 0) return LLVMFuzzerMutate(file.data(), file.size(), maxSize);
+    std::span<std::uint8_t> part = file.first(chunkFileHeaderBytes);
+    if (kind > 1) {
+        std::vector<test::FileBlock> blocks;
+        test::forEachBlock(bytes, *info, 200, [&](const test::FileBlock& one) { blocks.push_back(one); });
+        if (!blocks.empty()) {
+            const test::FileBlock& block = blocks[random() % blocks.size()];
+            part = file.subspan(static_cast<std::size_t>(block.at.offset), block.at.size);
+            if (kind > 5 && block.entriesBytes > 0) part = part.first(block.entriesBytes);
+        }
+    }
+    std::vector<std::uint8_t> changed(part.begin(), part.end());
+    changed.resize(LLVMFuzzerMutate(changed.data(), changed.size(), changed.size()));
+    std::copy(changed.begin(), changed.end(), part.begin());
+    return file.size();
+}
+
+}  // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t maxSize,
+                                               unsigned seed) {
+    std::minstd_rand random(seed);
+    const std::size_t now = mutatedPart({data, size}, maxSize, random);
+    if (random() % 4 != 0) test::reseal(std::as_writable_bytes(std::span(data, now)));
+    return now;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const Result<ChunkFile> file = openBytes(fuzz::bytesOf(data, size));
+    if (!isRead(file)) return 0;
+    static_cast<void>(isRead(reportFile(*file)));
+    if (!growTree(*file)) readHeights(*file);
+    if (file->info().colour) {
+        static_cast<void>(isRead(reportColours(*file)));
+        readColours(*file);
+    }
+    return 0;
+}

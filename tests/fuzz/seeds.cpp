@@ -1,0 +1,238 @@
+// Writes what the fuzzers begin with, out of the data that comes with Worldy: fuzz_seeds FOLDER makes
+// FOLDER/chunk_file/..., FOLDER/settings/..., one folder a fuzzer.
+#include <zstd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "app/flight_record.h"
+#include "app/layer_file.h"
+#include "app/settings.h"
+#include "planet/bake.h"
+#include "planet/colour_source.h"
+#include "planet/height_codec.h"
+#include "planet/view.h"
+#include "tests/chunk_blocks.h"
+#include "tests/earth_windows.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace planet;
+
+using Bytes = std::vector<std::byte>;
+const fs::path data = fs::path(WORLDY_SOURCE_DIR) / "data";
+
+// Seeds are made by those who work on Worldy: what goes wrong ends it.
+template <class T>
+T must(Result<T>&& result) {
+    if (!result) {
+        std::fprintf(stderr, "%s\n", result.error().message.c_str());
+        std::exit(EXIT_FAILURE);
+    }
+    if constexpr (!std::is_void_v<T>) return *std::move(result);
+}
+
+Bytes read(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+void write(const fs::path& file, std::span<const std::byte> bytes) {
+    fs::create_directories(file.parent_path());
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) must(Result<void>(ioError(file.string() + ": cannot be written")));
+}
+void write(const fs::path& file, const std::string& text) {
+    write(file, std::as_bytes(std::span(text)));
+}
+
+// ---- chunk files ----
+
+// Of few colours, so that files stay small, and fuzzers quick.
+ColourSource evenColours() {
+    ColourSource source{.description = "even", .naturalFaceSize = 257, .sample = {}};
+    source.sample = [](const SampleTile& tile, std::span<glm::vec3> out) -> Result<void> {
+        std::size_t at = 0;
+        for (int row = 0; row < tile.rows; ++row) {
+            const bool north = 2 * (tile.firstRow + row) > tile.faceCells;
+            for (int column = 0; column < tile.columns; ++column)
+                out[at++] = north ? glm::vec3(0.9f, 0.9f, 1) : glm::vec3(0.1f, 0.3f, 0.1f);
+        }
+        return {};
+    };
+    return source;
+}
+
+void chunkFiles(const fs::path& folder) {
+    fs::create_directories(folder);
+    const HeightSource heights = must(openHeightSource(data / "earth/elevation.tif", {}));
+    const ColourSource colours = evenColours();
+    const auto baked = [&](const std::string& name, int faceSize, std::optional<ColourFormat> format,
+                           int colourFaceSize = 257) {
+        BakeSettings settings{.faceSize = faceSize, .chunkSize = 17};
+        settings.colour.faceSize = colourFaceSize;
+        if (format) settings.colour.format = *format;
+        must(bake(heights, settings, folder / name, {}, format ? &colours : nullptr));
+    };
+    baked("leaf_roots.chk", 17, {});
+    baked("heights.chk", 33, {});
+    baked("three_levels.chk", 65, {});
+    baked("bc1.chk", 33, ColourFormat::Bc1);
+    baked("lossless.chk", 17, ColourFormat::Lossless);
+    baked("two_levels_of_colours.chk", 17, ColourFormat::Bc1, 513);
+    Bytes old = read(folder / "heights.chk");
+    constexpr std::size_t versionAt = 8;
+    test::putAt(std::span(old), versionAt, oldestChunkFileVersion);
+    test::resealHeader(old);
+    write(folder / "version_2.chk", old);
+}
+
+// ---- what lies in their blocks ----
+
+Bytes decoderInput(int kind, int size, std::span<const std::byte> coded) {
+    Bytes input;
+    for (const int option : {kind, size, 0}) input.push_back(static_cast<std::byte>(option));
+    for (const std::byte byte : coded) input.push_back(byte);
+    return input;
+}
+
+void codedBlocks(const fs::path& folder) {
+    const test::Square earth = test::earthWindow(2600, 700, 65);
+    for (int log2 = 0; log2 <= 6; ++log2) {
+        const int size = (1 << log2) + 1;
+        Bytes coded;
+        encodeGrid(test::pieceOf(earth, 0, 0, size).samples, size, coded);
+        write(folder / ("grid_" + std::to_string(size)), decoderInput(0, log2, coded));
+    }
+    // Of a coarse grid of zeros, as the decoder's pattern 0 is.
+    for (const int cells : {1, 2, 8, 16, 32}) {
+        test::Square fine = test::pieceOf(earth, 0, 0, 2 * cells + 1);
+        for (int y = 0; y < fine.side; y += 2)
+            for (int x = 0; x < fine.side; x += 2)
+                fine.samples[static_cast<std::size_t>(y * fine.side + x)] = 0;
+        for (int level = minCompressionLevel; level <= maxCompressionLevel; ++level) {
+            Bytes coded;
+            encodeRefinement(fine.samples, cells, level, coded);
+            write(folder / ("refinement_" + std::to_string(cells) + "_" + std::to_string(level)),
+                  decoderInput(1, cells - 1, coded));
+        }
+    }
+    const ColourSource colours = must(openColourSource(data / "earth/colour.jpg"));
+    std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(colourTileTexels * colourTileTexels));
+    must(sampleColourTile(colours, {Face::PosX, 2, 1, 1}, rgb));
+    for (const ColourFormat format : {ColourFormat::Bc1, ColourFormat::Lossless}) {
+        const int kind = format == ColourFormat::Bc1 ? 2 : 3;
+        write(folder / ("tile_" + std::to_string(kind)),
+              decoderInput(kind, 0, packColourTexels(format, colourTexels(format, rgb))));
+        write(folder / ("checker_" + std::to_string(kind)),
+              decoderInput(kind, 0, packColourTexels(format, checkerTexels(format))));
+    }
+}
+
+// ---- texts ----
+
+void copyToml(const fs::path& from, const fs::path& to) {
+    for (const auto& entry : fs::directory_iterator(from)) {
+        if (entry.path().extension() == ".toml") write(to / entry.path().filename(), read(entry.path()));
+    }
+}
+
+void settingsFiles(const fs::path& folder) {
+    copyToml(data / "presets", folder);
+    worldy::Settings settings;
+    write(folder / "written.toml", worldy::settingsText(settings));
+    write(folder / "assignment.toml", std::string("lod.tau_px=3\n"));
+}
+
+// ---- recorded flights ----
+
+worldy::FlightFrame madeFrame(int frame) {
+    worldy::FlownView flown;
+    flown.view =
+        viewFromPose({.latitudeDeg = 10.0 + frame, .longitudeDeg = 20, .altitudeM = 1e6 / (1 + frame)},
+                     6'371'000, 1.0, 1280, 720);
+    const ChunkId id{Face::PosY, 2, static_cast<std::uint32_t>(frame % 4), 1};
+    if (frame < 4) flown.appeared = {id};
+    if (frame >= 4 && frame < 8) flown.vanished = {id};
+    worldy::FlightFrame made;
+    made.elapsedS = 1.0 / 60;
+    made.views.assign(frame < 6 ? 1 : 2, flown);
+    if (frame >= 6) made.views[1].appeared = made.views[1].vanished = {};
+    made.moves.requested = {id, {id, BlockKind::Colours}, {id, BlockKind::Normals}};
+    made.moves.taken = {id};
+    made.moves.arrived = {{id, PagingOutcome::Loaded}};
+    made.selectionHash = static_cast<std::uint64_t>(frame) * 0x9E3779B97F4A7C15u;
+    if (frame == 0)
+        made.calls.push_back(
+            {worldy::FlightCall::Settings, {}, worldy::flightSettings(ui::ViewSettings{}), false, {}});
+    if (frame == 3) made.calls.push_back({worldy::FlightCall::Settings, {}, {"lod.tau_px=3"}, true, {}});
+    if (frame == 5) made.calls.push_back({worldy::FlightCall::DropAll, {}, {}, false, made.moves});
+    return made;
+}
+
+void recordedFlights(const fs::path& folder) {
+    fs::create_directories(folder);
+    worldy::FlightEncoder encoder;
+    for (int frame = 0; frame < 10; ++frame) encoder.add(madeFrame(frame));
+    const fs::path file = folder / "made.flight";
+    must(encoder.write(file, "made",
+                       {.chunkFile = "earth.chk", .shape = {}, .fileBytes = 1, .headerHash = 2}));
+    must(worldy::loadFlightRecord(file));
+    // Its content alone, which is easier to change.
+    const Bytes bytes = read(file);
+    constexpr std::size_t packedAt = 28;
+    const auto packed = std::span(bytes).subspan(packedAt);
+    Bytes content(1 << 20);
+    content.resize(ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size()));
+    write(folder / "content", content);
+}
+
+// ---- raw faces ----
+
+void rawFaces(const fs::path& folder) {
+    const test::Square earth = test::earthWindow(2600, 700, 9);
+    Bytes shorts;
+    for (const std::int16_t sample : earth.samples) ByteWriter(shorts).put(sample);
+    const auto seed = [&](const std::string& name, std::vector<int> options, std::span<const std::byte> bytes,
+                          int times) {
+        Bytes input;
+        for (const int option : options) input.push_back(static_cast<std::byte>(option));
+        for (int i = 0; i < times; ++i) input.insert(input.end(), bytes.begin(), bytes.end());
+        write(folder / name, input);
+    };
+    seed("six_alike", {1, 0x83, 1}, shorts, 1);
+    seed("six", {0, 4, 0}, shorts, 6);
+    seed("big_endian_16_bits", {1, 0x85, 1 | 2 | 4}, shorts, 1);
+    seed("eight_bits_by_size", {1, 6, 4 | 8 | 16, 0, 0, 0, 9}, std::span(shorts).first(81), 1);
+    seed("size_in_name", {3, 3, 0, 9}, shorts, 1);
+    seed("scaled_without_data", {1, 3, 1 | 32 | 64, 0, 0, 0, 0, 0x3F, 0, 0, 0, 0x42, 0, 0, 0, 0, 0, 0, 0},
+         shorts, 1);
+    seed("small_cache", {1, 3, 1 | 128, 2}, shorts, 1);
+    seed("cut_short", {1, 3, 1}, std::span(shorts).first(100), 1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "fuzz_seeds FOLDER\n");
+        return EXIT_FAILURE;
+    }
+    const fs::path folder = argv[1];
+    chunkFiles(folder / "chunk_file");
+    codedBlocks(folder / "decoders");
+    settingsFiles(folder / "settings");
+    copyToml(data / "layers", folder / "layer_set");
+    copyToml(data / "flights", folder / "flight_path");
+    recordedFlights(folder / "flight_record");
+    rawFaces(folder / "raw_faces");
+    return EXIT_SUCCESS;
+}

@@ -1,0 +1,26 @@
+#!/bin/sh
+# The chunk file on a machine of the other byte order: tests/machine/run.sh WORLDY
+# Bakes a small Earth with either kind of colours, and compares what this machine and an IBM S/390, played by qemu,
+# read in it and would write. Wants Debian's foreign packages: see machine_packages in .ci/packages.sh.
+set -eu
+worldy=$(realpath "$1")
+cd "$(dirname "$0")/../.."
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+sources="tests/machine/read_whole_file.cpp"
+for part in chunk_file chunk_file_format height_codec height_prediction height_residual_coder colour_tile chunk_id \
+    cube_sphere face_fold file_calls open_file; do
+    sources="$sources planet/$part.cpp"
+done
+libraries="-lfmt -lxxhash -lzstd -lsquish"
+g++ -std=c++20 -O2 -I. $sources -o "$scratch/here" $libraries
+s390x-linux-gnu-g++ -std=c++20 -O2 -I. $sources -o "$scratch/there" $libraries
+for format in bc1 lossless; do
+    "$worldy" bake data/earth/elevation.tif -o "$scratch/$format.chk" --face-size 257 --colour data/earth/colour.jpg \
+        --colour-face-size 513 --colour-format $format >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+    "$scratch/here" "$scratch/$format.chk" >"$scratch/read_here"
+    qemu-s390x "$scratch/there" "$scratch/$format.chk" >"$scratch/read_there"
+    echo "$format here:  $(cat "$scratch/read_here")"
+    echo "$format there: $(cat "$scratch/read_there")"
+    cmp "$scratch/read_here" "$scratch/read_there"
+done

@@ -1,0 +1,196 @@
+#include "ui/allocation_table.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+
+#include "ui/tables.h"
+#include "ui/text.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace ui {
+
+namespace {
+
+using Held = Allocations;
+
+double asNumber(std::size_t value) {
+    return static_cast<double>(value);
+}
+
+constexpr std::array<AllocationRow, 30> rows = {{
+    {"Resident",
+     "What the whole program has in memory as the system sees it. It may stay high after a peak, since what "
+     "is "
+     "given back is kept for later.",
+     [](const Held& h) { return asNumber(h.residentBytes); }, true, "Process"},
+    {"Heap in use", "What the allocator has handed out and not got back. The figure to watch for a leak.",
+     [](const Held& h) { return asNumber(h.heapBytes); }, true, nullptr},
+    {"Open files", "Handles: files, sockets and pipes. One a chunk file, whatever the loaders do.",
+     [](const Held& h) { return asNumber(h.openFiles); }, false, nullptr},
+    {"Threads", "Loaders, bakes, measurements, and those of the graphics driver.",
+     [](const Held& h) { return asNumber(h.threads); }, false, nullptr},
+    {"Jobs", "Bakes, estimates, previews and measurements under way in the background.",
+     [](const Held& h) { return asNumber(h.jobs); }, false, nullptr},
+    {"Heights", "The pools of heights: what the budget pays for, whether it is filled or not.",
+     [](const Held& h) { return asNumber(h.gpu.heightPool); }, true, "GPU memory"},
+    {"Meshes", "The grids and the instances.", [](const Held& h) { return asNumber(h.gpu.meshes); }, true,
+     nullptr},
+    {"Textures", "The colour image, tables of the air, layers and the like; without what follows.",
+     [](const Held& h) { return asNumber(h.gpu.textures - h.gpu.colourTiles - h.gpu.colourClipmap); }, true,
+     nullptr},
+    {"Colour tiles", "The pools of tiles and their page tables.",
+     [](const Held& h) { return asNumber(h.gpu.colourTiles); }, true, nullptr},
+    {"Colour clipmap", "Windows of colours around the viewer.",
+     [](const Held& h) { return asNumber(h.gpu.colourClipmap); }, true, nullptr},
+    {"Shadow maps", "One a cascade.", [](const Held& h) { return asNumber(h.gpu.shadowMaps); }, true,
+     nullptr},
+    {"Pictures", "What is drawn into.", [](const Held& h) { return asNumber(h.targetBytes); }, true, nullptr},
+    {"Buffers", "GL buffer objects.", [](const Held& h) { return asNumber(h.objects.buffers); }, false,
+     "GL objects"},
+    {"Textures##objects", "GL texture objects.", [](const Held& h) { return asNumber(h.objects.textures); },
+     false, nullptr},
+    {"Vertex arrays", "GL vertex array objects.",
+     [](const Held& h) { return asNumber(h.objects.vertexArrays); }, false, nullptr},
+    {"Framebuffers", "GL framebuffer objects.",
+     [](const Held& h) { return asNumber(h.objects.framebuffers); }, false, nullptr},
+    {"Renderbuffers", "GL renderbuffer objects.",
+     [](const Held& h) { return asNumber(h.objects.renderbuffers); }, false, nullptr},
+    {"Queries", "GL query objects: timers and the like.",
+     [](const Held& h) { return asNumber(h.objects.queries); }, false, nullptr},
+    {"Shaders", "GL shader objects: gone once their programs are linked.",
+     [](const Held& h) { return asNumber(h.objects.shaders); }, false, nullptr},
+    {"Programs", "GL program objects.", [](const Held& h) { return asNumber(h.objects.programs); }, false,
+     nullptr},
+    {"Planets", "Open: the one that is shown, the bake before it, and B while two are compared.",
+     [](const Held& h) { return asNumber(h.planets); }, false, "Planets"},
+    {"Chunks", "Resident, of all planets.", [](const Held& h) { return asNumber(h.chunks); }, false, nullptr},
+    {"Chunk slots", "That the budgets pay for.", [](const Held& h) { return asNumber(h.chunkSlots); }, false,
+     nullptr},
+    {"Colour tiles##resident", "Resident tiles of colour.",
+     [](const Held& h) { return asNumber(h.colourTiles); }, false, nullptr},
+    {"Normal tiles", "Resident tiles of normals.", [](const Held& h) { return asNumber(h.normalTiles); },
+     false, nullptr},
+    {"Requests", "Blocks queued or being read.", [](const Held& h) { return asNumber(h.requests); }, false,
+     nullptr},
+    {"Ended requests", "Remembered for the Paging panel: 1000 a planet at most.",
+     [](const Held& h) { return asNumber(h.rememberedEnds); }, false, "Kept to look back at"},
+    {"Log lines", "In the Log panel.", [](const Held& h) { return asNumber(h.logLines); }, false, nullptr},
+    {"Frame samples", "Of the last 10 seconds, for the plots.",
+     [](const Held& h) { return asNumber(h.frameSamples); }, false, nullptr},
+    {"Recording", "The flight that is being recorded: grows until it is stopped.",
+     [](const Held& h) { return asNumber(h.recordedBytes); }, true, nullptr},
+}};
+
+std::string textOf(const AllocationRow& row, double value) {
+    return row.bytes ? bytesText(value) : fmt::format("{:.0f}", value);
+}
+
+// Without what only tells two items of the same name apart.
+std::string shownName(const AllocationRow& row) {
+    const std::string name = row.name;
+    return name.substr(0, name.find("##"));
+}
+
+std::string agoText(double seconds) {
+    return seconds < 1 ? "now" : durationText(seconds) + " ago";
+}
+
+void rightCell(const std::string& text, bool dim) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+    if (dim)
+        ImGui::TextDisabled("%s", text.c_str());
+    else
+        ImGui::TextUnformatted(text.c_str());
+}
+
+// Titles over the first group alone.
+void drawGroup(const AllocationRow& row, bool withMark) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.group);
+    if (&row != &rows.front()) return;
+    rightCell("now", true);
+    if (withMark) rightCell("mark", true);
+    rightCell("change", true);
+}
+
+void drawRow(const AllocationRow& row, const AllocationsView& view, bool withMark) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", shownName(row).c_str());
+    const std::string marked = allocationText(row, view.mark);
+    tooltip(fmt::format("{} At the mark: {}.", row.explanation, marked).c_str());
+    rightCell(allocationText(row, *view.now), false);
+    if (withMark) rightCell(marked, true);
+    const std::string change = allocationChange(row, view.mark, *view.now);
+    rightCell(change, change == "=");
+}
+
+void drawTable(const AllocationsView& view) {
+    const bool withMark = ImGui::GetContentRegionAvail().x > 26 * ImGui::GetFontSize();
+    const int columns = withMark ? 4 : 3;
+    if (!ImGui::BeginTable("allocations", columns)) return;
+    ImGui::TableSetupColumn("kind", ImGuiTableColumnFlags_WidthStretch, 1.6f);
+    for (int column = 1; column < columns; ++column)
+        ImGui::TableSetupColumn(nullptr, ImGuiTableColumnFlags_WidthStretch, 1);
+    for (const AllocationRow& row : rows) {
+        if (row.group) drawGroup(row, withMark);
+        drawRow(row, view, withMark);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+std::span<const AllocationRow> allocationRows() {
+    return rows;
+}
+
+std::string allocationText(const AllocationRow& row, const Allocations& held) {
+    return textOf(row, row.value(held));
+}
+
+std::string allocationChange(const AllocationRow& row, const Allocations& before, const Allocations& now) {
+    const double change = row.value(now) - row.value(before);
+    if (change == 0) return "=";
+    return (change > 0 ? "+" : "-") + textOf(row, std::abs(change));
+}
+
+std::string allocationsText(const AllocationsView& view) {
+    std::string text = "kind\tnow\tmark\tchange\n";
+    if (!view.now) return text;
+    std::string group;
+    for (const AllocationRow& row : rows) {
+        if (row.group) group = row.group;
+        text += fmt::format("{}: {}\t{:.0f}\t{:.0f}\t{:+.0f}\n", group, shownName(row), row.value(*view.now),
+                            row.value(view.mark), row.value(*view.now) - row.value(view.mark));
+    }
+    return text;
+}
+
+void allocationTable(const AllocationsView& view, double timeS, Commands& commands) {
+    if (!view.now) {
+        ImGui::TextDisabled("Counted once a planet is open.");
+        return;
+    }
+    if (button("Mark",
+               "From now on the table tells what has changed since this moment. Do something, undo it, "
+               "and see whether all is given back."))
+        commands.emplace_back(MarkAllocations{});
+    ImGui::SameLine();
+    if (button("Copy##allocations",
+               "The table as text with tabs between, bytes unrounded, for a spreadsheet or a bug report."))
+        commands.emplace_back(CopyText{allocationsText(view)});
+    ImGui::SameLine();
+    ImGui::TextDisabled("marked %s", agoText(timeS - view.mark.atS).c_str());
+    tooltip("At first the mark is when the first planet was there.");
+    drawTable(view);
+}
+
+}  // namespace ui

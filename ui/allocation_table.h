@@ -1,0 +1,30 @@
+// The Frame panel's table of what the program holds: now, and against a mark, so that a leak shows.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "ui/allocations_view.h"
+#include "ui/commands.h"
+
+namespace ui {
+
+struct AllocationRow {
+    const char* name;
+    const char* explanation;
+    double (*value)(const Allocations&);
+    bool bytes;         // else a number
+    const char* group;  // a heading over the first of a group; null: goes on
+};
+std::span<const AllocationRow> allocationRows();
+
+std::string allocationText(const AllocationRow& row, const Allocations& held);
+// "+1.2 MiB", "-3", "=".
+std::string allocationChange(const AllocationRow& row, const Allocations& before, const Allocations& now);
+// All rows with tabs between, to be put beside another day's.
+std::string allocationsText(const AllocationsView& view);
+
+// Fills the current column.
+void allocationTable(const AllocationsView& view, double timeS, Commands& commands);
+
+}  // namespace ui
