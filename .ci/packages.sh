@@ -41,6 +41,7 @@ libclang-rt-14-dev      its fuzzer and sanitizers"
 
 ci_packages="\
 clang-format            formatting
+clang-tidy-22           mistakes and needless includes, in a fourth of the time that the default one takes
 qemu-user               a machine of the other byte order
 g++-s390x-linux-gnu     programs for it"
 

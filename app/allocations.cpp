@@ -10,13 +10,7 @@ namespace {
 constexpr double everyS = 1;
 
 void add(const Scene& scene, ui::Allocations& held) {
-    const planet::gl::GpuMemory gpu = scene.renderer.gpuMemory();
-    held.gpu.heightPool += gpu.heightPool;
-    held.gpu.meshes += gpu.meshes;
-    held.gpu.textures += gpu.textures;
-    held.gpu.colourTiles += gpu.colourTiles;
-    held.gpu.colourClipmap += gpu.colourClipmap;
-    held.gpu.shadowMaps += gpu.shadowMaps;
+    held.gpu += scene.renderer.gpuMemory();
     const planet::Planet& planet = *scene.planet;
     ++held.planets;
     held.chunks += planet.paging().residentChunks;

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "app/bench_parts.h"
-#include "app/stopwatch.h"
 #include "planet/bake.h"
 #include "planet/planet.h"
 

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "app/bench_parts.h"
-#include "app/offscreen.h"
+#include "app/scene.h"
 #include "planet/gl/gl_objects.h"
+#include "planet/gl/offscreen_context.h"
+#include "planet/gl/render_target.h"
 #include "planet/gl/shader_source.h"
 #include "planet/lod_select.h"
 

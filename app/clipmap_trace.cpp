@@ -1,10 +1,8 @@
 #include "app/clipmap_trace.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "planet/colour_clipmap.h"
 #include "planet/cube_sphere.h"

@@ -28,7 +28,6 @@
 #include "app/replay_command.h"
 #include "app/shot_command.h"
 #include "app/sweep_command.h"
-#include "planet/chunk_file.h"
 
 namespace worldy {
 

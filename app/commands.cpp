@@ -14,7 +14,6 @@
 #include "app/screenshot.h"
 #include "app/shot_line.h"
 #include "planet/terrain.h"
-#include "ui/text.h"
 
 namespace worldy {
 

@@ -135,7 +135,7 @@ void advanceFlight(CompareDesk& desk) {
     if (!result) return;
     desk.job.reset();
     if (*result)
-        desk.flown = std::move(**result);
+        desk.flown = **result;
     else if (result->error().kind == planet::ErrorKind::Cancelled)
         desk.flownProblem = "Cancelled.";
     else

@@ -13,7 +13,6 @@
 #include "app/pops_flight.h"
 #include "app/stopwatch.h"
 #include "planet/percentile.h"
-#include "planet/true_error.h"
 
 namespace worldy {
 

@@ -24,9 +24,7 @@
 #include "app/undo.h"
 #include "app/viewport.h"
 #include "app/window.h"
-#include "ui/docks.h"
 #include "ui/editor_view.h"
-#include "ui/item_map.h"
 #include "ui/menu_bar.h"
 #include "ui/open_dialog.h"
 

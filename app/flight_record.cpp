@@ -13,7 +13,6 @@
 #include <glm/geometric.hpp>
 #include <new>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "app/settings_table.h"

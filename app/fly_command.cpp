@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdio>
-#include <functional>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>

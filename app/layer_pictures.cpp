@@ -116,7 +116,8 @@ glm::vec3 meanColour(const planet::gl::LayerPicture& picture) {
     const std::vector<std::uint8_t>& albedo = picture.albedo;
     for (std::size_t i = 0; i < albedo.size(); i += 4)
         sum += glm::dvec3(albedo[i], albedo[i + 1], albedo[i + 2]);
-    return sum / (255.0 * std::max(static_cast<double>(albedo.size() / 4), 1.0));
+    const std::size_t texels = std::max<std::size_t>(albedo.size() / 4, 1);
+    return sum / (255.0 * static_cast<double>(texels));
 }
 
 void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, LayerPictures& pictures) {

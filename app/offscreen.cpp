@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/data_set.h"
-#include "app/overlay_lines.h"
 #include "planet/true_error.h"
 #include "ui/overlay_colours.h"
 
@@ -33,9 +32,9 @@ planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, c
 bool settleWhile(Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
                  const std::function<bool()>& goOn) {
     if (!goOn) return settleScene(scene, view, settings, settleTimeoutS);
-    constexpr double stretchS = 0.2;
-    for (double waitedS = 0; waitedS < settleTimeoutS; waitedS += stretchS) {
-        if (settleScene(scene, view, settings, stretchS)) return true;
+    constexpr int stretches = 600;
+    for (int i = 0; i < stretches; ++i) {
+        if (settleScene(scene, view, settings, settleTimeoutS / stretches)) return true;
         if (!goOn()) return false;
     }
     return false;

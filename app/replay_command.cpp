@@ -11,7 +11,6 @@
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/report.h"
-#include "app/scene.h"
 
 namespace worldy {
 

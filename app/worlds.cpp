@@ -9,7 +9,6 @@
 #include "app/data_set.h"
 #include "planet/terrain.h"
 #include "ui/own_colour.h"
-#include "ui/text.h"
 
 namespace worldy {
 

@@ -1,7 +1,6 @@
 #include "planet/atmosphere.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

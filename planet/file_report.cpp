@@ -252,8 +252,8 @@ private:
     }
 
     Result<void> visit(const ChunkData& chunk) {
-        if (++report_.chunks % 512 == 0 && progress_ && !progress_(report_.chunks, total_))
-            return cancelled();
+        ++report_.chunks;
+        if (report_.chunks % 512 == 0 && progress_ && !progress_(report_.chunks, total_)) return cancelled();
         checkBounds(chunk);
         checkEdges(chunk);
         const auto report = [this](const ChunkId& id, const std::string& what) { chunkProblem(id, what); };

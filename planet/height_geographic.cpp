@@ -1,7 +1,6 @@
 #include "planet/height_geographic.h"
 
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 namespace planet {

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <system_error>
 #include <utility>
 
 #include "planet/height_source_kinds.h"
-#include "planet/planet_shape.h"
 #include "planet/terrain.h"
 
 namespace planet {

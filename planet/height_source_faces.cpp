@@ -12,7 +12,6 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>

@@ -15,6 +15,7 @@ namespace planet {
 struct HeldTiles {
     std::map<std::uint32_t, ChunkId> tiles;  // by slot
 
+    // Each tile that arrives finds its slot empty.
     void follow(const std::vector<TileChange>& changes, const std::function<void(const TileData&)>& arrived) {
         for (const TileChange& change : changes) {
             if (change.beginsAnew) tiles.clear();

@@ -13,6 +13,7 @@
 
 #include "planet/bake.h"
 #include "planet/planet.h"
+#include "tests/held_tiles.h"
 #include "tests/random_view.h"
 #include "tests/sanitized.h"
 #include "tests/synthetic_colours.h"
@@ -195,28 +196,15 @@ private:
         planet_->settle(std::span(&input, 1), upload(), 0.02);
     }
 
-    // Each tile that arrives finds its slot empty.
-    static void follow(const std::vector<TileChange>& changes, std::map<std::uint32_t, ChunkId>& tiles) {
-        for (const TileChange& change : changes) {
-            if (change.beginsAnew) tiles.clear();
-            if (change.gone) {
-                std::erase_if(tiles, [&](const auto& tile) {
-                    return tile.second.level == change.gone->level + 1 &&
-                           parentOf(tile.second) == *change.gone;
-                });
-            }
-            for (std::uint32_t i = 0; i < change.arrived.size(); ++i)
-                ASSERT_TRUE(tiles.emplace(change.firstSlot + i, change.arrived[i].id).second);
-        }
-    }
     void followTiles() {
-        follow(planet_->takeColourChanges(), colours_);
-        follow(planet_->takeNormalChanges(), normals_);
-        if (planet_->normalPaging().tileCapacity == 0) normals_.clear();
-        ASSERT_EQ(colours_.size(), planet_->colour() ? planet_->colourPaging().residentTiles : 0);
-        ASSERT_LE(colours_.size(), planet_->colourPaging().tileCapacity);
-        ASSERT_EQ(normals_.size(), planet_->normalTree().residentTiles);
-        ASSERT_LE(normals_.size(), planet_->normalPaging().tileCapacity);
+        const auto ignored = [](const TileData&) {};
+        colours_.follow(planet_->takeColourChanges(), ignored);
+        normals_.follow(planet_->takeNormalChanges(), ignored);
+        if (planet_->normalPaging().tileCapacity == 0) normals_.tiles.clear();
+        ASSERT_EQ(colours_.tiles.size(), planet_->colour() ? planet_->colourPaging().residentTiles : 0);
+        ASSERT_LE(colours_.tiles.size(), planet_->colourPaging().tileCapacity);
+        ASSERT_EQ(normals_.tiles.size(), planet_->normalTree().residentTiles);
+        ASSERT_LE(normals_.tiles.size(), planet_->normalPaging().tileCapacity);
     }
 
     void expectSound() {
@@ -244,7 +232,7 @@ private:
     PagingSettings settings_;
     std::unique_ptr<Planet> planet_;
     std::map<std::uint32_t, std::vector<std::int16_t>> heights_;  // by slot
-    std::map<std::uint32_t, ChunkId> colours_, normals_;          // by slot
+    HeldTiles colours_, normals_;
     std::uint64_t opened_ = 0;
     std::uint64_t loaded_ = 0;
     std::uint64_t dropped_ = 0;

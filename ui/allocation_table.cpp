@@ -6,9 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "ui/tables.h"
 #include "ui/text.h"
-#include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace ui {

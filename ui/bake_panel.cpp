@@ -18,8 +18,6 @@ namespace ui {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double askAfterS = 0.5;  // since the last edit
 constexpr int smallestFaceLog2 = 4;
 constexpr int largestFaceLog2 = 16;

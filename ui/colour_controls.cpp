@@ -8,7 +8,6 @@
 #include "planet/height_source.h"
 #include "ui/item_map.h"
 #include "ui/own_colour.h"
-#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

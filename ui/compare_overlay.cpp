@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "ui/item_map.h"
-#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "ui/item_map.h"
-#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

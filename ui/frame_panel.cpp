@@ -13,7 +13,6 @@
 #include "ui/item_map.h"
 #include "ui/plots.h"
 #include "ui/text.h"
-#include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace ui {

@@ -9,7 +9,6 @@
 
 #include "ui/item_map.h"
 #include "ui/theme.h"
-#include "ui/widgets.h"
 
 namespace ui {
 

@@ -10,7 +10,6 @@
 
 #include "planet/percentile.h"
 #include "ui/chunk_link.h"
-#include "ui/plot_scale.h"
 #include "ui/plots.h"
 #include "ui/tables.h"
 #include "ui/text.h"

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <random>
 #include <string_view>
-#include <utility>
 
 #include "ui/item_map.h"
-#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/vec2.hpp>

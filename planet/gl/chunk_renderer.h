@@ -110,6 +110,16 @@ struct GpuMemory {
     std::size_t shadowMaps = 0;
 
     std::size_t total() const { return heightPool + meshes + textures + shadowMaps; }
+
+    GpuMemory& operator+=(const GpuMemory& other) {
+        heightPool += other.heightPool;
+        meshes += other.meshes;
+        textures += other.textures;
+        colourTiles += other.colourTiles;
+        colourClipmap += other.colourClipmap;
+        shadowMaps += other.shadowMaps;
+        return *this;
+    }
 };
 
 struct RendererConfig {

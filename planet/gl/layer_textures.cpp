@@ -51,7 +51,8 @@ glm::vec3 meanLight(std::span<const std::uint8_t> albedo) {
     glm::dvec3 sum(0);
     for (std::size_t i = 0; i + 3 < albedo.size(); i += 4)
         sum += glm::dvec3(linear[albedo[i]], linear[albedo[i + 1]], linear[albedo[i + 2]]);
-    return sum / std::max(static_cast<double>(albedo.size() / 4), 1.0);
+    const std::size_t texels = std::max<std::size_t>(albedo.size() / 4, 1);
+    return sum / static_cast<double>(texels);
 }
 
 }  // namespace

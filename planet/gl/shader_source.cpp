@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <vector>
+#include <utility>
 
 namespace planet::gl {
 
@@ -28,12 +29,18 @@ std::string sourceNumbers(ShaderFiles files) {
     return text;
 }
 
+// The driver ends its text with a zero.
+std::string untilZero(std::string text) {
+    text.resize(std::min(text.size(), text.find('\0')));
+    return text;
+}
+
 std::string compileLog(GLuint shader) {
     GLint length = 0;
     glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    return log.c_str();
+    return untilZero(std::move(log));
 }
 
 std::string linkLog(GLuint program) {
@@ -41,7 +48,7 @@ std::string linkLog(GLuint program) {
     glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
     glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    return log.c_str();
+    return untilZero(std::move(log));
 }
 
 Result<Shader> compile(GLenum stage, const ShaderText& source, int variant) {
