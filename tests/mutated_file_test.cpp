@@ -18,16 +18,8 @@
 #include "planet/colour_source.h"
 #include "planet/planet.h"
 #include "tests/chunk_blocks.h"
+#include "tests/sanitized.h"
 #include "tests/temporary_folder.h"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define WORLDY_SANITIZED 1
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define WORLDY_SANITIZED 1
-#endif
 
 namespace planet {
 namespace {
@@ -35,11 +27,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 constexpr int shards = 5;
-#ifdef WORLDY_SANITIZED
-constexpr int mutationsEach = 200;
-#else
-constexpr int mutationsEach = 1000;
-#endif
+constexpr int mutationsEach = tests::sanitized ? 100 : 1000;
 constexpr int framesADive = 6;
 constexpr int mostFramesToSettle = 300;
 constexpr const char* fileName = "mutated.chk";
@@ -518,7 +506,7 @@ TEST_P(MutatedFile, IsRefusedOrDrawnWithItsDamageReported) {
         "which {} reported damage; {} blocks drawn as their parents, {} of colours as checkers; at most {} "
         "of {} "
         "bytes resident, and {} of {} where the budget is tight, with {} blocks evicted\n",
-        mutationsEach, mutationsEach < 1000 ? " (fewer, under a sanitizer)" : "", figures.resealed,
+        mutationsEach, tests::sanitized ? " (fewer, under a sanitizer)" : "", figures.resealed,
         figures.refused, opened, figures.frames, figures.unharmed, figures.reported, figures.asParents,
         figures.tiles, figures.mostBytes, pagingSettings(false).budgetBytes, figures.mostBytesTight,
         pagingSettings(true).budgetBytes, figures.evicted);

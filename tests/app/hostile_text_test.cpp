@@ -10,6 +10,7 @@
 #include "app/layer_file.h"
 #include "app/settings.h"
 #include "app/toml_file.h"
+#include "tests/sanitized.h"
 #include "tests/temporary_folder.h"
 
 namespace worldy {
@@ -42,7 +43,7 @@ TEST(HostileText, AKeyOfAMillionPartsIsRefused) {
 
 // To find the nearest name took the square of its length, for each setting that there is.
 TEST(HostileText, ANameOfMillionsOfLettersIsRefusedInFewWords) {
-    const std::string text = std::string(8'000'000, 'a') + " = 1\n";
+    const std::string text = std::string(tests::sanitized ? 1'000'000 : 8'000'000, 'a') + " = 1\n";
     for (const std::string& whole : {text, "[lod]\n" + text, "[[key]]\n" + text}) {
         for (const auto& error :
              {settingsFromText(whole, "long.toml").error(), viewPartFromText(whole, "long.toml").error(),

@@ -152,7 +152,7 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
 // As the window does: another file opened over and over, a bake kept beside it, the renderer's pools of
 // another size.
 TEST_F(LongFlightDrawn, SwappedFilesLeaveNothingBehind) {
-    const int swaps = std::getenv("WORLDY_FLIGHT_SECONDS") ? 50 : 16;
+    const int swaps = std::getenv("WORLDY_FLIGHT_SECONDS") ? 50 : tests::sanitized ? 12 : 16;
     Session session = sessionOf(files_[1]);
     ObjectCounts warm;
     std::optional<Holding> warmHolding, laterHolding;  // the least

@@ -15,7 +15,7 @@ inline constexpr const char* windowFunctions = R"sh(
 shot() { import -window root "$1"; }
 # Far longer than it takes: under a sanitizer all is ten times as slow. Once something has not come, what
 # rests on it will not either.
-patience=30
+patience=60
 until_true() {
     local end=$((SECONDS + patience))
     while [ $SECONDS -lt $end ]; do
