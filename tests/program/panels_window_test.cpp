@@ -379,7 +379,7 @@ TEST_F(PanelsWindowTest, BothSidesAreMeasuredOverAFlightBesideTheWindow) {
     std::filesystem::create_directories(folder.path() / "config" / "worldy" / "flights");
     std::ofstream(folder.path() / "config" / "worldy" / "flights" / "aaa.toml")
         << "name = \"Short\"\n[[key]]\ntime_s = 0\nlatitude_deg = 10\nlongitude_deg = 20\n"
-           "altitude_m = 200000\nheading_deg = 0\npitch_deg = -80\n[[key]]\ntime_s = 0.5\n"
+           "altitude_m = 200000\nheading_deg = 0\npitch_deg = -80\n[[key]]\ntime_s = 0.2\n"
            "latitude_deg = 12\nlongitude_deg = 21\naltitude_m = 50000\nheading_deg = 0\npitch_deg = -60\n";
     writeWindowSettings(folder, "[window]\nbottom_height = 60\n");
     drive(R"sh(
