@@ -53,8 +53,8 @@ void drawAxis(const Plot& plot) {
     }
     // Steps of 1, 2 or 5 seconds and so on, about eight of them.
     const double stepS = roundedTop((plot.toS - plot.fromS) / 8);
-    for (double behindS = 0; behindS < planet::PopMeter::keptS; behindS += stepS) {
-        const float x = plot.x(plot.toS - behindS);
+    for (int step = 0; step * stepS < planet::PopMeter::keptS; ++step) {
+        const float x = plot.x(plot.toS - step * stepS);
         if (x < plot.start.x) break;
         drawList.AddLine({x, plot.start.y}, {x, plot.end.y}, packed(palette().dim, 0.12f));
     }
