@@ -72,17 +72,27 @@ struct HostileFile {
     }
 };
 
-// Followed to the finest level they would be some 10^11 blocks.
-TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
-    HostileFile file;
-    constexpr std::size_t blockBytes = quadrantCount * chunkEntryBytes;
-    const BlockLocation first{chunkFileHeaderBytes, blockBytes + checksumBytes};
+// Two blocks, each of which says that all of its children's lie in the other; returns the first.
+template <class PutEntry>
+BlockLocation addCircle(HostileFile& file, std::size_t entryBytes, const PutEntry& put) {
+    const auto blockBytes = static_cast<std::uint32_t>(quadrantCount * entryBytes + checksumBytes);
+    const BlockLocation first{chunkFileHeaderBytes, blockBytes};
     const BlockLocation second{first.offset + first.size, first.size};
     for (const auto& [own, other] : {std::pair(first, second), std::pair(second, first)}) {
         Bytes content;
-        for (int q = 0; q < quadrantCount; ++q) putEntry(content, {1, 1, 0, 0, other}, own.offset);
+        for (int q = 0; q < quadrantCount; ++q) put(content, other, own.offset);
         file.add(content);
     }
+    return first;
+}
+
+// Followed to the finest level they would be some 10^11 blocks.
+TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
+    HostileFile file;
+    const BlockLocation first =
+        addCircle(file, chunkEntryBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
+            putEntry(content, {1, 1, 0, 0, other}, own);
+        });
     file.addRoots({1, 1, 0, 0, first});
     const auto chunks = opened(file.sealed());
     ASSERT_TRUE(chunks) << chunks.error().message;
@@ -94,14 +104,10 @@ TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
 
 TEST(HostileFile, AnIndexOfColoursThatGoesInCirclesIsRefusedInAReport) {
     HostileFile file;
-    constexpr std::size_t blockBytes = quadrantCount * colourEntryBytes;
-    const BlockLocation first{chunkFileHeaderBytes, blockBytes + checksumBytes};
-    const BlockLocation second{first.offset + first.size, first.size};
-    for (const auto& [own, other] : {std::pair(first, second), std::pair(second, first)}) {
-        Bytes content;
-        for (int q = 0; q < quadrantCount; ++q) putColourEntry(content, {other, 0}, own.offset);
-        file.add(content);
-    }
+    const BlockLocation first =
+        addCircle(file, colourEntryBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
+            putColourEntry(content, {other, 0}, own);
+        });
     file.addRoots({1, 1, 0, 0, first});
     file.addColourRoots(first);
     const auto chunks = opened(file.sealed());

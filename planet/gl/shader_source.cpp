@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <utility>
 
 namespace planet::gl {
 
@@ -29,26 +27,24 @@ std::string sourceNumbers(ShaderFiles files) {
     return text;
 }
 
-// The driver ends its text with a zero.
-std::string untilZero(std::string text) {
-    text.resize(std::min(text.size(), text.find('\0')));
-    return text;
-}
-
 std::string compileLog(GLuint shader) {
     GLint length = 0;
     glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    return untilZero(std::move(log));
+    GLsizei written = 0;  // without the zero at its end
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &written, log.data());
+    log.resize(static_cast<std::size_t>(written));
+    return log;
 }
 
 std::string linkLog(GLuint program) {
     GLint length = 0;
     glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
-    glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    return untilZero(std::move(log));
+    GLsizei written = 0;  // without the zero at its end
+    glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &written, log.data());
+    log.resize(static_cast<std::size_t>(written));
+    return log;
 }
 
 Result<Shader> compile(GLenum stage, const ShaderText& source, int variant) {
