@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <variant>
 
 #include "app/allocations.h"
 #include "app/bookmarks.h"
@@ -415,13 +414,22 @@ void CommandHandler::operator()(const ui::GoBackToPop& command) const {
     moveCamera({event->view.eyeM, event->view.right, event->view.back});
 }
 
+template <class... Kinds>
+void obeyOne(const CommandHandler& handler, const ui::Command& command, ui::CommandKindList<Kinds...>) {
+    const auto obeyed = [&handler](const auto* ofKind) {
+        if (ofKind) handler(*ofKind);
+        return ofKind != nullptr;
+    };
+    (obeyed(command.as<Kinds>()) || ...);
+}
+
 }  // namespace
 
 void obey(const ui::Commands& commands, Window& window, Session& session, Editor& editor, Log& log) {
     const CommandHandler handler{window, session, editor, log};
     // Asked for anew each frame that the pointer is on a chunk.
     editor.focus.hovered.reset();
-    for (const ui::Command& command : commands) std::visit(handler, command);
+    for (const ui::Command& command : commands) obeyOne(handler, command, ui::CommandKinds{});
 }
 
 void keepScreenshot(const Picture& picture, const Session& session, const Editor& editor, const Log& log) {

@@ -8,7 +8,6 @@
 #include <functional>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "ui/commands.h"
@@ -89,7 +88,7 @@ private:
 // Adds what a frame asked for, but for lighting up the chunk that the pointer rests on.
 inline void addAsked(Commands frame, Commands& all) {
     for (Command& command : frame) {
-        if (!std::holds_alternative<HoverChunk>(command)) all.push_back(std::move(command));
+        if (!command.as<HoverChunk>()) all.push_back(std::move(command));
     }
 }
 

@@ -2,11 +2,13 @@
 // have been drawn (app/commands.cpp has one function a command).
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "planet/bake.h"
@@ -220,7 +222,11 @@ struct CompareOverFlight {
 };
 struct CancelCompareFlight {};
 
-using Command = std::variant<
+template <class... Kinds>
+struct CommandKindList {};
+
+// All there are. app/commands.cpp does not compile without a function for each.
+using CommandKinds = CommandKindList<
     HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart, AddBookmark,
     RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight, PausePaging, LoadOne, DropAll,
     RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake, BakeAgain, EstimateBake, CancelBake,
@@ -231,6 +237,26 @@ using Command = std::variant<
     SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
     CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures, PreviewSource, AskForColourImage,
     ChooseColourImage, TryCostlyParts, MarkAllocations>;
+
+template <class Kind, class... Kinds>
+constexpr bool isOneOf(CommandKindList<Kinds...>) {
+    return (std::is_same_v<Kind, Kinds> || ...);
+}
+
+// One of any kind. Not a variant of them: whoever makes one would have the compiler write out for all kinds
+// what moves and ends them, for longer than it takes to compile the rest of a panel.
+class Command {
+public:
+    template <class Kind>
+    requires(isOneOf<Kind>(CommandKinds{})) Command(Kind command) : held_(std::move(command)) {}
+
+    // Null where it is of another kind.
+    template <class Kind>
+    requires(isOneOf<Kind>(CommandKinds{})) const Kind* as() const { return std::any_cast<Kind>(&held_); }
+
+private:
+    std::any held_;
+};
 using Commands = std::vector<Command>;
 
 }  // namespace ui

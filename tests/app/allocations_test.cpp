@@ -65,11 +65,11 @@ TEST(AllocationTable, MarkAndCopyAreAskedFor) {
         EXPECT_TRUE(all.empty());
         window.click("Mark", 0.5f, frame);
         ASSERT_EQ(all.size(), 1u);
-        EXPECT_TRUE(std::holds_alternative<ui::MarkAllocations>(all[0]));
+        EXPECT_TRUE(all[0].as<ui::MarkAllocations>());
         window.click("Copy##allocations", 0.5f, frame);
         ASSERT_EQ(all.size(), 2u);
-        ASSERT_TRUE(std::holds_alternative<ui::CopyText>(all[1]));
-        EXPECT_EQ(std::get<ui::CopyText>(all[1]).text, ui::allocationsText(view));
+        ASSERT_TRUE(all[1].as<ui::CopyText>());
+        EXPECT_EQ(all[1].as<ui::CopyText>()->text, ui::allocationsText(view));
     }
 }
 

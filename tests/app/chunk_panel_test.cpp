@@ -50,7 +50,7 @@ protected:
 
     std::optional<planet::ChunkId> askedSelection() const {
         for (const Command& command : commands_) {
-            if (const auto* found = std::get_if<SelectChunk>(&command)) return found->id;
+            if (const auto* found = command.as<SelectChunk>()) return found->id;
         }
         return std::nullopt;
     }

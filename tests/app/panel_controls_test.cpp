@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <variant>
 
 #include "tests/panel_fixture.h"
 #include "tests/planet_fixture.h"
@@ -60,7 +59,7 @@ protected:
 
 template <class T>
 const T* only(const Commands& commands) {
-    return commands.size() == 1 ? std::get_if<T>(&commands.front()) : nullptr;
+    return commands.size() == 1 ? commands.front().as<T>() : nullptr;
 }
 
 constexpr std::array ownPanels = {PanelId::Lod,   PanelId::Paging, PanelId::Seams, PanelId::Surface,

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <variant>
 
 #include "tests/panel_fixture.h"
 #include "tests/planet_fixture.h"
@@ -98,14 +97,15 @@ TEST_F(PopsTest, TheFirstRowIsTheWorstAndGoesBackToItsView) {
     EXPECT_EQ(*states_.pops.selected, ui::keyOf(worst()));
     const ui::Commands back = click("Go back");
     ASSERT_EQ(back.size(), 1u);
-    const auto* command = std::get_if<ui::GoBackToPop>(&back.front());
+    const auto* command = back.front().as<ui::GoBackToPop>();
     ASSERT_TRUE(command);
     EXPECT_EQ(findPop(pops_, command->frame, command->chunk), &worst());
     EXPECT_FALSE(window_.isShown("Before"));
     pops_.shown = worst();
     const ui::Commands before = click("Before");
     ASSERT_EQ(before.size(), 1u);
-    EXPECT_EQ(std::get<ui::ShowPopSide>(before.front()).side, ui::PopSide::Before);
+    ASSERT_TRUE(before.front().as<ui::ShowPopSide>());
+    EXPECT_EQ(before.front().as<ui::ShowPopSide>()->side, ui::PopSide::Before);
 }
 
 TEST_F(PopsTest, AClickOnTheTimelineSelectsWhatIsThere) {
@@ -136,10 +136,11 @@ TEST_F(PopsTest, ClearAndMeasureAreAskedFor) {
     flyUpAndDown();
     const ui::Commands clear = click("Clear");
     ASSERT_EQ(clear.size(), 1u);
-    EXPECT_TRUE(std::holds_alternative<ui::ClearPops>(clear.front()));
+    EXPECT_TRUE(clear.front().as<ui::ClearPops>());
     const ui::Commands measure = click("Measure");
     ASSERT_EQ(measure.size(), 1u);
-    EXPECT_FALSE(std::get<ui::MeasurePops>(measure.front()).on);
+    ASSERT_TRUE(measure.front().as<ui::MeasurePops>());
+    EXPECT_FALSE(measure.front().as<ui::MeasurePops>()->on);
     pops_.measuring = false;
     forgetPops(pops_);
     EXPECT_TRUE(pops_.meter.events().empty());

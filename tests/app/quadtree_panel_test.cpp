@@ -45,7 +45,7 @@ protected:
     template <class Kind>
     std::optional<planet::ChunkId> asked() const {
         for (const Command& command : commands_) {
-            if (const Kind* found = std::get_if<Kind>(&command)) return found->id;
+            if (const Kind* found = command.as<Kind>()) return found->id;
         }
         return std::nullopt;
     }

@@ -60,7 +60,7 @@ protected:
         frame();
         asked_ = frame(1);
         for (const Command& command : asked_) {
-            if (const T* found = std::get_if<T>(&command)) return found;
+            if (const T* found = command.as<T>()) return found;
         }
         return nullptr;
     }
@@ -113,8 +113,9 @@ TEST_F(BakePanelSource, AClickIntoThePictureShowsAQuarterOfIt) {
     EXPECT_NEAR(preview->request.u, 0.5, 0.02);
     EXPECT_NEAR(preview->request.v, 0, 0.02);
     click("Whole face");
-    ASSERT_TRUE(askedFor<PreviewSource>());
-    EXPECT_EQ(std::get<PreviewSource>(asked_.back()).request.zoomLog2, 0);
+    const PreviewSource* whole = asked_.back().as<PreviewSource>();
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->request.zoomLog2, 0);
 }
 
 TEST_F(BakePanelSource, DetailIsAddedToTheFileThatIsNamed) {
@@ -187,7 +188,7 @@ TEST_F(BakePanelSource, ASourceThatIsNotThereCannotBeBaked) {
     window_.click("/Bake again", 0.5f, [&] {
         for (const Command& command : frame()) all.push_back(command);
     });
-    for (const Command& command : all) EXPECT_FALSE(std::holds_alternative<StartBake>(command));
+    for (const Command& command : all) EXPECT_FALSE(command.as<StartBake>());
     view_.data.chunkFile = "/cache/other.chk";
     view_.bake.current.source = "noise:fbm";
     frame();
@@ -195,9 +196,8 @@ TEST_F(BakePanelSource, ASourceThatIsNotThereCannotBeBaked) {
     window_.click("/Bake again", 0.5f, [&] {
         for (const Command& command : frame()) all.push_back(command);
     });
-    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Command& command) {
-        return std::holds_alternative<StartBake>(command);
-    }));
+    EXPECT_TRUE(
+        std::any_of(all.begin(), all.end(), [](const Command& command) { return command.as<StartBake>(); }));
 }
 
 }  // namespace
