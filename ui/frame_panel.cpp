@@ -73,7 +73,9 @@ void times(const EditorView& view, Commands& commands) {
     const FrameStats& stats = view.stats;
     if (!beginValues("times")) return;
     const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
-    valueRow("Frame", fmt::format("{} ({:.0f}/s)", millisecondsText(stats.frameMs), perSecond),
+    valueRow("Frame rate", fmt::format("{:.0f}/s", perSecond),
+             "As many as the last would fit into a second.");
+    valueRow("Frame", millisecondsText(stats.frameMs),
              "From one frame's start to the next one's, waiting for the monitor included.");
     for (const Stage& stage : cpuStages)
         valueRow(fmt::format("CPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
