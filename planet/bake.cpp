@@ -211,28 +211,35 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
                        ProgressMeter& meter) {
     const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
     const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> tileLevel);
+    // What is under way at once, used in turn: they end in the order in which they began.
+    struct Work {
+        ChunkId id;
+        Result<BakedTile> tile;
+    };
+    std::vector<Work> underWay(static_cast<std::size_t>(threads) * 3);
     tbb::enumerable_thread_specific<BakeScratch> scratches;
     Result<void> outcome;
     std::atomic<bool> stop = false;
     std::uint64_t next = 0;
     // Input and output run in order, one at a time; outcome belongs to the output.
     Handover handover;
-    const auto input = [&](tbb::flow_control& control) -> ChunkId {
+    const auto input = [&](tbb::flow_control& control) -> std::size_t {
         handover.take();
         if (stop || next == tileCount) {
             control.stop();
             handover.give();
-            return {};
+            return 0;
         }
-        const ChunkId id = chunkInQuadtreeOrder(next++, tileLevel);
+        const std::size_t place = next % underWay.size();
+        underWay[place].id = chunkInQuadtreeOrder(next++, tileLevel);
         handover.give();
-        return id;
+        return place;
     };
-    const auto work = [&](const ChunkId& id) {
+    const auto work = [&](std::size_t place) {
         handover.take();
-        Result<BakedTile> tile = bakeTile(bake, id, scratches.local());
+        underWay[place].tile = bakeTile(bake, underWay[place].id, scratches.local());
         handover.give();
-        return tile;
+        return place;
     };
     const auto write = [&](Result<BakedTile>&& tile) {
         if (!tile) {
@@ -244,18 +251,18 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
         }
         if (!outcome) stop = true;
     };
-    const auto output = [&](Result<BakedTile> tile) {
+    const auto output = [&](std::size_t place) {
         handover.take();
-        if (outcome) write(std::move(tile));
+        if (outcome) write(std::move(underWay[place].tile));
         handover.give();
     };
     handover.give();
     tbb::task_arena(threads).execute([&] {
         tbb::parallel_pipeline(
-            static_cast<std::size_t>(threads) * 3,
-            tbb::make_filter<void, ChunkId>(tbb::filter_mode::serial_in_order, input) &
-                tbb::make_filter<ChunkId, Result<BakedTile>>(tbb::filter_mode::parallel, work) &
-                tbb::make_filter<Result<BakedTile>, void>(tbb::filter_mode::serial_in_order, output));
+            underWay.size(),
+            tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, input) &
+                tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, work) &
+                tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, output));
     });
     handover.take();
     return outcome;
