@@ -88,6 +88,23 @@ TEST(Manners, NoFolderIncludesWhatItMustNotKnow) {
     EXPECT_GT(files, 200u);
 }
 
+// So that a header which leans on what others include does not compile.
+TEST(Manners, EachSourceIncludesItsOwnHeaderFirst) {
+    const std::filesystem::path top = WORLDY_SOURCE_DIR;
+    std::size_t files = 0;
+    for (const char* folder : {"planet", "ui", "app", "tests"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(top / folder)) {
+            std::filesystem::path header = entry.path();
+            if (header.extension() != ".cpp" || !exists(header.replace_extension(".h"))) continue;
+            ++files;
+            std::ifstream source(entry.path());
+            const std::vector<std::string> included = includesIn(source);
+            EXPECT_EQ(included.empty() ? "nothing" : included.front(), relative(header, top)) << entry.path();
+        }
+    }
+    EXPECT_GT(files, 200u);
+}
+
 TEST(Manners, ACheckFindsWhatIsPlanted) {
     const auto found = [](const FolderRule& rule, const char* text) {
         std::istringstream source(text);
