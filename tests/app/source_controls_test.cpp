@@ -113,7 +113,7 @@ TEST_F(BakePanelSource, AClickIntoThePictureShowsAQuarterOfIt) {
     EXPECT_NEAR(preview->request.u, 0.5, 0.02);
     EXPECT_NEAR(preview->request.v, 0, 0.02);
     click("Whole face");
-    const PreviewSource* whole = asked_.back().as<PreviewSource>();
+    const PreviewSource* whole = askedFor<PreviewSource>();
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->request.zoomLog2, 0);
 }
