@@ -22,8 +22,9 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-    ui::beginFixedWindow(name, picture.rect,
-                         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ui::beginFixedWindow(
+        name, picture.rect,
+        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
     ImGui::PopStyleVar();
     const planet::gl::RenderTarget* target = picture.shownTarget();
     if (!target) return;

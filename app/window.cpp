@@ -180,7 +180,10 @@ void Window::endFrame(const std::function<void()>& drawn) {
     glfwGetFramebufferSize(glfw_->window, &widthPx, &heightPx);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, widthPx, heightPx);
-    glClearColor(0.1f, 0.1f, 0.1f, 1);
+    // What docks and pictures lie on, cleared at once: filled window by window it costs a processor much of a
+    // frame.
+    const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+    glClearColor(ground.x, ground.y, ground.z, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     panelsTimer_->begin();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

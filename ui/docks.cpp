@@ -111,7 +111,8 @@ void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStat
         workspace.inFront[indexOf(dock)] = shown.front()->id;
     const PanelId active = workspace.inFront[indexOf(dock)];
 
-    beginFixedWindow(dockNames[indexOf(dock)], layout.docks[indexOf(dock)], ImGuiWindowFlags_NoScrollbar);
+    beginFixedWindow(dockNames[indexOf(dock)], layout.docks[indexOf(dock)],
+                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
     setItemScope("tab");
     tabs(shown, active, workspace, dock);
     // A child of its own name, so that each panel keeps its place when another is looked at.

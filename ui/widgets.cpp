@@ -227,7 +227,7 @@ void emptyState(const char* text) {
 bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    beginFixedWindow(id, rect, ImGuiWindowFlags_NoScrollbar);
+    beginFixedWindow(id, rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
     ImGui::InvisibleButton("bar", {rect.width, rect.height});
     const bool active = ImGui::IsItemActive();
     const bool lit = active || ImGui::IsItemHovered();
