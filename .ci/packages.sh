@@ -34,6 +34,7 @@ libbenchmark-dev        benchmarks
 xvfb                    a display for the window's tests
 xauth                   the same
 libx11-dev              drops files onto the window in its tests
+x11-xserver-utils       says how fine that display is
 xdotool                 presses keys in the window's tests
 imagemagick             takes their screenshots
 clang                   fuzzers, and a second compiler

@@ -130,7 +130,7 @@ says 'red.ppm: ' && echo "the dropped image was opened as heights"
 
 choose bake/Colours none; click bake/Bake; expect counts colour_tiles -eq 0; settle
 )sh",
-                                "1280x1100");
+                                {"800x690"});
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "") << ran.errors;
     const Ran told = runWorldy(folder, "info coloured.chk --json");

@@ -7,7 +7,7 @@
 namespace worldy {
 
 inline bool canOpenWindows() {
-    return std::system("command -v Xvfb xdotool import convert compare >/dev/null 2>&1") == 0;
+    return std::system("command -v Xvfb xrdb xdotool import convert compare >/dev/null 2>&1") == 0;
 }
 
 // What the steps may use. Names are those of the item map: "tab/LOD", "lod/Tolerance τ", "viewport/picture".
@@ -39,7 +39,7 @@ counts() { [ "$(counter "$1")" "$2" "$3" ]; }
 frames() { set -- $(($(counter frame) + ${1:-3})); until_true counts frame -ge $1; }
 at() { set -- $(place "$1") $2 $3; awk -v x=$1 -v y=$2 -v w=$3 -v h=$4 -v a=$5 -v b=$6 'BEGIN {printf "%d %d", x + a * w, y + b * h}'; }
 # Where it comes to rest: panels may still be making room.
-at_rest() { local was="$(place "$1")"; frames && [ "$was" = "$(place "$1")" ]; }
+at_rest() { local was="$(place "$1")"; frames 2 && [ "$was" = "$(place "$1")" ]; }
 point() {
     until_true shown "$1" || { echo "there is no $1"; return 1; }
     xdotool mousemove $(at "$1" ${2:-0.5} ${3:-0.5})
@@ -47,7 +47,8 @@ point() {
 }
 press() { xdotool mousedown ${1:-1}; frames; }
 release() { xdotool mouseup ${1:-1}; frames; }
-click() { point "$1" $2 $3 && press && release; }
+# Down and up at once: ImGui takes a frame for each, and what it led to is seen in the next.
+click() { point "$1" $2 $3 && xdotool click 1 && frames 4; }
 # Sets a slider to a share of its way.
 slide() { point "$1" && press && xdotool mousemove $(at "$1" $2 0.5) && frames && release; }
 # choose lod/Seams none
@@ -71,7 +72,7 @@ hold() { xdotool keydown "$1"; frames; xdotool keyup "$1"; frames; }
 type_over() { xdotool keydown ctrl; hold a; xdotool keyup ctrl; xdotool type --delay 20 -- "$1"; frames; hold Return; }
 enter() { click "$1" && type_over "$2"; }
 # A middle part of a picture, without what is written at its borders.
-picture() { set -- $(place "$1"); import -window root -crop "$(($3 * 6 / 10))x$(($4 * 4 / 10))+$(($1 + $3 * 2 / 10))+$(($2 + $4 * 3 / 10))" +repage png:- | convert png:- rgb:- | md5sum; }
+picture() { set -- $(place "$1"); import -window root -crop "$(($3 * 6 / 10))x$(($4 * 4 / 10))+$(($1 + $3 * 2 / 10))+$(($2 + $4 * 3 / 10))" +repage -depth 8 rgb:- | md5sum; }
 viewport() { picture viewport/picture; }
 differs() { [ "$(viewport)" != "$1" ]; }
 same() { [ "$(viewport)" = "$1" ]; }
@@ -81,10 +82,18 @@ settled() { loaded && still; }
 settle() { frames 4; until_true settled || echo 'the planet does not settle'; }
 )sh";
 
+// A monitor. By default a coarse one: text and controls are small on it, so that as much is seen as on 1280 x
+// 800 at the usual 96, of two fifths of the pixels, each of which is drawn by the processor.
+struct Screen {
+    std::string sizePx = "800x500";
+    int dotsPerInch = 60;
+};
+inline const Screen usualScreen{"1280x800", 96};
+
 // Starts the window, waits until the planet is there, runs the steps, and quits by Ctrl+Q. What the steps
 // print is the output: nothing, where all is well.
 inline Ran runInWindow(const TemporaryFolder& folder, const std::string& arguments, const std::string& steps,
-                       const std::string& screen = "1280x800") {
+                       const Screen& screen = {}) {
     std::ofstream(folder.path() / "steps.sh")
         << windowFunctions << "'" WORLDY_BINARY "' --item-map items.txt " << arguments << " &\nworldy=$!\n"
         << "until_true shown viewport/picture || echo 'the planet is not shown'\n"
@@ -94,10 +103,12 @@ inline Ran runInWindow(const TemporaryFolder& folder, const std::string& argumen
     // The server chooses a free display itself: others may be starting at the same time.
     std::ofstream(folder.path() / "display.sh")
         << "rm -f items.txt display.txt\n"
-        << "Xvfb -displayfd 3 -screen 0 " << screen
-        << "x24 -nolisten tcp 3>display.txt 2>/dev/null &\nserver=$!\n"
+        << "Xvfb -displayfd 3 -screen 0 " << screen.sizePx
+        << "x24 -noreset -nolisten tcp 3>display.txt 2>/dev/null &\nserver=$!\n"
         << "for i in $(seq 200); do [ -s display.txt ] && break; sleep 0.1; done\n"
-        << "DISPLAY=:$(cat display.txt) bash steps.sh\ncode=$?\nkill $server\nexit $code\n";
+        << "export DISPLAY=:$(cat display.txt)\n"
+        << "echo 'Xft.dpi: " << screen.dotsPerInch << "' | xrdb -nocpp -load\n"
+        << "bash steps.sh\ncode=$?\nkill $server\nexit $code\n";
     // Graphics drivers are unloaded before a leak checker looks, so it takes what they keep for leaks of
     // ours.
     return runShell(folder, "ASAN_OPTIONS=detect_leaks=0 bash display.sh");

@@ -29,7 +29,8 @@ key Escape
 counts drawn -gt 0 || echo "nothing is drawn"
 place viewport/picture > viewport.txt
 shot window.png
-)sh");
+)sh",
+                                usualScreen);
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "");
     EXPECT_THAT(ran.errors, HasSubstr("Open: planet.chk"));
@@ -80,7 +81,8 @@ set -- $4 $(place tab/LOD)
 [ $5 -gt $1 ] || echo "the text is no larger: $1, then $5"
 click menu/View && click "menu item/Log"
 place viewport/picture > viewport.txt
-)sh");
+)sh",
+                                  usualScreen);
     EXPECT_EQ(first.exitCode, 0) << first.errors;
     EXPECT_EQ(first.output, "");
     const std::string settings = settingsOf(folder);
@@ -92,7 +94,8 @@ place viewport/picture > viewport.txt
 [ "$(bright)" = 1 ] || echo "the light theme was forgotten"
 [ "$(place viewport/picture)" = "$(cat viewport.txt)" ] || echo "viewport: $(place viewport/picture), was $(cat viewport.txt)"
 hidden tab/Log || echo "the log is back"
-)sh");
+)sh",
+                                   usualScreen);
     EXPECT_EQ(second.exitCode, 0) << second.errors;
     EXPECT_EQ(second.output, "");
 }
@@ -153,7 +156,7 @@ set -- $* $(place tab/LOD); [ $(($1 + $3)) -le $5 ] || echo "the viewport reache
 key F11; frames; set -- $(place viewport/picture)
 [ $3 -eq 1024 ] || echo "without panels the viewport is $*"
 )sh",
-                                "1024x640");
+                                {"1024x640", 96});
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "");
 }
