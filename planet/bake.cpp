@@ -222,23 +222,17 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
     std::atomic<bool> stop = false;
     std::uint64_t next = 0;
     // Input and output run in order, one at a time; outcome belongs to the output.
-    Handover handover;
-    const auto input = [&](tbb::flow_control& control) -> std::size_t {
-        handover.take();
+    const auto begin = [&](tbb::flow_control& control) -> std::size_t {
         if (stop || next == tileCount) {
             control.stop();
-            handover.give();
             return 0;
         }
         const std::size_t place = next % underWay.size();
         underWay[place].id = chunkInQuadtreeOrder(next++, tileLevel);
-        handover.give();
         return place;
     };
-    const auto work = [&](std::size_t place) {
-        handover.take();
+    const auto bakeOne = [&](std::size_t place) {
         underWay[place].tile = bakeTile(bake, underWay[place].id, scratches.local());
-        handover.give();
         return place;
     };
     const auto write = [&](Result<BakedTile>&& tile) {
@@ -251,18 +245,18 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
         }
         if (!outcome) stop = true;
     };
-    const auto output = [&](std::size_t place) {
-        handover.take();
+    const auto writeOne = [&](std::size_t place) {
         if (outcome) write(std::move(underWay[place].tile));
-        handover.give();
     };
+    using tbb::filter_mode;
+    Handover handover;
     handover.give();
     tbb::task_arena(threads).execute([&] {
         tbb::parallel_pipeline(
             underWay.size(),
-            tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, input) &
-                tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, work) &
-                tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, output));
+            tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, Stage(handover, begin)) &
+                tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, Stage(handover, bakeOne)) &
+                tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, Stage(handover, writeOne)));
     });
     handover.take();
     return outcome;

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <utility>
 
 namespace planet {
 
@@ -20,33 +21,58 @@ private:
     std::atomic<unsigned> turn_ = 0;
 };
 
+// Work as a stage of a pipeline: after take(), and give() follows it. oneTBB keeps a stage in memory that it
+// uses anew unseen by the thread sanitizer; so reading the stage is not looked at, what it calls is.
+template <class Work>
+class Stage {
+public:
+    Stage(Handover& handover, const Work& work) : handover_(&handover), work_(&work) {}
+
+    template <class Input>
+    __attribute__((no_sanitize("thread"))) auto operator()(Input&& input) const {
+        return call(*handover_, *work_, std::forward<Input>(input));
+    }
+
+private:
+    struct Turn {
+        explicit Turn(Handover& handover) : handover_(handover) { handover_.take(); }
+        ~Turn() { handover_.give(); }
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+        Handover& handover_;
+    };
+
+    template <class Input>
+    static auto call(Handover& handover, const Work& work, Input&& input) {
+        const Turn turn(handover);
+        return work(std::forward<Input>(input));
+    }
+
+    Handover* handover_;
+    const Work* work_;
+};
+
 // Calls body(index) for each index below count, several at once, and returns when all are done. Each is to
 // take longer than a microsecond. A pipeline, since tbb::parallel_for is compiled into its caller, where the
 // thread sanitizer sees what it does and not how it is ordered.
 template <class Body>
 void forEachInParallel(std::size_t count, const Body& body) {
     std::size_t next = 0;
-    Handover handover;
-    const auto input = [&](tbb::flow_control& control) {
-        handover.take();
+    const auto nextIndex = [&](tbb::flow_control& control) {
         const std::size_t index = next;
         if (next == count)
             control.stop();
         else
             ++next;
-        handover.give();
         return index;
     };
-    const auto work = [&](std::size_t index) {
-        handover.take();
-        body(index);
-        handover.give();
-    };
+    Handover handover;
     handover.give();
     const auto underWay = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) * 2;
-    tbb::parallel_pipeline(underWay,
-                           tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, input) &
-                               tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, work));
+    tbb::parallel_pipeline(
+        underWay,
+        tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, Stage(handover, nextIndex)) &
+            tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, Stage(handover, body)));
     handover.take();
 }
 
