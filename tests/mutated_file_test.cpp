@@ -27,7 +27,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 constexpr int shards = 5;
-constexpr int mutationsEach = tests::threadSanitized ? 30 : tests::sanitized ? 100 : 1000;
+constexpr int mutationsEach = tests::sanitized ? 100 : 1000;
 constexpr int framesADive = 6;
 constexpr int mostFramesToSettle = 300;
 constexpr const char* fileName = "mutated.chk";

@@ -21,7 +21,6 @@
 #include "planet/chunk_file.h"
 #include "tests/program/run_program.h"
 #include "tests/program/small_planet.h"
-#include "tests/sanitized.h"
 
 namespace worldy {
 namespace {
@@ -31,9 +30,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using Clock = std::chrono::steady_clock;
 
-// What is killed tells a sanitizer nothing.
-constexpr int oneIn = tests::sanitized ? 2 : 1;
-constexpr int killsByTime = 26 / oneIn, killsBySize = 16 / oneIn, killsAtTheEnd = 8 / oneIn;
+constexpr int killsByTime = 26, killsBySize = 16, killsAtTheEnd = 8;
 constexpr const char* settings = "--face-size 129 --chunk-size 17 --colour map.ppm --colour-face-size 257";
 
 std::uint64_t sizeOf(const fs::path& file) {
@@ -200,7 +197,7 @@ TEST_F(KilledBake, AtFiftyMomentsLeavesTheOldFileOrTheNewOneWhole) {
         if (HasFatalFailure()) return;
     }
     expectTheNextBakeCleansUp();
-    EXPECT_EQ(kills, tests::sanitized ? 25 : 50);
+    EXPECT_EQ(kills, 50);
     EXPECT_GT(phases_["writing heights"] + phases_["heights not written yet"], 0);
     EXPECT_GT(phases_["writing colours"], 0);
     for (const auto& [phase, count] : phases_) {
