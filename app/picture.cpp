@@ -4,6 +4,8 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "app/output_file.h"
 
 namespace worldy {
@@ -34,11 +36,12 @@ planet::Result<Picture> readPicture(const std::filesystem::path& file) {
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, all.data())) {
         return planet::badInput(fmt::format("{}: is damaged: {}", file.string(), input->geterror()));
     }
+    if (channels == 3) return Picture{spec.width, spec.height, std::move(all)};
     Picture picture{spec.width, spec.height, {}};
     picture.rgb.resize(pixels * 3);
     for (std::size_t i = 0; i < pixels; ++i) {
         for (std::size_t c = 0; c < 3; ++c)
-            picture.rgb[3 * i + c] = all[i * channels + (channels >= 3 ? c : 0)];
+            picture.rgb[3 * i + c] = all[i * channels + (channels > 3 ? c : 0)];
     }
     return picture;
 }
