@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "gl_test.h"
 #include "test_planet.h"
@@ -77,6 +78,8 @@ protected:
 
     // The whole planet, finer near the eye: what a selection would do, without its errors and bounds.
     void refineAround(const View& view) {
+        if (refinedAroundM_ == view.eyeM) return;
+        refinedAroundM_ = view.eyeM;
         planet_.items().clear();
         for (const Face face : allFaces) refine({face, 0, 0, 0}, view.eyeM);
     }
@@ -99,6 +102,7 @@ protected:
 
     Elevation elevation_;
     TestPlanet planet_;
+    std::optional<glm::dvec3> refinedAroundM_;
 };
 
 View wide(double latitudeDeg, double longitudeDeg, double altitudeM, double pitchDeg = -90,
