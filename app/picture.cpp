@@ -30,19 +30,15 @@ planet::Result<Picture> readPicture(const std::filesystem::path& file) {
         return planet::badInput(fmt::format("{}: is {} x {} pixels; 1 to {} a side would be right",
                                             file.string(), spec.width, spec.height, maxSidePx));
     }
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    const int channels = spec.nchannels >= 3 ? 3 : 1;
     const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-    std::vector<std::uint8_t> all(pixels * channels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, all.data())) {
+    std::vector<std::uint8_t> samples(pixels * static_cast<std::size_t>(channels));
+    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, samples.data())) {
         return planet::badInput(fmt::format("{}: is damaged: {}", file.string(), input->geterror()));
     }
-    if (channels == 3) return Picture{spec.width, spec.height, std::move(all)};
+    if (channels == 3) return Picture{spec.width, spec.height, std::move(samples)};
     Picture picture{spec.width, spec.height, {}};
-    picture.rgb.resize(pixels * 3);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        for (std::size_t c = 0; c < 3; ++c)
-            picture.rgb[3 * i + c] = all[i * channels + (channels > 3 ? c : 0)];
-    }
+    for (const std::uint8_t grey : samples) picture.rgb.insert(picture.rgb.end(), 3, grey);
     return picture;
 }
 

@@ -16,7 +16,6 @@
 
 #include "tests/fake_selection.h"
 #include "tests/random_view.h"
-#include "tests/sanitized.h"
 
 namespace planet {
 namespace {
@@ -97,7 +96,7 @@ TEST(LodSelect, CulledChunksHoldNoVertexThatCanBeSeen) {
     std::mt19937 random(13);
     std::size_t culledLeaves = 0;
     std::size_t hiddenLeaves = 0;
-    constexpr int views = tests::sanitized ? 500 : 2500;
+    constexpr int views = 2500;
     for (int i = 0; i < views; ++i) {
         const View view = randomView(random, pyramid.shape.radiusM);
         LodSettings settings;
