@@ -34,21 +34,13 @@ using planet::Planet;
 using planet::Result;
 using planet::TrueErrorReport;
 
-constexpr double settleTimeoutS = 120;
-constexpr double mostFlightViews = 100'000;
-
 Result<std::vector<planet::CameraPose>> flightPoses(const AuditOptions& options) {
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
-    const double steps = std::floor(durationS(*path) / options.stepS + 1e-9);
-    if (steps >= mostFlightViews) {
-        return planet::badInput(
-            fmt::format("--step-s: {} s over a flight of {} s are more than {} views; a "
-                        "longer step would be right",
-                        options.stepS, durationS(*path), mostFlightViews));
-    }
+    const Result<int> views = flightViews(*path, options.stepS, mostFlightViews);
+    if (!views) return tl::unexpected(views.error());
     std::vector<planet::CameraPose> poses;
-    for (int i = 0; i <= static_cast<int>(steps); ++i)
+    for (int i = 0; i < *views; ++i)
         poses.push_back(poseAt(*path, path->keys.front().timeS + i * options.stepS));
     return poses;
 }
@@ -59,8 +51,6 @@ Result<std::vector<planet::CameraPose>> posesOf(const AuditOptions& options, con
     return auditPoses(planet.file());
 }
 
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
 // A camera below the ground is lifted above it; only once it has settled is that known as finely as it is.
 AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const planet::LodSettings& lod,
                      const AuditOptions& options, planet::View& view) {
@@ -70,7 +60,7 @@ AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const plane
     for (int attempt = 0; attempt < 4; ++attempt) {
         view = viewOf(camera, glm::radians(options.view.camera.fovDeg), options.size.widthPx,
                       options.size.heightPx);
-        audited.settled = planet.settle(view, lod, noUpload, settleTimeoutS);
+        audited.settled = planet.settle(view, lod, planet::noUpload, settleTimeoutS);
         const Ground ground{radiusM, planet::residentHeightM(planet.tree(), glm::normalize(camera.eyeM))};
         if (altitudeM(camera, ground) >= ground.heightM + minGroundClearanceM - 1e-3) break;
         camera = keepInRange(camera, ground);
@@ -115,7 +105,7 @@ struct Place {
     double longitudeDeg = 0;
 };
 
-Place placeOf(const glm::dvec3& pointM) {
+Place groundPlaceOf(const glm::dvec3& pointM) {
     const planet::Geographic place = planet::geographicFromDirection(pointM);
     return {glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad)};
 }
@@ -130,7 +120,7 @@ Json jsonOf(const ChunkError& chunk) {
                  {"samples", chunk.samples},
                  {"violation", planet::isViolation(chunk)}};
     if (chunk.facingPx > 0) {
-        const Place worst = placeOf(chunk.worstM);
+        const Place worst = groundPlaceOf(chunk.worstM);
         json["worst_latitude_deg"] = worst.latitudeDeg;
         json["worst_longitude_deg"] = worst.longitudeDeg;
         json["worst_beside_stitched_edge"] = chunk.worstInSeam;
@@ -153,7 +143,7 @@ void addFigures(const TrueErrorReport& report, Json& json) {
 
 Json jsonOf(const AuditedView& view) {
     const TrueErrorReport& report = view.report;
-    Json json = {{"camera", worldy::jsonOf(view.pose)},
+    Json json = {{"camera", poseJson(view.pose)},
                  {"settled", view.settled},
                  {"chunks", report.chunks.size()},
                  {"triangles", view.triangles}};
@@ -216,7 +206,7 @@ void printWorst(const Audit& audit, int count) {
     for (const Listed& one : worst) {
         const ChunkError& chunk = *one.chunk;
         if (chunk.facingPx <= 0) break;
-        const Place place = placeOf(chunk.worstM);
+        const Place place = groundPlaceOf(chunk.worstM);
         fmt::print("{:>5}  {:24}{:>11}{:>11}{:>11}{:>10.2f} m  {}{}\n", one.view + 1,
                    planet::toString(chunk.id), columnText(chunk.predictedPx), columnText(chunk.facingPx),
                    columnText(chunk.screenPx), chunk.errorM,
@@ -301,7 +291,7 @@ Result<void> writeAudit(const AuditOptions& options, const Audit& audit) {
     addFigures(totalsOf(audit), json);
     json["view"] = Json::array();
     for (const AuditedView& view : audit.views) json["view"].push_back(jsonOf(view));
-    return writeTextFile(options.jsonOutput, textOf(json));
+    return writeTextFile(options.jsonOutput, jsonText(json));
 }
 
 Result<bool> runAudit(const AuditOptions& options) {

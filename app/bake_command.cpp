@@ -42,7 +42,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"colour_tiles", report.colourTiles},
                                          {"colour_bytes", report.colourBytes},
                                          {"seconds", report.seconds}};
-    fmt::print("{}", textOf(json));
+    fmt::print("{}", jsonText(json));
 }
 
 void printText(const planet::HeightSource& source, const BakeOptions& options,

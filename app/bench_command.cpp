@@ -250,7 +250,7 @@ Result<void> runBench(const BenchOptions& options) {
     }
     if (options.jsonOutput.empty()) return {};
     return writeTextFile(options.jsonOutput,
-                         textOf(jsonOf(options, source->description, *machine, sections)));
+                         jsonText(jsonOf(options, source->description, *machine, sections)));
 }
 
 }  // namespace worldy

@@ -10,13 +10,6 @@ namespace worldy {
 
 namespace {
 
-// Rodrigues' formula.
-glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, double angleRad) {
-    const double cosine = std::cos(angleRad);
-    return cosine * vector + std::sin(angleRad) * glm::cross(axis, vector) +
-           (1 - cosine) * glm::dot(axis, vector) * axis;
-}
-
 Camera turnedAboutCentre(const Camera& camera, const glm::dvec3& axis, double angleRad) {
     return {rotated(camera.eyeM, axis, angleRad), rotated(camera.right, axis, angleRad),
             rotated(camera.back, axis, angleRad)};
@@ -47,6 +40,12 @@ std::optional<double> distanceToSphereM(const glm::dvec3& eyeM, const glm::dvec3
 }
 
 }  // namespace
+
+glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, double angleRad) {
+    const double cosine = std::cos(angleRad);
+    return cosine * vector + std::sin(angleRad) * glm::cross(axis, vector) +
+           (1 - cosine) * glm::dot(axis, vector) * axis;
+}
 
 Camera cameraFromPose(const planet::CameraPose& pose, double radiusM) {
     const planet::View view = planet::viewFromPose(pose, radiusM, glm::radians(60.0), 1, 1);

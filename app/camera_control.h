@@ -22,6 +22,9 @@ struct Camera {
 };
 
 Camera cameraFromPose(const planet::CameraPose& pose, double radiusM);
+// About a unit axis, counterclockwise seen against it. Rodrigues' formula.
+glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, double angleRad);
+
 planet::View viewOf(const Camera& camera, double horizontalFovRad, int widthPx, int heightPx);
 
 // The whole planet in view, for a planet of any size.

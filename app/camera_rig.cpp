@@ -19,12 +19,6 @@ constexpr double joinFlightS = 1.5;
 constexpr double lowestOrbitRad = 0.02;  // above the pivot's horizon
 constexpr double nearestOrbitM = 4;
 
-glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, double angleRad) {
-    const double cosine = std::cos(angleRad);
-    return cosine * vector + std::sin(angleRad) * glm::cross(axis, vector) +
-           (1 - cosine) * glm::dot(axis, vector) * axis;
-}
-
 // Level again, with the view's direction kept. Straight up and down any right vector is level.
 Camera levelled(Camera camera) {
     camera.back = glm::normalize(camera.back);

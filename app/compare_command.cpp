@@ -117,7 +117,7 @@ Result<void> runCompare(const CompareOptions& options) {
         if (const Result<void> written = writePictures(options.pictures, *pictures); !written) return written;
     }
     if (options.report.empty()) return {};
-    return writeTextFile(options.report, textOf(reportOf(*plan, different, *pair, pictures)));
+    return writeTextFile(options.report, jsonText(reportOf(*plan, different, *pair, pictures)));
 }
 
 }  // namespace worldy

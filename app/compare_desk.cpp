@@ -17,11 +17,6 @@ namespace {
 
 using planet::Result;
 
-bool isSameView(const planet::View& a, const planet::View& b) {
-    return a.eyeM == b.eyeM && a.right == b.right && a.up == b.up && a.back == b.back &&
-           a.horizontalFovRad == b.horizontalFovRad && a.widthPx == b.widthPx && a.heightPx == b.heightPx;
-}
-
 // Settings that are one for both.
 ui::ViewSettings withSharedOf(ui::ViewSettings settings, const ui::ViewSettings& a) {
     settings.camera = a.camera;
@@ -377,8 +372,7 @@ ui::CompareView compareViewOf(CompareDesk& desk, const Session& session, const u
     }
     if (desk.measuredOf) {
         const MeasuredOf& of = *desk.measuredOf;
-        shown.stale = !isSameView(of.view, view) ||
-                      !(of.settingsOfB == withSharedOf(b.settings, of.settings)) ||
+        shown.stale = of.view != view || !(of.settingsOfB == withSharedOf(b.settings, of.settings)) ||
                       !(withSharedOf(of.settings, settings) == settings);
     }
     return shown;

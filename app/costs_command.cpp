@@ -21,7 +21,7 @@ nlohmann::ordered_json reportOf(const std::vector<ui::PartCost>& costs, const Se
     nlohmann::ordered_json report = {
         {"file", options.file.string()},      {"width_px", options.size.widthPx},
         {"height_px", options.size.heightPx}, {"rounds", options.rounds},
-        {"camera", jsonOf(at.pose)},          {"parts", nlohmann::ordered_json::array()}};
+        {"camera", poseJson(at.pose)},        {"parts", nlohmann::ordered_json::array()}};
     for (const ui::PartCost& cost : costs)
         report["parts"].push_back(
             {{"part", cost.part}, {"without_ms", cost.withoutMs}, {"with_ms", cost.withMs}});
@@ -56,7 +56,7 @@ Result<void> runCosts(const CostsOptions& options) {
     const std::vector<ui::PartCost> costs = meter->costs();
     print(costs);
     if (options.jsonOutput.empty()) return {};
-    return writeTextFile(options.jsonOutput, textOf(reportOf(costs, at, options)));
+    return writeTextFile(options.jsonOutput, jsonText(reportOf(costs, at, options)));
 }
 
 }  // namespace worldy

@@ -74,11 +74,6 @@ struct Trial {
     }
 };
 
-bool isSameView(const planet::View& a, const planet::View& b) {
-    return a.eyeM == b.eyeM && a.right == b.right && a.up == b.up && a.back == b.back &&
-           a.horizontalFovRad == b.horizontalFovRad && a.widthPx == b.widthPx && a.heightPx == b.heightPx;
-}
-
 }  // namespace
 
 Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& view,
@@ -164,7 +159,7 @@ ui::CracksView cracksViewOf(const CrackInstrument& instrument, const Scene& scen
     const std::vector<planet::DrawItem>& drawn = scene.planet->selection().draw;
     shown.measured = &*instrument.measured;
     shown.current =
-        !settings.overlay.cube && isSameView(instrument.measured->view, view) &&
+        !settings.overlay.cube && instrument.measured->view == view &&
         instrument.measured->seams == settings.seams.mode &&
         std::equal(instrument.drawn.begin(), instrument.drawn.end(), drawn.begin(), drawn.end(), sameItem);
     if (instrument.smallest) shown.smallest = &*instrument.smallest;

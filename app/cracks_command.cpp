@@ -24,7 +24,6 @@ using Json = nlohmann::ordered_json;
 using planet::Result;
 
 constexpr std::size_t mostListed = 20;  // of a view's gaps and spots in the report
-constexpr double mostFlightViews = 100'000;
 
 struct MeasuredView {
     double timeS = 0;  // of the flight
@@ -192,7 +191,7 @@ Json reportOf(const CracksOptions& options, const Measured& all) {
     report["view"] = Json::array();
     for (const MeasuredView& view : all.views) {
         Json entry = {{"time_s", view.timeS},
-                      {"camera", worldy::jsonOf(view.at.pose)},
+                      {"camera", poseJson(view.at.pose)},
                       {"lifted", view.at.lifted},
                       {"settled", view.at.settled},
                       {"seams", view.seams},
@@ -248,14 +247,9 @@ Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Meas
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
     const InterruptWatch watch;
-    const double steps = std::floor(durationS(*path) / options.stepS + 1e-9);
-    if (!(steps < mostFlightViews)) {
-        return planet::badInput(
-            fmt::format("--step-s: {} s over a flight of {} s are more than {} views; a longer step would be "
-                        "right",
-                        options.stepS, durationS(*path), mostFlightViews));
-    }
-    for (int i = 0; i <= static_cast<int>(steps); ++i) {
+    const Result<int> views = flightViews(*path, options.stepS, mostFlightViews);
+    if (!views) return tl::unexpected(views.error());
+    for (int i = 0; i < *views; ++i) {
         if (watch.interrupted()) return planet::cancelled();
         const double timeS = path->keys.front().timeS + i * options.stepS;
         if (Result<void> done = measureView(offscreen, poseAt(*path, timeS), timeS, options, all); !done)
@@ -292,7 +286,7 @@ Result<bool> runCracks(const CracksOptions& options) {
             return tl::unexpected(written.error());
     }
     if (options.report.empty()) return tight;
-    return writeTextFile(options.report, textOf(reportOf(options, all))).map([&] { return tight; });
+    return writeTextFile(options.report, jsonText(reportOf(options, all))).map([&] { return tight; });
 }
 
 }  // namespace worldy

@@ -121,7 +121,7 @@ void printVerified(const FileCommandOptions& options, const planet::VerifyReport
                            {"colour_tiles_compared", colours.compared},
                            {"problem_count", report.problemCount + colours.problemCount},
                            {"problems", problems}};
-        fmt::print("{}", textOf(json));
+        fmt::print("{}", jsonText(json));
         return;
     }
     for (const std::string& problem : problems) fmt::print("{}\n", problem);
@@ -199,7 +199,7 @@ Result<void> runInfo(const FileCommandOptions& options) {
     if (options.json) {
         Json json = infoJson(*file, *report);
         if (colour) json["colour"] = colourJson(*colour, *colourLevels);
-        fmt::print("{}", textOf(json));
+        fmt::print("{}", jsonText(json));
         return {};
     }
     printInfo(*file, *report);
@@ -240,7 +240,7 @@ Result<void> runProbe(const FileCommandOptions& options) {
         {glm::radians(options.latitudeDeg), glm::radians(std::remainder(options.longitudeDeg, 360.0))});
     if (!report) return tl::unexpected(report.error());
     if (options.json)
-        fmt::print("{}", textOf(probeJson(options, *report)));
+        fmt::print("{}", jsonText(probeJson(options, *report)));
     else
         printProbe(options, *report);
     return {};

@@ -19,7 +19,7 @@ using planet::Result;
 // So long may a frame of the window be busy with replaying, so that it can still be used.
 constexpr double busyMs = 25;
 
-constexpr const char* ending = ".flight";
+constexpr const char* flightEnding = ".flight";
 
 bool hasFlight(const FlightDesk& desk, const std::string& name) {
     return std::any_of(desk.flights.begin(), desk.flights.end(),
@@ -37,7 +37,7 @@ std::string freeName(const FlightDesk& desk) {
 std::string freeNameLike(const fs::path& folder, const std::string& name) {
     const auto isFree = [&](const std::string& one) {
         std::error_code status;
-        return !fs::exists(fs::symlink_status(folder / (one + ending), status));
+        return !fs::exists(fs::symlink_status(folder / (one + flightEnding), status));
     };
     if (isFree(name)) return name;
     const std::size_t space = name.rfind(' ');
@@ -57,7 +57,7 @@ Result<fs::path> writeUnderFreeName(const fs::path& folder, Recorder& recorder) 
     constexpr int mostTries = 10;
     for (int tries = 1;; ++tries) {
         recorder.rename(freeNameLike(folder, recorder.name()));
-        fs::path file = folder / (recorder.name() + ending);
+        fs::path file = folder / (recorder.name() + flightEnding);
         const Result<void> written = recorder.write(file, IfThere::Fail);
         if (written) return file;
         std::error_code status;

@@ -222,6 +222,16 @@ double durationS(const FlightPath& path) {
     return path.keys.back().timeS - path.keys.front().timeS;
 }
 
+Result<int> flightViews(const FlightPath& path, double stepS, int most) {
+    const double steps = std::floor(durationS(path) / stepS + 1e-9);
+    if (!(steps < most)) {
+        return planet::badInput(fmt::format(
+            "--step-s: {} s over a flight of {} s are more than {} views; a longer step would be right",
+            stepS, durationS(path), most));
+    }
+    return static_cast<int>(steps) + 1;
+}
+
 Pose poseAt(const FlightPath& path, double timeS) {
     const std::vector<FlightKey>& keys = path.keys;
     const double time = std::clamp(timeS, keys.front().timeS, keys.back().timeS);

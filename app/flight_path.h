@@ -40,6 +40,11 @@ planet::Result<FlightPath> flightPathFromText(std::string_view text, const std::
 
 double durationS(const FlightPath& path);
 
+// How many views a flight has, one every so many seconds from its first key to its last. The Error is that of
+// --step-s: more than most of them.
+planet::Result<int> flightViews(const FlightPath& path, double stepS, int most);
+inline constexpr int mostFlightViews = 100'000;  // each of which is settled and measured
+
 // The pose at a time, held at the ends. Over the ground it follows great-circle arcs blended to a smooth
 // curve; altitude goes by its logarithm and, like heading and pitch, never overshoots a key; heading turns
 // the shorter way.

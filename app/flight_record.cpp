@@ -36,7 +36,7 @@ using planet::Result;
 
 constexpr std::array<char, 8> magic = {'W', 'Y', 'F', 'L', 'I', 'G', 'H', 'T'};
 constexpr std::size_t headerBytes = 28;
-constexpr std::size_t mostTextBytes = 1 << 16;
+constexpr std::size_t mostBytesOfText = 1 << 16;
 constexpr int mostSidePx = 1 << 16;
 constexpr int compressionLevel = 9;
 
@@ -193,7 +193,7 @@ public:
         return ok() ? wanted : 0;
     }
     std::string text() {
-        const std::size_t size = countUpTo(mostTextBytes, "bytes of one text", 1);
+        const std::size_t size = countUpTo(mostBytesOfText, "bytes of one text", 1);
         std::string text;
         for (std::size_t i = 0; i < size && ok(); ++i) text.push_back(get<char>());
         return text;
@@ -269,7 +269,7 @@ private:
     std::string problem_;
 };
 
-constexpr double farthestM = 1e12;
+constexpr double farthestEyeM = 1e12;
 
 glm::dvec3 readVector(Reader& in, double most) {
     glm::dvec3 vector;
@@ -284,7 +284,7 @@ bool isUnit(const glm::dvec3& vector) {
 FlownView readView(Reader& in) {
     FlownView flown;
     planet::View& view = flown.view;
-    view.eyeM = readVector(in, farthestM);
+    view.eyeM = readVector(in, farthestEyeM);
     view.right = readVector(in, 2);
     view.up = readVector(in, 2);
     view.back = readVector(in, 2);

@@ -107,9 +107,8 @@ Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector
     }
     report["frame"] = Json::array();
     for (const FlownFrame& frame : frames) {
-        Json entry = {
-            {"time_s", frame.timeS}, {"camera", worldy::jsonOf(frame.pose)}, {"lifted", frame.lifted}};
-        entry.update(worldy::jsonOf(frame.stats));
+        Json entry = {{"time_s", frame.timeS}, {"camera", poseJson(frame.pose)}, {"lifted", frame.lifted}};
+        entry.update(statsJson(frame.stats));
         report["frame"].push_back(std::move(entry));
     }
     return report;
@@ -155,7 +154,7 @@ Result<void> flyPath(const FlyOptions& options) {
     }
     printSummary(*path, frames);
     if (options.jsonOutput.empty()) return {};
-    return writeTextFile(options.jsonOutput, textOf(jsonOf(options, *path, frames)));
+    return writeTextFile(options.jsonOutput, jsonText(jsonOf(options, *path, frames)));
 }
 
 }  // namespace worldy

@@ -35,7 +35,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
     if (const Scene* scene = shownScene(session); scene && editor.rig) {
         const double radiusM = scene->planet->shape().radiusM;
-        add("camera", textOf(poseOf(editor.rig->camera, radiusM)));
+        add("camera", cameraText(poseOf(editor.rig->camera, radiusM)));
         add("chunk_size", planet::chunkSize(scene->planet->shape()));
         add("file", scene->planet->file().name());
     }

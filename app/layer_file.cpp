@@ -55,7 +55,7 @@ tl::unexpected<planet::Error> wrong(const fs::path& file, const toml::node& node
 }
 
 // Longer ones would not fit into a recorded flight.
-constexpr std::size_t mostTextBytes = 1000;
+constexpr std::size_t mostNameBytes = 1000;
 
 struct ReadKey {
     const fs::path& file;
@@ -66,10 +66,10 @@ struct ReadKey {
     Result<void> operator()(std::string* text) const {
         Result<std::string> read = readText(file, name, node);
         if (!read) return tl::unexpected(read.error());
-        if (read->size() > mostTextBytes) {
+        if (read->size() > mostNameBytes) {
             return wrong(file, node,
                          fmt::format("{} is {} bytes long; at most {} would be right", name, read->size(),
-                                     mostTextBytes));
+                                     mostNameBytes));
         }
         *text = std::move(*read);
         return {};

@@ -14,8 +14,6 @@ namespace worldy {
 
 namespace {
 
-constexpr double settleTimeoutS = 120;
-
 planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, const planet::Lines& lines) {
     if (!offscreen.lines) {
         planet::Result<planet::gl::DebugLines> made = planet::gl::DebugLines::create();

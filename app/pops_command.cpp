@@ -53,7 +53,7 @@ Json jsonOf(const PopEvent& event, double radiusM) {
             {"largest_facing_px", event.jump.largestFacingPx},
             {"mean_px", event.jump.meanPx},
             {"beside_px", event.besidePx},
-            {"camera", worldy::jsonOf(planet::poseFromView(event.view, radiusM))}};
+            {"camera", poseJson(planet::poseFromView(event.view, radiusM))}};
 }
 
 Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight& flown, double radiusM) {
@@ -121,7 +121,8 @@ Result<void> runPops(const PopsOptions& options) {
     for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
     printSummary(*path, options, *flown);
     if (options.output.empty()) return {};
-    return writeTextFile(options.output, textOf(jsonOf(options, *path, *flown, (*planet)->shape().radiusM)));
+    return writeTextFile(options.output,
+                         jsonText(jsonOf(options, *path, *flown, (*planet)->shape().radiusM)));
 }
 
 }  // namespace worldy

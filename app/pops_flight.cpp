@@ -19,10 +19,7 @@ namespace {
 using planet::PopEvent;
 using planet::Result;
 
-constexpr double settleTimeoutS = 120;
-constexpr double mostFrames = 1e7;
-
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
+constexpr int mostFrames = 10'000'000;
 
 planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double timeS, double fovDeg,
                     const PictureSize& size) {
@@ -36,14 +33,14 @@ planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double
 Result<void> stepOnTime(planet::Planet& planet, const planet::ViewInput& view, double elapsedS,
                         const std::function<bool()>& goOn) {
     const Stopwatch waited;
-    planet.step({&view, 1}, noUpload, elapsedS);
+    planet.step({&view, 1}, planet::noUpload, elapsedS);
     while (!planet.settled()) {
         if (!goOn()) return planet::cancelled();
         if (waited.elapsedMs() > 1000 * settleTimeoutS)
             return planet::ioError(
                 fmt::format("what a view wants was not loaded within {:.0f} s", settleTimeoutS));
         std::this_thread::sleep_for(std::chrono::microseconds(100));
-        planet.step({&view, 1}, noUpload, 0);
+        planet.step({&view, 1}, planet::noUpload, 0);
     }
     return {};
 }
@@ -56,14 +53,9 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
     const planet::LodSettings lod = lodSettingsOf(settings);
     const double startS = path.keys.front().timeS;
     PopsFlight flown;
-    const double steps = std::floor(durationS(path) / stepS);
-    if (!(steps < mostFrames)) {
-        return planet::badInput(fmt::format(
-            "--step-s: {} s over a flight of {} s are more than {} frames; a longer step would be "
-            "right",
-            stepS, durationS(path), mostFrames));
-    }
-    flown.frames = static_cast<int>(steps) + 1;
+    const Result<int> frames = flightViews(path, stepS, mostFrames);
+    if (!frames) return tl::unexpected(frames.error());
+    flown.frames = *frames;
     planet::PopMeter meter;
     for (int i = 0; i < flown.frames; ++i) {
         const auto share = static_cast<double>(i) / flown.frames;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using planet::Result;
 
 constexpr std::size_t maxNameBytes = 60;
-constexpr std::string_view ending = ".toml";
+constexpr std::string_view presetEnding = ".toml";
 
 // Letters of the alphabet alone: enough to keep two files apart where names do not tell case.
 std::string lowered(std::string_view text) {
@@ -76,8 +76,8 @@ void PresetShelf::readFolder(const fs::path& folder, bool shipped) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
         const std::string file = entry.path().filename().string();
         // What is hidden is a file half written, or an editor's own.
-        if (!file.ends_with(ending) || file.starts_with('.') || !isUtf8(file)) continue;
-        const std::string name = file.substr(0, file.size() - ending.size());
+        if (!file.ends_with(presetEnding) || file.starts_with('.') || !isUtf8(file)) continue;
+        const std::string name = file.substr(0, file.size() - presetEnding.size());
         Result<ViewPart> part = loadViewPart(entry.path());
         if (const Preset* same = find(name); same && same->shipped) {
             part = planet::badInput(
@@ -134,7 +134,8 @@ Result<void> PresetShelf::save(std::string_view name, const ui::ViewSettings& se
     std::error_code status;
     fs::create_directories(folders_.own, status);
     // One that differs in case alone is written over under the name that it has.
-    const fs::path file = present ? present->file : folders_.own / (std::string(name) + std::string(ending));
+    const fs::path file =
+        present ? present->file : folders_.own / (std::string(name) + std::string(presetEnding));
     Result<void> written = writeTextFile(file, viewSettingsText(settings));
     reload();
     return written;

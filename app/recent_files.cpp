@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t maxFileBytes = 64u << 10;
+constexpr std::size_t mostListBytes = 64u << 10;
 
 bool isThere(const fs::path& path) {
     if (isWorldName(path)) return worldNamed(path).has_value();
@@ -42,7 +42,7 @@ std::vector<fs::path> loadRecentFiles(const fs::path& file) {
     std::error_code status;
     std::vector<fs::path> recent;
     if (!fs::is_regular_file(file, status)) return recent;  // a pipe would never end
-    std::string text(maxFileBytes, '\0');
+    std::string text(mostListBytes, '\0');
     std::ifstream stream(file, std::ios::binary);
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));

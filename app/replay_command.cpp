@@ -115,7 +115,7 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     printReport(*replay);
     if (!options.output.empty()) {
         const Result<void> written =
-            writeTextFile(options.output, textOf(jsonOf(options, fileName, *replay)));
+            writeTextFile(options.output, jsonText(jsonOf(options, fileName, *replay)));
         if (!written) return tl::unexpected(written.error());
     }
     return !replay->firstDifference() || !options.assignments.empty();

@@ -4,13 +4,11 @@
 
 namespace worldy {
 
-using Json = nlohmann::ordered_json;
-
-std::string textOf(const Json& report) {
-    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string jsonText(const nlohmann::ordered_json& report) {
+    return report.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-Json jsonOf(const planet::CameraPose& pose) {
+nlohmann::ordered_json poseJson(const planet::CameraPose& pose) {
     return {{"latitude_deg", pose.latitudeDeg},
             {"longitude_deg", pose.longitudeDeg},
             {"altitude_m", pose.altitudeM},
@@ -18,7 +16,7 @@ Json jsonOf(const planet::CameraPose& pose) {
             {"pitch_deg", pose.pitchDeg}};
 }
 
-Json jsonOf(const ui::FrameStats& stats) {
+nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
     return {{"visited", stats.selection.visited},
             {"culled_frustum", stats.selection.culledFrustum},
             {"culled_horizon", stats.selection.culledHorizon},

@@ -100,6 +100,9 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
                std::span<const planet::DrawItem> items, bool stitched,
                std::span<const planet::gl::ChunkTint> tints = {});
 
+// What is settled for a picture or a measurement has long done so by then.
+inline constexpr double settleTimeoutS = 120;
+
 // Steps until nothing more is wanted or can be had. False if that takes longer.
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings,
                  double timeoutS);

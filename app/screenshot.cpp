@@ -37,7 +37,7 @@ Result<void> writeScreenshot(const Picture& picture, const fs::path& file, const
     std::vector<PictureText> texts = {{"Software", "Worldy " + version},
                                       {"ImageDescription", note.shotLine},
                                       {settingsKeyword, note.settings},
-                                      {cameraKeyword, textOf(note.camera)},
+                                      {cameraKeyword, cameraText(note.camera)},
                                       {dataSetKeyword, note.dataSet.string()},
                                       {shotLineKeyword, note.shotLine},
                                       {versionKeyword, version}};

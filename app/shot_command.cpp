@@ -40,13 +40,13 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
             {"output", options.output.string()},     {"width_px", options.size.widthPx},
             {"height_px", options.size.heightPx},    {"tau_px", options.view.lod.tauPx},
             {"fov_deg", options.view.camera.fovDeg}, {"settled", view.settled},
-            {"camera", jsonOf(view.pose)},           {"levels", levelHistogram(selection)}};
-        nlohmann::ordered_json drawn = jsonOf(stats);
+            {"camera", poseJson(view.pose)},         {"levels", levelHistogram(selection)}};
+        nlohmann::ordered_json drawn = statsJson(stats);
         // Of a run of frames, and there was one.
         drawn.erase("frame_ms");
         for (const char* key : {"draw_gpu_ms", "chunks_gpu_ms", "sky_gpu_ms"}) drawn.erase(key);
         report.update(drawn);
-        fmt::print("{}", textOf(report));
+        fmt::print("{}", jsonText(report));
         return;
     }
     fmt::print("{}: {} chunks, {} triangles, worst error {:.2f} px, {} read\n", options.output.string(),

@@ -25,7 +25,7 @@ std::string shellWord(std::string_view text) {
     return quoted + "'";
 }
 
-std::string textOf(const planet::CameraPose& pose) {
+std::string cameraText(const planet::CameraPose& pose) {
     return fmt::format("{},{},{},{},{}", pose.latitudeDeg, pose.longitudeDeg, pose.altitudeM, pose.headingDeg,
                        pose.pitchDeg);
 }
@@ -34,7 +34,7 @@ std::string shotLine(const std::filesystem::path& chunkFile, const planet::Camer
                      const PictureSize& size, const ui::ViewSettings& view,
                      const std::filesystem::path& colourImage) {
     std::string line = fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(chunkFile),
-                                   textOf(pose), size.widthPx, size.heightPx);
+                                   cameraText(pose), size.widthPx, size.heightPx);
     if (!colourImage.empty()) line += " --colour-image " + pathWord(colourImage);
     for (const std::string& assignment : assignmentsFor(view)) line += " --set " + shellWord(assignment);
     return line;

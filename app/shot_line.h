@@ -15,7 +15,7 @@ namespace worldy {
 std::string shellWord(std::string_view text);
 
 // "LAT,LON,ALT,HEADING,PITCH" as --camera takes it, with the digits that read back as the same numbers.
-std::string textOf(const planet::CameraPose& pose);
+std::string cameraText(const planet::CameraPose& pose);
 
 // The `worldy shot` line for a view: the camera, and of the settings only those that are not as shot has
 // them. Paths go in as they are given: absolute ones work from any folder. colourImage empty: the one beside

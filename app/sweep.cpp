@@ -67,7 +67,7 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
         for (const Column& column : columns) entry[column.name] = column.of(point);
         report["points"].push_back(std::move(entry));
     }
-    return textOf(report);
+    return jsonText(report);
 }
 
 Result<TauGoal> tauGoalFromText(const std::string& text) {

@@ -27,10 +27,10 @@ constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr int finer = 2;
 constexpr int width = 1100 * finer;
 constexpr int height = 720 * finer;
-constexpr int left = 110 * finer;
-constexpr int right = width - 220 * finer;
-constexpr int top = 60 * finer;
-constexpr int bottom = height - 80 * finer;
+constexpr int plotLeft = 110 * finer;
+constexpr int plotRight = width - 220 * finer;
+constexpr int plotTop = 60 * finer;
+constexpr int plotBottom = height - 80 * finer;
 constexpr int textSize = 14 * finer;
 constexpr Colour ink = {0.10f, 0.11f, 0.13f, 1};
 constexpr Colour faint = {0.86f, 0.87f, 0.89f, 1};
@@ -53,8 +53,12 @@ struct Plot {
     ui::LogAxis errors;
     ui::LogAxis costs;
 
-    int x(double error) const { return left + static_cast<int>(errors.position(error) * (right - left)); }
-    int y(double cost) const { return bottom - static_cast<int>(costs.position(cost) * (bottom - top)); }
+    int x(double error) const {
+        return plotLeft + static_cast<int>(errors.position(error) * (plotRight - plotLeft));
+    }
+    int y(double cost) const {
+        return plotBottom - static_cast<int>(costs.position(cost) * (plotBottom - plotTop));
+    }
 
     bool text(int atX, int atY, const std::string& words, draw::TextAlignX align = draw::TextAlignX::Left,
               const Colour& colour = ink, int size = textSize) {
@@ -76,19 +80,20 @@ struct Plot {
 
 bool drawAxes(Plot& plot, SweepCost cost, const std::string& title) {
     for (const double tick : plot.errors.ticks) {
-        plot.line(plot.x(tick), top, plot.x(tick), bottom, faint);
-        plot.text(plot.x(tick), bottom + 18 * finer, tickText(tick), draw::TextAlignX::Center);
+        plot.line(plot.x(tick), plotTop, plot.x(tick), plotBottom, faint);
+        plot.text(plot.x(tick), plotBottom + 18 * finer, tickText(tick), draw::TextAlignX::Center);
     }
     for (const double tick : plot.costs.ticks) {
-        plot.line(left, plot.y(tick), right, plot.y(tick), faint);
-        plot.text(left - 10 * finer, plot.y(tick), tickText(tick), draw::TextAlignX::Right);
+        plot.line(plotLeft, plot.y(tick), plotRight, plot.y(tick), faint);
+        plot.text(plotLeft - 10 * finer, plot.y(tick), tickText(tick), draw::TextAlignX::Right);
     }
-    plot.line(left, bottom, right, bottom, ink);
-    plot.line(left, top, left, bottom, ink);
-    plot.text((left + right) / 2, bottom + 48 * finer, "worst measured error, pixels",
+    plot.line(plotLeft, plotBottom, plotRight, plotBottom, ink);
+    plot.line(plotLeft, plotTop, plotLeft, plotBottom, ink);
+    plot.text((plotLeft + plotRight) / 2, plotBottom + 48 * finer, "worst measured error, pixels",
               draw::TextAlignX::Center);
-    plot.text(left, top - 16 * finer, costName(cost));
-    return plot.text((left + right) / 2, 22 * finer, title, draw::TextAlignX::Center, ink, textSize * 5 / 4);
+    plot.text(plotLeft, plotTop - 16 * finer, costName(cost));
+    return plot.text((plotLeft + plotRight) / 2, 22 * finer, title, draw::TextAlignX::Center, ink,
+                     textSize * 5 / 4);
 }
 
 // The points of one chunk size and metric, by tau.
@@ -115,18 +120,18 @@ void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
             plot.text(x + 12 * finer, y - 12 * finer, fmt::format("{:g}", point.tauPx),
                       draw::TextAlignX::Left, colour);
         }
-        const int legendY = top + static_cast<int>(index) * 26 * finer;
-        plot.disc(right + 30 * finer, legendY, 5 * finer, colour);
+        const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
+        plot.disc(plotRight + 30 * finer, legendY, 5 * finer, colour);
         plot.text(
-            right + 44 * finer, legendY,
+            plotRight + 44 * finer, legendY,
             fmt::format("{} a side, {}", key.first, errorMetricNames[static_cast<std::size_t>(key.second)]));
         ++index;
     }
-    const int legendY = top + static_cast<int>(index) * 26 * finer;
-    plot.disc(right + 30 * finer, legendY, 9 * finer, ink);
-    plot.disc(right + 30 * finer, legendY, 8 * finer, {1, 1, 1, 1});
-    plot.text(right + 44 * finer, legendY, "Pareto front");
-    plot.text(right + 20 * finer, legendY + 26 * finer, "figures: tau, pixels");
+    const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
+    plot.disc(plotRight + 30 * finer, legendY, 9 * finer, ink);
+    plot.disc(plotRight + 30 * finer, legendY, 8 * finer, {1, 1, 1, 1});
+    plot.text(plotRight + 44 * finer, legendY, "Pareto front");
+    plot.text(plotRight + 20 * finer, legendY + 26 * finer, "figures: tau, pixels");
 }
 
 Picture smaller(const ImageBuf& image) {

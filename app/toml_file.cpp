@@ -10,7 +10,7 @@ namespace worldy {
 
 namespace {
 
-constexpr std::uintmax_t maxFileBytes = 16u << 20;
+constexpr std::uintmax_t mostTomlBytes = 16u << 20;
 
 std::string wanted(std::string_view kind, const NumberRange& range) {
     const std::string unit = range.unit.empty() ? std::string() : fmt::format(" of {}", range.unit);
@@ -91,10 +91,10 @@ planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
         return planet::ioError(fmt::format("{}: no such file; give the path of a TOML file", path.string()));
     }
     if (const std::uintmax_t bytes = std::filesystem::file_size(path, status);
-        !status && bytes > maxFileBytes) {
+        !status && bytes > mostTomlBytes) {
         return planet::badInput(
             fmt::format("{}: is {} bytes large; at most {} would be right for a TOML file", path.string(),
-                        bytes, maxFileBytes));
+                        bytes, mostTomlBytes));
     }
     std::ifstream stream(path, std::ios::binary);
     std::stringstream text;

@@ -30,7 +30,7 @@ std::optional<std::vector<double>> numbersIn(std::string_view text, char separat
     }
 }
 
-struct PoseField {
+struct PoseNumber {
     std::string_view name;
     double planet::CameraPose::*value;
     double min;
@@ -38,7 +38,7 @@ struct PoseField {
 };
 
 using Pose = planet::CameraPose;
-constexpr std::array<PoseField, 5> poseFields = {{
+constexpr std::array<PoseNumber, 5> poseNumbers = {{
     {"latitude", &Pose::latitudeDeg, -90, 90},
     {"longitude", &Pose::longitudeDeg, -360, 360},
     {"altitude", &Pose::altitudeM, -1e6, 2e10},
@@ -61,7 +61,7 @@ planet::Result<PictureSize> pictureSizeFromText(const std::string& text) {
 
 planet::Result<Pose> poseFromText(const std::string& text) {
     const std::optional<std::vector<double>> numbers = numbersIn(text, ',');
-    if (!numbers || numbers->size() < 3 || numbers->size() > poseFields.size()) {
+    if (!numbers || numbers->size() < 3 || numbers->size() > poseNumbers.size()) {
         return planet::badInput(
             fmt::format("--camera: {} is no camera; LAT,LON,ALT,HEADING,PITCH in degrees and metres would be "
                         "right, as 28,86,20000,0,-20",
@@ -69,7 +69,7 @@ planet::Result<Pose> poseFromText(const std::string& text) {
     }
     Pose pose;
     for (std::size_t i = 0; i < numbers->size(); ++i) {
-        const PoseField& field = poseFields[i];
+        const PoseNumber& field = poseNumbers[i];
         if ((*numbers)[i] < field.min || (*numbers)[i] > field.max) {
             return planet::badInput(fmt::format("--camera: {} is {}; {} to {} would be right", field.name,
                                                 (*numbers)[i], field.min, field.max));

@@ -52,7 +52,7 @@ double hazePhase(double g, double cosine) {
 }
 
 // The part of a ray that lies in the air, as seen from where it begins.
-struct Span {
+struct AirSpan {
     double beforeKm = 0;  // from the ray's start to here
     double heightKm = 0;
     double along = 0;  // radius x rise
@@ -60,8 +60,8 @@ struct Span {
     bool meetsGround = false;
 };
 
-Span spanOf(const Atmosphere& air, double heightKm, double rise, double lengthKm) {
-    Span span{0, std::max(heightKm, 0.0), 0, 0, false};
+AirSpan spanOf(const Atmosphere& air, double heightKm, double rise, double lengthKm) {
+    AirSpan span{0, std::max(heightKm, 0.0), 0, 0, false};
     double radius = airRadiusKm + span.heightKm;
     const double top = airRadiusKm + air.topKm;
     span.along = radius * rise;
@@ -88,7 +88,7 @@ Span spanOf(const Atmosphere& air, double heightKm, double rise, double lengthKm
 struct Steps {
     double lowestKm, from, width;
 
-    Steps(const Span& span, int count) : lowestKm(std::clamp(-span.along, 0.0, span.lengthKm)) {
+    Steps(const AirSpan& span, int count) : lowestKm(std::clamp(-span.along, 0.0, span.lengthKm)) {
         from = -std::sqrt(lowestKm);
         width = (std::sqrt(span.lengthKm - lowestKm) - from) / count;
     }
@@ -207,7 +207,7 @@ struct SecondScattering {
 SecondScattering secondAlong(const AirTables& tables, double height, double rise, double sunRise,
                              double sunAlongRay) {
     const Atmosphere& air = tables.air;
-    const Span span = spanOf(air, height, rise, std::numeric_limits<double>::infinity());
+    const AirSpan span = spanOf(air, height, rise, std::numeric_limits<double>::infinity());
     const Steps steps(span, glowSteps);
     SecondScattering sum;
     glm::dvec3 through(1);
@@ -315,7 +315,7 @@ Atmosphere atmosphereOf(const AirSettings& settings) {
 
 glm::dvec3 transmittanceBySteps(const Atmosphere& air, double heightKm, double rise, int steps) {
     // Where the ground would be in the way: along it, at height 0.
-    const Span span = spanOf(air, heightKm, rise, 1e9);
+    const AirSpan span = spanOf(air, heightKm, rise, 1e9);
     const Steps places(span, steps);
     const double radius = airRadiusKm + span.heightKm;
     glm::dvec3 thickness(0);
@@ -350,7 +350,7 @@ glm::dvec3 skyIrradiance(const AirTables& tables, double heightKm, double sunRis
 
 AirLight lightAlong(const AirTables& tables, const AirRay& ray, int stepCount) {
     const Atmosphere& air = tables.air;
-    const Span span = spanOf(air, ray.heightKm, ray.rise, ray.lengthKm);
+    const AirSpan span = spanOf(air, ray.heightKm, ray.rise, ray.lengthKm);
     AirLight light;
     if (span.lengthKm <= 0) return light;
     const double start = airRadiusKm + std::max(ray.heightKm, 0.0);

@@ -35,7 +35,7 @@ inline constexpr std::array<int, 4> chunkSizes = {17, 33, 65, 129};
 struct BakeSettings {
     std::optional<int> faceSize{};     // samples a side, 2^n + 1; the source's natural size where not given
     int chunkSize = 33;                // vertices a side: 17, 33, 65 or 129
-    double radiusM = 6'371'000;        // (0, 1e9]
+    double radiusM = earthRadiusM;     // (0, 1e9]
     std::optional<double> quantumM{};  // the source's own step, or for floats the finest that holds its range
     int threads = 0;                   // 0: one a core
     int compressionLevel = defaultCompressionLevel;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planet/bake_tile.h"
+#include "planet/elapsed.h"
 #include "planet/spread_places.h"
 
 namespace planet {
@@ -43,10 +44,6 @@ struct Sample {
         readS += other.readS;
     }
 };
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // One sample of the tile's corner is enough to have the source read what lies there; where it was read before
 // this takes no time. A tile that lies on several of the source's blocks has its other three corners read
@@ -126,7 +123,7 @@ Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& r
 // Bytes of all sibling blocks: level by level, the finest first, each with a quarter as many as the one
 // before. What a coarser level's block takes more than a finer one's, since its samples lie farther apart, it
 // takes again on the next level; no more than the bare samples would.
-double blockBytes(const PlanetShape& shape, const Sample& sample) {
+double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
     const double cells = chunkCells(shape);
     const double bareBytes = 2 * ((2 * cells + 1) * (2 * cells + 1) - (cells + 1) * (cells + 1)) + 128;
     double bytes = static_cast<double>(sample.leafBlockBytes) / static_cast<double>(sample.leafBlocks);
@@ -198,7 +195,7 @@ Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSetti
     const int threads = bakeThreads(settings);
     const Result<Sample> sample = bakePlaces(context, placesToBake(*shape), threads, goOn);
     if (!sample) return tl::unexpected(sample.error());
-    estimate.fileBytes += blockBytes(*shape, *sample);
+    estimate.fileBytes += estimatedBlockBytes(*shape, *sample);
     estimate.seconds += (sample->readS + sample->bakeS * static_cast<double>(estimate.samples) /
                                              static_cast<double>(sample->finestSamples)) /
                         threads;

@@ -27,7 +27,7 @@ constexpr int samplesPerSide = sampleCells + 1;
 constexpr double maxSecondDerivative = 1.5;
 
 // For unit vectors and what is computed from them in a few operations.
-constexpr double rounding = 1e-14;
+constexpr double boxRounding = 1e-14;
 
 struct Range {
     double low = std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ struct Range {
 
 double marginBetweenSamples(double side) {
     const double g = side / sampleCells;
-    return g * g / 8 * (2 * maxSecondDerivative) + rounding;
+    return g * g / 8 * (2 * maxSecondDerivative) + boxRounding;
 }
 
 using Samples = std::array<glm::dvec3, samplesPerSide * samplesPerSide>;
@@ -77,7 +77,7 @@ OrientedBox boxOf(const ChunkDirections& directions, double minRadiusM, double m
         const double lowM = low * (low < 0 ? maxRadiusM : minRadiusM);
         const double highM = high * (high > 0 ? maxRadiusM : minRadiusM);
         box.centreM += box.axes[static_cast<std::size_t>(a)] * ((lowM + highM) / 2);
-        box.halfSizeM[a] = (highM - lowM) / 2 + rounding * maxRadiusM;
+        box.halfSizeM[a] = (highM - lowM) / 2 + boxRounding * maxRadiusM;
     }
     return box;
 }
@@ -113,7 +113,7 @@ ChunkDirections chunkDirections(const ChunkId& id) {
         }
         directions.low[a] = range.low - margin;
         // No unit vector reaches beyond 1 along an axis, so the top of the box needs no margin.
-        directions.high[a] = std::min(range.high + margin, 1 + rounding);
+        directions.high[a] = std::min(range.high + margin, 1 + boxRounding);
     }
     directions.cone = coneOf(samples, margin);
     return directions;
@@ -174,7 +174,7 @@ Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
                                      glm::dot(horizon.eyeDirection, cone.axis));
     if (toAxis + cone.halfAngleRad < horizon.angleRad) return Containment::Inside;
     const double topM = std::max(bounds.maxRadiusM, horizon.occluderRadiusM);
-    const double reach = horizon.angleRad + angleOf(horizon.occluderRadiusM, topM) + rounding;
+    const double reach = horizon.angleRad + angleOf(horizon.occluderRadiusM, topM) + boxRounding;
     return toAxis - cone.halfAngleRad > reach ? Containment::Outside : Containment::Crossing;
 }
 
@@ -202,7 +202,7 @@ double radiusInsideTriangles(double lowestRadiusM, int rootCells) {
             }
         }
     }
-    return lowestRadiusM * (leastCosine - rounding);
+    return lowestRadiusM * (leastCosine - boxRounding);
 }
 
 }  // namespace planet

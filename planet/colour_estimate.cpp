@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planet/chunk_file_format.h"
+#include "planet/elapsed.h"
 #include "planet/spread_places.h"
 
 namespace planet {
@@ -17,10 +18,6 @@ constexpr std::uint64_t leafTilesPacked = 12;
 constexpr std::uint64_t upperTilesPacked = 6;
 // A thread's own: linear colours, one channel of them, and the tile as sRGB, as texels and packed.
 constexpr std::uint64_t bytesPerTexelAtWork = sizeof(glm::vec3) + sizeof(float) + 3 * 3;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct PackedTiles {
     double readS = 0;        // getting what the source has to read first

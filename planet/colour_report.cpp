@@ -15,7 +15,7 @@ namespace planet {
 
 namespace {
 
-constexpr std::size_t mostProblems = 100;
+constexpr std::size_t mostColourProblems = 100;
 
 Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLocation block,
                            std::vector<ColourLevelReport>& levels, std::uint64_t& bytesLeft) {
@@ -35,9 +35,9 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
 }
 
 // An edge between two tiles of a face, the same from both: along u or v, and where on the level's grid.
-using EdgeKey = std::tuple<Face, int, bool, std::uint32_t, std::uint32_t>;
+using TileEdge = std::tuple<Face, int, bool, std::uint32_t, std::uint32_t>;
 
-struct SeenEdge {
+struct SeenTileEdge {
     ChunkId tile;
     std::uint64_t hash;
 };
@@ -103,7 +103,7 @@ private:
         if (across == 0 || across == 1u << id.level) return;  // a face's own edge
         const std::uint64_t hash = hashOfEdge(rgb, edge);
         const auto [seen, isFirst] =
-            open_.try_emplace(EdgeKey{id.face, id.level, upright, x, y}, SeenEdge{id, hash});
+            open_.try_emplace(TileEdge{id.face, id.level, upright, x, y}, SeenTileEdge{id, hash});
         if (isFirst) return;
         ++report_.edges;
         if (seen->second.hash != hash) {
@@ -126,14 +126,14 @@ private:
 
     void problem(std::string what) {
         ++report_.problemCount;
-        if (report_.problems.size() < mostProblems) report_.problems.push_back(std::move(what));
+        if (report_.problems.size() < mostColourProblems) report_.problems.push_back(std::move(what));
     }
 
     const ChunkFile& file_;
     const ColourPyramid& colour_;
     const ColourSource* source_;
     const std::function<bool()>& goOn_;
-    std::map<EdgeKey, SeenEdge> open_;
+    std::map<TileEdge, SeenTileEdge> open_;
     ColourVerifyReport report_;
 };
 

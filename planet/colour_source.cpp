@@ -16,7 +16,7 @@ using Channels = std::array<HeightSource, channelCount>;
 
 // Samples a side. Channels are sampled in turn, piece by piece: where a piece lies in the image is worked out
 // once for the three.
-constexpr int pieceSide = 65;
+constexpr int colourPieceSide = 65;
 
 // out: the piece's first colour; stride: from one row of it to the next.
 Result<void> samplePiece(const Channels& channels, const SampleTile& piece, glm::vec3* out,
@@ -34,14 +34,14 @@ Result<void> samplePiece(const Channels& channels, const SampleTile& piece, glm:
 
 Result<void> sampleChannels(const Channels& channels, const SampleTile& tile, std::span<glm::vec3> out) {
     const auto stride = static_cast<std::size_t>(tile.columns);
-    for (int row = 0; row < tile.rows; row += pieceSide) {
-        for (int column = 0; column < tile.columns; column += pieceSide) {
+    for (int row = 0; row < tile.rows; row += colourPieceSide) {
+        for (int column = 0; column < tile.columns; column += colourPieceSide) {
             const SampleTile piece{tile.face,
                                    tile.faceCells,
                                    tile.firstColumn + column,
                                    tile.firstRow + row,
-                                   std::min(pieceSide, tile.columns - column),
-                                   std::min(pieceSide, tile.rows - row)};
+                                   std::min(colourPieceSide, tile.columns - column),
+                                   std::min(colourPieceSide, tile.rows - row)};
             glm::vec3* const to =
                 out.data() + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
             if (auto sampled = samplePiece(channels, piece, to, stride); !sampled) return sampled;

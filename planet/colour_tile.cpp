@@ -22,12 +22,12 @@ namespace planet {
 
 namespace {
 
-constexpr auto side = static_cast<std::size_t>(colourTileTexels);
-constexpr std::size_t texelCount = side * side;
+constexpr auto sideTexels = static_cast<std::size_t>(colourTileTexels);
+constexpr std::size_t texelCount = sideTexels * sideTexels;
 constexpr std::size_t blockSide = 4;
 constexpr std::size_t blockTexels = blockSide * blockSide;
-constexpr std::size_t blockBytes = 8;
-constexpr std::size_t halfBlockBytes = blockBytes / 2;
+constexpr std::size_t bc1BlockBytes = 8;
+constexpr std::size_t halfBlockBytes = bc1BlockBytes / 2;
 constexpr int zstdLevel = 9;
 
 // The sRGB transfer function (IEC 61966-2-1), to the nearest of 256.
@@ -75,7 +75,7 @@ std::uint8_t srgbFromLinear(float linear) {
 }
 
 // Texels of a tile's square, by their columns and rows on the face's grid.
-struct Square {
+struct TexelSquare {
     Face face;
     int cells;  // of the face
     int firstColumn;
@@ -83,24 +83,24 @@ struct Square {
     std::vector<glm::vec3> texels;
 
     glm::vec3& at(int column, int row) {
-        return texels[static_cast<std::size_t>(row - firstRow) * side +
+        return texels[static_cast<std::size_t>(row - firstRow) * sideTexels +
                       static_cast<std::size_t>(column - firstColumn)];
     }
 };
 
 // The part of a tile's columns or rows that lies before, on and beyond its face: [begin, end) each.
-struct Span {
+struct TexelRun {
     int begin;
     int end;
 };
-std::array<Span, 3> spansOf(int first, int cells) {
+std::array<TexelRun, 3> spansOf(int first, int cells) {
     const int end = first + colourTileTexels;
     const int onFace = std::clamp(0, first, end);
     const int beyond = std::clamp(cells + 1, first, end);
     return {{{first, onFace}, {onFace, beyond}, {beyond, end}}};
 }
 
-Result<void> fillOnFace(const ColourSource& source, Span columns, Span rows, Square& square) {
+Result<void> fillOnFace(const ColourSource& source, TexelRun columns, TexelRun rows, TexelSquare& square) {
     const SampleTile tile{
         square.face,          square.cells, columns.begin, rows.begin, columns.end - columns.begin,
         rows.end - rows.begin};
@@ -114,7 +114,8 @@ Result<void> fillOnFace(const ColourSource& source, Span columns, Span rows, Squ
 }
 
 // Columns or rows are over one edge of the face.
-Result<void> fillBeyondEdge(const ColourSource& source, Span columns, Span rows, Square& square) {
+Result<void> fillBeyondEdge(const ColourSource& source, TexelRun columns, TexelRun rows,
+                            TexelSquare& square) {
     if (columns.begin == columns.end || rows.begin == rows.end) return {};
     const auto folded = [&](int column, int row) {
         return foldedOver({square.face, column, row}, square.cells);
@@ -142,7 +143,7 @@ Result<void> fillBeyondEdge(const ColourSource& source, Span columns, Span rows,
 }
 
 // Beyond a corner of the cube there is no fourth face: the corner's own colour.
-void fillBeyondCorner(Span columns, Span rows, Square& square) {
+void fillBeyondCorner(TexelRun columns, TexelRun rows, TexelSquare& square) {
     for (int row = rows.begin; row < rows.end; ++row) {
         for (int column = columns.begin; column < columns.end; ++column)
             square.at(column, row) =
@@ -150,9 +151,9 @@ void fillBeyondCorner(Span columns, Span rows, Square& square) {
     }
 }
 
-Result<void> fill(const ColourSource& source, Square& square) {
-    const std::array<Span, 3> columns = spansOf(square.firstColumn, square.cells);
-    const std::array<Span, 3> rows = spansOf(square.firstRow, square.cells);
+Result<void> fill(const ColourSource& source, TexelSquare& square) {
+    const std::array<TexelRun, 3> columns = spansOf(square.firstColumn, square.cells);
+    const std::array<TexelRun, 3> rows = spansOf(square.firstRow, square.cells);
     if (auto filled = fillOnFace(source, columns[1], rows[1], square); !filled) return filled;
     for (const std::size_t outside : {0u, 2u}) {
         if (auto filled = fillBeyondEdge(source, columns[outside], rows[1], square); !filled) return filled;
@@ -165,13 +166,13 @@ Result<void> fill(const ColourSource& source, Square& square) {
 // One plane after the other, each texel as its difference from what those before it foretell (the median
 // predictor of LOCO-I, Weinberger et al. 2000); red and blue as differences from green.
 int foretold(const std::vector<std::uint8_t>& plane, std::size_t i) {
-    const bool firstColumn = i % side == 0;
-    const bool firstRow = i < side;
+    const bool firstColumn = i % sideTexels == 0;
+    const bool firstRow = i < sideTexels;
     const int west = firstColumn ? 0 : plane[i - 1];
-    const int south = firstRow ? 0 : plane[i - side];
+    const int south = firstRow ? 0 : plane[i - sideTexels];
     if (firstColumn) return south;
     if (firstRow) return west;
-    const int corner = plane[i - side - 1];
+    const int corner = plane[i - sideTexels - 1];
     return std::clamp(west + south - corner, std::min(west, south), std::max(west, south));
 }
 
@@ -210,7 +211,7 @@ std::array<unsigned char, 4 * blockTexels> blockAt(std::span<const std::uint8_t>
     std::array<unsigned char, 4 * blockTexels> rgba;
     rgba.fill(255);
     for (std::size_t i = 0; i < blockTexels; ++i) {
-        const std::size_t texel = (row + i / blockSide) * side + column + i % blockSide;
+        const std::size_t texel = (row + i / blockSide) * sideTexels + column + i % blockSide;
         std::copy_n(&rgb[3 * texel], 3, &rgba[4 * i]);
     }
     return rgba;
@@ -221,8 +222,8 @@ std::vector<std::uint8_t> halvesOf(std::span<const std::byte> blocks) {
     std::vector<std::uint8_t> halves(blocks.size());
     const std::size_t middle = blocks.size() / 2;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-        const std::size_t half = i % blockBytes / halfBlockBytes * middle;
-        halves[half + i / blockBytes * halfBlockBytes + i % halfBlockBytes] =
+        const std::size_t half = i % bc1BlockBytes / halfBlockBytes * middle;
+        halves[half + i / bc1BlockBytes * halfBlockBytes + i % halfBlockBytes] =
             std::to_integer<std::uint8_t>(blocks[i]);
     }
     return halves;
@@ -232,8 +233,8 @@ std::vector<std::byte> blocksOfHalves(std::span<const std::uint8_t> halves) {
     std::vector<std::byte> blocks(halves.size());
     const std::size_t middle = halves.size() / 2;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-        const std::size_t half = i % blockBytes / halfBlockBytes * middle;
-        blocks[i] = std::byte{halves[half + i / blockBytes * halfBlockBytes + i % halfBlockBytes]};
+        const std::size_t half = i % bc1BlockBytes / halfBlockBytes * middle;
+        blocks[i] = std::byte{halves[half + i / bc1BlockBytes * halfBlockBytes + i % halfBlockBytes]};
     }
     return blocks;
 }
@@ -241,15 +242,15 @@ std::vector<std::byte> blocksOfHalves(std::span<const std::uint8_t> halves) {
 }  // namespace
 
 std::size_t colourTileBytes(ColourFormat format) {
-    return format == ColourFormat::Bc1 ? texelCount / blockTexels * blockBytes : 3 * texelCount;
+    return format == ColourFormat::Bc1 ? texelCount / blockTexels * bc1BlockBytes : 3 * texelCount;
 }
 
 Result<void> sampleColourTile(const ColourSource& source, const ChunkId& tile, std::span<std::uint8_t> rgb) {
     assert(tile.level <= maxColourLevel && rgb.size() == 3 * texelCount);
-    Square square{tile.face, colourTileCells << tile.level,
-                  static_cast<int>(tile.x) * colourTileCells - colourBorderBefore,
-                  static_cast<int>(tile.y) * colourTileCells - colourBorderBefore,
-                  std::vector<glm::vec3>(texelCount)};
+    TexelSquare square{tile.face, colourTileCells << tile.level,
+                       static_cast<int>(tile.x) * colourTileCells - colourBorderBefore,
+                       static_cast<int>(tile.y) * colourTileCells - colourBorderBefore,
+                       std::vector<glm::vec3>(texelCount)};
     if (auto filled = fill(source, square); !filled) return filled;
     for (std::size_t i = 0; i < texelCount; ++i) {
         for (int channel = 0; channel < 3; ++channel)
@@ -266,11 +267,11 @@ std::vector<std::byte> colourTexels(ColourFormat format, std::span<const std::ui
     }
     std::vector<std::byte> blocks(colourTileBytes(format));
     std::size_t block = 0;
-    for (std::size_t row = 0; row < side; row += blockSide) {
-        for (std::size_t column = 0; column < side; column += blockSide, ++block) {
+    for (std::size_t row = 0; row < sideTexels; row += blockSide) {
+        for (std::size_t column = 0; column < sideTexels; column += blockSide, ++block) {
             const std::array<unsigned char, 4 * blockTexels> rgba = blockAt(rgb, column, row);
-            stb_compress_dxt_block(reinterpret_cast<unsigned char*>(&blocks[block * blockBytes]), rgba.data(),
-                                   0, STB_DXT_HIGHQUAL);
+            stb_compress_dxt_block(reinterpret_cast<unsigned char*>(&blocks[block * bc1BlockBytes]),
+                                   rgba.data(), 0, STB_DXT_HIGHQUAL);
         }
     }
     return blocks;
@@ -294,8 +295,8 @@ std::vector<std::byte> checkerTexels(ColourFormat format) {
     constexpr std::size_t squareTexels = 32;
     std::vector<std::uint8_t> rgb(3 * texelCount, 0);
     for (std::size_t i = 0; i < texelCount; ++i) {
-        const std::size_t column = i % side + squareTexels - colourBorderBefore;
-        const std::size_t row = i / side + squareTexels - colourBorderBefore;
+        const std::size_t column = i % sideTexels + squareTexels - colourBorderBefore;
+        const std::size_t row = i / sideTexels + squareTexels - colourBorderBefore;
         if ((column / squareTexels + row / squareTexels) % 2 == 0) rgb[3 * i] = rgb[3 * i + 2] = 255;
     }
     return colourTexels(format, rgb);

@@ -35,12 +35,12 @@ Face dominantFace(const glm::dvec3& p) {
     return best;
 }
 
-struct Square {
+struct SquarePoint {
     double u, v;
 };
 
 // One Newton step towards u sqrt(1/2 - v^2/6) = s, v sqrt(1/2 - u^2/6) = t, Nowell's map on a face.
-Square refineInverse(Square p, double s, double t) {
+SquarePoint refineInverse(SquarePoint p, double s, double t) {
     const double rootV = std::sqrt(0.5 - p.v * p.v / 6);
     const double rootU = std::sqrt(0.5 - p.u * p.u / 6);
     const double errorS = p.u * rootV - s;
@@ -94,8 +94,8 @@ glm::dvec3 cubeFromSphere(const glm::dvec3& direction) {
     const double b = 2 * t * t;
     const double inner = b - a - 3;
     const double root = std::sqrt(std::max(0.0, inner * inner - 12 * a));
-    Square p{std::copysign(std::sqrt(std::clamp((3 + a - b - root) / 2, 0.0, 1.0)), s),
-             std::copysign(std::sqrt(std::clamp((3 - a + b - root) / 2, 0.0, 1.0)), t)};
+    SquarePoint p{std::copysign(std::sqrt(std::clamp((3 + a - b - root) / 2, 0.0, 1.0)), s),
+                  std::copysign(std::sqrt(std::clamp((3 - a + b - root) / 2, 0.0, 1.0)), t)};
     // ... then Newton's steps win back the digits that its subtraction loses.
     p = refineInverse(p, s, t);
     p = refineInverse(p, s, t);

@@ -13,7 +13,7 @@ namespace {
 
 // --- Measuring a tile
 
-struct Tile {
+struct MeasuredTile {
     const GeometricErrorScratch& grid;
     std::size_t side;  // samples
 
@@ -178,7 +178,7 @@ void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const 
     out.largestM.clear();
     if (out.coarsestLevel > leafLevel(shape) - 2) return;
     facePositions(shape, faceSquareOf(tile), cells + 1, finest, scratch);
-    const Tile grid{scratch, cells + 1};
+    const MeasuredTile grid{scratch, cells + 1};
     for (int level = out.coarsestLevel; level <= leafLevel(shape) - 2; ++level) {
         const std::size_t cell = std::size_t{1} << (leafLevel(shape) - level);
         const std::size_t chunks = chunksAlong(level, tile.level);

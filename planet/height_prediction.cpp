@@ -11,7 +11,7 @@ namespace {
 
 // What a plane's border is taken to be, beyond the block's edge: the inner sample again, the edge's own, or
 // the straight line through both.
-enum class Beyond { Mirror, Hold, Continue };
+enum class BeyondEdge { Mirror, Hold, Continue };
 
 // Weights in 1/1024, summing to 1024 over all the samples that they are for. Found by least squares over
 // ETOPO5's own grid and over grids that oversample it, then rounded.
@@ -21,7 +21,7 @@ struct MiddleWeights {
     int near;    // the 4 coarse samples around
     int ring;    // the 8 coarse samples one further along one axis
     int corner;  // the 4 one further along both
-    Beyond beyond;
+    BeyondEdge beyond;
 };
 
 // Seen along the line of its two coarse samples, and across it, where its two middles are.
@@ -32,41 +32,41 @@ struct OddWeights {
     int across;       // the 4 coarse samples beside the near ones
     int alongMiddle;  // the 4 middles beside the two middles
     int diagonal;     // the 4 samples of OddRow; 0 in OddRow itself
-    Beyond beyond;
+    BeyondEdge beyond;
 };
 
 // The likelier ones first: a fast encoder tries only those.
 constexpr std::array<MiddleWeights, refinementPredictorCount> middlePredictors = {{
-    {331, -39, 3, Beyond::Continue},
-    {340, -48, 12, Beyond::Continue},
-    {331, -39, 3, Beyond::Hold},
-    {256, 0, 0, Beyond::Hold},
-    {350, -62, 30, Beyond::Continue},
-    {340, -48, 12, Beyond::Hold},
-    {331, -39, 3, Beyond::Mirror},
-    {296, -20, 0, Beyond::Continue},
+    {331, -39, 3, BeyondEdge::Continue},
+    {340, -48, 12, BeyondEdge::Continue},
+    {331, -39, 3, BeyondEdge::Hold},
+    {256, 0, 0, BeyondEdge::Hold},
+    {350, -62, 30, BeyondEdge::Continue},
+    {340, -48, 12, BeyondEdge::Hold},
+    {331, -39, 3, BeyondEdge::Mirror},
+    {296, -20, 0, BeyondEdge::Continue},
 }};
 
 constexpr std::array<OddWeights, refinementPredictorCount> oddRowPredictors = {{
-    {263, 415, 16, -51, -40, 0, Beyond::Hold},
-    {346, 330, 20, -31, -61, 0, Beyond::Continue},
-    {263, 415, 16, -51, -40, 0, Beyond::Continue},
-    {256, 256, 0, 0, 0, 0, Beyond::Hold},
-    {346, 330, 20, -31, -61, 0, Beyond::Hold},
-    {314, 310, 16, -16, -48, 0, Beyond::Continue},
-    {263, 415, 16, -51, -40, 0, Beyond::Mirror},
-    {346, 330, 20, -31, -61, 0, Beyond::Mirror},
+    {263, 415, 16, -51, -40, 0, BeyondEdge::Hold},
+    {346, 330, 20, -31, -61, 0, BeyondEdge::Continue},
+    {263, 415, 16, -51, -40, 0, BeyondEdge::Continue},
+    {256, 256, 0, 0, 0, 0, BeyondEdge::Hold},
+    {346, 330, 20, -31, -61, 0, BeyondEdge::Hold},
+    {314, 310, 16, -16, -48, 0, BeyondEdge::Continue},
+    {263, 415, 16, -51, -40, 0, BeyondEdge::Mirror},
+    {346, 330, 20, -31, -61, 0, BeyondEdge::Mirror},
 }};
 
 constexpr std::array<OddWeights, refinementPredictorCount> oddColumnPredictors = {{
-    {477, 381, 4, -7, -34, -134, Beyond::Hold},
-    {363, 327, 12, -26, -50, -19, Beyond::Continue},
-    {448, 420, 6, -14, -28, -139, Beyond::Hold},
-    {256, 256, 0, 0, 0, 0, Beyond::Hold},
-    {477, 381, 4, -7, -34, -134, Beyond::Mirror},
-    {477, 381, 4, -7, -34, -134, Beyond::Continue},
-    {363, 327, 12, -26, -50, -19, Beyond::Hold},
-    {448, 420, 6, -14, -28, -139, Beyond::Continue},
+    {477, 381, 4, -7, -34, -134, BeyondEdge::Hold},
+    {363, 327, 12, -26, -50, -19, BeyondEdge::Continue},
+    {448, 420, 6, -14, -28, -139, BeyondEdge::Hold},
+    {256, 256, 0, 0, 0, 0, BeyondEdge::Hold},
+    {477, 381, 4, -7, -34, -134, BeyondEdge::Mirror},
+    {477, 381, 4, -7, -34, -134, BeyondEdge::Continue},
+    {363, 327, 12, -26, -50, -19, BeyondEdge::Hold},
+    {448, 420, 6, -14, -28, -139, BeyondEdge::Continue},
 }};
 
 constexpr bool sumsToOne(const MiddleWeights& w) {
@@ -84,13 +84,13 @@ std::int16_t roundedSample(std::int32_t weighted) {
     return static_cast<std::int16_t>(std::clamp(rounded, -32768, 32767));
 }
 
-std::int32_t beyondEdge(std::int32_t edge, std::int32_t inner, Beyond beyond) {
+std::int32_t beyondEdge(std::int32_t edge, std::int32_t inner, BeyondEdge beyond) {
     switch (beyond) {
-        case Beyond::Mirror:
+        case BeyondEdge::Mirror:
             return inner;
-        case Beyond::Hold:
+        case BeyondEdge::Hold:
             return edge;
-        case Beyond::Continue:
+        case BeyondEdge::Continue:
             break;
     }
     return 2 * edge - inner;
@@ -112,7 +112,7 @@ void holdBorder(BorderedPlane& plane) {
     std::copy_n(plane.row(plane.rows - 1) - 1, columns + 2, plane.row(plane.rows) - 1);
 }
 
-void extendCoarse(BorderedPlane& coarse, Beyond beyond) {
+void extendCoarse(BorderedPlane& coarse, BeyondEdge beyond) {
     const int last = coarse.rows - 1;
     for (int y = 0; y <= last; ++y) {
         std::int32_t* const row = coarse.row(y);
@@ -127,7 +127,7 @@ void extendCoarse(BorderedPlane& coarse, Beyond beyond) {
 
 // The edge between the block's outermost middles and those beyond is interpolated from the coarse samples on
 // it.
-void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, Beyond beyond) {
+void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, BeyondEdge beyond) {
     const int cells = middle.rows;
     const auto edgeInRow = [&](int y, int x) {
         const std::int32_t* const k = coarse.row(y) + x;
@@ -149,7 +149,7 @@ void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, Beyond bey
 }
 
 // Only above and below: OddColumn looks no further. The edge is a row of coarse samples.
-void extendOddRow(BorderedPlane& oddRow, const BorderedPlane& coarse, Beyond beyond) {
+void extendOddRow(BorderedPlane& oddRow, const BorderedPlane& coarse, BeyondEdge beyond) {
     const int cells = oddRow.rows;
     for (int x = 0; x <= cells; ++x) {
         oddRow.row(-1)[x] = beyondEdge(coarse.row(0)[x], oddRow.row(0)[x], beyond);
@@ -198,7 +198,7 @@ void RefinementPredictor::setCoarse(std::span<const std::int16_t> coarse) {
     const int side = cells_ + 1;
     assert(coarse.size() == static_cast<std::size_t>(side * side));
     for (int y = 0; y < side; ++y) std::copy_n(coarse.begin() + y * side, side, coarse_.row(y));
-    extendCoarse(coarse_, Beyond::Continue);
+    extendCoarse(coarse_, BeyondEdge::Continue);
     for (int y = 0; y < side; ++y) {
         const std::int32_t* const up = coarse_.row(y - 1);
         const std::int32_t* const here = coarse_.row(y);
@@ -244,7 +244,7 @@ void RefinementPredictor::beginMiddle() {
 }
 
 void RefinementPredictor::beginOddRow() {
-    const Beyond beyond = oddRowPredictors[predictor_].beyond;
+    const BeyondEdge beyond = oddRowPredictors[predictor_].beyond;
     holdBorder(middleError_);
     extendCoarse(coarse_, beyond);
     extendMiddle(middle_, coarse_, beyond);
@@ -256,7 +256,7 @@ void RefinementPredictor::beginOddRow() {
 }
 
 void RefinementPredictor::beginOddColumn() {
-    const Beyond beyond = oddColumnPredictors[predictor_].beyond;
+    const BeyondEdge beyond = oddColumnPredictors[predictor_].beyond;
     holdBorder(oddRowError_);
     extendCoarse(coarse_, beyond);
     extendMiddle(middle_, coarse_, beyond);

@@ -15,7 +15,7 @@ namespace planet {
 
 namespace {
 
-constexpr int pieceSide = 65;        // samples a side, of a piece that gathers its craters
+constexpr int craterPieceSide = 65;  // samples a side, of a piece that gathers its craters
 constexpr double rimShare = 0.2;     // of the depth
 constexpr double ejectaReach = 2.4;  // radii
 constexpr double depthsDeep = 2.5;   // heights are held to this many of the largest crater's depths
@@ -37,11 +37,6 @@ struct Crater {
     double depthM = 0;
     double flatness = 0;  // 0: a bowl, 1: a flat floor with a peak
 };
-
-double smoothly(double from, double to, double value) {
-    const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 // At a distance from the middle in radii; 0 from ejectaReach on.
 double profileM(const Crater& crater, double x) {
@@ -172,7 +167,7 @@ HeightSource craterSource(const CraterTerrain& terrain) {
     source.maxM = field->maxM;
     source.sample = [shared = std::shared_ptr<const CraterField>(field)](const SampleTile& tile,
                                                                          std::span<float> out) {
-        return sampleInPieces(tile, pieceSide, out,
+        return sampleInPieces(tile, craterPieceSide, out,
                               [&](const SampleTile& piece, float* to, std::size_t stride) {
                                   return samplePiece(*shared, piece, to, stride);
                               });

@@ -24,12 +24,6 @@ struct Detail {
     int cells = 0;       // of the source's own grid
 };
 
-double smoothly(double from, double to, double value) {
-    if (to <= from) return value > from ? 1 : 0;
-    const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
 // Samples of the source's own grid that may reach one step over the edges of their face.
 class OwnGrid {
 public:

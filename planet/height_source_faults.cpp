@@ -17,9 +17,9 @@ namespace planet {
 namespace {
 
 constexpr double unitsPerM = 65536;
-constexpr double reachW = 12;   // a soft step has come to its end this many widths away: e^-12 / 2 is 3e-6
-constexpr int pieceSide = 33;   // samples a side, of a piece that shares its far faults
-constexpr double rangeRms = 5;  // of many faults, less than one in a million places lies beyond
+constexpr double reachW = 12;  // a soft step has come to its end this many widths away: e^-12 / 2 is 3e-6
+constexpr int faultPieceSide = 33;  // samples a side, of a piece that shares its far faults
+constexpr double rangeRms = 5;      // of many faults, less than one in a million places lies beyond
 
 struct Fault {
     glm::dvec3 normal;       // of the plane; the ground beyond it is raised
@@ -144,7 +144,7 @@ HeightSource faultSource(const FaultTerrain& terrain) {
     source.maxM = faults->maxM;
     source.sample = [shared = std::shared_ptr<const Faults>(faults)](const SampleTile& tile,
                                                                      std::span<float> out) {
-        return sampleInPieces(tile, pieceSide, out,
+        return sampleInPieces(tile, faultPieceSide, out,
                               [&](const SampleTile& piece, float* to, std::size_t stride) {
                                   return samplePiece(*shared, piece, to, stride);
                               });

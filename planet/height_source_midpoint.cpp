@@ -21,9 +21,9 @@ namespace planet {
 
 namespace {
 
-constexpr int fractionBits = 30;  // the first offsets lie within +-2^30
-constexpr int measuredLevel = 6;  // grid whose extremes are looked up
-constexpr int pieceSide = 129;    // samples a side, 133 kB
+constexpr int fractionBits = 30;        // the first offsets lie within +-2^30
+constexpr int measuredLevel = 6;        // grid whose extremes are looked up
+constexpr int midpointPieceSide = 129;  // samples a side, 133 kB
 
 struct Midpoint {
     std::uint64_t seed = 0;
@@ -295,7 +295,7 @@ HeightSource midpointSource(const MidpointTerrain& settings) {
     source.minM = terrain.minM;
     source.maxM = terrain.maxM;
     source.sample = [terrain](const SampleTile& tile, std::span<float> out) {
-        return sampleInPieces(tile, pieceSide, out,
+        return sampleInPieces(tile, midpointPieceSide, out,
                               [&](const SampleTile& piece, float* to, std::size_t stride) {
                                   return samplePiece(terrain, piece, to, stride);
                               });

@@ -16,7 +16,7 @@ namespace planet {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // What a material is painted as, before it is lit into bytes.
 struct Canvas {

@@ -20,6 +20,14 @@
 
 namespace planet {
 
+// A block used in one of the last frames is not dropped: a camera that shakes would have it loaded and
+// dropped in turns.
+inline constexpr std::uint64_t framesKept = 4;
+
+// Where all that is resident is in use, a block yields to one that is wanted this many times as much: so many
+// times that the two never take turns.
+inline constexpr float yieldFactor = 1.5f;
+
 enum class PagingType : std::uint8_t { PageIn, PageOut };
 inline constexpr int pagingTypeCount = 2;
 

@@ -96,11 +96,11 @@ struct Extent {
 };
 
 // Chunks are searched in tiles of so many cells a side, since most tiles can be passed over at once.
-constexpr int tileCells = 8;
-constexpr int tileSide = tileCells + 1;
+constexpr int pickCells = 8;
+constexpr int pickSide = pickCells + 1;
 
 // A chunk's grid, and the tile in it whose first cell is (column, row).
-struct Tile {
+struct PickTile {
     const PlanetShape& shape;
     const ChunkNode& node;
     FaceSquare square;
@@ -119,47 +119,47 @@ struct Tile {
 
 // Whether the ray may meet one of the tile's triangles. Every direction in a square of side s lies within
 // 3 s^2 / 8 of the bilinear hull of its corners' (see bounds.cpp).
-bool mayBeHit(const Tile& tile, const Ray& ray) {
+bool mayBeHit(const PickTile& tile, const Ray& ray) {
     std::int16_t lowest = std::numeric_limits<std::int16_t>::max();
     std::int16_t highest = std::numeric_limits<std::int16_t>::min();
-    for (int j = tile.row; j <= tile.row + tileCells; ++j) {
-        for (int i = tile.column; i <= tile.column + tileCells; ++i) {
+    for (int j = tile.row; j <= tile.row + pickCells; ++j) {
+        for (int i = tile.column; i <= tile.column + pickCells; ++i) {
             lowest = std::min(lowest, tile.step(i, j));
             highest = std::max(highest, tile.step(i, j));
         }
     }
     Extent extent;
-    for (const int j : {tile.row, tile.row + tileCells}) {
-        for (const int i : {tile.column, tile.column + tileCells}) {
+    for (const int j : {tile.row, tile.row + pickCells}) {
+        for (const int i : {tile.column, tile.column + pickCells}) {
             const glm::dvec3 direction = tile.direction(i, j);
             for (const std::int16_t step : {lowest, highest}) {
                 extent.add(fromRay(ray, positionM(tile.shape, direction, heightM(tile.shape, step))));
             }
         }
     }
-    const double side = tile.square.side * tileCells / chunkCells(tile.shape);
+    const double side = tile.square.side * pickCells / chunkCells(tile.shape);
     const double highestM = tile.shape.radiusM + heightM(tile.shape, highest);
     return extent.holdsRay((3 * side * side / 8 + 1e-14) * highestM);
 }
 
-double nearestInTile(const Tile& tile, const Ray& ray) {
-    std::array<glm::dvec3, tileSide * tileSide> vertices;
-    for (int j = 0; j < tileSide; ++j) {
-        for (int i = 0; i < tileSide; ++i) {
+double nearestInTile(const PickTile& tile, const Ray& ray) {
+    std::array<glm::dvec3, pickSide * pickSide> vertices;
+    for (int j = 0; j < pickSide; ++j) {
+        for (int i = 0; i < pickSide; ++i) {
             const int column = tile.column + i;
             const int row = tile.row + j;
             const double height = heightM(tile.shape, tile.step(column, row));
-            vertices[static_cast<std::size_t>(j * tileSide + i)] =
+            vertices[static_cast<std::size_t>(j * pickSide + i)] =
                 fromRay(ray, positionM(tile.shape, tile.direction(column, row), height));
         }
     }
     double nearest = infinity;
-    for (std::size_t j = 0; j < tileCells; ++j) {
-        for (std::size_t i = 0; i < tileCells; ++i) {
-            const glm::dvec3* const southWest = &vertices[j * tileSide + i];
-            const glm::dvec3* const northEast = southWest + tileSide + 1;
+    for (std::size_t j = 0; j < pickCells; ++j) {
+        for (std::size_t i = 0; i < pickCells; ++i) {
+            const glm::dvec3* const southWest = &vertices[j * pickSide + i];
+            const glm::dvec3* const northEast = southWest + pickSide + 1;
             nearest = std::min({nearest, triangleM(*southWest, southWest[1], *northEast),
-                                triangleM(*southWest, *northEast, southWest[tileSide])});
+                                triangleM(*southWest, *northEast, southWest[pickSide])});
         }
     }
     return nearest;
@@ -167,9 +167,9 @@ double nearestInTile(const Tile& tile, const Ray& ray) {
 
 double nearestInChunk(const PlanetShape& shape, const ChunkNode& node, const Ray& ray) {
     double nearest = infinity;
-    Tile tile{shape, node, faceSquareOf(node.id), 0, 0};
-    for (tile.row = 0; tile.row < chunkCells(shape); tile.row += tileCells) {
-        for (tile.column = 0; tile.column < chunkCells(shape); tile.column += tileCells) {
+    PickTile tile{shape, node, faceSquareOf(node.id), 0, 0};
+    for (tile.row = 0; tile.row < chunkCells(shape); tile.row += pickCells) {
+        for (tile.column = 0; tile.column < chunkCells(shape); tile.column += pickCells) {
             if (mayBeHit(tile, ray)) nearest = std::min(nearest, nearestInTile(tile, ray));
         }
     }

@@ -154,6 +154,9 @@ struct StageTimes {
 // Makes one chunk's heights drawable: chunkVertexCount steps into a slot below slotCapacity().
 using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
 
+// For whom nothing is drawn.
+inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
+
 // What a planet is made of: a chunk file, or for tests and generated planets anything that acts like one.
 struct PlanetSource {
     PlanetShape shape;

@@ -12,12 +12,12 @@ namespace planet {
 namespace {
 
 // Whoever never asks for them must not pay for them.
-constexpr std::size_t mostProblems = 1000;
+constexpr std::size_t mostProblemsKept = 1000;
 
 }  // namespace
 
 void Planet::State::tell(std::string problem) {
-    if (problems.size() < mostProblems) problems.push_back(std::move(problem));
+    if (problems.size() < mostProblemsKept) problems.push_back(std::move(problem));
 }
 
 std::optional<double> Planet::State::untilRetryS() const {

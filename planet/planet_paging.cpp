@@ -12,13 +12,7 @@ namespace planet {
 
 namespace {
 
-// A block used in one of the last frames is not dropped: a camera that shakes would have it loaded and
-// dropped in turns.
-constexpr std::uint64_t framesKept = 4;
-
-// Where all that is resident is in use, a block yields to one that is wanted this many times as much: so many
-// times that the two never take turns. A few a frame, since what yields is drawn coarser at once.
-constexpr float yieldFactor = 1.5f;
+// A few a frame, since what yields is drawn coarser at once.
 constexpr std::size_t yieldsPerFrame = 8;
 
 constexpr std::size_t eventsKept = 1000;

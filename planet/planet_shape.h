@@ -10,12 +10,14 @@ namespace planet {
 
 inline constexpr int maxFaceCellsLog2 = 22;  // grid coordinates stay exact in a float
 
+inline constexpr double earthRadiusM = 6'371'000;  // mean
+
 struct PlanetShape {
-    double radiusM = 6'371'000;  // height 0 lies here; (0, 1e9]
-    double quantumM = 1;         // metres a stored step; > 0
-    double baseHeightM = 0;      // height of stored step 0
-    int faceCellsLog2 = 11;      // a face has 2^this cells a side; [chunkCellsLog2, maxFaceCellsLog2]
-    int chunkCellsLog2 = 5;      // a chunk has 2^this cells a side; [4, 7]
+    double radiusM = earthRadiusM;  // height 0 lies here; (0, 1e9]
+    double quantumM = 1;            // metres a stored step; > 0
+    double baseHeightM = 0;         // height of stored step 0
+    int faceCellsLog2 = 11;         // a face has 2^this cells a side; [chunkCellsLog2, maxFaceCellsLog2]
+    int chunkCellsLog2 = 5;         // a chunk has 2^this cells a side; [4, 7]
 };
 
 constexpr int faceCells(const PlanetShape& shape) {

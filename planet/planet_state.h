@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "planet/elapsed.h"
 #include "planet/normal_tile.h"
 #include "planet/planet.h"
 #include "planet/tile_paging.h"
@@ -141,10 +142,6 @@ private:
     void forgetGone();
     void afterDrops();
 };
-
-inline double msSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 // For what is there from the start or not at all: a disk that stumbles is asked again at once.
 template <class Read>

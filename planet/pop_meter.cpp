@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "planet/elapsed.h"
 #include "planet/parallel.h"
 #include "planet/percentile.h"
 
@@ -96,8 +97,7 @@ void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View
             const auto start = std::chrono::steady_clock::now();
             measure(tree.shape, now, switches);
             measureBeside(tree.shape, now, switches);
-            totals_.measuringS +=
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            totals_.measuringS += secondsSince(start);
             now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
             for (const Switch& change : switches) note(now, change);
         }

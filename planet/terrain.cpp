@@ -116,89 +116,90 @@ constexpr std::array ridgedFields = {
     offsetField<Ridged>(),
 };
 
-using Fault = FaultTerrain;
 constexpr std::array faultFields = {
-    seedField<Fault>(),
+    seedField<FaultTerrain>(),
     usually(1, 3000,
-            field<&Fault::count>(
+            field<&FaultTerrain::count>(
                 "count", "Faults", "", 1, 20000, true,
                 "Planes that cut the sphere, n. Few: single steps show; many: the bake takes longer, "
                 "in proportion.")),
     usually(0, 2000,
-            field<&Fault::maxDeltaM>("max_delta_m", "First step", "m", 0, 1e6, true,
-                                     "Height of the first fault. dt = max - (max - min) i / n.")),
+            field<&FaultTerrain::maxDeltaM>("max_delta_m", "First step", "m", 0, 1e6, true,
+                                            "Height of the first fault. dt = max - (max - min) i / n.")),
     usually(0, 2000,
-            field<&Fault::minDeltaM>("min_delta_m", "Last step", "m", 0, 1e6, true,
-                                     "Height that the last faults come down to, at most the first one's.")),
+            field<&FaultTerrain::minDeltaM>(
+                "min_delta_m", "Last step", "m", 0, 1e6, true,
+                "Height that the last faults come down to, at most the first one's.")),
     usually(0, 10,
-            field<&Fault::smoothDeg>(
+            field<&FaultTerrain::smoothDeg>(
                 "smooth_deg", "Smoothing", "deg of arc", 0, 30, true,
                 "Width w of a fault's soft step, e^(-x/w): the limit of the books' filter with "
                 "k = e^(-spacing/w). 0: cliffs of one grid step; large: gentle swells.")),
-    offsetField<Fault>(),
+    offsetField<FaultTerrain>(),
 };
 
-using Midpoint = MidpointTerrain;
 constexpr std::array midpointFields = {
-    seedField<Midpoint>(),
-    field<&Midpoint::roughness>(
+    seedField<MidpointTerrain>(),
+    field<&MidpointTerrain::roughness>(
         "roughness", "Roughness", "", 0, 1, false,
         "Offsets shrink by 2^-(1 - roughness) with each halving; the surface's "
         "fractal dimension is 2 + roughness. 0: smooth swells; 1: noise on every scale."),
-    amplitudeField<Midpoint>("All heights lie within this of the offset."),
-    offsetField<Midpoint>(),
+    amplitudeField<MidpointTerrain>("All heights lie within this of the offset."),
+    offsetField<MidpointTerrain>(),
 };
 
-using Crater = CraterTerrain;
 constexpr std::array craterFields = {
-    seedField<Crater>(),
-    field<&Crater::sizes>(
+    seedField<CraterTerrain>(),
+    field<&CraterTerrain::sizes>(
         "sizes", "Crater sizes", "", 1, 16, false,
         "How often diameters halve from the largest on. More: smaller craters, and a longer "
         "bake. Those under four grid steps are left out."),
     usually(0.1, 60,
-            field<&Crater::largestDeg>("largest_deg", "Largest crater", "deg of arc", 0.01, 60, true,
-                                       "Its diameter. On the Moon a degree is 30 km.")),
+            field<&CraterTerrain::largestDeg>("largest_deg", "Largest crater", "deg of arc", 0.01, 60, true,
+                                              "Its diameter. On the Moon a degree is 30 km.")),
     usually(0, 15000,
-            field<&Crater::depthM>("depth_m", "Its depth", "m", 0, 1e5, true,
-                                   "Of the largest crater, from the ground around it to its floor.")),
-    field<&Crater::depthPower>("depth_power", "Depth power", "", 0.2, 1.5, false,
-                               "Depth goes with diameter to this power. 1: all of the same shape; lower: "
-                               "small ones are deep for their size, as real ones are."),
-    field<&Crater::density>("density", "Density", "", 0, 1, false,
-                            "Share of the lattice's cells that hold a crater."),
-    octavesField<Crater>(24, octavesAbout),
-    gainField<Crater>(),
-    amplitudeField<Crater>("Of the ground beneath the craters: five times its root mean square."),
-    featureField<Crater>(),
-    offsetField<Crater>(),
+            field<&CraterTerrain::depthM>("depth_m", "Its depth", "m", 0, 1e5, true,
+                                          "Of the largest crater, from the ground around it to its floor.")),
+    field<&CraterTerrain::depthPower>(
+        "depth_power", "Depth power", "", 0.2, 1.5, false,
+        "Depth goes with diameter to this power. 1: all of the same shape; lower: "
+        "small ones are deep for their size, as real ones are."),
+    field<&CraterTerrain::density>("density", "Density", "", 0, 1, false,
+                                   "Share of the lattice's cells that hold a crater."),
+    octavesField<CraterTerrain>(24, octavesAbout),
+    gainField<CraterTerrain>(),
+    amplitudeField<CraterTerrain>("Of the ground beneath the craters: five times its root mean square."),
+    featureField<CraterTerrain>(),
+    offsetField<CraterTerrain>(),
 };
 
-using Detail = DetailTerrain;
 constexpr std::array detailFields = {
-    seedField<Detail>(),
-    octavesField<Detail>(16,
-                         "Layers below the source's own resolution, each finer: 6 of them make 76 m of the "
-                         "Earth's 4.9 km. Shown as far as the face size holds them."),
-    lacunarityField<Detail>(),
-    gainField<Detail>(),
-    field<&Detail::strength>("strength", "Strength", "", 0, 8, false,
-                             "Height of the detail against the source's own relief at a place. 1: goes on as "
-                             "the source ends; high: spiky mountains."),
-    field<&Detail::ridged>("ridged", "Ridged", "", 0, 1, false, "0: round hills; 1: ridges."),
+    seedField<DetailTerrain>(),
+    octavesField<DetailTerrain>(
+        16,
+        "Layers below the source's own resolution, each finer: 6 of them make 76 m of the "
+        "Earth's 4.9 km. Shown as far as the face size holds them."),
+    lacunarityField<DetailTerrain>(),
+    gainField<DetailTerrain>(),
+    field<&DetailTerrain::strength>(
+        "strength", "Strength", "", 0, 8, false,
+        "Height of the detail against the source's own relief at a place. 1: goes on as "
+        "the source ends; high: spiky mountains."),
+    field<&DetailTerrain::ridged>("ridged", "Ridged", "", 0, 1, false, "0: round hills; 1: ridges."),
     usually(0, 5000,
-            field<&Detail::limitM>(
+            field<&DetailTerrain::limitM>(
                 "limit_m", "Limit", "m", 0, 1e5, true,
                 "Never more than this is added or taken away. High: a coarser quantum is needed.")),
     usually(0, 500,
-            field<&Detail::flatM>(
+            field<&DetailTerrain::flatM>(
                 "flat_m", "Flat below", "m", 0, 1e5, true,
                 "Relief from sample to sample up to this counts as flat, and stays as it is; up to "
                 "three times this, detail fades in.")),
     usually(-8000, 8000,
-            field<&Detail::seaM>("sea_m", "Sea level", "m", -1e6, 1e6, false, "Below it detail fades out.")),
+            field<&DetailTerrain::seaM>("sea_m", "Sea level", "m", -1e6, 1e6, false,
+                                        "Below it detail fades out.")),
     usually(0, 2000,
-            field<&Detail::coastM>(
+            field<&DetailTerrain::coastM>(
                 "coast_m", "Coast", "m", 0, 1e5, true,
                 "Detail fades from all at this height above the sea to none at this depth below. "
                 "0: to none at the coast, which shows; large: the sea floor gets detail too.")),
@@ -209,13 +210,13 @@ const std::array kinds = {
                 fractalFields},
     TerrainKind{"noise:ridged", "Ridged",
                 "Mountain chains with sharp crests: Musgrave's ridged multifractal.", Ridged{}, ridgedFields},
-    TerrainKind{"noise:faults", "Faults", "Random faults, each raising one side, smoothed.", Fault{},
+    TerrainKind{"noise:faults", "Faults", "Random faults, each raising one side, smoothed.", FaultTerrain{},
                 faultFields},
-    TerrainKind{"noise:midpoint", "Midpoint", "Midpoint displacement by diamonds and squares.", Midpoint{},
-                midpointFields},
-    TerrainKind{"noise:craters", "Craters", "Craters of many sizes over rolling ground.", Crater{},
+    TerrainKind{"noise:midpoint", "Midpoint", "Midpoint displacement by diamonds and squares.",
+                MidpointTerrain{}, midpointFields},
+    TerrainKind{"noise:craters", "Craters", "Craters of many sizes over rolling ground.", CraterTerrain{},
                 craterFields},
-    TerrainKind{"detail", "Detail", "Another source with detail below its own resolution.", Detail{},
+    TerrainKind{"detail", "Detail", "Another source with detail below its own resolution.", DetailTerrain{},
                 detailFields},
 };
 
@@ -243,7 +244,7 @@ Result<void> checkTerrain(const TerrainSettings& settings) {
                                     value, setting.least, setting.most, setting.unit.empty() ? "" : " ",
                                     setting.unit));
     }
-    if (const Fault* faults = std::get_if<Fault>(&settings);
+    if (const FaultTerrain* faults = std::get_if<FaultTerrain>(&settings);
         faults && faults->minDeltaM > faults->maxDeltaM) {
         return badInput(fmt::format("{}: min_delta_m is {}; it must be at most max_delta_m, {} m", kind.name,
                                     faults->minDeltaM, faults->maxDeltaM));

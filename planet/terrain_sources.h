@@ -24,6 +24,13 @@ namespace planet {
 inline constexpr int mostNaturalCells = 2048;
 inline constexpr int leastNaturalCells = 128;
 
+// From 0 to 1 without a bend.
+inline double smoothly(double from, double to, double value) {
+    if (to <= from) return value > from ? 1 : 0;
+    const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
 constexpr double radFromDeg(double deg) {
     return deg * std::numbers::pi / 180;
 }

@@ -12,11 +12,6 @@ namespace planet {
 
 namespace {
 
-// As with chunks: what a camera that shakes looks at in turns is not dropped in turns.
-constexpr std::uint64_t framesKept = 4;
-// A block yields to one that is wanted so many times as much.
-constexpr float yieldFactor = 1.5f;
-
 // A tile has become resident whose children may be known to fail. Those that are shown as checkers are Absent
 // until there is room for these.
 void recall(const BlockFailures& failures, TileNode& node, bool staysAway, double sinceAnewS) {

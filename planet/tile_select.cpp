@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-struct Frame {
+struct TileFrame {
     const TileTree& tiles;
     const ChunkTree& chunks;
     const TileSettings& settings;
@@ -25,12 +25,13 @@ NodeIndex chunkOver(const ChunkTree& chunks, NodeIndex above, const ChunkId& til
     return node.firstChild + static_cast<NodeIndex>(quadrantOf(ancestorOf(tile, node.id.level + 1)));
 }
 
-ChunkBounds boundsOf(const Frame& frame, const TileNode& tile, const ChunkNode& ground) {
+ChunkBounds boundsOf(const TileFrame& frame, const TileNode& tile, const ChunkNode& ground) {
     return chunkBounds(tile.directions, frame.chunks.shape.radiusM, static_cast<double>(ground.minHeightM),
                        static_cast<double>(ground.maxHeightM));
 }
 
-void visit(const Frame& frame, NodeIndex index, NodeIndex chunkAbove, OpenTests open, TileSelection& out) {
+void visit(const TileFrame& frame, NodeIndex index, NodeIndex chunkAbove, OpenTests open,
+           TileSelection& out) {
     const TileNode& tile = frame.tiles.nodes[index];
     ++out.counters.visited;
     out.touched.push_back(index);
@@ -69,12 +70,12 @@ void selectTiles(const TileTree& tiles, const ChunkTree& chunks, const View& lod
     selection.touched.clear();
     selection.counters = {};
     if (tiles.nodes.empty() || !settings.enabled) return;
-    const Frame frame{tiles,
-                      chunks,
-                      settings,
-                      lodView.eyeM,
-                      screenScalePx(lodView),
-                      {frustumOf(lodView), horizonOf(lodView.eyeM, chunks.occluderRadiusM)}};
+    const TileFrame frame{tiles,
+                          chunks,
+                          settings,
+                          lodView.eyeM,
+                          screenScalePx(lodView),
+                          {frustumOf(lodView), horizonOf(lodView.eyeM, chunks.occluderRadiusM)}};
     const OpenTests all = openTests(lod.frustumCulling, lod.horizonCulling);
     for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, root, all, selection);
     std::sort(selection.requests.begin(), selection.requests.end(),

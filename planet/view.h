@@ -26,6 +26,8 @@ struct View {
     double horizontalFovRad = 1.0471975511965976;  // (0, pi)
     int widthPx = 1280;
     int heightPx = 720;
+
+    bool operator==(const View&) const = default;
 };
 
 View viewFromPose(const CameraPose& pose, double radiusM, double horizontalFovRad, int widthPx, int heightPx);

@@ -13,29 +13,22 @@
 namespace planet {
 namespace {
 
-std::span<const std::byte> bytesOf(std::string_view text) {
+using ::tests::contentOf;
+
+std::span<const std::byte> asBytes(std::string_view text) {
     return std::as_bytes(std::span(text));
-}
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::size_t filesIn(const std::filesystem::path& folder) {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
 TEST(AtomicFile, appearsOnlyWhenCommitted) {
     const tests::TemporaryFolder folder;
     auto file = AtomicFile::create(folder / "a");
     ASSERT_TRUE(file);
-    ASSERT_TRUE(file->append(bytesOf("hello world")));
-    ASSERT_TRUE(file->overwrite(6, bytesOf("there")));
+    ASSERT_TRUE(file->append(asBytes("hello world")));
+    ASSERT_TRUE(file->overwrite(6, asBytes("there")));
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
     ASSERT_TRUE(file->commit());
     EXPECT_EQ(contentOf(folder / "a"), "hello there");
-    EXPECT_EQ(filesIn(folder.path()), 1u);
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
 }
 
 TEST(AtomicFile, uncommittedLeavesTheOldFileAndNothingElse) {
@@ -44,10 +37,10 @@ TEST(AtomicFile, uncommittedLeavesTheOldFileAndNothingElse) {
     {
         auto file = AtomicFile::create(folder / "a");
         ASSERT_TRUE(file);
-        ASSERT_TRUE(file->append(bytesOf("new")));
+        ASSERT_TRUE(file->append(asBytes("new")));
     }
     EXPECT_EQ(contentOf(folder / "a"), "old");
-    EXPECT_EQ(filesIn(folder.path()), 1u);
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
 }
 
 TEST(AtomicFile, secondWriterOfTheSamePathIsRefused) {
@@ -66,10 +59,10 @@ TEST(AtomicFile, leftoverOfAKilledWriterIsWrittenOver) {
     std::ofstream(folder / ".a.part") << "a long leftover of a writer that was killed";
     auto file = AtomicFile::create(folder / "a");
     ASSERT_TRUE(file);
-    ASSERT_TRUE(file->append(bytesOf("short")));
+    ASSERT_TRUE(file->append(asBytes("short")));
     ASSERT_TRUE(file->commit());
     EXPECT_EQ(contentOf(folder / "a"), "short");
-    EXPECT_EQ(filesIn(folder.path()), 1u);
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
 }
 
 TEST(AtomicFile, missingFolderAndFolderAsFileAreErrorsThatNameThem) {
@@ -109,7 +102,7 @@ TEST(AtomicFile, fullDiskIsAnErrorAndKeepsTheOldFile) {
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(contentOf(folder / "a"), "old");
-    EXPECT_EQ(filesIn(folder.path()), 1u);
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
 }
 
 }  // namespace

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::uint32_t chunkCount = 10'000;
 
-ChunkId chunk(std::uint32_t number) {
+ChunkId chunkOfMany(std::uint32_t number) {
     return {allFaces[number % 6], 9, number / 6 % 64, number / 384};
 }
 
 std::uint32_t failuresOf(const BadDiskSettings& settings, std::uint32_t attempt = 0) {
     std::uint32_t failures = 0;
     for (std::uint32_t i = 0; i < chunkCount; ++i) {
-        failures += diskFault(settings, chunk(i), attempt, 1000).fails;
+        failures += diskFault(settings, chunkOfMany(i), attempt, 1000).fails;
     }
     return failures;
 }
@@ -46,15 +46,15 @@ TEST(BadDisk, theSameSeedGivesTheSameTroubleAndAnotherSeedOther) {
     std::uint32_t sameFailures = 0;
     std::uint32_t samePlaces = 0;
     for (std::uint32_t i = 0; i < chunkCount; ++i) {
-        const DiskFault first = diskFault(one, chunk(i), 3, 1000);
-        const DiskFault again = diskFault(one, chunk(i), 3, 1000);
+        const DiskFault first = diskFault(one, chunkOfMany(i), 3, 1000);
+        const DiskFault again = diskFault(one, chunkOfMany(i), 3, 1000);
         EXPECT_EQ(first.fails, again.fails);
         EXPECT_EQ(first.waitS, again.waitS);
-        EXPECT_EQ(shuffledPlace(one, chunk(i)), shuffledPlace(one, chunk(i)));
-        const DiskFault elsewhere = diskFault(other, chunk(i), 3, 1000);
+        EXPECT_EQ(shuffledPlace(one, chunkOfMany(i)), shuffledPlace(one, chunkOfMany(i)));
+        const DiskFault elsewhere = diskFault(other, chunkOfMany(i), 3, 1000);
         EXPECT_NE(first.waitS, elsewhere.waitS);
         sameFailures += first.fails == elsewhere.fails;
-        samePlaces += shuffledPlace(one, chunk(i)) == shuffledPlace(other, chunk(i));
+        samePlaces += shuffledPlace(one, chunkOfMany(i)) == shuffledPlace(other, chunkOfMany(i));
     }
     EXPECT_NEAR(sameFailures, chunkCount / 2, 250);
     EXPECT_EQ(samePlaces, 0u);
@@ -65,9 +65,9 @@ TEST(BadDisk, aLaterAttemptMaySucceed) {
     std::uint32_t succeeded = 0;
     std::uint32_t failed = 0;
     for (std::uint32_t i = 0; i < chunkCount; ++i) {
-        if (!diskFault(settings, chunk(i), 0, 1000).fails) continue;
+        if (!diskFault(settings, chunkOfMany(i), 0, 1000).fails) continue;
         ++failed;
-        succeeded += !diskFault(settings, chunk(i), 1, 1000).fails;
+        succeeded += !diskFault(settings, chunkOfMany(i), 1, 1000).fails;
     }
     EXPECT_NEAR(succeeded / static_cast<double>(failed), 0.5, 0.04);
 }
@@ -78,7 +78,7 @@ TEST(BadDisk, latencyIsHalfAsMuchToHalfAsMuchAgain) {
     double most = 0;
     double sum = 0;
     for (std::uint32_t i = 0; i < chunkCount; ++i) {
-        const double waitS = diskFault(settings, chunk(i), 0, 1'000'000).waitS;
+        const double waitS = diskFault(settings, chunkOfMany(i), 0, 1'000'000).waitS;
         least = std::min(least, waitS);
         most = std::max(most, waitS);
         sum += waitS;
@@ -92,19 +92,19 @@ TEST(BadDisk, latencyIsHalfAsMuchToHalfAsMuchAgain) {
 
 TEST(BadDisk, bandwidthAddsTheTimeOfTheBytes) {
     const BadDiskSettings slow{.bandwidthMBs = 0.5};
-    EXPECT_DOUBLE_EQ(diskFault(slow, chunk(1), 0, 50'000).waitS, 0.1);
-    EXPECT_EQ(diskFault(slow, chunk(1), 0, 0).waitS, 0);
+    EXPECT_DOUBLE_EQ(diskFault(slow, chunkOfMany(1), 0, 50'000).waitS, 0.1);
+    EXPECT_EQ(diskFault(slow, chunkOfMany(1), 0, 0).waitS, 0);
     const BadDiskSettings both{.latencyMs = 20, .bandwidthMBs = 0.5};
     const BadDiskSettings latencyOnly{.latencyMs = 20};
-    EXPECT_DOUBLE_EQ(diskFault(both, chunk(1), 0, 50'000).waitS,
-                     diskFault(latencyOnly, chunk(1), 0, 50'000).waitS + 0.1);
-    EXPECT_EQ(diskFault({}, chunk(1), 0, 50'000).waitS, 0);
-    EXPECT_EQ(diskFault({.bandwidthMBs = 1e-300}, chunk(1), 0, 50'000).waitS, 86'400);
+    EXPECT_DOUBLE_EQ(diskFault(both, chunkOfMany(1), 0, 50'000).waitS,
+                     diskFault(latencyOnly, chunkOfMany(1), 0, 50'000).waitS + 0.1);
+    EXPECT_EQ(diskFault({}, chunkOfMany(1), 0, 50'000).waitS, 0);
+    EXPECT_EQ(diskFault({.bandwidthMBs = 1e-300}, chunkOfMany(1), 0, 50'000).waitS, 86'400);
 }
 
 TEST(BadDisk, shuffledPlacesAreAllDifferent) {
     std::set<std::uint64_t> places;
-    for (std::uint32_t i = 0; i < chunkCount; ++i) places.insert(shuffledPlace({}, chunk(i)));
+    for (std::uint32_t i = 0; i < chunkCount; ++i) places.insert(shuffledPlace({}, chunkOfMany(i)));
     EXPECT_EQ(places.size(), chunkCount);
 }
 

@@ -22,12 +22,8 @@
 namespace planet {
 namespace {
 
+using ::tests::contentOf;
 using ::tests::TemporaryFolder;
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // Every chunk of a file, parents before children.
 void visitAll(const ChunkFile& file, const ChunkData& chunk,

@@ -153,13 +153,6 @@ TEST(Bounds, BoxesAreClassifiedByTheirCorners) {
     for (const int count : seen) EXPECT_GT(count, 100);
 }
 
-// Whether a line of sight meets the inside of the sphere.
-bool sphereHides(const glm::dvec3& eye, const glm::dvec3& point, double radius) {
-    const glm::dvec3 along = point - eye;
-    const double t = std::clamp(-glm::dot(eye, along) / glm::dot(along, along), 0.0, 1.0);
-    return glm::length(eye + t * along) < radius;
-}
-
 TEST(Bounds, HorizonHidesOnlyWhatTheOccluderHides) {
     std::mt19937 random(4);
     constexpr double radiusM = 1e5;

@@ -13,12 +13,12 @@
 namespace planet {
 namespace {
 
-constexpr double radiusM = 1e5;
+constexpr double smallRadiusM = 1e5;
 
 // All that explainChunk reads, by name.
 struct Scene {
     ChunkTree tree;
-    View view = viewFromPose({}, radiusM, 1, 1280, 720);
+    View view = viewFromPose({}, smallRadiusM, 1, 1280, 720);
     LodSettings lod;
     Selection selection;
     std::vector<PagingRequest> pageIns;
@@ -39,30 +39,30 @@ struct Scene {
     }
 };
 
-constexpr ChunkId root{Face::PosX, 0, 0, 0};
-constexpr ChunkId child{Face::PosX, 1, 1, 0};
-constexpr ChunkId grandchild{Face::PosX, 2, 2, 1};
+constexpr ChunkId rootId{Face::PosX, 0, 0, 0};
+constexpr ChunkId childId{Face::PosX, 1, 1, 0};
+constexpr ChunkId grandchildId{Face::PosX, 2, 2, 1};
 
 TEST(ChunkExplanation, OfADrawnChunkThatIsGoodEnough) {
     Scene scene(4);
-    scene.lod.tauPx = 1.001 * scene.epsPx(root);
+    scene.lod.tauPx = 1.001 * scene.epsPx(rootId);
     scene.lod.morph = true;
     scene.select();
-    const ChunkExplanation whole = scene.explain(root);
+    const ChunkExplanation whole = scene.explain(rootId);
     EXPECT_EQ(whole.state, ChunkState::Drawn);
     EXPECT_EQ(whole.notSplit, WhyNotSplit::GoodEnough);
-    EXPECT_EQ(whole.decidedBy, root);
-    EXPECT_NEAR(whole.epsPx, scene.epsPx(root), 1e-9);
+    EXPECT_EQ(whole.decidedBy, rootId);
+    EXPECT_NEAR(whole.epsPx, scene.epsPx(rootId), 1e-9);
     EXPECT_EQ(whole.decidedByEpsPx, whole.epsPx);
     EXPECT_EQ(whole.tauPx, scene.lod.tauPx);
     EXPECT_FALSE(whole.queuePlace);
-    const ChunkExplanation below = scene.explain(grandchild);
+    const ChunkExplanation below = scene.explain(grandchildId);
     EXPECT_EQ(below.state, ChunkState::Resident);
     EXPECT_EQ(below.notSplit, WhyNotSplit::NotDrawn);
-    EXPECT_EQ(below.decidedBy, root);
+    EXPECT_EQ(below.decidedBy, rootId);
     EXPECT_EQ(below.decidedByNotSplit, WhyNotSplit::GoodEnough);
     EXPECT_EQ(below.decidedByEpsPx, whole.epsPx);
-    EXPECT_EQ(below.node, findNode(scene.tree, grandchild));
+    EXPECT_EQ(below.node, findNode(scene.tree, grandchildId));
     // At its switching distance a chunk's eps is tau.
     EXPECT_NEAR(below.switchDistanceM * scene.lod.tauPx, below.deltaCM * screenScalePx(scene.view), 1e-6);
     EXPECT_NEAR(below.epsPx * below.distanceM, below.deltaCM * screenScalePx(scene.view), 1e-6);
@@ -70,32 +70,32 @@ TEST(ChunkExplanation, OfADrawnChunkThatIsGoodEnough) {
 
 TEST(ChunkExplanation, OfASplitChunkAndTheMorphOfItsChildren) {
     Scene scene(4);
-    scene.lod.tauPx = 0.9 * scene.epsPx(root);
+    scene.lod.tauPx = 0.9 * scene.epsPx(rootId);
     scene.lod.morph = true;
     scene.lod.maxLevel = 1;
     scene.select();
-    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
-    EXPECT_EQ(scene.explain(root).notSplit, WhyNotSplit::IsSplit);
-    EXPECT_EQ(scene.explain(root).morph, 0);
+    EXPECT_EQ(scene.explain(rootId).state, ChunkState::Split);
+    EXPECT_EQ(scene.explain(rootId).notSplit, WhyNotSplit::IsSplit);
+    EXPECT_EQ(scene.explain(rootId).morph, 0);
     const auto item = std::find_if(scene.selection.draw.begin(), scene.selection.draw.end(),
-                                   [](const DrawItem& drawn) { return drawn.id == child; });
+                                   [](const DrawItem& drawn) { return drawn.id == childId; });
     ASSERT_NE(item, scene.selection.draw.end());
     EXPECT_GT(item->morph, 0);
-    EXPECT_EQ(scene.explain(child).morph, item->morph);
+    EXPECT_EQ(scene.explain(childId).morph, item->morph);
 }
 
 TEST(ChunkExplanation, DeltaGIsExactWhereTheChildrenAreKnown) {
     Scene scene(1);
     float below = 0;
-    for (int q = 0; q < quadrantCount; ++q) below = std::max(below, scene.node(childOf(root, q)).deltaCM);
-    EXPECT_EQ(scene.explain(root).deltaGM, scene.node(root).deltaCM - below);
-    EXPECT_FALSE(scene.explain(root).deltaGIsBound);
-    EXPECT_EQ(scene.explain(child).deltaGM, scene.node(child).deltaCM);
-    EXPECT_EQ(scene.explain(root).deltaTightM, scene.node(root).deltaTightM);
-    EXPECT_GT(scene.explain(root).deltaTightM, 0);
-    EXPECT_TRUE(scene.explain(child).deltaGIsBound);
+    for (int q = 0; q < quadrantCount; ++q) below = std::max(below, scene.node(childOf(rootId, q)).deltaCM);
+    EXPECT_EQ(scene.explain(rootId).deltaGM, scene.node(rootId).deltaCM - below);
+    EXPECT_FALSE(scene.explain(rootId).deltaGIsBound);
+    EXPECT_EQ(scene.explain(childId).deltaGM, scene.node(childId).deltaCM);
+    EXPECT_EQ(scene.explain(rootId).deltaTightM, scene.node(rootId).deltaTightM);
+    EXPECT_GT(scene.explain(rootId).deltaTightM, 0);
+    EXPECT_TRUE(scene.explain(childId).deltaGIsBound);
     scene.tree.exaggeration = 2;
-    EXPECT_TRUE(scene.explain(root).deltaGIsBound);
+    EXPECT_TRUE(scene.explain(rootId).deltaGIsBound);
     const ChunkExplanation leaf = Scene(4).explain({Face::PosX, 4, 3, 3});
     EXPECT_EQ(leaf.deltaGM, 0);
     EXPECT_FALSE(leaf.deltaGIsBound);
@@ -112,7 +112,7 @@ TEST(ChunkExplanation, OfLeavesAndOfTheLargestLevel) {
     EXPECT_EQ(scene.explain(bottom).notSplit, WhyNotSplit::Leaf);
     scene.lod.maxLevel = 2;
     scene.select();
-    EXPECT_EQ(scene.explain(grandchild).notSplit, WhyNotSplit::LevelLimit);
+    EXPECT_EQ(scene.explain(grandchildId).notSplit, WhyNotSplit::LevelLimit);
     EXPECT_EQ(scene.explain(bottom).state, ChunkState::Resident);
     EXPECT_EQ(scene.explain(bottom).decidedByNotSplit, WhyNotSplit::LevelLimit);
     EXPECT_EQ(scene.explain(bottom).decidedBy, (ChunkId{Face::NegY, 2, 1, 2}));
@@ -126,7 +126,7 @@ TEST(ChunkExplanation, OfCulledChunksNamesTheOneThatWasCulled) {
     CameraPose pose;
     pose.altitudeM = 5000;
     pose.pitchDeg = -5;
-    scene.view = viewFromPose(pose, radiusM, 1, 1280, 720);
+    scene.view = viewFromPose(pose, smallRadiusM, 1, 1280, 720);
     scene.select();
     std::set<ChunkState> states;
     for (const VisitedNode& visited : scene.selection.touched) {
@@ -154,70 +154,70 @@ TEST(ChunkExplanation, OfWhatIsNotResidentUnderACulledChunk) {
     scene.view.up = {0, 0, -1};
     scene.select();
     ASSERT_TRUE(scene.selection.draw.empty());
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::CulledFrustum);
-    EXPECT_EQ(scene.explain(grandchild).decidedBy, root);
-    EXPECT_EQ(scene.explain(grandchild).node, noNode);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::CulledFrustum);
+    EXPECT_EQ(scene.explain(grandchildId).decidedBy, rootId);
+    EXPECT_EQ(scene.explain(grandchildId).node, noNode);
 }
 
 TEST(ChunkExplanation, OfAChunkThatWaitsForItsChildren) {
     Scene scene(1);
     scene.lod.tauPx = 1e-3;
     scene.select();
-    EXPECT_EQ(scene.explain(child).state, ChunkState::Drawn);
-    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::WaitingForBudget);
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::NotResident);
-    EXPECT_EQ(scene.explain(grandchild).decidedBy, child);
-    EXPECT_EQ(scene.explain(grandchild).decidedByNotSplit, WhyNotSplit::WaitingForBudget);
+    EXPECT_EQ(scene.explain(childId).state, ChunkState::Drawn);
+    EXPECT_EQ(scene.explain(childId).notSplit, WhyNotSplit::WaitingForBudget);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::NotResident);
+    EXPECT_EQ(scene.explain(grandchildId).decidedBy, childId);
+    EXPECT_EQ(scene.explain(grandchildId).decidedByNotSplit, WhyNotSplit::WaitingForBudget);
 
-    scene.node(child).childrenState = ChildrenState::Requested;
+    scene.node(childId).childrenState = ChildrenState::Requested;
     scene.queue({Face::NegZ, 1, 0, 0});
-    scene.queue(child);
+    scene.queue(childId);
     scene.queue({Face::NegZ, 1, 1, 0});
-    const ChunkExplanation waiting = scene.explain(child);
+    const ChunkExplanation waiting = scene.explain(childId);
     EXPECT_EQ(waiting.notSplit, WhyNotSplit::WaitingInQueue);
     EXPECT_EQ(waiting.queuePlace, 2u);
     EXPECT_EQ(waiting.queueLength, 3u);
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::Requested);
-    EXPECT_EQ(scene.explain(grandchild).decidedBy, grandchild);
-    EXPECT_EQ(scene.explain(grandchild).queuePlace, 2u);
-    const ChunkId deeper = childOf(grandchild, 1);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::Requested);
+    EXPECT_EQ(scene.explain(grandchildId).decidedBy, grandchildId);
+    EXPECT_EQ(scene.explain(grandchildId).queuePlace, 2u);
+    const ChunkId deeper = childOf(grandchildId, 1);
     EXPECT_EQ(scene.explain(deeper).state, ChunkState::NotResident);
-    EXPECT_EQ(scene.explain(deeper).decidedBy, grandchild);
+    EXPECT_EQ(scene.explain(deeper).decidedBy, grandchildId);
     EXPECT_EQ(scene.explain(deeper).decidedByNotSplit, WhyNotSplit::WaitingInQueue);
     EXPECT_EQ(scene.explain(deeper).queuePlace, 2u);
 
     scene.pageIns.clear();  // a loader took it
-    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::WaitingForRead);
-    EXPECT_FALSE(scene.explain(child).queuePlace);
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::Loading);
+    EXPECT_EQ(scene.explain(childId).notSplit, WhyNotSplit::WaitingForRead);
+    EXPECT_FALSE(scene.explain(childId).queuePlace);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::Loading);
     EXPECT_EQ(scene.explain(deeper).state, ChunkState::NotResident);
     EXPECT_EQ(scene.explain(deeper).decidedByNotSplit, WhyNotSplit::WaitingForRead);
 
-    scene.node(child).childrenState = ChildrenState::AwaitingRetry;
-    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::WaitingForRetry);
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::Failed);
-    EXPECT_EQ(scene.explain(grandchild).decidedByNotSplit, WhyNotSplit::WaitingForRetry);
+    scene.node(childId).childrenState = ChildrenState::AwaitingRetry;
+    EXPECT_EQ(scene.explain(childId).notSplit, WhyNotSplit::WaitingForRetry);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::Failed);
+    EXPECT_EQ(scene.explain(grandchildId).decidedByNotSplit, WhyNotSplit::WaitingForRetry);
 
-    scene.node(child).childrenState = ChildrenState::Failed;
-    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::ChildrenFailed);
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::Failed);
+    scene.node(childId).childrenState = ChildrenState::Failed;
+    EXPECT_EQ(scene.explain(childId).notSplit, WhyNotSplit::ChildrenFailed);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::Failed);
     EXPECT_EQ(scene.explain(deeper).state, ChunkState::Failed);
-    EXPECT_EQ(scene.explain(deeper).decidedBy, grandchild);
+    EXPECT_EQ(scene.explain(deeper).decidedBy, grandchildId);
 }
 
 TEST(ChunkExplanation, OfWhatNobodyAskedFor) {
     Scene scene(1);
     scene.lod.tauPx = 1e9;
-    EXPECT_EQ(scene.explain(child).state, ChunkState::Resident);  // nothing was selected yet
-    EXPECT_EQ(scene.explain(child).decidedBy, child);
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::NotResident);
-    EXPECT_EQ(scene.explain(grandchild).decidedBy, grandchild);
+    EXPECT_EQ(scene.explain(childId).state, ChunkState::Resident);  // nothing was selected yet
+    EXPECT_EQ(scene.explain(childId).decidedBy, childId);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::NotResident);
+    EXPECT_EQ(scene.explain(grandchildId).decidedBy, grandchildId);
     scene.select();
-    EXPECT_EQ(scene.explain(grandchild).state, ChunkState::NotResident);
-    EXPECT_EQ(scene.explain(grandchild).decidedBy, root);
-    EXPECT_EQ(scene.explain(grandchild).decidedByNotSplit, WhyNotSplit::GoodEnough);
-    EXPECT_EQ(scene.explain(grandchild).node, noNode);
-    EXPECT_EQ(scene.explain(grandchild).epsPx, 0);
+    EXPECT_EQ(scene.explain(grandchildId).state, ChunkState::NotResident);
+    EXPECT_EQ(scene.explain(grandchildId).decidedBy, rootId);
+    EXPECT_EQ(scene.explain(grandchildId).decidedByNotSplit, WhyNotSplit::GoodEnough);
+    EXPECT_EQ(scene.explain(grandchildId).node, noNode);
+    EXPECT_EQ(scene.explain(grandchildId).epsPx, 0);
 }
 
 TEST(ChunkExplanation, OfChunksThatNoFileHas) {
@@ -228,9 +228,9 @@ TEST(ChunkExplanation, OfChunksThatNoFileHas) {
     EXPECT_EQ(Scene(0).explain(tooDeep).state, ChunkState::NotInFile);
     EXPECT_EQ(Scene(0).explain(tooDeep).decidedBy, (ChunkId{Face::PosX, 4, 10, 2}));
     Scene shallow(1);  // a chunk that has no children in the file, though it could
-    shallow.node(child).childrenState = ChildrenState::None;
-    EXPECT_EQ(shallow.explain(grandchild).state, ChunkState::NotInFile);
-    EXPECT_EQ(shallow.explain(grandchild).decidedBy, child);
+    shallow.node(childId).childrenState = ChildrenState::None;
+    EXPECT_EQ(shallow.explain(grandchildId).state, ChunkState::NotInFile);
+    EXPECT_EQ(shallow.explain(grandchildId).decidedBy, childId);
 }
 
 TEST(ChunkExplanation, OfChunksHeldBackForStitchedSeams) {
@@ -250,44 +250,44 @@ TEST(ChunkExplanation, OfChunksHeldBackForStitchedSeams) {
 
 TEST(ChunkExplanation, OfSwitchesThatWaitForAFade) {
     Scene scene(4);
-    scene.lod.tauPx = 1.001 * scene.epsPx(root);
+    scene.lod.tauPx = 1.001 * scene.epsPx(rootId);
     scene.lod.morph = true;
     scene.lod.fadeS = 1;
     scene.select();
     scene.lod.tauPx = 1e-6;
     const auto frame = [&] { selectChunks(scene.tree, scene.view, scene.lod, scene.selection, 0.25); };
     frame();
-    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
-    EXPECT_FALSE(scene.explain(root).mergeWaits);
-    EXPECT_EQ(scene.explain(child).state, ChunkState::Drawn);
-    EXPECT_EQ(scene.explain(child).notSplit, WhyNotSplit::WaitingForMorph);
-    EXPECT_EQ(scene.explain(child).morph, 1);
-    EXPECT_EQ(scene.explain(grandchild).decidedByNotSplit, WhyNotSplit::WaitingForMorph);
+    EXPECT_EQ(scene.explain(rootId).state, ChunkState::Split);
+    EXPECT_FALSE(scene.explain(rootId).mergeWaits);
+    EXPECT_EQ(scene.explain(childId).state, ChunkState::Drawn);
+    EXPECT_EQ(scene.explain(childId).notSplit, WhyNotSplit::WaitingForMorph);
+    EXPECT_EQ(scene.explain(childId).morph, 1);
+    EXPECT_EQ(scene.explain(grandchildId).decidedByNotSplit, WhyNotSplit::WaitingForMorph);
     for (int i = 0; i < 3; ++i) frame();
-    scene.lod.tauPx = 1.001 * scene.epsPx(root);
+    scene.lod.tauPx = 1.001 * scene.epsPx(rootId);
     frame();
-    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
-    EXPECT_TRUE(scene.explain(root).mergeWaits);
+    EXPECT_EQ(scene.explain(rootId).state, ChunkState::Split);
+    EXPECT_TRUE(scene.explain(rootId).mergeWaits);
     for (int i = 0; i < 4; ++i) frame();
-    EXPECT_EQ(scene.explain(root).state, ChunkState::Drawn);
-    EXPECT_FALSE(scene.explain(root).mergeWaits);
+    EXPECT_EQ(scene.explain(rootId).state, ChunkState::Drawn);
+    EXPECT_FALSE(scene.explain(rootId).mergeWaits);
 }
 
 TEST(ChunkExplanation, GoesByTheMetricOfTheSettings) {
     Scene scene(4);
     for (ChunkNode& node : scene.tree.nodes) node.deltaTightM = 0.25f * node.deltaCM;
     scene.lod.metric = ErrorMetric::Tight;
-    scene.lod.tauPx = 0.26 * scene.epsPx(root);
+    scene.lod.tauPx = 0.26 * scene.epsPx(rootId);
     scene.select();
-    const ChunkExplanation whole = scene.explain(root);
+    const ChunkExplanation whole = scene.explain(rootId);
     EXPECT_EQ(whole.state, ChunkState::Drawn);
     EXPECT_EQ(whole.notSplit, WhyNotSplit::GoodEnough);
-    EXPECT_NEAR(whole.epsPx, 0.25 * scene.epsPx(root), 1e-9);
-    EXPECT_EQ(whole.deltaTightM, 0.25f * scene.node(root).deltaCM);
+    EXPECT_NEAR(whole.epsPx, 0.25 * scene.epsPx(rootId), 1e-9);
+    EXPECT_EQ(whole.deltaTightM, 0.25f * scene.node(rootId).deltaCM);
     EXPECT_EQ(whole.metric, ErrorMetric::Tight);
-    scene.lod.tauPx = 0.24 * scene.epsPx(root);
+    scene.lod.tauPx = 0.24 * scene.epsPx(rootId);
     scene.select();
-    EXPECT_EQ(scene.explain(root).state, ChunkState::Split);
+    EXPECT_EQ(scene.explain(rootId).state, ChunkState::Split);
 }
 
 // Whatever is drawn, split or culled must be explained as that, in any view.
@@ -295,7 +295,7 @@ TEST(ChunkExplanation, AgreesWithTheSelection) {
     std::mt19937 random(71);
     Scene scene(4);
     for (int i = 0; i < 40; ++i) {
-        scene.view = randomView(random, radiusM);
+        scene.view = randomView(random, smallRadiusM);
         scene.lod = {};
         scene.lod.tauPx = 1 + i % 9;
         scene.lod.hysteresis = i % 2 ? 0.4 : 0.0;

@@ -85,12 +85,12 @@ TEST(ChunkTree, RemovedChildrenLeaveRoomThatIsTakenAgain) {
     EXPECT_EQ(findNode(tree, {Face::NegZ, 2, 3, 3}), first + 3);
 }
 
-struct Damage {
+struct TreeDamage {
     const char* message;
     void (*apply)(ChunkData&);
 };
 
-const Damage damages[] = {
+const TreeDamage damages[] = {
     {"got chunk",
      [](ChunkData& chunk) {
          chunk.id = {Face::NegY, 1, 0, 0};
@@ -113,7 +113,7 @@ TEST(ChunkTree, ChildrenThatWouldBreakItsPromisesAreRefused) {
     const ChunkTree tree = residentTree(fakePyramid(), 0);
     const SiblingBlock good = fakePyramid().childrenOf({Face::PosX, 0, 0, 0});
     EXPECT_TRUE(checkChildren(tree, 0, good));
-    for (const Damage& damage : damages) {
+    for (const TreeDamage& damage : damages) {
         SiblingBlock bad = good;
         damage.apply(bad[2]);
         const Result<void> checked = checkChildren(tree, 0, bad);
@@ -141,7 +141,7 @@ TEST(ChunkTree, ChildrenBelowTheFinestLevelAreRefused) {
 }
 
 TEST(ChunkTree, RootsThatWouldBreakItsPromisesAreRefused) {
-    for (const Damage& damage : damages) {
+    for (const TreeDamage& damage : damages) {
         auto roots = fakePyramid().roots();
         damage.apply(roots[4]);
         EXPECT_FALSE(rootsOnly(roots)) << damage.message;

@@ -20,12 +20,8 @@
 namespace planet {
 namespace {
 
+using ::tests::contentOf;
 using ::tests::TemporaryFolder;
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Result<BakeReport> bakeWithColours(const std::filesystem::path& path, BakeSettings settings = {},
                                    const BakeProgressCallback& progress = {}) {

@@ -27,21 +27,15 @@ using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::tests::contentOf;
 using tests::FaultyFiles;
 using tests::FileFault;
 
-constexpr int frames = 24;
-
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+constexpr int flownFrames = 24;
 
 void overwrite(const std::filesystem::path& path, const std::string& content) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << content;
 }
-
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
 
 void bakeHills(const std::filesystem::path& path, double quantumM = 1) {
     BakeSettings settings{.faceSize = 129, .chunkSize = 17, .quantumM = quantumM};
@@ -99,7 +93,7 @@ protected:
     }
 
     // Flies some frames and settles; what is drawn then.
-    static std::vector<ChunkId> fly(Planet& planet, int from = 0, int to = frames) {
+    static std::vector<ChunkId> fly(Planet& planet, int from = 0, int to = flownFrames) {
         for (int frame = from; frame < to; ++frame) {
             const ViewInput input = inputAt(frame);
             planet.step({&input, 1}, noUpload, 1.0 / 30);
@@ -187,7 +181,7 @@ TEST_F(FailingDiskFlight, ADiskThatDiesInFlightLeavesWhatIsThereAndAllComesOnceI
                     Each(HasSubstr("hills.chk: reading failed: Input/output error (tried 4 times)")));
         // Not asked for again, however long one flies.
         const std::uint64_t failed = planet->paging().failed;
-        fly(*planet, frames - 1);
+        fly(*planet, flownFrames - 1);
         EXPECT_EQ(planet->paging().failed, failed);
         disk.beWhole();
         planet->retryFailed();
@@ -230,7 +224,7 @@ TEST_F(FailingDiskFlight, AFileThatAnotherIsRenamedOverGoesOnAsItWas) {
 TEST_F(FailingDiskFlight, AFileThatIsCutAndWrittenAgainHealsByItself) {
     const std::vector<ChunkId> whole = fly(*open());
     const auto planet = open();
-    const ViewInput input = inputAt(frames - 1);
+    const ViewInput input = inputAt(flownFrames - 1);
     std::filesystem::resize_file(path_, bakedHills().size() / 3);
     for (int i = 0; i < 3; ++i) planet->step({&input, 1}, noUpload, 1.0 / 30);
     ASSERT_GT(planet->paging().awaitingRetry, 0u);

@@ -22,14 +22,14 @@ using Bytes = std::vector<std::byte>;
 using test::Square;
 
 constexpr std::int16_t lowest = -32768;
-constexpr std::int16_t highest = 32767;
+constexpr std::int16_t highestStep = 32767;
 
 Square squareOf(int side, const std::function<int(int x, int y)>& step) {
     Square square{side, {}};
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
             square.samples.push_back(
-                static_cast<std::int16_t>(std::clamp(step(x, y), int{lowest}, int{highest})));
+                static_cast<std::int16_t>(std::clamp(step(x, y), int{lowest}, int{highestStep})));
     return square;
 }
 
@@ -62,14 +62,14 @@ std::vector<Field> fields() {
          }},
         {"cliff",
          [](int side) {
-             return squareOf(side, [=](int x, int) { return x < side / 2 ? lowest : highest; });
+             return squareOf(side, [=](int x, int) { return x < side / 2 ? lowest : highestStep; });
          }},
         {"chequered extremes",
          [](int side) {
-             return squareOf(side, [](int x, int y) { return (x + y) % 2 ? lowest : highest; });
+             return squareOf(side, [](int x, int y) { return (x + y) % 2 ? lowest : highestStep; });
          }},
         {"extreme stripes",
-         [](int side) { return squareOf(side, [](int x, int) { return x % 2 ? lowest : highest; }); }},
+         [](int side) { return squareOf(side, [](int x, int) { return x % 2 ? lowest : highestStep; }); }},
         {"lowest", [](int side) { return squareOf(side, [](int, int) { return lowest; }); }},
         {"slight noise", [](int side) { return noiseOf(side, 3); }},
         {"rough noise", [](int side) { return noiseOf(side, 700); }},
@@ -319,9 +319,9 @@ TEST(HeightCodec, DecodeGridSurvivesFlippedBits) {
 }
 
 TEST(ResidualCoder, EveryWidthCodesEveryResidual) {
-    Samples residuals = {lowest, highest, 0, 1, -1};
+    Samples residuals = {lowest, highestStep, 0, 1, -1};
     for (int r = -300; r <= 300; ++r) residuals.push_back(static_cast<std::int16_t>(r));
-    for (int r = lowest; r <= highest; r += 97) residuals.push_back(static_cast<std::int16_t>(r));
+    for (int r = lowest; r <= highestStep; r += 97) residuals.push_back(static_cast<std::int16_t>(r));
     for (int width = 0; width < residualWidthCount; ++width) {
         const std::vector<std::uint8_t> widths(residuals.size(), static_cast<std::uint8_t>(width));
         ResidualEncoder encoder(residuals.size());

@@ -6,7 +6,7 @@
 
 #include "height_source_fixture.h"
 
-namespace planet::testing {
+namespace planet {
 namespace {
 
 using ::testing::AllOf;
@@ -346,4 +346,4 @@ TEST(HeightSourceFaces, FileCutOffAfterOpeningIsAnError) {
 }
 
 }  // namespace
-}  // namespace planet::testing
+}  // namespace planet

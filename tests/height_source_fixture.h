@@ -19,7 +19,7 @@
 #include "planet/height_source.h"
 #include "tests/temporary_folder.h"
 
-namespace planet::testing {
+namespace planet {
 
 using tests::TemporaryFolder;
 
@@ -219,4 +219,4 @@ inline double smoothField(const glm::dvec3& d) {
     return 800 * d.x * d.y + 500 * d.z * (5 * d.z * d.z - 3) + 600 * d.x - 400 * d.y * d.z + 300;
 }
 
-}  // namespace planet::testing
+}  // namespace planet

@@ -15,7 +15,7 @@
 #include "height_source_fixture.h"
 #include "planet/height_geographic.h"
 
-namespace planet::testing {
+namespace planet {
 namespace {
 
 using ::testing::AllOf;
@@ -517,4 +517,4 @@ TEST(HeightSource, SettingsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace planet::testing
+}  // namespace planet

@@ -12,7 +12,7 @@
 namespace planet {
 namespace {
 
-constexpr ChunkId root{Face::PosZ, 0, 0, 0};
+constexpr ChunkId posZRoot{Face::PosZ, 0, 0, 0};
 
 // A selection of what is drawn and what is split above it, culled chunks in neither.
 Selection selectionOf(const std::vector<ChunkId>& drawn, const std::vector<ChunkId>& splits) {
@@ -31,10 +31,10 @@ std::vector<ChunkId> childrenOf(const ChunkId& id) {
 }
 
 Selection whole() {
-    return selectionOf({root}, {});
+    return selectionOf({posZRoot}, {});
 }
 Selection inChildren() {
-    return selectionOf(childrenOf(root), {root});
+    return selectionOf(childrenOf(posZRoot), {posZRoot});
 }
 
 struct Seen {
@@ -55,13 +55,13 @@ TEST(LodChanges, ASplitAndAMergeAreCountedOnce) {
     EXPECT_TRUE(changes.recent().empty());
     changes.add(inChildren(), 2);
     changes.add(inChildren(), 2.1);
-    EXPECT_THAT(seen(changes), testing::ElementsAre(Seen{root, LodChangeType::Split}));
+    EXPECT_THAT(seen(changes), testing::ElementsAre(Seen{posZRoot, LodChangeType::Split}));
     EXPECT_EQ(changes.splitsPerS(), 1);
     EXPECT_EQ(changes.mergesPerS(), 0);
     changes.add(whole(), 4);
     changes.add(whole(), 4.1);
-    EXPECT_THAT(seen(changes),
-                testing::ElementsAre(Seen{root, LodChangeType::Split}, Seen{root, LodChangeType::Merge}));
+    EXPECT_THAT(seen(changes), testing::ElementsAre(Seen{posZRoot, LodChangeType::Split},
+                                                    Seen{posZRoot, LodChangeType::Merge}));
     EXPECT_EQ(changes.recent().back().timeS, 4);
     EXPECT_EQ(changes.splitsPerS(), 0);
     EXPECT_EQ(changes.mergesPerS(), 1);
@@ -84,18 +84,19 @@ TEST(LodChanges, WhatIsCulledOrComesIntoViewIsNoChange) {
     // One child is culled, then the others, then all are back.
     changes.add(nothing, 5);
     changes.add(inChildren(), 6);
-    changes.add(selectionOf({childOf(root, 1), childOf(root, 2), childOf(root, 3)}, {root}), 7);
+    changes.add(selectionOf({childOf(posZRoot, 1), childOf(posZRoot, 2), childOf(posZRoot, 3)}, {posZRoot}),
+                7);
     changes.add(inChildren(), 8);
     EXPECT_TRUE(changes.recent().empty());
 }
 
 TEST(LodChanges, AJumpOverSeveralLevelsCountsEachChunk) {
-    const ChunkId child = childOf(root, 2);
+    const ChunkId child = childOf(posZRoot, 2);
     const ChunkId grandchild = childOf(child, 1);
     std::vector<ChunkId> drawn = childrenOf(grandchild);
     for (const int q : {0, 2, 3}) drawn.push_back(childOf(child, q));
-    for (const int q : {0, 1, 3}) drawn.push_back(childOf(root, q));
-    const Selection deep = selectionOf(drawn, {root, child, grandchild});
+    for (const int q : {0, 1, 3}) drawn.push_back(childOf(posZRoot, q));
+    const Selection deep = selectionOf(drawn, {posZRoot, child, grandchild});
     LodChanges changes;
     changes.add(whole(), 0);
     changes.add(deep, 1);
@@ -104,8 +105,8 @@ TEST(LodChanges, AJumpOverSeveralLevelsCountsEachChunk) {
     EXPECT_EQ(changes.mergesPerS(), 3);
     EXPECT_THAT(seen(changes),
                 testing::UnorderedElementsAre(
-                    Seen{root, LodChangeType::Split}, Seen{child, LodChangeType::Split},
-                    Seen{grandchild, LodChangeType::Split}, Seen{root, LodChangeType::Merge},
+                    Seen{posZRoot, LodChangeType::Split}, Seen{child, LodChangeType::Split},
+                    Seen{grandchild, LodChangeType::Split}, Seen{posZRoot, LodChangeType::Merge},
                     Seen{child, LodChangeType::Merge}, Seen{grandchild, LodChangeType::Merge}));
     EXPECT_EQ(changes.thrashTotal(), 0u);
 }
@@ -134,11 +135,11 @@ TEST(LodChanges, AChunkThatFlipsBackLaterDoesNotThrash) {
 TEST(LodChanges, TwoChunksThatTakeTurnsDoNotThrash) {
     const ChunkId other{Face::NegX, 0, 0, 0};
     const auto both = [&](bool rootSplit, bool otherSplit) {
-        std::vector<ChunkId> drawn = rootSplit ? childrenOf(root) : std::vector<ChunkId>{root};
+        std::vector<ChunkId> drawn = rootSplit ? childrenOf(posZRoot) : std::vector<ChunkId>{posZRoot};
         const std::vector<ChunkId> more = otherSplit ? childrenOf(other) : std::vector<ChunkId>{other};
         drawn.insert(drawn.end(), more.begin(), more.end());
         std::vector<ChunkId> splits;
-        if (rootSplit) splits.push_back(root);
+        if (rootSplit) splits.push_back(posZRoot);
         if (otherSplit) splits.push_back(other);
         return selectionOf(drawn, splits);
     };

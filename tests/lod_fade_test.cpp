@@ -18,16 +18,16 @@
 namespace planet {
 namespace {
 
-constexpr double frameS = 1.0 / 60;
-constexpr double fadeS = 0.25;
-constexpr float step = static_cast<float>(frameS / fadeS);
+constexpr double fadeFrameS = 1.0 / 60;
+constexpr double usualFadeS = 0.25;
+constexpr float fadeStep = static_cast<float>(fadeFrameS / usualFadeS);
 constexpr float rounding = 2e-6f;
 
 LodSettings fading(double tauPx) {
     LodSettings settings;
     settings.tauPx = tauPx;
     settings.morph = true;
-    settings.fadeS = fadeS;
+    settings.fadeS = usualFadeS;
     return settings;
 }
 
@@ -67,7 +67,7 @@ std::optional<glm::dvec2> project(const View& view, const glm::dvec3& pointM) {
     return px;
 }
 
-DrawnGrid gridOf(const DrawItem& item, bool stitched) {
+DrawnGrid fakeGridOf(const DrawItem& item, bool stitched) {
     return drawnGrid(wholeTree().shape, item, fakePyramid().at(item.id).heights, stitched);
 }
 
@@ -83,8 +83,8 @@ bool edgeRests(const DrawItem& parent, const DrawItem& child, Edge edge) {
 // The farthest that the picture moves when a chunk is exchanged for one of its children or the reverse: at
 // all places of the child's vertices, but for the outermost cells along an edge that slides anyway.
 double largestJumpPx(const View& view, const DrawItem& parent, const DrawItem& child, bool stitched) {
-    const DrawnGrid coarse = gridOf(parent, stitched);
-    const DrawnGrid fine = gridOf(child, stitched);
+    const DrawnGrid coarse = fakeGridOf(parent, stitched);
+    const DrawnGrid fine = fakeGridOf(child, stitched);
     const int quadrant = quadrantOf(child.id);
     const auto slides = [&](Edge edge) { return stitched && !edgeRests(parent, child, edge); };
     double most = 0;
@@ -128,7 +128,7 @@ public:
         for (const auto& [id, item] : now_) {
             tally.waited += item.splitWaits;
             if (const auto last = before_.find(id); last != before_.end()) {
-                EXPECT_LE(std::abs(item.morph - last->second.morph), step + rounding) << toString(id);
+                EXPECT_LE(std::abs(item.morph - last->second.morph), fadeStep + rounding) << toString(id);
                 tally.slid += item.morph != last->second.morph;
                 checkEdges(last->second, item, tally);
             } else if (splitBefore_.contains(id)) {
@@ -144,7 +144,7 @@ private:
         for (std::size_t e = 0; !stitched_ && e < edgeCount; ++e) {
             const float moved = std::abs(now.edgeMorph[e] - before.edgeMorph[e]);
             tally.edgesSlid += moved > 0;
-            tally.edgesJumped += moved > step + rounding;
+            tally.edgesJumped += moved > fadeStep + rounding;
         }
     }
 
@@ -241,9 +241,9 @@ TEST_P(LodFadeFlight, NoSwitchMovesAnything) {
         // In mid flight too.
         if (frame % 200 == 80) lod.tauPx = 3 * GetParam().tauPx;
         if (frame % 200 == 140) lod.tauPx = 0.5 * GetParam().tauPx;
-        const View view = flight.at(frame * frameS);
+        const View view = flight.at(frame * fadeFrameS);
         const Selection before = selection;
-        selectChunks(wholeTree(), view, lod, selection, frameS);
+        selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
         if (frame > 0) FramePair(before, selection, view, lod.seams == SeamMode::Stitched).check(tally);
         if (!GetParam().culling && frame % 10 == 0) expectPartition(selection);
         if (HasFailure()) break;
@@ -265,10 +265,10 @@ TEST_P(LodFadeFlight, StandingStillEndsInWhatAViewWithoutMemoryShows) {
     const Flight flight{GetParam().radiansPerS, 0.3};
     Selection selection;
     for (int frame = 0; frame < 40; ++frame) {
-        selectChunks(wholeTree(), flight.at(frame * frameS), lod, selection, frameS);
+        selectChunks(wholeTree(), flight.at(frame * fadeFrameS), lod, selection, fadeFrameS);
     }
-    const View view = flight.at(41 * frameS);
-    for (int frame = 0; frame < 400; ++frame) selectChunks(wholeTree(), view, lod, selection, frameS);
+    const View view = flight.at(41 * fadeFrameS);
+    for (int frame = 0; frame < 400; ++frame) selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
     EXPECT_EQ(selection.counters.fading, 0u);
     Selection atOnce = selection;
     selectChunks(wholeTree(), view, lod, atOnce);
@@ -299,10 +299,10 @@ TEST(LodFade, WithoutAFadeTheSameFlightPops) {
     Selection selection;
     double mostPx = 0;
     for (int frame = 0; frame < 300; ++frame) {
-        const View view = flight.at(frame * frameS);
+        const View view = flight.at(frame * fadeFrameS);
         lod.tauPx = frame % 40 < 20 ? 2 : 6;
         const Selection before = selection;
-        selectChunks(wholeTree(), view, lod, selection, frameS);
+        selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
         const ItemsById items = itemsOf(before);
         for (const DrawItem& item : selection.draw) {
             if (item.id.level == 0 || !items.contains(parentOf(item.id))) continue;
@@ -365,7 +365,7 @@ TEST(LodFade, StitchedEdgesHaveTheSameVerticesOnBothSidesInEveryFrame) {
         Selection selection;
         for (int frame = 0; frame < 60; ++frame) {
             lod.tauPx = frame % 20 < 10 ? 1 : 8;
-            selectChunks(tree, flight.at(frame * frameS), lod, selection, frameS);
+            selectChunks(tree, flight.at(frame * fadeFrameS), lod, selection, fadeFrameS);
             if (frame % 4 == 3) expectNoGaps(tree, selection, seamVertices);
             widest = std::max(widest, selection.counters.widestSeam);
             fadingFrames += selection.counters.fading > 0;
@@ -448,17 +448,17 @@ TEST(LodFade, ChildrenThatComeLateSlideInOverTheFade) {
     LodSettings lod = fading(1e-3);
     Selection selection;
     for (int frame = 0; frame < 60; ++frame) {
-        selectChunks(residentTree(fakePyramid(), 1), view, lod, selection, frameS);
+        selectChunks(residentTree(fakePyramid(), 1), view, lod, selection, fadeFrameS);
     }
     EXPECT_GT(selection.counters.waiting, 0u);
     const ChunkTree grown = residentTree(fakePyramid(), 2);
-    const auto frames = static_cast<int>(std::lround(fadeS / frameS));
+    const auto frames = static_cast<int>(std::lround(usualFadeS / fadeFrameS));
     for (int frame = 0; frame <= frames; ++frame) {
-        selectChunks(grown, view, lod, selection, frameS);
+        selectChunks(grown, view, lod, selection, fadeFrameS);
         ASSERT_FALSE(selection.draw.empty());
         for (const DrawItem& item : selection.draw) {
             EXPECT_EQ(item.id.level, 2);
-            EXPECT_NEAR(item.morph, 1 - static_cast<float>(frame) * step, 1e-5) << frame;
+            EXPECT_NEAR(item.morph, 1 - static_cast<float>(frame) * fadeStep, 1e-5) << frame;
         }
     }
     EXPECT_EQ(selection.counters.fading, 0u);
@@ -470,15 +470,15 @@ TEST(LodFade, WhatIsResidentComesLevelByLevelAndSaysWhatItWaitsFor) {
     LodSettings lod = fading(1e-3);
     lod.maxLevel = 1;
     Selection selection;
-    selectChunks(wholeTree(), view, lod, selection, frameS);
+    selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
     lod.maxLevel = 4;
     std::uint32_t deepest = 1;
     int lastChange = 0;
     for (int frame = 1; frame < 80; ++frame) {
-        selectChunks(wholeTree(), view, lod, selection, frameS);
+        selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
         if (selection.counters.deepestLevel != deepest) {
             EXPECT_EQ(selection.counters.deepestLevel, ++deepest);
-            EXPECT_TRUE(deepest == 2 || frame - lastChange >= fadeS / frameS) << frame;
+            EXPECT_TRUE(deepest == 2 || frame - lastChange >= usualFadeS / fadeFrameS) << frame;
             lastChange = frame;
         }
         for (const DrawItem& item : selection.draw) {
@@ -494,7 +494,7 @@ TEST(LodFade, WithoutTheirParentBeforeChunksStartAsTheyAre) {
     for (int i = 0; i < 30; ++i) {
         const View view = randomView(random, 1e5);
         Selection first;
-        selectChunks(wholeTree(), view, lod, first, frameS);
+        selectChunks(wholeTree(), view, lod, first, fadeFrameS);
         Selection without;
         selectChunks(wholeTree(), view, lod, without);
         EXPECT_TRUE(sameDrawing(first, without));
@@ -509,11 +509,11 @@ TEST(LodFade, ACulledSiblingHoldsNoMergeUp) {
         const View view = randomView(random, 1e5);
         LodSettings lod = fading(2);
         Selection selection;
-        selectChunks(wholeTree(), view, lod, selection, frameS);
+        selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
         const std::set<ChunkId> splits = splitIds(selection);
         const ItemsById before = itemsOf(selection);
         lod.tauPx = 5;
-        for (int frame = 0; frame < 100; ++frame) selectChunks(wholeTree(), view, lod, selection, frameS);
+        for (int frame = 0; frame < 100; ++frame) selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
         EXPECT_EQ(selection.counters.fading, 0u);
         Selection without;
         selectChunks(wholeTree(), view, lod, without);
@@ -533,9 +533,9 @@ TEST(LodFade, ChildrenThatAreGoneMergeAtOnce) {
     const View view = viewFromPose({}, 1e5, 1, 1280, 720);
     const LodSettings lod = fading(1e-3);
     Selection selection;
-    selectChunks(residentTree(fakePyramid(), 2), view, lod, selection, frameS);
+    selectChunks(residentTree(fakePyramid(), 2), view, lod, selection, fadeFrameS);
     EXPECT_EQ(selection.counters.deepestLevel, 2u);
-    selectChunks(residentTree(fakePyramid(), 1), view, lod, selection, frameS);
+    selectChunks(residentTree(fakePyramid(), 1), view, lod, selection, fadeFrameS);
     EXPECT_EQ(selection.counters.deepestLevel, 1u);
     ASSERT_FALSE(selection.draw.empty());
     for (const DrawItem& item : selection.draw) EXPECT_EQ(item.morph, 0);
@@ -547,8 +547,8 @@ TEST(LodFade, AFadeOfZeroRemembersNothing) {
     const Flight flight{8, 0};
     Selection selection;
     for (int frame = 0; frame < 60; ++frame) {
-        const View view = flight.at(frame * frameS);
-        selectChunks(wholeTree(), view, lod, selection, frameS);
+        const View view = flight.at(frame * fadeFrameS);
+        selectChunks(wholeTree(), view, lod, selection, fadeFrameS);
         Selection without;
         selectChunks(wholeTree(), view, lod, without);
         ASSERT_TRUE(sameDrawing(selection, without));
@@ -563,8 +563,8 @@ TEST(LodFade, TheSameFlightGivesTheSameDrawings) {
     Selection one;
     Selection other;
     for (int frame = 0; frame < 60; ++frame) {
-        selectChunks(wholeTree(), flight.at(frame * frameS), lod, one, frameS);
-        selectChunks(wholeTree(), flight.at(frame * frameS), lod, other, frameS);
+        selectChunks(wholeTree(), flight.at(frame * fadeFrameS), lod, one, fadeFrameS);
+        selectChunks(wholeTree(), flight.at(frame * fadeFrameS), lod, other, fadeFrameS);
         ASSERT_TRUE(sameDrawing(one, other));
     }
 }

@@ -66,13 +66,6 @@ TEST(LodSelect, CullingTakesChunksAwayAndChangesNoOther) {
     }
 }
 
-// Whether the line from the eye to a point meets the sphere.
-bool sphereHides(const glm::dvec3& eye, const glm::dvec3& point, double radius) {
-    const glm::dvec3 along = point - eye;
-    const double t = std::clamp(-glm::dot(eye, along) / glm::dot(along, along), 0.0, 1.0);
-    return glm::length(eye + t * along) < radius;
-}
-
 bool insideFrustum(const Frustum& frustum, const glm::dvec3& point) {
     return std::all_of(frustum.begin(), frustum.end(), [&](const Plane& plane) {
         return glm::dot(plane.normal, point) + plane.offsetM >= 0;

@@ -76,7 +76,7 @@ void expectWithin(const Planet& planet, std::size_t budgetBytes) {
     ASSERT_LE(planet.normalPaging().residentTiles, planet.normalPaging().tileCapacity);
 }
 
-struct Flown {
+struct FlownHour {
     std::uint64_t frames = 0;
     std::uint64_t legs = 0;
     std::uint64_t legsSettled = 0;
@@ -88,7 +88,7 @@ struct Flown {
     Holding early{0, 0, 0, 0}, late{0, 0, 0, 0};
 };
 
-void fly(Planet& planet, double seconds, Flown& flown) {
+void fly(Planet& planet, double seconds, FlownHour& flown) {
     test::RandomFlight flight(47, planet.shape().radiusM);
     const auto frames = static_cast<std::uint64_t>(seconds / test::frameS);
     flown.chunkSlots = planet.slotCapacity();
@@ -126,7 +126,7 @@ void fly(Planet& planet, double seconds, Flown& flown) {
 TEST_F(LongFlight, HoldsNothingThatItDidNotHoldBefore) {
     const PagingSettings settings = tight();
     const Holding atStart;
-    Flown flown;
+    FlownHour flown;
     {
         const auto opened = Planet::open(path_, settings);
         ASSERT_TRUE(opened) << opened.error().message;

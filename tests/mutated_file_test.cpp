@@ -64,14 +64,14 @@ const BakedEarth& bakedEarth() {
 
 // ---- the flight ----
 
-constexpr std::array<Geographic, 5> places = {
+constexpr std::array<Geographic, 5> flownPlaces = {
     {{0.5, 1.5}, {-0.4, -1.2}, {0.8, 0.15}, {-0.6, 2.5}, {1.45, -0.7}}};
 
 ViewInput diveView(std::size_t place, int frame) {
     constexpr std::array altitudesM = {1.2e7, 3e6, 4e5};
     const CameraPose pose{
-        .latitudeDeg = glm::degrees(places[place].latitudeRad),
-        .longitudeDeg = glm::degrees(places[place].longitudeRad),
+        .latitudeDeg = glm::degrees(flownPlaces[place].latitudeRad),
+        .longitudeDeg = glm::degrees(flownPlaces[place].longitudeRad),
         .altitudeM = altitudesM[static_cast<std::size_t>(std::min(frame * 3 / framesADive, 2))],
         .pitchDeg = -70};
     ViewInput view{viewFromPose(pose, 6'371'000, 1.1, 1280, 720), {}};
@@ -93,7 +93,7 @@ PagingSettings pagingSettings(bool tight) {
 }
 
 // Fills what a renderer would draw from.
-struct Pool {
+struct FilledSlots {
     std::vector<std::vector<std::int16_t>> slots;
 
     void put(std::uint32_t slot, std::span<const std::int16_t> heights) {
@@ -136,7 +136,7 @@ bool coversThePlanet(const Planet& planet) {
 }
 
 // Its heights are resident and uploaded, and all numbers are such.
-bool isDrawable(const Planet& planet, const DrawItem& item, const Pool& pool) {
+bool isDrawable(const Planet& planet, const DrawItem& item, const FilledSlots& pool) {
     const ChunkNode& node = planet.tree().nodes[item.node];
     return node.id == item.id && node.slot == item.slot && item.slot < planet.slotCapacity() &&
            item.slot < pool.slots.size() && pool.slots[item.slot] == *node.heights &&
@@ -200,7 +200,7 @@ private:
     std::unique_ptr<Planet> planet_;
     std::size_t place_;
     std::size_t budget_;
-    Pool pool_;
+    FilledSlots pool_;
     int frames_ = 0;
     std::size_t mostBytes_ = 0;
 };
@@ -452,7 +452,7 @@ bool refusedRightly(const Error& error, const Damage& damage) {
 }
 
 void flyOver(int number, Figures& figures) {
-    const std::size_t place = static_cast<std::size_t>(number / 60) % places.size();
+    const std::size_t place = static_cast<std::size_t>(number / 60) % flownPlaces.size();
     const Mutation mutation = Mutator(static_cast<std::uint32_t>(number), place).make(number);
     SCOPED_TRACE(fmt::format(
         "mutation {}: {} {}, {}", number, aimNames[static_cast<std::size_t>(mutation.aim)],

@@ -43,11 +43,11 @@ std::unique_ptr<NormalDeriver> deriverOf(const MadeChunks& made, std::size_t kep
 }
 
 // Of the vertex of a level's grid that a texel is.
-struct Vertex {
+struct GridVertex {
     int column;
     int row;
 };
-Vertex vertexOf(const ChunkId& tile, int i, int j) {
+GridVertex vertexOf(const ChunkId& tile, int i, int j) {
     return {static_cast<int>(tile.x) * tileCells - tileBorderBefore + i,
             static_cast<int>(tile.y) * tileCells - tileBorderBefore + j};
 }
@@ -160,7 +160,8 @@ TEST(NormalTile, BothFacesTellTheSameOfTheirEdgeAndAllThreeOfACorner) {
     int compared = 0;
     for (const Face face : allFaces) {
         for (int along = 0; along <= cells; along += 8) {
-            for (const auto& [column, row] : {Vertex{0, along}, {cells, along}, {along, 0}, {along, cells}}) {
+            for (const auto& [column, row] :
+                 {GridVertex{0, along}, {cells, along}, {along, 0}, {along, cells}}) {
                 const glm::dvec3 own = normalAt({face, column, row});
                 const glm::dvec3 place = cubePoint(face, 2.0 * column / cells - 1, 2.0 * row / cells - 1);
                 for (const Face other : allFaces) {

@@ -8,13 +8,13 @@
 namespace planet {
 namespace {
 
-ChunkId chunk(std::uint32_t number) {
+ChunkId chunkNumber(std::uint32_t number) {
     return {allFaces[number % 6], 7, number / 6, 3};
 }
 
 PagingRequest makeRequest(std::uint32_t number, PagingType type, double priority, std::uint64_t frame = 0) {
     PagingRequest request;
-    request.parent = chunk(number);
+    request.parent = chunkNumber(number);
     request.type = type;
     request.priority = priority;
     request.renewedFrame = frame;
@@ -27,14 +27,14 @@ TEST(PagingQueue, TheMostUrgentComesFirst) {
     queue.submit(makeRequest(2, PagingType::PageIn, 5));
     queue.submit(makeRequest(3, PagingType::PageOut, 9));
     queue.submit(makeRequest(4, PagingType::PageIn, 3));
-    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunk(2));
-    EXPECT_EQ(queue.worst(PagingType::PageIn)->parent, chunk(1));
-    EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunk(2));
-    EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunk(4));
-    EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunk(1));
+    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunkNumber(2));
+    EXPECT_EQ(queue.worst(PagingType::PageIn)->parent, chunkNumber(1));
+    EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunkNumber(2));
+    EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunkNumber(4));
+    EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunkNumber(1));
     EXPECT_FALSE(queue.popBest(PagingType::PageIn));
     EXPECT_EQ(queue.best(PagingType::PageIn), nullptr);
-    EXPECT_EQ(queue.popBest(PagingType::PageOut)->parent, chunk(3));
+    EXPECT_EQ(queue.popBest(PagingType::PageOut)->parent, chunkNumber(3));
 }
 
 TEST(PagingQueue, AskingAgainInTheSameFrameRaisesThePriorityAndNeverLowersIt) {
@@ -44,9 +44,9 @@ TEST(PagingQueue, AskingAgainInTheSameFrameRaisesThePriorityAndNeverLowersIt) {
     EXPECT_EQ(queue.submit(makeRequest(1, PagingType::PageIn, 5)), SubmitOutcome::Merged);
     EXPECT_EQ(queue.submit(makeRequest(2, PagingType::PageIn, 1)), SubmitOutcome::Merged);
     EXPECT_EQ(queue.count(PagingType::PageIn), 2u);
-    EXPECT_EQ(queue.find(chunk(1))->priority, 5);
-    EXPECT_EQ(queue.find(chunk(2))->priority, 3);
-    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunk(1));
+    EXPECT_EQ(queue.find(chunkNumber(1))->priority, 5);
+    EXPECT_EQ(queue.find(chunkNumber(2))->priority, 3);
+    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunkNumber(1));
 }
 
 TEST(PagingQueue, AskingInALaterFrameSetsThePriority) {
@@ -58,10 +58,10 @@ TEST(PagingQueue, AskingInALaterFrameSetsThePriority) {
     request = makeRequest(1, PagingType::PageIn, 2, 11);
     request.viewPriority = {0, 2};
     EXPECT_EQ(queue.submit(request), SubmitOutcome::Merged);
-    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunk(2));
-    EXPECT_EQ(queue.find(chunk(1))->priority, 2);
-    EXPECT_EQ(queue.find(chunk(1))->viewPriority, (std::array<float, maxViews>{0, 2}));
-    EXPECT_EQ(queue.find(chunk(1))->timesAsked, 2u);
+    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunkNumber(2));
+    EXPECT_EQ(queue.find(chunkNumber(1))->priority, 2);
+    EXPECT_EQ(queue.find(chunkNumber(1))->viewPriority, (std::array<float, maxViews>{0, 2}));
+    EXPECT_EQ(queue.find(chunkNumber(1))->timesAsked, 2u);
 }
 
 TEST(PagingQueue, ViewsThatAskInTheSameFrameKeepAPriorityEach) {
@@ -72,8 +72,8 @@ TEST(PagingQueue, ViewsThatAskInTheSameFrameKeepAPriorityEach) {
     request.priority = 3;
     request.viewPriority = {0, 3};
     queue.submit(request);
-    EXPECT_EQ(queue.find(chunk(1))->priority, 5);
-    EXPECT_EQ(queue.find(chunk(1))->viewPriority, (std::array<float, maxViews>{5, 3}));
+    EXPECT_EQ(queue.find(chunkNumber(1))->priority, 5);
+    EXPECT_EQ(queue.find(chunkNumber(1))->viewPriority, (std::array<float, maxViews>{5, 3}));
 }
 
 TEST(PagingQueue, WhatIsFirstInAnotherOrderCanBeServedFirst) {
@@ -83,11 +83,11 @@ TEST(PagingQueue, WhatIsFirstInAnotherOrderCanBeServedFirst) {
         return static_cast<std::uint64_t>((id.parent.face == Face::NegY));
     };
     // Of those with the same place the first in order of parent.
-    EXPECT_EQ(queue.popFirst(PagingType::PageIn, byFace)->parent, chunk(0));
+    EXPECT_EQ(queue.popFirst(PagingType::PageIn, byFace)->parent, chunkNumber(0));
     const auto reversed = [](const BlockId& id) { return 100 - static_cast<std::uint64_t>(id.parent.face); };
-    EXPECT_EQ(queue.popFirst(PagingType::PageIn, reversed)->parent, chunk(4));
-    EXPECT_EQ(queue.pop(chunk(2))->parent, chunk(2));
-    EXPECT_FALSE(queue.pop(chunk(2)));
+    EXPECT_EQ(queue.popFirst(PagingType::PageIn, reversed)->parent, chunkNumber(4));
+    EXPECT_EQ(queue.pop(chunkNumber(2))->parent, chunkNumber(2));
+    EXPECT_FALSE(queue.pop(chunkNumber(2)));
     EXPECT_FALSE(queue.popFirst(PagingType::PageOut, reversed));
     EXPECT_EQ(queue.count(PagingType::PageIn), 2u);
     EXPECT_EQ(queue.counters().popped[0], 3u);
@@ -100,7 +100,7 @@ TEST(PagingQueue, OppositeRequestsCancelEachOther) {
     EXPECT_EQ(queue.submit(makeRequest(1, PagingType::PageIn, 5)), SubmitOutcome::Opposed);
     EXPECT_EQ(queue.count(PagingType::PageOut), 0u);
     EXPECT_EQ(queue.count(PagingType::PageIn), 0u);
-    EXPECT_EQ(queue.find(chunk(1)), nullptr);
+    EXPECT_EQ(queue.find(chunkNumber(1)), nullptr);
     EXPECT_EQ(queue.submit(makeRequest(1, PagingType::PageIn, 5)), SubmitOutcome::Added);
     EXPECT_EQ(queue.submit(makeRequest(1, PagingType::PageOut, 5)), SubmitOutcome::Opposed);
     EXPECT_EQ(queue.counters().opposed, 2u);
@@ -114,9 +114,9 @@ TEST(PagingQueue, WhatIsNotAskedForAgainIsCancelled) {
     queue.submit(makeRequest(2, PagingType::PageIn, 0, 11));
     const auto cancelled = queue.cancelNotRenewed(PagingType::PageIn, 11);
     ASSERT_EQ(cancelled.size(), 1u);
-    EXPECT_EQ(cancelled[0].parent, chunk(1));
-    EXPECT_NE(queue.find(chunk(2)), nullptr);
-    EXPECT_NE(queue.find(chunk(3)), nullptr);
+    EXPECT_EQ(cancelled[0].parent, chunkNumber(1));
+    EXPECT_NE(queue.find(chunkNumber(2)), nullptr);
+    EXPECT_NE(queue.find(chunkNumber(3)), nullptr);
 }
 
 TEST(PagingQueue, ARequestKeepsWhatItCarries) {
@@ -235,7 +235,7 @@ bool operateOnBoth(PagingQueue& queue, SimpleQueue& simple, std::mt19937& random
         return same(queue.best(type), simple.extreme(type, true)) &&
                same(queue.worst(type), simple.extreme(type, false));
     }
-    if (kind < 98) return queue.cancel(chunk(number)).has_value() == simple.cancel(chunk(number));
+    if (kind < 98) return queue.cancel(chunkNumber(number)).has_value() == simple.cancel(chunkNumber(number));
     const std::uint64_t since = frame - random() % 20;
     return same(queue.cancelNotRenewed(type, since), simple.cancelNotRenewed(type, since));
 }

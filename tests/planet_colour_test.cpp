@@ -16,12 +16,12 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int leaf = 6;
+constexpr int leafOfFile = 6;
 
 // A tile whose texels begin with its own name.
 TileData fakeTile(const ChunkId& id) {
     TileData tile{id, {}, std::vector<std::byte>(colourTileBytes(ColourFormat::Bc1))};
-    if (id.level < leaf) tile.children = {1000 + keyOf(id) % 100'000, 77};
+    if (id.level < leafOfFile) tile.children = {1000 + keyOf(id) % 100'000, 77};
     const std::uint64_t key = keyOf(id);
     std::memcpy(tile.texels.data(), &key, sizeof key);
     return tile;
@@ -36,14 +36,15 @@ Result<TileBlock> loadFakeTiles(const ChunkId& parent, BlockLocation location) {
 
 PlanetSource colouredSource(LoadColours load = loadFakeTiles) {
     PlanetSource source = fakePyramid().source();
-    source.colour = ColourPyramid{.format = ColourFormat::Bc1, .leafLevel = leaf, .roots = {}, .source = {}};
+    source.colour =
+        ColourPyramid{.format = ColourFormat::Bc1, .leafLevel = leafOfFile, .roots = {}, .source = {}};
     for (const Face face : allFaces)
         source.colourRoots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
     source.loadColours = std::move(load);
     return source;
 }
 
-PagingSettings roomForTiles(std::uint32_t tiles) {
+PagingSettings roomForColourTiles(std::uint32_t tiles) {
     PagingSettings settings;
     settings.budgetBytes = 2 * bytesOf(20'000);
     settings.colourShare = 0.5;
@@ -57,12 +58,12 @@ ViewInput coloured(const View& view, double texelsPerPixel = 1) {
             .colours = {.enabled = true, .texelsPerPixel = texelsPerPixel}};
 }
 
-bool settled(Planet& planet, const View& view, double texelsPerPixel = 1) {
+bool colouredSettled(Planet& planet, const View& view, double texelsPerPixel = 1) {
     const ViewInput input = coloured(view, texelsPerPixel);
     return planet.settle({&input, 1}, noUpload, timeoutS);
 }
 
-struct TilePool : HeldTiles {
+struct ColourPool : HeldTiles {
     std::set<ChunkId> checkers;
 
     void follow(Planet& planet) {
@@ -72,7 +73,7 @@ struct TilePool : HeldTiles {
     }
 };
 
-void expectHolds(const Planet& planet, const TilePool& pool) {
+void expectHolds(const Planet& planet, const ColourPool& pool) {
     expectHolds(planet.colourTree(), planet.colourPaging().tileCapacity, pool);
 }
 
@@ -86,11 +87,11 @@ std::set<ChunkId> shown(const Planet& planet) {
 }
 
 TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
-    const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
-    TilePool pool;
+    const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
+    ColourPool pool;
     const View view = viewAt(20, 30, 40'000, -70);
     for (const double wanted : {0.4, 0.8, 1.2}) {
-        ASSERT_TRUE(settled(*planet, view, wanted));
+        ASSERT_TRUE(colouredSettled(*planet, view, wanted));
         pool.follow(*planet);
         expectHolds(*planet, pool);
         const TileSelection& selection = planet->colourSelection();
@@ -121,11 +122,11 @@ TEST(PlanetColours, ATexelIsAsWideAsTheMapStretchesItAtMost) {
 }
 
 TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
-    const auto withColours = Planet::open(colouredSource(), roomForTiles(800)).value();
+    const auto withColours = Planet::open(colouredSource(), roomForColourTiles(800)).value();
     const auto plain = openFake();
     for (const double altitudeM : {1e7, 1e6, 1e5}) {
         const View view = viewAt(10, 50, altitudeM);
-        ASSERT_TRUE(settled(*withColours, view));
+        ASSERT_TRUE(colouredSettled(*withColours, view));
         ASSERT_TRUE(plain->settle(view, fineSettings(), noUpload, timeoutS));
         EXPECT_EQ(drawn(*withColours), drawn(*plain));
     }
@@ -133,18 +134,18 @@ TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
 }
 
 TEST(PlanetColours, OffTheyAskForNothing) {
-    const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
+    const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
     ASSERT_TRUE(planet->settle(viewAt(10, 50, 1e5), fineSettings(), noUpload, timeoutS));
     EXPECT_EQ(planet->colourTree().residentTiles, 6u);
     EXPECT_EQ(planet->colourPaging().loaded, 0u);
 }
 
 TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
-    PagingSettings settings = roomForTiles(6 + 4 * 20);
+    PagingSettings settings = roomForColourTiles(6 + 4 * 20);
     settings.time = PagingTime::Simulated;
     settings.badDisk = {.latencyMs = 20, .seed = 5};
     const auto planet = Planet::open(colouredSource(), settings).value();
-    TilePool pool;
+    ColourPool pool;
     for (int i = 0; i < 400; ++i) {
         const ViewInput input = coloured(viewAt(20 + 0.05 * i, 30 + 0.4 * i, 60'000 - 100 * i, -60));
         planet->step({&input, 1}, noUpload, 1.0 / 60);
@@ -153,7 +154,7 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
         if (HasFailure()) return;
     }
     EXPECT_GT(planet->colourPaging().evicted, 10u);
-    ASSERT_TRUE(settled(*planet, viewAt(40, 190, 2e4, -60), 2));
+    ASSERT_TRUE(colouredSettled(*planet, viewAt(40, 190, 2e4, -60), 2));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     // What waits is wanted no more than half as much again as what is there.
@@ -168,7 +169,7 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
 TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
     std::atomic<bool> broken = true;
     const ChunkId bad{Face::PosX, 1, 1, 1};
-    PagingSettings settings = roomForTiles(800);
+    PagingSettings settings = roomForColourTiles(800);
     settings.retry.retries = 0;
     const auto planet =
         Planet::open(colouredSource([&](const ChunkId& parent, BlockLocation location) {
@@ -178,9 +179,9 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
                      }),
                      settings)
             .value();
-    TilePool pool;
+    ColourPool pool;
     const View view = viewAt(20, 20, 40'000, -70);
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(colouredSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_THAT(planet->takeProblems(), testing::ElementsAre(HasSubstr("x_pos/1/1/1 are gone")));
@@ -190,7 +191,7 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
     broken = false;
     pool.checkers.clear();
     planet->retryFailed();
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(colouredSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_TRUE(pool.checkers.empty());
@@ -199,16 +200,16 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
 }
 
 TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
-    const auto planet = Planet::open(colouredSource(), roomForTiles(800)).value();
-    TilePool pool;
+    const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
+    ColourPool pool;
     const View view = viewAt(20, 20, 40'000, -70);
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(colouredSettled(*planet, view));
     pool.follow(*planet);
     const std::set<ChunkId> before = shown(*planet);
     const auto comesAgain = [&] {
         pool.follow(*planet);
         EXPECT_EQ(pool.tiles.size(), 6u);
-        ASSERT_TRUE(settled(*planet, view));
+        ASSERT_TRUE(colouredSettled(*planet, view));
         pool.follow(*planet);
         expectHolds(*planet, pool);
         EXPECT_EQ(shown(*planet), before);
@@ -227,20 +228,21 @@ TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
 }
 
 TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
-    const auto tooFew = Planet::open(colouredSource(), roomForTiles(20));
+    const auto tooFew = Planet::open(colouredSource(), roomForColourTiles(20));
     ASSERT_FALSE(tooFew);
     EXPECT_THAT(tooFew.error().message, HasSubstr("room for 20 tiles of colour is too little"));
-    PagingSettings settings = roomForTiles(800);
+    PagingSettings settings = roomForColourTiles(800);
     settings.colourShare = 0.95;
     const auto tooLarge = Planet::open(colouredSource(), settings);
     ASSERT_FALSE(tooLarge);
     EXPECT_THAT(tooLarge.error().message, HasSubstr("a share of 0.95 for colours"));
-    EXPECT_TRUE(Planet::open(fakePyramid().source(), roomForTiles(1)));  // without colours it does not matter
+    EXPECT_TRUE(
+        Planet::open(fakePyramid().source(), roomForColourTiles(1)));  // without colours it does not matter
 }
 
 // As a recording does: what the loaders did is done again on a planet whose time is recorded.
 TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
-    PagingSettings settings = roomForTiles(6 + 4 * 30);
+    PagingSettings settings = roomForColourTiles(6 + 4 * 30);
     settings.time = PagingTime::Simulated;
     settings.badDisk = {.latencyMs = 30, .failureRate = 0.05, .shuffledOrder = true, .seed = 9};
     const auto planet = Planet::open(colouredSource(), settings).value();
@@ -257,7 +259,7 @@ TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
 // A tile that holds the eye in its bounds is wanted more than the one above it, whose bounds may not.
 TEST(PlanetColours, ABlockIsNotDroppedForWhatIsToComeUnderIt) {
     TilePaging tiles;
-    tiles.leafLevel = leaf;
+    tiles.leafLevel = leafOfFile;
     tiles.checkers = ColourFormat::Bc1;
     for (const Face face : allFaces) tiles.roots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
     tiles.begin(faceCount + quadrantCount, 0);

@@ -9,8 +9,6 @@
 namespace planet {
 namespace {
 
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
 TEST(PlanetExplain, FollowsAChunkFromTheQueueToTheScreen) {
     PagingSettings paging;
     paging.paused = true;

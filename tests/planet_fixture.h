@@ -31,8 +31,6 @@ inline std::unique_ptr<Planet> openFake(PlanetSource source = fakePyramid().sour
     return Planet::open(std::move(source), settings).value();
 }
 
-inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
 inline View viewAt(double latitudeDeg, double longitudeDeg, double altitudeM = 8000, double pitchDeg = -60) {
     CameraPose pose;
     pose.latitudeDeg = latitudeDeg;

@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 
 // What a renderer would hold.
-struct Pool {
+struct RendererSlots {
     std::map<std::uint32_t, std::vector<std::int16_t>> heights;
 
     UploadChunk upload() {
@@ -33,7 +33,7 @@ struct Pool {
 };
 
 // Each resident chunk has a slot of its own that holds its heights; what is drawn is resident.
-void expectWhole(const Planet& planet, const Pool& pool) {
+void expectWhole(const Planet& planet, const RendererSlots& pool) {
     std::set<std::uint32_t> slots;
     forEachNode(planet.tree(), [&](NodeIndex index, const ChunkNode& node) {
         EXPECT_TRUE(slots.insert(node.slot).second);
@@ -62,7 +62,8 @@ LodSettings pixelSettings() {
 }
 
 // The same view settles to the same draw list as on a planet that was never changed.
-void expectSettlesAsFresh(Planet& planet, const View& view, const LodSettings& settings, Pool& pool) {
+void expectSettlesAsFresh(Planet& planet, const View& view, const LodSettings& settings,
+                          RendererSlots& pool) {
     ASSERT_TRUE(planet.settle(view, settings, pool.upload(), timeoutS));
     expectWhole(planet, pool);
     PagingSettings fresh = planet.pagingSettings();
@@ -82,7 +83,7 @@ PagingSettings budgetOf(std::size_t chunks, int loaderThreads = 1) {
 
 TEST(Planet, AGrownBudgetTakesWhatHadNoRoom) {
     const auto planet = openFake(fakePyramid().source(), 70);
-    Pool pool;
+    RendererSlots pool;
     LodSettings settings;
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
@@ -99,7 +100,7 @@ TEST(Planet, AGrownBudgetTakesWhatHadNoRoom) {
 
 TEST(Planet, AShrunkBudgetDropsWhatIsOutOfUseFirst) {
     const auto planet = openFake(fakePyramid().source(), 1000);
-    Pool pool;
+    RendererSlots pool;
     for (int i = 0; i < 6; ++i) {
         ASSERT_TRUE(planet->settle(viewAt(-10, 70 + i * 45), pixelSettings(), pool.upload(), timeoutS));
     }
@@ -118,7 +119,7 @@ TEST(Planet, AShrunkBudgetDropsWhatIsOutOfUseFirst) {
 
 TEST(Planet, AShrunkBudgetDropsEvenWhatIsDrawn) {
     const auto planet = openFake(fakePyramid().source(), 1000);
-    Pool pool;
+    RendererSlots pool;
     LodSettings settings;
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
@@ -138,7 +139,7 @@ TEST(Planet, ABudgetMayShrinkWhileBlocksAreBeingRead) {
     Gated gated;
     gated.gate.open();
     const auto planet = openFake(gated.source(), 1000, 3);
-    Pool pool;
+    RendererSlots pool;
     for (int i = 0; i < 6; ++i) {
         ASSERT_TRUE(planet->settle(viewAt(-10, 70 + i * 45), pixelSettings(), pool.upload(), timeoutS));
     }
@@ -164,7 +165,7 @@ TEST(Planet, ABudgetMayShrinkBelowWhatIsBeingRead) {
     Gated gated;
     gated.gate.open();
     const auto planet = openFake(gated.source(), 1000, 40);
-    Pool pool;
+    RendererSlots pool;
     LodSettings whole;
     whole.frustumCulling = whole.horizonCulling = false;
     whole.tauPx = 1e-3;
@@ -196,7 +197,7 @@ TEST(Planet, ABudgetMayShrinkBelowWhatIsBeingRead) {
 
 TEST(Planet, ABudgetMayChangeInEveryStep) {
     const auto planet = openFake(fakePyramid().source(), 100, 3);
-    Pool pool;
+    RendererSlots pool;
     std::mt19937 random(53);
     LodSettings settings;
     settings.tauPx = 0.3;
@@ -215,7 +216,7 @@ TEST(Planet, ABudgetMayChangeInEveryStep) {
 TEST(Planet, ThreadsMayChangeWhileBlocksAreBeingRead) {
     Gated gated;
     const auto planet = openFake(gated.source(), 1000, 1);
-    Pool pool;
+    RendererSlots pool;
     const View view = viewAt(0, 0, 4e5, -90);
     LodSettings settings = fineSettings();
     settings.frustumCulling = settings.horizonCulling = false;
@@ -234,7 +235,7 @@ TEST(Planet, ThreadsMayChangeWhileBlocksAreBeingRead) {
 
 TEST(Planet, PausedItLoadsOnlyWhatIsLetThrough) {
     const auto planet = openPaused();
-    Pool pool;
+    RendererSlots pool;
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), pool.upload(), timeoutS));  // and at once
     EXPECT_EQ(planet->paging().loaded, 0u);
     EXPECT_GT(planet->paging().queued, 0u);
@@ -252,7 +253,7 @@ TEST(Planet, PausedItLoadsOnlyWhatIsLetThrough) {
 
 TEST(Planet, DropAllLeavesTheRoots) {
     const auto planet = openFake();
-    Pool pool;
+    RendererSlots pool;
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), pool.upload(), timeoutS));
     ASSERT_TRUE(planet->settle(viewAt(-20, 80), fineSettings(), pool.upload(), timeoutS));
     EXPECT_FALSE(planet->pendingRequests(PagingType::PageOut).empty());
@@ -271,7 +272,7 @@ TEST(Planet, DropAllLeavesTheRoots) {
 TEST(Planet, DropAllThrowsAwayWhatIsBeingRead) {
     Gated gated;
     const auto planet = openFake(gated.source(), 1000, 4);
-    Pool pool;
+    RendererSlots pool;
     LodSettings settings = fineSettings();
     settings.frustumCulling = settings.horizonCulling = false;
     planet->step(viewAt(10, 20), settings, pool.upload());
@@ -295,7 +296,7 @@ TEST(Planet, DropAllThrowsAwayWhatIsBeingReadDeepInTheTree) {
     Gated gated;
     gated.gate.open();
     const auto planet = openFake(gated.source(), 1000, 2);
-    Pool pool;
+    RendererSlots pool;
     const View view = viewAt(10, 20, 3e4, -90);
     LodSettings settings;
     settings.tauPx = 0.01;
@@ -341,7 +342,7 @@ TEST(Planet, ABadDisksFailuresAreRetriedByHandUntilAllIsThere) {
     settings.badDisk = {.latencyMs = 0.05, .failureRate = 0.4, .shuffledOrder = true, .seed = 11};
     settings.retry.retries = 0;
     const auto planet = Planet::open(fakePyramid().source(), settings).value();
-    Pool pool;
+    RendererSlots pool;
     int rounds = 0;
     do {
         planet->retryFailed();

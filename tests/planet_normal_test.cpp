@@ -29,7 +29,7 @@ MadeChunks madeChunks(int faceCellsLog2 = 10) {
             hillsM};
 }
 
-PagingSettings roomForTiles(std::uint32_t tiles) {
+PagingSettings roomForNormalTiles(std::uint32_t tiles) {
     PagingSettings settings;
     settings.budgetBytes = std::size_t{128} << 20;
     settings.normals = true;
@@ -44,12 +44,12 @@ ViewInput litFinely(const View& view, double texelsPerPixel = 1) {
     return {.lodView = view, .lod = coarse, .normals = {.enabled = true, .texelsPerPixel = texelsPerPixel}};
 }
 
-bool settled(Planet& planet, const View& view, double texelsPerPixel = 1) {
+bool litSettled(Planet& planet, const View& view, double texelsPerPixel = 1) {
     const ViewInput input = litFinely(view, texelsPerPixel);
     return planet.settle({&input, 1}, noUpload, timeoutS);
 }
 
-struct TilePool : HeldTiles {
+struct NormalPool : HeldTiles {
     void follow(Planet& planet) {
         HeldTiles::follow(planet.takeNormalChanges(), [](const TileData& tile) {
             EXPECT_EQ(tile.texels.size(), normalTileBytes) << toString(tile.id);
@@ -57,16 +57,16 @@ struct TilePool : HeldTiles {
     }
 };
 
-void expectHolds(const Planet& planet, const TilePool& pool) {
+void expectHolds(const Planet& planet, const NormalPool& pool) {
     expectHolds(planet.normalTree(), planet.normalPaging().tileCapacity, pool);
 }
 
 TEST(PlanetNormals, SettleOnAsManyTexelsAsAreWantedWhateverTheChunks) {
     const MadeChunks made = madeChunks();
-    const auto planet = Planet::open(made.source(), roomForTiles(200)).value();
-    TilePool pool;
+    const auto planet = Planet::open(made.source(), roomForNormalTiles(200)).value();
+    NormalPool pool;
     for (const double wanted : {0.3, 0.6, 1.0}) {
-        ASSERT_TRUE(settled(*planet, viewAt(20, 30, 240'000, -80), wanted));
+        ASSERT_TRUE(litSettled(*planet, viewAt(20, 30, 240'000, -80), wanted));
         pool.follow(*planet);
         expectHolds(*planet, pool);
         const TileCounters& seen = planet->normalSelection().counters;
@@ -84,14 +84,14 @@ TEST(PlanetNormals, SettleOnAsManyTexelsAsAreWantedWhateverTheChunks) {
 
 TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
     const MadeChunks made = madeChunks();
-    PagingSettings settings = roomForTiles(200);
+    PagingSettings settings = roomForNormalTiles(200);
     settings.budgetBytes = std::size_t{64} << 20;  // less than all chunks and tiles
     settings.normals = false;
     const auto planet = Planet::open(made.source(), settings).value();
     const std::uint32_t allSlots = planet->slotCapacity();
-    TilePool pool;
+    NormalPool pool;
     const View view = viewAt(20, 30, 60'000, -80);
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(litSettled(*planet, view));
     EXPECT_TRUE(planet->normalTree().nodes.empty());
     EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
     EXPECT_EQ(planet->normalPaging().bytesRead, 0u);
@@ -101,7 +101,7 @@ TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
     settings.normals = true;
     ASSERT_TRUE(planet->setPaging(settings).value());
     EXPECT_LT(planet->slotCapacity(), allSlots);
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(litSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_GT(pool.tiles.size(), 6u);
@@ -116,12 +116,12 @@ TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
 
 TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
     const MadeChunks made = madeChunks();
-    PagingSettings settings = roomForTiles(6 + 4 * 8);
+    PagingSettings settings = roomForNormalTiles(6 + 4 * 8);
     settings.time = PagingTime::Simulated;
     settings.badDisk = {.latencyMs = 20, .seed = 5};
     const auto planet = Planet::open(made.source(), settings).value();
     ASSERT_EQ(planet->normalPaging().tileCapacity, 38u);
-    TilePool pool;
+    NormalPool pool;
     for (int i = 0; i < 60; ++i) {
         const ViewInput input = litFinely(viewAt(20 + 0.1 * i, 30 + 1.5 * i, 40'000, -60));
         planet->step({&input, 1}, noUpload, 1.0 / 30);
@@ -131,7 +131,7 @@ TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
     }
     EXPECT_GT(planet->normalPaging().evicted, 3u);
     const View still = viewAt(26, 120, 20'000, -60);
-    ASSERT_TRUE(settled(*planet, still, 2));
+    ASSERT_TRUE(litSettled(*planet, still, 2));
     ASSERT_GT(planet->normalPaging().budgetWaits, 0u);
     const std::uint64_t loaded = planet->normalPaging().loaded;
     const ViewInput input = litFinely(still, 2);
@@ -142,10 +142,10 @@ TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
 TEST(PlanetNormals, ABlockOfHeightsThatCannotBeReadLeavesTheMeshAndSaysSo) {
     MadeChunks made = madeChunks();
     made.broken = ChunkId{Face::PosX, 4, 9, 9};
-    const auto planet = Planet::open(made.source(), roomForTiles(300)).value();
-    TilePool pool;
+    const auto planet = Planet::open(made.source(), roomForNormalTiles(300)).value();
+    NormalPool pool;
     const View view = viewAt(10, 10, 30'000, -80);
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(litSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_GT(planet->normalPaging().failed, 0u);
@@ -156,7 +156,7 @@ TEST(PlanetNormals, ABlockOfHeightsThatCannotBeReadLeavesTheMeshAndSaysSo) {
     const std::uint64_t failed = planet->normalPaging().failed;
     made.broken.reset();
     planet->retryFailed();
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(litSettled(*planet, view));
     EXPECT_EQ(planet->normalPaging().failed, failed);
     EXPECT_EQ(planet->normalSelection().counters.waiting, 0u);
     EXPECT_TRUE(planet->takeProblems().empty());
@@ -166,7 +166,7 @@ TEST(PlanetNormals, ABlockThatADiskFailsToReadIsTriedAgain) {
     MadeChunks made = madeChunks();
     made.broken = ChunkId{Face::PosX, 4, 9, 9};
     made.brokenBy = ErrorKind::Io;
-    PagingSettings settings = roomForTiles(300);
+    PagingSettings settings = roomForNormalTiles(300);
     settings.time = PagingTime::Simulated;
     settings.retry = {.retries = 3, .delayS = 0.5};
     const auto planet = Planet::open(made.source(), settings).value();
@@ -193,7 +193,7 @@ TEST(PlanetNormals, ABlockThatADiskFailsToReadIsTriedAgain) {
     EXPECT_GT(broken->paging().failedForGood, 0u);
     EXPECT_EQ(broken->paging().awaitingRetry, 0u);
     for (const FailedBlock& failed : broken->failedBlocks()) EXPECT_EQ(failed.attempts, 4u);
-    TilePool pool;
+    NormalPool pool;
     pool.follow(*broken);
     expectHolds(*broken, pool);
 }
@@ -201,7 +201,7 @@ TEST(PlanetNormals, ABlockThatADiskFailsToReadIsTriedAgain) {
 TEST(PlanetNormals, AFaceWhoseOwnTileCannotBeDerivedIsWithoutUntilItCan) {
     MadeChunks made = madeChunks(9);
     made.broken = ChunkId{Face::NegZ, 0, 0, 0};
-    const auto planet = Planet::open(made.source(), roomForTiles(30)).value();
+    const auto planet = Planet::open(made.source(), roomForNormalTiles(30)).value();
     const auto arrivals = [&] {
         std::set<ChunkId> arrived;
         for (const TileChange& change : planet->takeNormalChanges())
@@ -219,25 +219,25 @@ TEST(PlanetNormals, AFaceWhoseOwnTileCannotBeDerivedIsWithoutUntilItCan) {
 
 TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
     const MadeChunks made = madeChunks();
-    PagingSettings tight = roomForTiles(20);
+    PagingSettings tight = roomForNormalTiles(20);
     const auto planet = Planet::open(made.source(), tight).value();
     EXPECT_THAT(planet->takeProblems(),
                 testing::ElementsAre(HasSubstr("room for 20 tiles of normals is too little")));
     EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
-    ASSERT_TRUE(settled(*planet, viewAt(10, 10)));
+    ASSERT_TRUE(litSettled(*planet, viewAt(10, 10)));
     tight.uploadLimitMs = 3;
     EXPECT_TRUE(planet->setPaging(tight));
     EXPECT_TRUE(planet->takeProblems().empty());  // told once
 
-    const auto small = Planet::open(fakePyramid().source(), roomForTiles(2000)).value();
+    const auto small = Planet::open(fakePyramid().source(), roomForNormalTiles(2000)).value();
     EXPECT_EQ(small->normalLeafLevel(), fakePyramid().shape.faceCellsLog2 - 8);
     const MadeChunks tiny = madeChunks(7);
-    const auto without = Planet::open(tiny.source(), roomForTiles(2000)).value();
+    const auto without = Planet::open(tiny.source(), roomForNormalTiles(2000)).value();
     EXPECT_EQ(without->normalLeafLevel(), -1);
-    ASSERT_TRUE(settled(*without, viewAt(10, 10)));
+    ASSERT_TRUE(litSettled(*without, viewAt(10, 10)));
     EXPECT_TRUE(without->takeNormalChanges().empty());
 
-    PagingSettings wrong = roomForTiles(200);
+    PagingSettings wrong = roomForNormalTiles(200);
     wrong.normalShare = 0.95;
     const auto refused = Planet::open(made.source(), wrong);
     ASSERT_FALSE(refused);
@@ -246,17 +246,17 @@ TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
 
 TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {
     const MadeChunks made = madeChunks();
-    const auto planet = Planet::open(made.source(), roomForTiles(126)).value();
-    TilePool pool;
+    const auto planet = Planet::open(made.source(), roomForNormalTiles(126)).value();
+    NormalPool pool;
     const View view = viewAt(20, 20, 60'000, -70);
-    ASSERT_TRUE(settled(*planet, view));
+    ASSERT_TRUE(litSettled(*planet, view));
     pool.follow(*planet);
     const auto before = pool.tiles.size();
     ASSERT_GT(before, 6u);
     const auto comesAgain = [&] {
         pool.follow(*planet);
         EXPECT_EQ(pool.tiles.size(), 6u);
-        ASSERT_TRUE(settled(*planet, view));
+        ASSERT_TRUE(litSettled(*planet, view));
         pool.follow(*planet);
         expectHolds(*planet, pool);
         EXPECT_EQ(pool.tiles.size(), before);
@@ -271,7 +271,7 @@ TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {
 
 TEST(PlanetNormals, ARecordingOfThemIsFollowedExactly) {
     const MadeChunks made = madeChunks();
-    PagingSettings settings = roomForTiles(6 + 4 * 6);
+    PagingSettings settings = roomForNormalTiles(6 + 4 * 6);
     settings.time = PagingTime::Simulated;
     settings.badDisk = {.latencyMs = 30, .failureRate = 0.1, .shuffledOrder = true, .seed = 9};
     const auto planet = Planet::open(made.source(), settings).value();

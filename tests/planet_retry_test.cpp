@@ -18,8 +18,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-constexpr double dtS = 1.0 / 64;  // exact
-const ChunkId root{Face::PosX, 0, 0, 0};
+constexpr double stepS = 1.0 / 64;  // exact
+const ChunkId posXRoot{Face::PosX, 0, 0, 0};
 
 // A planet with colours of which told blocks fail, and which notes when each was read. Read by one thread at
 // a time: that of simulated time, or the only loader.
@@ -73,7 +73,7 @@ struct Flaky {
     }
 };
 
-PagingSettings simulated(const RetryRules& retry) {
+PagingSettings simulatedRetry(const RetryRules& retry) {
     PagingSettings settings;
     settings.time = PagingTime::Simulated;
     settings.retry = retry;
@@ -87,9 +87,9 @@ ViewInput inputOf(const View& view, bool colours = false) {
 void fly(Planet& planet, Flaky& flaky, double seconds, bool colours = false,
          const View& view = viewAt(10, 20)) {
     const ViewInput input = inputOf(view, colours);
-    for (double flownS = 0; flownS < seconds; flownS += dtS) {
-        flaky.nowS += dtS;
-        planet.step({&input, 1}, noUpload, dtS);
+    for (double flownS = 0; flownS < seconds; flownS += stepS) {
+        flaky.nowS += stepS;
+        planet.step({&input, 1}, noUpload, stepS);
     }
 }
 
@@ -119,29 +119,29 @@ TEST(BlockStateDeathTest, AStepThatIsNotInTheDiagramAsserts) {
 
 TEST(Retries, ComeAfterDelaysThatDoubleAndThenTheBlockHasFailedForGood) {
     Flaky flaky;
-    flaky.failing[root] = {.left = -1};
-    const auto planet = Planet::open(flaky.source(), simulated({.retries = 3, .delayS = 0.5})).value();
+    flaky.failing[posXRoot] = {.left = -1};
+    const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 3, .delayS = 0.5})).value();
     fly(*planet, flaky, 20);
     // A read that is asked for in one step ends in the next.
-    const std::vector<double>& atS = flaky.readAtS[root];
+    const std::vector<double>& atS = flaky.readAtS[posXRoot];
     ASSERT_THAT(atS, SizeIs(4));
-    EXPECT_DOUBLE_EQ(atS[1] - atS[0], 0.5 + dtS);
-    EXPECT_DOUBLE_EQ(atS[2] - atS[1], 1.0 + dtS);
-    EXPECT_DOUBLE_EQ(atS[3] - atS[2], 2.0 + dtS);
+    EXPECT_DOUBLE_EQ(atS[1] - atS[0], 0.5 + stepS);
+    EXPECT_DOUBLE_EQ(atS[2] - atS[1], 1.0 + stepS);
+    EXPECT_DOUBLE_EQ(atS[3] - atS[2], 2.0 + stepS);
     EXPECT_EQ(planet->paging().failed, 4u);
     EXPECT_EQ(planet->paging().failedForGood, 1u);
     EXPECT_EQ(planet->paging().awaitingRetry, 0u);
     EXPECT_EQ(planet->tree().nodes[0].childrenState, ChildrenState::Failed);
     ASSERT_THAT(planet->failedBlocks(), SizeIs(1));
     const FailedBlock failed = planet->failedBlocks()[0];
-    EXPECT_EQ(failed, (FailedBlock{root, 4, "fake.chk: x_pos/0/0/0: the disk is bad", std::nullopt}));
+    EXPECT_EQ(failed, (FailedBlock{posXRoot, 4, "fake.chk: x_pos/0/0/0: the disk is bad", std::nullopt}));
     EXPECT_THAT(planet->takeProblems(), ElementsAre(HasSubstr("the disk is bad (tried 4 times)")));
 }
 
 TEST(Retries, ABlockThatComesAfterAllIsForgottenAsIfItHadNeverFailed) {
     Flaky flaky;
-    flaky.failing[root] = {.left = 2};
-    const auto planet = Planet::open(flaky.source(), simulated({.retries = 3, .delayS = 0.5})).value();
+    flaky.failing[posXRoot] = {.left = 2};
+    const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 3, .delayS = 0.5})).value();
     fly(*planet, flaky, 0.25);
     ASSERT_THAT(planet->failedBlocks(), SizeIs(1));
     EXPECT_EQ(planet->failedBlocks()[0].attempts, 1u);
@@ -153,7 +153,7 @@ TEST(Retries, ABlockThatComesAfterAllIsForgottenAsIfItHadNeverFailed) {
     EXPECT_FALSE(planet->settled());
     fly(*planet, flaky, 3);
     EXPECT_TRUE(planet->settled());
-    EXPECT_EQ(flaky.reads(root), 3u);
+    EXPECT_EQ(flaky.reads(posXRoot), 3u);
     EXPECT_THAT(planet->failedBlocks(), IsEmpty());
     EXPECT_THAT(planet->takeProblems(), IsEmpty());
     EXPECT_EQ(planet->paging().awaitingRetry, 0u);
@@ -162,10 +162,10 @@ TEST(Retries, ABlockThatComesAfterAllIsForgottenAsIfItHadNeverFailed) {
 
 TEST(Retries, WhatIsReadAndWrongHasFailedForGoodAtOnce) {
     Flaky flaky;
-    flaky.failing[root] = {.left = -1, .kind = ErrorKind::BadInput};
-    const auto planet = Planet::open(flaky.source(), simulated({})).value();
+    flaky.failing[posXRoot] = {.left = -1, .kind = ErrorKind::BadInput};
+    const auto planet = Planet::open(flaky.source(), simulatedRetry({})).value();
     fly(*planet, flaky, 20);
-    EXPECT_EQ(flaky.reads(root), 1u);
+    EXPECT_EQ(flaky.reads(posXRoot), 1u);
     ASSERT_THAT(planet->failedBlocks(), SizeIs(1));
     EXPECT_FALSE(planet->failedBlocks()[0].retryInS);
     EXPECT_THAT(planet->takeProblems(), ElementsAre(testing::EndsWith("the disk is bad")));
@@ -174,18 +174,18 @@ TEST(Retries, WhatIsReadAndWrongHasFailedForGoodAtOnce) {
 TEST(Retries, AreAskedForByNameOrAllTogether) {
     Flaky flaky;
     const ChunkId other{Face::PosY, 0, 0, 0};
-    flaky.failing[root] = flaky.failing[other] = {.left = -1};
+    flaky.failing[posXRoot] = flaky.failing[other] = {.left = -1};
     LodSettings all = fineSettings();
     all.frustumCulling = all.horizonCulling = false;
     all.tauPx = 0.02;
-    const auto planet = Planet::open(flaky.source(), simulated({.retries = 0})).value();
+    const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 0})).value();
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
     ASSERT_THAT(planet->failedBlocks(), SizeIs(2));
-    planet->retryFailed(root);
+    planet->retryFailed(posXRoot);
     EXPECT_FALSE(planet->settled());
     EXPECT_THAT(planet->failedBlocks(), SizeIs(1));
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
-    EXPECT_EQ(flaky.reads(root), 2u);
+    EXPECT_EQ(flaky.reads(posXRoot), 2u);
     EXPECT_EQ(flaky.reads(other), 1u);
     flaky.failing.clear();
     planet->retryFailed();
@@ -193,20 +193,20 @@ TEST(Retries, AreAskedForByNameOrAllTogether) {
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), all));
     // Of blocks that have not failed, or that there are not, nothing comes.
-    planet->retryFailed(root);
+    planet->retryFailed(posXRoot);
     planet->retryFailed(BlockId({Face::PosX, 20, 5, 5}));
     planet->retryFailed({{Face::PosX, 9, 5, 5}, BlockKind::Colours});
     planet->retryFailed({{Face::PosX, 9, 5, 5}, BlockKind::Normals});
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
-    EXPECT_EQ(flaky.reads(root), 3u);
+    EXPECT_EQ(flaky.reads(posXRoot), 3u);
 }
 
 // Such a block is not tried anew each time that its parent comes back.
 TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
     Flaky flaky;
-    const ChunkId bad = childOf(root, 1);
+    const ChunkId bad = childOf(posXRoot, 1);
     flaky.failing[bad] = {.left = -1};
-    PagingSettings settings = simulated({.retries = 1, .delayS = 0.1});
+    PagingSettings settings = simulatedRetry({.retries = 1, .delayS = 0.1});
     settings.budgetBytes = bytesOf(90);
     PlanetSource withoutColours = flaky.source();
     withoutColours.colour.reset();
@@ -240,14 +240,14 @@ TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
 
 TEST(Retries, ADiskThatFailsEveryReadIsNotFlooded) {
     Flaky flaky;
-    PagingSettings settings = simulated({});
+    PagingSettings settings = simulatedRetry({});
     settings.badDisk.failureRate = 1;
     const auto planet = Planet::open(flaky.source(), settings).value();
     planet->keepMoves(true);
     std::map<BlockId, int> asked;
     for (int i = 0; i < 3000; ++i) {
         const ViewInput input = inputOf(viewAt(10, 0.12 * i), true);
-        planet->step({&input, 1}, noUpload, dtS);
+        planet->step({&input, 1}, noUpload, stepS);
         for (const BlockId& block : planet->takeMoves().requested) ++asked[block];
     }
     EXPECT_GT(asked.size(), 6u);
@@ -259,10 +259,10 @@ TEST(Retries, ADiskThatFailsEveryReadIsNotFlooded) {
 
 TEST(Retries, OnlyBlocksThatAreWantedAreTriedAgain) {
     Flaky flaky;
-    const ChunkId bad = childOf(root, 1);
+    const ChunkId bad = childOf(posXRoot, 1);
     flaky.failing[bad] = {.left = 1};
-    const auto planet = Planet::open(flaky.source(), simulated({.delayS = 1})).value();
-    while (planet->paging().awaitingRetry == 0) fly(*planet, flaky, dtS, false, viewAt(0, 30, 2e4));
+    const auto planet = Planet::open(flaky.source(), simulatedRetry({.delayS = 1})).value();
+    while (planet->paging().awaitingRetry == 0) fly(*planet, flaky, stepS, false, viewAt(0, 30, 2e4));
     fly(*planet, flaky, 5, false, viewAt(0, 200, 2e4));
     EXPECT_EQ(flaky.reads(bad), 1u);
     EXPECT_TRUE(planet->settled());
@@ -274,9 +274,9 @@ TEST(Retries, OnlyBlocksThatAreWantedAreTriedAgain) {
 
 TEST(Retries, ATileOfColourIsAChequerOnlyOnceItHasFailedForGood) {
     Flaky flaky;
-    const BlockId bad{root, BlockKind::Colours};
+    const BlockId bad{posXRoot, BlockKind::Colours};
     flaky.failing[bad] = {.left = -1};
-    const auto planet = Planet::open(flaky.source(), simulated({.retries = 1, .delayS = 1})).value();
+    const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 1, .delayS = 1})).value();
     fly(*planet, flaky, 0.5, true);
     EXPECT_EQ(planet->colourTree().nodes[0].childrenState, ChildrenState::AwaitingRetry);
     EXPECT_EQ(planet->colourPaging().failed, 1u);
@@ -302,25 +302,25 @@ TEST(Retries, ATileOfColourIsAChequerOnlyOnceItHasFailedForGood) {
 
 TEST(Retries, SettlingWaitsForThemByTheClockWithoutSpinning) {
     Flaky flaky;
-    flaky.failing[root] = {.left = 2};
+    flaky.failing[posXRoot] = {.left = 2};
     PagingSettings settings;
     settings.retry = {.retries = 2, .delayS = 0.1};
     const auto planet = Planet::open(flaky.source(), settings).value();
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
-    EXPECT_EQ(flaky.reads(root), 3u);
+    EXPECT_EQ(flaky.reads(posXRoot), 3u);
     // Frames: one for each arrival or retry, not as many as there is time for.
     EXPECT_LT(planet->tree().nodes[0].lastUsedFrame, 1000u);
 }
 
 TEST(Retries, SettlingGivesUpAtItsTimeoutOrAtOnceWhilePaused) {
     Flaky flaky;
-    flaky.failing[root] = {.left = -1};
+    flaky.failing[posXRoot] = {.left = -1};
     PagingSettings settings;
     settings.retry = {.retries = 1, .delayS = 60};
     const auto planet = Planet::open(flaky.source(), settings).value();
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 0.2));
-    EXPECT_EQ(flaky.reads(root), 1u);
+    EXPECT_EQ(flaky.reads(posXRoot), 1u);
     settings.paused = true;
     ASSERT_TRUE(planet->setPaging(settings));
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 1e6));
@@ -329,7 +329,7 @@ TEST(Retries, SettlingGivesUpAtItsTimeoutOrAtOnceWhilePaused) {
     settings.time = PagingTime::Simulated;
     ASSERT_TRUE(planet->setPaging(settings));
     EXPECT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
-    EXPECT_EQ(flaky.reads(root), 2u);
+    EXPECT_EQ(flaky.reads(posXRoot), 2u);
     EXPECT_EQ(planet->paging().failedForGood, 1u);
 }
 
@@ -340,11 +340,11 @@ TEST(Retries, SettingsOutOfRangeAreRefused) {
                                   {.delayS = -0.1},
                                   {.delayS = 61},
                                   {.delayS = std::numeric_limits<double>::quiet_NaN()}}) {
-        const auto refused = Planet::open(flaky.source(), simulated(bad));
+        const auto refused = Planet::open(flaky.source(), simulatedRetry(bad));
         ASSERT_FALSE(refused);
         EXPECT_THAT(refused.error().message, HasSubstr("will do"));
     }
-    EXPECT_TRUE(Planet::open(flaky.source(), simulated({.retries = 10, .delayS = 60})));
+    EXPECT_TRUE(Planet::open(flaky.source(), simulatedRetry({.retries = 10, .delayS = 60})));
 }
 
 TEST(Retries, OnlyTheLatestAreRemembered) {
@@ -400,7 +400,7 @@ double facesDrawn(const Planet& planet) {
 TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether) {
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         Flaky flaky;
-        PagingSettings settings = simulated({.retries = 2, .delayS = 0.05});
+        PagingSettings settings = simulatedRetry({.retries = 2, .delayS = 0.05});
         settings.badDisk = {.latencyMs = 20, .failureRate = 0.35, .seed = seed};
         settings.budgetBytes = bytesOf(200);
         settings.colourShare = 0.9;
@@ -417,7 +417,7 @@ TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether
         for (int i = 0; i < 1200; ++i) {
             ViewInput input = inputOf(viewAt(20 * std::sin(i * 0.01), i * 0.3, 2e4 + 50 * (i % 200)), true);
             input.lod.frustumCulling = input.lod.horizonCulling = false;
-            planet.step({&input, 1}, noUpload, dtS);
+            planet.step({&input, 1}, noUpload, stepS);
             ASSERT_EQ(facesDrawn(planet), 6) << i;
             if (random() % 150 == 0) planet.retryFailed();
             if (random() % 100 == 0 && !planet.failedBlocks().empty())
@@ -441,10 +441,10 @@ TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether
 // A replay begins at another time of the planet, and has only what was recorded of each failure.
 TEST(Retries, ARecordingWithThemIsFollowedExactly) {
     Flaky flaky;
-    flaky.failing[root] = {.left = 2};
+    flaky.failing[posXRoot] = {.left = 2};
     flaky.failing[ChunkId{Face::PosZ, 0, 0, 0}] = {.left = -1, .kind = ErrorKind::BadInput};
-    flaky.failing[BlockId(root, BlockKind::Colours)] = {.left = -1};
-    PagingSettings settings = simulated({.retries = 2, .delayS = 0.3});
+    flaky.failing[BlockId(posXRoot, BlockKind::Colours)] = {.left = -1};
+    PagingSettings settings = simulatedRetry({.retries = 2, .delayS = 0.3});
     settings.badDisk = {.latencyMs = 10, .failureRate = 0.2, .seed = 3};
     const auto planet = Planet::open(flaky.source(), settings).value();
     settings.time = PagingTime::Recorded;

@@ -12,7 +12,7 @@
 namespace planet {
 namespace {
 
-constexpr double dtS = 1.0 / 64;  // exact
+constexpr double simulatedStepS = 1.0 / 64;  // exact
 
 PagingSettings simulated(const BadDiskSettings& badDisk, int loaders = 1) {
     PagingSettings settings;
@@ -29,7 +29,7 @@ std::unique_ptr<Planet> openWith(const PagingSettings& settings,
     return planet;
 }
 
-void stepOnce(Planet& planet, const View& view, double elapsedS = dtS,
+void stepOnce(Planet& planet, const View& view, double elapsedS = simulatedStepS,
               const LodSettings& lod = fineSettings()) {
     const ViewInput only{view, lod};
     planet.step(std::span(&only, 1), noUpload, elapsedS);
@@ -146,11 +146,11 @@ TEST(SimulatedPaging, BandwidthDelaysABlockToTheVeryStep) {
     for (int frame = 1; frame <= 21; ++frame) {
         stepOnce(*planet, viewAt(10, 20));
         // Loads follow each other without a gap: 0.1 s, 0.2 s, 0.3 s.
-        EXPECT_EQ(planet->paging().loaded, static_cast<std::uint64_t>(frame * dtS / 0.1)) << frame;
+        EXPECT_EQ(planet->paging().loaded, static_cast<std::uint64_t>(frame * simulatedStepS / 0.1)) << frame;
     }
     const PagingEvent& event = planet->pagingHistory().front();
     EXPECT_DOUBLE_EQ(event.readS, 0.1);
-    EXPECT_DOUBLE_EQ(event.waitedS, 7 * dtS);
+    EXPECT_DOUBLE_EQ(event.waitedS, 7 * simulatedStepS);
 }
 
 // Half as much to half as much again of 100 ms, as the seed says for the block.
@@ -162,13 +162,13 @@ TEST(SimulatedPaging, LatencyDelaysABlockToTheVeryStep) {
         ASSERT_EQ(planet->loadingNow().size(), 1u);
         const LoadInProgress loading = planet->loadingNow()[0];
         const double waitS = diskFault(disk, loading.parent, 0, loading.bytes).waitS;
-        const int expected = static_cast<int>(std::ceil(waitS / dtS));
+        const int expected = static_cast<int>(std::ceil(waitS / simulatedStepS));
         EXPECT_GE(expected, 3);
         EXPECT_LE(expected, 10);
         for (int frame = 1; frame < expected; ++frame) {
             stepOnce(*planet, viewAt(10, 20));
             ASSERT_EQ(planet->paging().loaded, 0u);
-            EXPECT_DOUBLE_EQ(planet->loadingNow()[0].seconds, frame * dtS);
+            EXPECT_DOUBLE_EQ(planet->loadingNow()[0].seconds, frame * simulatedStepS);
         }
         stepOnce(*planet, viewAt(10, 20));
         EXPECT_THAT(loadedIn(*planet), testing::ElementsAre(loading.parent));

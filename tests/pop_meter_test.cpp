@@ -13,7 +13,7 @@
 namespace planet {
 namespace {
 
-constexpr double frameS = 1.0 / 60;
+constexpr double popFrameS = 1.0 / 60;
 
 DrawItem itemOf(const ChunkTree& tree, const ChunkId& id, float morph = 0) {
     DrawItem item;
@@ -46,7 +46,7 @@ double ownErrorM(const ChunkId& parent) {
     return static_cast<double>(fakePyramid().at(parent).deltaCM - below);
 }
 
-constexpr double farM = 1e7;
+constexpr double farAwayM = 1e7;
 
 // From so far beside a chunk that all of it is equally far, heights standing upright in the picture.
 View fromBeside(const ChunkId& id) {
@@ -56,7 +56,7 @@ View fromBeside(const ChunkId& id) {
     view.up = glm::normalize(middle);
     view.right = glm::normalize(glm::cross(view.up, glm::dvec3(0.3, 0.2, 0.9)));
     view.back = glm::cross(view.right, view.up);
-    view.eyeM = middle + farM * view.back;
+    view.eyeM = middle + farAwayM * view.back;
     view.horizontalFovRad = 0.006;
     return view;
 }
@@ -65,14 +65,14 @@ const ChunkId mountain{Face::PosX, 2, 1, 2};
 
 TEST(PopMeter, ASwitchWithoutMorphJumpsByTheParentsOwnError) {
     const View view = fromBeside(mountain);
-    const double expectedPx = ownErrorM(mountain) * screenScalePx(view) / farM;
+    const double expectedPx = ownErrorM(mountain) * screenScalePx(view) / farAwayM;
     ASSERT_GT(expectedPx, 0.5);
     const Selection coarse = drawing({itemOf(wholeTree(), mountain)});
     const Selection fine = drawingChildren(wholeTree(), mountain, {0, 0, 0, 0});
     PopMeter meter;
     meter.add(wholeTree(), coarse, view, {}, 0);
-    meter.add(wholeTree(), fine, view, {}, frameS);
-    meter.add(wholeTree(), coarse, view, {}, 2 * frameS);
+    meter.add(wholeTree(), fine, view, {}, popFrameS);
+    meter.add(wholeTree(), coarse, view, {}, 2 * popFrameS);
     ASSERT_EQ(meter.events().size(), 2u);
     for (const PopEvent& event : meter.events()) {
         EXPECT_EQ(event.chunk, mountain);
@@ -97,7 +97,7 @@ TEST(PopMeter, FullyMorphedChildrenGiveWayWithoutAJump) {
     const View view = fromBeside(mountain);
     PopMeter meter;
     meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {1, 1, 1, 1}), view, {}, 0);
-    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, frameS);
+    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_GT(meter.events()[0].jump.places, 0u);
     EXPECT_LT(meter.events()[0].jump.largestPx, 0.001);
@@ -122,11 +122,11 @@ TEST(PopMeter, AChunkThatDoesNotMorphIsFoundAmongThoseThatDo) {
                 errorM = std::max(errorM, glm::length(middle - vertexM(shape, chunk, column, row)));
             }
         }
-        const double expectedPx = errorM * screenScalePx(view) / farM;
+        const double expectedPx = errorM * screenScalePx(view) / farAwayM;
         ASSERT_GT(expectedPx, 0.1);
         PopMeter meter;
         meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, morphs), view, {}, 0);
-        meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, frameS);
+        meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, popFrameS);
         ASSERT_EQ(meter.events().size(), 1u);
         EXPECT_EQ(meter.events()[0].jump.worstChunk, chunk.id);
         EXPECT_NEAR(meter.events()[0].jump.largestPx, expectedPx, 0.02 * expectedPx);
@@ -141,7 +141,7 @@ TEST(PopMeter, AJumpOverTwoLevelsIsOneEventForItsPlace) {
     for (int q = 0; q < quadrantCount; ++q) fine.draw.push_back(itemOf(wholeTree(), childOf(split, q)));
     PopMeter meter;
     meter.add(wholeTree(), fine, view, {}, 0);
-    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, frameS);
+    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].fromLevel, 4);
     EXPECT_EQ(meter.events()[0].toLevel, 2);
@@ -180,7 +180,7 @@ TEST(PopMeter, NoPlaceJumpsFartherThanTheLargest) {
             const glm::dvec3 apart = pointOn(fineGrid, x, y) - coarsePoint;
             largestM = std::max(largestM, glm::length(apart - glm::dot(apart, view.back) * view.back));
         }
-        const double sampledPx = largestM * screenScalePx(view) / farM;
+        const double sampledPx = largestM * screenScalePx(view) / farAwayM;
         EXPECT_LE(sampledPx, 1.01 * jump.largestPx);
         EXPECT_GE(sampledPx, 0.6 * jump.largestPx);
     }
@@ -203,8 +203,8 @@ TEST(PopMeter, AStitchedEdgeThatIsCutAnewIsSeenBetweenItsVertices) {
     view.up = glm::normalize(ground.positionM[3]);
     view.right = glm::normalize(glm::cross(view.up, glm::dvec3(0.3, 0.2, 0.9)));
     view.back = glm::cross(view.right, view.up);
-    view.eyeM = ground.positionM[3] + farM * view.back;
-    const double expectedPx = 0.5 * spikeM * screenScalePx(view) / farM;
+    view.eyeM = ground.positionM[3] + farAwayM * view.back;
+    const double expectedPx = 0.5 * spikeM * screenScalePx(view) / farAwayM;
     ASSERT_GT(expectedPx, 0.5);
     const SurfaceJump atEdge =
         edgeJump(shape, {item, heights, true}, {gathered, heights, true}, Edge::South, view);
@@ -220,7 +220,7 @@ TEST(PopMeter, WhatLiesOutsideThePictureIsNotMeasured) {
     view.right = -view.right;
     PopMeter meter;
     meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, 0);
-    meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, {}, frameS);
+    meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, {}, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].jump.places, 0u);
     EXPECT_EQ(meter.totals().outsidePicture, 1u);
@@ -232,7 +232,7 @@ TEST(PopMeter, WhatComesIntoViewOrGoesOutIsNoSwitch) {
     const ChunkId other{Face::NegZ, 1, 0, 1};
     PopMeter meter;
     meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, 0);
-    meter.add(wholeTree(), drawing({itemOf(wholeTree(), other)}), view, {}, frameS);
+    meter.add(wholeTree(), drawing({itemOf(wholeTree(), other)}), view, {}, popFrameS);
     EXPECT_TRUE(meter.events().empty());
     EXPECT_EQ(meter.totals().cameIntoView, 1u);
     EXPECT_EQ(meter.totals().wentOutOfView, 1u);
@@ -248,7 +248,7 @@ TEST(PopMeter, AnEdgeBesideASwitchCountsToIt) {
     before.draw.push_back(edge);
     meter.add(wholeTree(), before, view, {}, 0);
     edge.edgeMorph[static_cast<std::size_t>(Edge::West)] = 1;
-    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain), edge}), view, {}, frameS);
+    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain), edge}), view, {}, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     const PlanetShape& shape = fakePyramid().shape;
     const ChunkData& chunk = fakePyramid().at(beside);
@@ -258,7 +258,7 @@ TEST(PopMeter, AnEdgeBesideASwitchCountsToIt) {
             0.5 * (vertexM(shape, chunk, 0, row - 1) + vertexM(shape, chunk, 0, row + 1));
         errorM = std::max(errorM, glm::length(middle - vertexM(shape, chunk, 0, row)));
     }
-    const double expectedPx = errorM * screenScalePx(view) / farM;
+    const double expectedPx = errorM * screenScalePx(view) / farAwayM;
     ASSERT_GT(expectedPx, 0.1);
     EXPECT_LT(meter.events()[0].jump.largestPx, 0.001);
     EXPECT_NEAR(meter.events()[0].besidePx, expectedPx, 0.02 * expectedPx);
@@ -286,7 +286,7 @@ TEST(PopMeter, AStillCameraSwitchesNothing) {
     PopMeter meter;
     LodSettings settings = tauOf(1);
     settings.morph = true;
-    for (int i = 0; i < 20; ++i) addSelected(meter, wholeTree(), viewAt(30, 20), settings, i * frameS);
+    for (int i = 0; i < 20; ++i) addSelected(meter, wholeTree(), viewAt(30, 20), settings, i * popFrameS);
     EXPECT_TRUE(meter.events().empty());
     EXPECT_TRUE(meter.late().empty());
     EXPECT_EQ(meter.totals().cameIntoView, 0u);
@@ -296,7 +296,7 @@ TEST(PopMeter, AStillCameraSwitchesNothing) {
 TEST(PopMeter, AnotherToleranceIsTheSettings) {
     PopMeter meter;
     addSelected(meter, wholeTree(), viewAt(30, 20), tauOf(30), 0);
-    addSelected(meter, wholeTree(), viewAt(30, 20), tauOf(2), frameS);
+    addSelected(meter, wholeTree(), viewAt(30, 20), tauOf(2), popFrameS);
     EXPECT_GT(meter.totals().switches, 2u);
     EXPECT_EQ(countOf(meter, PopCause::SettingsChanged), meter.totals().switches);
 }
@@ -304,7 +304,7 @@ TEST(PopMeter, AnotherToleranceIsTheSettings) {
 TEST(PopMeter, AJumpOfTheCameraIsTheCamera) {
     PopMeter meter;
     addSelected(meter, wholeTree(), viewAt(30, 20, 8000), tauOf(1), 0);
-    addSelected(meter, wholeTree(), viewAt(30, 20, 60000), tauOf(1), frameS);
+    addSelected(meter, wholeTree(), viewAt(30, 20, 60000), tauOf(1), popFrameS);
     EXPECT_GT(meter.totals().switches, 1u);
     EXPECT_EQ(countOf(meter, PopCause::CameraMoved), meter.totals().switches);
 }
@@ -323,11 +323,11 @@ TEST(PopMeter, ALoadHeldBackForThirtyFramesIsLateForThirtyFrames) {
     const double epsPx =
         epsPxOf(tree.nodes[findNode(tree, held)], view.eyeM, screenScalePx(view), settings.metric);
     PopMeter meter;
-    for (int i = 0; i < 30; ++i) addSelected(meter, tree, view, settings, i * frameS);
+    for (int i = 0; i < 30; ++i) addSelected(meter, tree, view, settings, i * popFrameS);
     EXPECT_EQ(meter.lateOpen(), selection.requests.size());
     EXPECT_TRUE(meter.events().empty());
     addBlock(tree, held);
-    addSelected(meter, tree, view, settings, 30 * frameS);
+    addSelected(meter, tree, view, settings, 30 * popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].chunk, held);
     EXPECT_EQ(meter.events()[0].cause, PopCause::LoadFinished);
@@ -350,7 +350,7 @@ TEST(PopMeter, WhatIsNoLongerWantedIsNoLongerLate) {
     addSelected(meter, tree, viewAt(30, 20), tauOf(2), 0);
     const std::size_t late = meter.lateOpen();
     ASSERT_GT(late, 0u);
-    addSelected(meter, tree, viewAt(30, 20), tauOf(200), frameS);
+    addSelected(meter, tree, viewAt(30, 20), tauOf(200), popFrameS);
     EXPECT_EQ(meter.lateOpen(), 0u);
     ASSERT_EQ(meter.late().size(), late);
     for (const LateArrival& arrival : meter.late()) EXPECT_EQ(arrival.end, LateEnd::NotWanted);
@@ -364,7 +364,7 @@ TEST(PopMeter, APlanetsHeldLoadsAreLateUntilTheyCome) {
     PopMeter meter;
     std::uint32_t waited = 0;
     const auto step = [&] {
-        planet->step(views, noUpload, frameS);
+        planet->step(views, noUpload, popFrameS);
         waited += planet->selection().counters.waiting > 0 ? 1 : 0;
         meter.add(planet->tree(), planet->selection(), planet->lodView(), planet->lodSettings(),
                   planet->seconds());
@@ -395,7 +395,7 @@ TEST(PopMeter, ChildrenThatAreGoneWereEvicted) {
     ASSERT_EQ(above.level, 3);
     above = parentOf(above);
     removeChildren(tree, findNode(tree, above));
-    addSelected(meter, tree, view, settings, frameS);
+    addSelected(meter, tree, view, settings, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].chunk, above);
     EXPECT_EQ(meter.events()[0].cause, PopCause::Evicted);
@@ -419,7 +419,7 @@ TEST(PopMeter, AChunkHeldBackByItsNeighbourIsTheSeams) {
     addSelected(meter, tree, view, settings, 0);
     addBlock(tree, neighbourOf({Face::PosX, 0, 0, 0}, Edge::East));
     addBlock(tree, neighbourOf({Face::PosX, 0, 0, 0}, Edge::South));
-    addSelected(meter, tree, view, settings, frameS);
+    addSelected(meter, tree, view, settings, popFrameS);
     EXPECT_EQ(countOf(meter, PopCause::LoadFinished), 2u);
     EXPECT_EQ(countOf(meter, PopCause::SeamLimit), 1u);
     for (const PopEvent& event : meter.events()) {
@@ -438,7 +438,7 @@ TEST(PopMeter, AChunkFreedByANeighbourOutOfViewIsCulling) {
     PopMeter meter;
     meter.add(wholeTree(), drawing({held, itemOf(wholeTree(), neighbourOf(mountain, Edge::West))}), view,
               settings, 0);
-    meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, settings, frameS);
+    meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, settings, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].cause, PopCause::Culling);
 }
@@ -457,8 +457,8 @@ PopTotals totalsOfDescents(double tauPx, SeamMode seams, bool morph, double fade
         meter.add(wholeTree(), selection, viewAt(0, 0), settings, timeS);
         for (int i = 0; i < 900; ++i) {
             const View view = viewAt(30, longitudeDeg + 1e-4 * i, 150'000 * std::pow(0.9975, i));
-            selectChunks(wholeTree(), view, settings, selection, frameS);
-            meter.add(wholeTree(), selection, view, settings, timeS += frameS);
+            selectChunks(wholeTree(), view, settings, selection, popFrameS);
+            meter.add(wholeTree(), selection, view, settings, timeS += popFrameS);
         }
     }
     return meter.totals();
@@ -523,7 +523,7 @@ TEST(PopMeter, NothingIsMeasuredAcrossAnotherExaggeration) {
     PopMeter meter;
     meter.add(tree, drawing({itemOf(tree, mountain)}), view, {}, 0);
     setExaggeration(tree, 2);
-    meter.add(tree, drawingChildren(tree, mountain, {0, 0, 0, 0}), view, {}, frameS);
+    meter.add(tree, drawingChildren(tree, mountain, {0, 0, 0, 0}), view, {}, popFrameS);
     EXPECT_TRUE(meter.events().empty());
 }
 

@@ -9,7 +9,7 @@
 namespace planet {
 namespace {
 
-PlanetShape earth() {
+PlanetShape earthOfMetres() {
     PlanetShape shape;
     shape.faceCellsLog2 = 19;
     return shape;
@@ -25,7 +25,7 @@ std::vector<std::int16_t> hills(const PlanetShape& shape) {
 
 // A chunk of a level, and a view from some way above its middle.
 struct Place {
-    PlanetShape shape = earth();
+    PlanetShape shape = earthOfMetres();
     std::vector<std::int16_t> heights = hills(shape);
     DrawItem item;
     View view;

@@ -31,4 +31,11 @@ View randomView(Random& random, double radiusM) {
     return view;
 }
 
+// Whether a line of sight meets the inside of the sphere.
+inline bool sphereHides(const glm::dvec3& eye, const glm::dvec3& point, double radius) {
+    const glm::dvec3 along = point - eye;
+    const double t = std::clamp(-glm::dot(eye, along) / glm::dot(along, along), 0.0, 1.0);
+    return glm::length(eye + t * along) < radius;
+}
+
 }  // namespace planet

@@ -15,10 +15,9 @@ namespace planet {
 
 namespace {
 
-constexpr double radiusM = 6.371e6;
-
 View someView(double pitchDeg, double headingDeg = 20, double altitudeM = 8000) {
-    return viewFromPose({20, 30, altitudeM, headingDeg, pitchDeg}, radiusM, glm::radians(60.0), 1280, 768);
+    return viewFromPose({20, 30, altitudeM, headingDeg, pitchDeg}, earthRadiusM, glm::radians(60.0), 1280,
+                        768);
 }
 
 // A point of the view's picture so far along its direction, relative to the eye.

@@ -17,7 +17,7 @@
 #include "planet/gradient_noise.h"
 #include "synthetic_source.h"
 
-namespace planet::testing {
+namespace planet {
 namespace {
 
 using ::testing::HasSubstr;
@@ -574,4 +574,4 @@ TEST(Terrain, SettingsOutOfRangeAreToldByName) {
 }
 
 }  // namespace
-}  // namespace planet::testing
+}  // namespace planet

@@ -300,7 +300,7 @@ std::vector<std::byte> withRootTightM(const std::filesystem::path& path, float t
     return bytes;
 }
 
-Result<ChunkFile> openBytes(const std::vector<std::byte>& bytes) {
+Result<ChunkFile> openUnchecked(const std::vector<std::byte>& bytes) {
     return ChunkFile::open("test.chk", bytes.size(),
                            [&bytes](std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
                                std::memcpy(out.data(), bytes.data() + offset, out.size());
@@ -314,11 +314,11 @@ TEST(TightMetric, HostileValuesInTheFileAreRefused) {
     for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(),
                             std::numeric_limits<float>::infinity(), std::nextafter(root.deltaCM, 1e30f)}) {
         const auto bytes = withRootTightM(baked.path(), bad);
-        const auto read = openBytes(bytes)->readRoot(Face::PosX);
+        const auto read = openUnchecked(bytes)->readRoot(Face::PosX);
         ASSERT_FALSE(read) << bad;
         EXPECT_THAT(read.error().message, HasSubstr("out of range"));
     }
-    EXPECT_TRUE(openBytes(withRootTightM(baked.path(), root.deltaTightM))->readRoot(Face::PosX));
+    EXPECT_TRUE(openUnchecked(withRootTightM(baked.path(), root.deltaTightM))->readRoot(Face::PosX));
 }
 
 TEST(TightMetric, VerifyFindsOneThatWasHalvedAndNothingElse) {
@@ -326,7 +326,7 @@ TEST(TightMetric, VerifyFindsOneThatWasHalvedAndNothingElse) {
     const float honest = baked.chunks.at({Face::PosX, 0, 0, 0}).deltaTightM;
     EXPECT_EQ(verifyFile(*ChunkFile::open(baked.path()), nullptr)->problemCount, 0u);
     const auto bytes = withRootTightM(baked.path(), honest * 0.999f);
-    const auto report = verifyFile(*openBytes(bytes), nullptr);
+    const auto report = verifyFile(*openUnchecked(bytes), nullptr);
     ASSERT_TRUE(report);
     ASSERT_GE(report->problemCount, 1u);
     for (const std::string& problem : report->problems) {

@@ -10,25 +10,25 @@
 namespace planet {
 namespace {
 
-struct Vertex {
+struct StoredVertex {
     Face face;
     std::int32_t gridU, gridV;
     std::int16_t step;
 };
 
-PlanetShape earth() {
+PlanetShape finestEarth() {
     PlanetShape shape;
     shape.faceCellsLog2 = maxFaceCellsLog2;
     return shape;
 }
 
-glm::dvec3 reference(const PlanetShape& shape, const Vertex& vertex) {
+glm::dvec3 reference(const PlanetShape& shape, const StoredVertex& vertex) {
     const double cell = 2.0 / (1 << fineGridLog2);
     const glm::dvec3 cube = cubePoint(vertex.face, vertex.gridU * cell - 1, vertex.gridV * cell - 1);
     return positionM(shape, sphereFromCube(cube), heightM(shape, vertex.step));
 }
 
-double errorM(const PlanetShape& shape, const glm::dvec3& eyeM, const Vertex& vertex) {
+double errorM(const PlanetShape& shape, const glm::dvec3& eyeM, const StoredVertex& vertex) {
     const VertexFrame frame = vertexFrame(shape, eyeM);
     const glm::dvec3 position = vertexFromEyeM(frame, vertex.face, vertex.gridU, vertex.gridV, vertex.step);
     return glm::length(position - (reference(shape, vertex) - eyeM));
@@ -58,7 +58,7 @@ protected:
                 return anywhere(random_);
         }
     }
-    Vertex randomVertex() {
+    StoredVertex randomVertex() {
         std::uniform_int_distribution<int> face(0, faceCount - 1);
         std::uniform_int_distribution<int> step(-11000, 9000);
         return {static_cast<Face>(face(random_)), randomGridLine(100), randomGridLine(100),
@@ -68,10 +68,10 @@ protected:
 };
 
 TEST_F(VertexPosition, NearTheEyeIsWithinAMillimetre) {
-    const PlanetShape shape = earth();
+    const PlanetShape shape = finestEarth();
     std::uniform_real_distribution<double> distance(1, 2000);
     for (int i = 0; i < 20000; ++i) {
-        const Vertex vertex = randomVertex();
+        const StoredVertex vertex = randomVertex();
         const glm::dvec3 eyeM = reference(shape, vertex) + randomOffset(distance(random_));
         EXPECT_LT(errorM(shape, eyeM, vertex), 1e-3)
             << faceName(vertex.face) << " " << vertex.gridU << " " << vertex.gridV;
@@ -79,10 +79,10 @@ TEST_F(VertexPosition, NearTheEyeIsWithinAMillimetre) {
 }
 
 TEST_F(VertexPosition, ErrorGrowsNoFasterThanDistance) {
-    const PlanetShape shape = earth();
+    const PlanetShape shape = finestEarth();
     std::uniform_real_distribution<double> exponent(2, 8.5);
     for (int i = 0; i < 20000; ++i) {
-        const Vertex vertex = randomVertex();
+        const StoredVertex vertex = randomVertex();
         const double away = std::pow(10.0, exponent(random_));
         const glm::dvec3 eyeM = reference(shape, vertex) + randomOffset(away);
         EXPECT_LT(errorM(shape, eyeM, vertex), 4e-7 * away) << faceName(vertex.face) << " " << away;
@@ -90,20 +90,20 @@ TEST_F(VertexPosition, ErrorGrowsNoFasterThanDistance) {
 }
 
 TEST_F(VertexPosition, FineQuantumAndABaseHeightLoseNothing) {
-    PlanetShape shape = earth();
+    PlanetShape shape = finestEarth();
     shape.quantumM = 0.1;
     shape.baseHeightM = 1234.567;
     for (int i = 0; i < 5000; ++i) {
-        const Vertex vertex = randomVertex();
+        const StoredVertex vertex = randomVertex();
         const glm::dvec3 eyeM = reference(shape, vertex) + randomOffset(900);
         EXPECT_LT(errorM(shape, eyeM, vertex), 1e-3);
     }
 }
 
 TEST_F(VertexPosition, TheSkirtHangsTowardsTheCentre) {
-    const PlanetShape shape = earth();
+    const PlanetShape shape = finestEarth();
     for (int i = 0; i < 1000; ++i) {
-        const Vertex vertex = randomVertex();
+        const StoredVertex vertex = randomVertex();
         const glm::dvec3 eyeM = reference(shape, vertex) + randomOffset(500);
         const glm::dvec3 dropped = vertexFromEyeM(vertexFrame(shape, eyeM), vertex.face, vertex.gridU,
                                                   vertex.gridV, vertex.step, 250);
@@ -115,7 +115,7 @@ TEST_F(VertexPosition, TheSkirtHangsTowardsTheCentre) {
 
 // Every place on the cube's edges is reached from two faces, a corner from three.
 TEST_F(VertexPosition, FacesMakeTheSameOfTheVerticesTheyShare) {
-    const PlanetShape shape = earth();
+    const PlanetShape shape = finestEarth();
     constexpr std::int32_t side = 1 << fineGridLog2;
     const VertexFrame frame = vertexFrame(shape, {4e6, 3e6, 4.5e6});
     std::map<std::array<double, 3>, std::vector<glm::vec3>> byPlace;
@@ -148,7 +148,7 @@ TEST_F(VertexPosition, FacesMakeTheSameOfTheVerticesTheyShare) {
 }
 
 TEST_F(VertexPosition, AnEyeAtTheCentreIsNoTrouble) {
-    const PlanetShape shape = earth();
+    const PlanetShape shape = finestEarth();
     EXPECT_LT(errorM(shape, {0, 0, 0}, {Face::PosZ, 0, 0, 0}), 4e-7 * shape.radiusM);
 }
 

@@ -19,7 +19,7 @@ double asNumber(std::size_t value) {
     return static_cast<double>(value);
 }
 
-constexpr std::array<AllocationRow, 30> rows = {{
+constexpr std::array<AllocationRow, 30> kindRows = {{
     {"Resident",
      "What the whole program has in memory as the system sees it. It may stay high after a peak, since what "
      "is "
@@ -112,7 +112,7 @@ void drawGroup(const AllocationRow& row, bool withMark) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(row.group);
-    if (&row != &rows.front()) return;
+    if (&row != &kindRows.front()) return;
     rightCell("now", true);
     if (withMark) rightCell("mark", true);
     rightCell("change", true);
@@ -137,7 +137,7 @@ void drawTable(const AllocationsView& view) {
     ImGui::TableSetupColumn("kind", ImGuiTableColumnFlags_WidthStretch, 1.6f);
     for (int column = 1; column < columns; ++column)
         ImGui::TableSetupColumn(nullptr, ImGuiTableColumnFlags_WidthStretch, 1);
-    for (const AllocationRow& row : rows) {
+    for (const AllocationRow& row : kindRows) {
         if (row.group) drawGroup(row, withMark);
         drawRow(row, view, withMark);
     }
@@ -147,7 +147,7 @@ void drawTable(const AllocationsView& view) {
 }  // namespace
 
 std::span<const AllocationRow> allocationRows() {
-    return rows;
+    return kindRows;
 }
 
 std::string allocationText(const AllocationRow& row, const Allocations& held) {
@@ -164,7 +164,7 @@ std::string allocationsText(const AllocationsView& view) {
     std::string text = "kind\tnow\tmark\tchange\n";
     if (!view.now) return text;
     std::string group;
-    for (const AllocationRow& row : rows) {
+    for (const AllocationRow& row : kindRows) {
         if (row.group) group = row.group;
         text += fmt::format("{}: {}\t{:.0f}\t{:.0f}\t{:+.0f}\n", group, shownName(row), row.value(*view.now),
                             row.value(view.mark), row.value(*view.now) - row.value(view.mark));

@@ -18,7 +18,7 @@ namespace ui {
 
 namespace {
 
-constexpr double askAfterS = 0.5;  // since the last edit
+constexpr double estimateAfterS = 0.5;  // since the last edit
 constexpr int smallestFaceLog2 = 4;
 constexpr int largestFaceLog2 = 16;
 
@@ -42,7 +42,7 @@ void followOpenFile(const EditorView& view, BakePanelState& state) {
 
 void edited(const BakeRequest& request, double timeS, BakePanelState& state) {
     state.edited = request;
-    state.estimateAtS = timeS + askAfterS;
+    state.estimateAtS = timeS + estimateAfterS;
 }
 
 void parameterRow(const char* name, const std::string& value, bool live, const char* explanation) {

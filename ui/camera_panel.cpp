@@ -15,7 +15,7 @@ namespace ui {
 
 namespace {
 
-const CameraSettings defaults;
+const CameraSettings defaultCamera;
 
 struct PoseField {
     const char* label;
@@ -35,15 +35,9 @@ constexpr std::array<PoseField, 5> poseFields = {{
     {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f deg", "Degrees above level; -90 looks straight down."},
 }};
 
-std::string flightName(const std::filesystem::path& file) {
-    std::string name = file.stem().string();
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
-}
-
 void modeControl(const EditorView& view, ViewSettings& settings, Commands& commands) {
     CameraMode mode = settings.camera.mode;
-    if (!choice("Mode", mode, defaults.mode, "fly\0orbit\0follow a flight\0",
+    if (!choice("Mode", mode, defaultCamera.mode, "fly\0orbit\0follow a flight\0",
                 "Fly: drag moves the ground, keys W A S D E Q move the camera. Orbit: drag turns the camera "
                 "about the ground that was in the middle, the wheel changes the distance, the right button "
                 "moves the point. Follow a flight: a recorded way; touching the controls leaves it."))
@@ -58,7 +52,7 @@ void modeControl(const EditorView& view, ViewSettings& settings, Commands& comma
 
 void motionSection(const EditorView& view, ViewSettings& settings, Commands& commands) {
     modeControl(view, settings, commands);
-    slider("Field of view", settings.camera.fovDeg, defaults.fovDeg, 5.0, 150.0, "%.0f deg",
+    slider("Field of view", settings.camera.fovDeg, defaultCamera.fovDeg, 5.0, 150.0, "%.0f deg",
            "Horizontal angle of view, degrees. Smaller: errors are magnified, so more detail is chosen, "
            "K' = W / (2 tan(fov / 2)).");
     double factor = view.camera.speedFactor;
@@ -179,20 +173,20 @@ void flightsSection(const EditorView& view, const ViewSettings& settings, Comman
 
 void observerSection(CameraSettings& camera) {
     if (!section("Observer")) return;
-    choice("Picture", camera.observer, defaults.observer, "off\0split\0alone\0",
+    choice("Picture", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
            "A second camera that looks at the first one's view from outside: what was chosen for that view, "
            "and what was culled. Split: both side by side. Draws the planet twice.");
     ImGui::BeginDisabled(camera.observer == ObserverMode::Off);
-    checkbox("Frustum", camera.showFrustum, defaults.showFrustum,
+    checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
              "The four edges of the first camera's view, to the farthest ground it can see.");
     secondColumn();
-    checkbox("Horizon", camera.showHorizon, defaults.showHorizon,
+    checkbox("Horizon", camera.showHorizon, defaultCamera.showHorizon,
              "The circle beyond which the planet hides itself from the first camera.");
-    checkbox("d_m of selected", camera.showSwitchDistances, defaults.showSwitchDistances,
+    checkbox("d_m of selected", camera.showSwitchDistances, defaultCamera.showSwitchDistances,
              "How far d_m = delta_c K reaches about the selected chunk, K = W / (2 tau tan(fov / 2)): an eye "
              "inside must see it replaced by its children. Nothing for a leaf.");
     secondColumn();
-    checkbox("Own LOD", camera.observerOwnLod, defaults.observerOwnLod,
+    checkbox("Own LOD", camera.observerOwnLod, defaultCamera.observerOwnLod,
              "The observer draws what it would choose itself, as a second view with requests of its own, "
              "instead of what was chosen for the first. Loads more.");
     ImGui::EndDisabled();

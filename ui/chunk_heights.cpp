@@ -15,13 +15,6 @@ namespace ui {
 
 namespace {
 
-std::uint32_t packed(const glm::vec3& colour) {
-    const auto channel = [](float value) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
-    };
-    return 0xFF000000u | (channel(colour.z) << 16) | (channel(colour.y) << 8) | channel(colour.x);
-}
-
 // A chunk's steps, some of them left out, as shares of their range.
 struct Relief {
     int side = 0;
@@ -75,7 +68,7 @@ ChunkPicture chunkPicture(const planet::ChunkTree& tree, const planet::ChunkNode
             const float share = relief.at(column, row);
             const glm::vec3 grey(0.35f + 0.45f * share);
             const glm::vec3 colour = glm::mix(grey, rampColour(static_cast<double>(share)), 0.55f);
-            picture.cells.push_back(packed(colour * lightAt(relief, column, row)));
+            picture.cells.push_back(packedColour(colour * lightAt(relief, column, row)));
         }
     }
     return picture;

@@ -52,13 +52,6 @@ void apply(BakeRequest& request, ColourEdit& edit) {
     edit.problem = problemOf(edit, request.colour);
 }
 
-// A label that is lit where the value is not that of the open file.
-void litLabel(const char* label, bool changed, const char* explanation) {
-    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
-    labelledControl(label, explanation);
-    if (changed) ImGui::PopStyleColor();
-}
-
 bool fromControl(const BakeRequest& current, const BakeRequest& request, ColourEdit& edit) {
     constexpr const char* explanation =
         "Baked into the file as a second quadtree of tiles, and streamed beside the heights. The source's "

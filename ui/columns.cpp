@@ -13,7 +13,7 @@ namespace {
 // Heights of the font from which on columns stand side by side.
 constexpr float wideFrom = 42;
 // Below this a column would show next to nothing, so the window scrolls instead.
-constexpr float leastLines = 5;
+constexpr float leastColumnLines = 5;
 
 void drawSideBySide(std::span<const Column> columns) {
     float shares = 0;
@@ -22,7 +22,7 @@ void drawSideBySide(std::span<const Column> columns) {
     const auto count = static_cast<float>(columns.size());
     const float room = ImGui::GetContentRegionAvail().x - gap * (count - 1);
     const float height =
-        std::max(ImGui::GetContentRegionAvail().y, leastLines * ImGui::GetTextLineHeightWithSpacing());
+        std::max(ImGui::GetContentRegionAvail().y, leastColumnLines * ImGui::GetTextLineHeightWithSpacing());
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, gap);
         ImGui::BeginChild(columns[i].title, {room * columns[i].share / shares, height});

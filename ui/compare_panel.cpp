@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -14,12 +15,6 @@ namespace ui {
 namespace {
 
 using With = StartCompare::With;
-
-void wrapped(const ImVec4& colour, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", text.c_str());
-    ImGui::PopStyleColor();
-}
 
 // A combo that asks: its first item is what it asks for. The item chosen, from 0, or -1.
 int asked(const char* name, const char* question, const std::vector<std::string>& items,
@@ -61,7 +56,7 @@ void chooseB(const EditorView& view, Commands& commands) {
         commands.push_back(StartCompare{With::File, {}, view.data.recent[static_cast<std::size_t>(file)]});
 }
 
-void cell(const std::string& text, const char* explanation = nullptr) {
+void comparedCell(const std::string& text, const char* explanation = nullptr) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(text.c_str());
     if (explanation)
@@ -80,23 +75,23 @@ void differencesTable(const CompareView& compare) {
     ImGui::TableHeadersRow();
     if (compare.fileA != compare.fileB) {
         ImGui::TableNextRow();
-        cell("chunk file");
-        cell(compare.fileA.filename().string(), compare.fileA.c_str());
-        cell(compare.fileB.filename().string(), compare.fileB.c_str());
+        comparedCell("chunk file");
+        comparedCell(compare.fileA.filename().string(), compare.fileA.c_str());
+        comparedCell(compare.fileB.filename().string(), compare.fileB.c_str());
     }
     for (const SettingDifference& one : compare.different) {
         ImGui::TableNextRow();
-        cell(one.setting);
-        cell(one.here);
-        cell(one.there);
+        comparedCell(one.setting);
+        comparedCell(one.here);
+        comparedCell(one.there);
     }
     ImGui::EndTable();
 }
 
 void sides(const CompareView& compare, Commands& commands) {
-    wrapped(palette().dim, fmt::format("A is live. B: {}.", compare.origin));
+    wrappedText(fmt::format("A is live. B: {}.", compare.origin), palette().dim);
     if (compare.different.empty() && compare.fileA == compare.fileB)
-        wrapped(palette().warning, "Nothing differs yet. Change a setting: it changes A.");
+        wrappedText("Nothing differs yet. Change a setting: it changes A.", palette().warning);
     else
         differencesTable(compare);
     if (button("Swap A and B",
@@ -188,13 +183,7 @@ void nowSection(const CompareView& compare, Commands& commands) {
     if (compare.measuring)
         usageBar(compare.measured, "measuring the true error");
     else if (compare.stale)
-        wrapped(palette().dim, "True error and cracks are of another view or other settings.");
-}
-
-std::string flightName(const std::filesystem::path& file) {
-    std::string name = file.stem().string();
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
+        wrappedText("True error and cracks are of another view or other settings.", palette().dim);
 }
 
 void flightControls(const EditorView& view, ComparePanelState& state, Commands& commands) {
@@ -231,12 +220,13 @@ void flightSection(const EditorView& view, ComparePanelState& state, Commands& c
         if (button("Cancel", "Ends it; nothing of it is kept.")) commands.push_back(CancelCompareFlight{});
         ImGui::EndDisabled();
     } else if (view.camera.flights.empty()) {
-        wrapped(palette().dim, "There is no flight: TOML files in a folder \"flights\", or one recorded.");
+        wrappedText("There is no flight: TOML files in a folder \"flights\", or one recorded.",
+                    palette().dim);
     } else {
         flightControls(view, state, commands);
     }
-    if (!flight.problem.empty()) wrapped(palette().bad, flight.problem);
-    if (flight.running || flight.last) wrapped(palette().dim, flight.lastName);
+    if (!flight.problem.empty()) wrappedText(flight.problem, palette().bad);
+    if (flight.running || flight.last) wrappedText(flight.lastName, palette().dim);
     if (flight.last) figuresTable("flight", *flight.last, false, false);
 }
 
@@ -246,11 +236,12 @@ void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings
                   Commands& commands) {
     if (!view.planet) return emptyState("No planet is open to be compared.");
     const CompareView& compare = view.compare;
-    if (!compare.problem.empty()) wrapped(palette().bad, compare.problem);
+    if (!compare.problem.empty()) wrappedText(compare.problem, palette().bad);
     if (!compare.on) {
-        wrapped(palette().dim,
-                "What is shown, A, beside something else, B: keep the settings, then change some; or choose "
-                "a preset or a file.");
+        wrappedText(
+            "What is shown, A, beside something else, B: keep the settings, then change some; or choose "
+            "a preset or a file.",
+            palette().dim);
         chooseB(view, commands);
         if (compare.flight.running || compare.flight.last) flightSection(view, state, commands);
         return;

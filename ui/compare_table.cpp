@@ -12,7 +12,7 @@ namespace {
 
 using Figures = ComparedFigures;
 
-constexpr std::array<CompareRow, 17> rows = {{
+constexpr std::array<CompareRow, 17> comparedRows = {{
     {"triangles", "Triangles", "Drawn, skirts counted in. Over a flight: the mean of its moments.",
      &Figures::triangles, FigureUnit::Count, true, true},
     {"chunks", "Chunks", "Drawn: one draw call each. Over a flight: the mean of its moments.",
@@ -78,7 +78,7 @@ std::string textOf(FigureUnit unit, double value) {
 }  // namespace
 
 std::span<const CompareRow> compareRows() {
-    return rows;
+    return comparedRows;
 }
 
 std::string figureText(const CompareRow& row, const std::optional<double>& value) {

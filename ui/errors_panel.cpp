@@ -30,7 +30,7 @@ std::string finePx(double px, const char* unit = " px") {
     return fmt::format("{:.3g}{}", px, unit);
 }
 
-void controls(const EditorView& view, ViewSettings& settings, Commands& commands) {
+void errorsControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
     const ErrorsView& errors = view.errors;
     ImGui::BeginDisabled(errors.running);
     if (button(
@@ -262,7 +262,7 @@ void worstList(const EditorView& view, Commands& commands) {
 void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& settings,
                  Commands& commands) {
     if (!view.planet) return emptyState("The error of what is drawn is measured here once a planet is open.");
-    controls(view, settings, commands);
+    errorsControls(view, settings, commands);
     if (!view.errors.last) {
         return emptyState(view.errors.running
                               ? "The first measurement is on its way."

@@ -26,7 +26,7 @@ std::string comparison(const ChunkExplanation& chunk, const char* how) {
 }
 
 // "14th of 60 in the queue"
-std::string placeText(const ChunkExplanation& chunk) {
+std::string gridPlaceText(const ChunkExplanation& chunk) {
     if (!chunk.queuePlace) return "in the queue";
     const std::size_t place = *chunk.queuePlace;
     const bool teens = place % 100 / 10 == 1;
@@ -53,7 +53,7 @@ std::string drawnText(const ChunkExplanation& chunk) {
         case WhyNotSplit::SeamLimit:
             return wanted("a chunk beside it would then be too much coarser for stitched seams");
         case WhyNotSplit::WaitingInQueue:
-            return wanted("its children are " + placeText(chunk));
+            return wanted("its children are " + gridPlaceText(chunk));
         case WhyNotSplit::WaitingForRead:
             return wanted("its children are being read");
         case WhyNotSplit::WaitingForBudget:
@@ -94,7 +94,7 @@ std::string insteadText(const ChunkExplanation& chunk) {
         case WhyNotSplit::SeamLimit:
             return above + " is drawn, since a chunk beside it would be too much coarser for stitched seams.";
         case WhyNotSplit::WaitingInQueue:
-            return fmt::format("{} comes first, {}.", above, placeText(chunk));
+            return fmt::format("{} comes first, {}.", above, gridPlaceText(chunk));
         case WhyNotSplit::WaitingForRead:
             return above + " comes first, and is being read.";
         case WhyNotSplit::WaitingForBudget:
@@ -132,7 +132,7 @@ std::string whyText(const ChunkExplanation& chunk) {
         case ChunkState::Resident:
             return "Not drawn: " + insteadText(chunk);
         case ChunkState::Requested:
-            return fmt::format("Not loaded yet: it is {}.", placeText(chunk));
+            return fmt::format("Not loaded yet: it is {}.", gridPlaceText(chunk));
         case ChunkState::Loading:
             return "Not loaded yet: it is being read.";
         case ChunkState::NotResident:

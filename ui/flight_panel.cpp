@@ -17,16 +17,10 @@ namespace {
 
 constexpr float timelineLines = 3.2f;
 
-void wrapped(const ImVec4& colour, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", text.c_str());
-    ImGui::PopStyleColor();
-}
-
 // Recording.
 
 void runningRecording(const RecordingNow& recording, Commands& commands) {
-    wrapped(palette().bad, fmt::format("Recording \"{}\"", recording.name));
+    wrappedText(fmt::format("Recording \"{}\"", recording.name), palette().bad);
     ImGui::TextWrapped("%.1f s, %zu frames, %s", recording.seconds, recording.frames,
                        bytesText(recording.bytes).c_str());
     tooltip(
@@ -90,7 +84,7 @@ void flightRow(const RecordedFlight& flight, FlightPanelState& state, Commands& 
 void flightList(const EditorView& view, FlightPanelState& state, Commands& commands) {
     const auto& flights = view.recording.flights;
     if (flights.empty()) {
-        wrapped(palette().dim, "No flight is recorded yet. Press Record, fly, and stop.");
+        wrappedText("No flight is recorded yet. Press Record, fly, and stop.", palette().dim);
         return;
     }
     const float most = 6 * ImGui::GetTextLineHeightWithSpacing();
@@ -238,7 +232,7 @@ void replayKnobs(const ReplayNow& replay, Commands& commands) {
 void runningReplay(const ReplayNow& replay, Commands& commands) {
     ImGui::TextWrapped("\"%s\"  frame %zu of %zu, %.2f of %.2f s%s", replay.name.c_str(), replay.frame,
                        replay.frames, replay.timeS, replay.durationS, replay.seeking ? ", on its way" : "");
-    wrapped(replay.framesDifferent > 0 ? palette().bad : palette().good, replayStatus(replay));
+    wrappedText(replayStatus(replay), replay.framesDifferent > 0 ? palette().bad : palette().good);
     tooltip(
         "Compares with the recording in each frame: chunks drawn with their order and morphs to the last "
         "bit, blocks asked for, and blocks that arrived.");

@@ -114,7 +114,7 @@ Bar memoryBar(const char* name, double bytes, std::size_t colour) {
     return {name, bytes, seriesColour(colour), bytesText(bytes)};
 }
 
-void memory(const EditorView& view) {
+void memoryByKind(const EditorView& view) {
     const FrameStats& stats = view.stats;
     const double chunksCpu = asBytes(stats.paging.residentBytesCpu);
     const double process = asBytes(stats.processBytes);
@@ -179,7 +179,7 @@ void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
                                 Column{"Last 10 seconds", 1.7f, 0, [&] { plots(view, wide); }},
                                 Column{"Counts and memory", 1, 0, [&] {
                                            counts(view);
-                                           memory(view);
+                                           memoryByKind(view);
                                            if (section("Allocations"))
                                                allocationTable(view.allocations, view.timeS, commands);
                                        }}};

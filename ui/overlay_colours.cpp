@@ -21,11 +21,12 @@ constexpr std::array<std::uint32_t, 12> hues = {0x3D6BE0, 0xFF9A1F, 0x1FA34A, 0x
 
 // Even in lightness, and told apart by people who do not see red and green: from viridis, its violet end
 // bluer.
-constexpr std::array<std::uint32_t, 6> ramp = {0x1B1F6B, 0x30508F, 0x21898C, 0x3DBB75, 0xA6DB3A, 0xFDF3A0};
+constexpr std::array<std::uint32_t, 6> rampColours = {0x1B1F6B, 0x30508F, 0x21898C,
+                                                      0x3DBB75, 0xA6DB3A, 0xFDF3A0};
 
 // In the order of planet::ChunkState.
-constexpr std::array<std::uint32_t, 10> states = {0x3FB65F, 0x246B43, 0x5C6B80, 0x75609A, 0x3478BD,
-                                                  0xEDC238, 0xFA8522, 0x80858C, 0xE03A32, 0x4A4D52};
+constexpr std::array<std::uint32_t, 10> stateColours = {0x3FB65F, 0x246B43, 0x5C6B80, 0x75609A, 0x3478BD,
+                                                        0xEDC238, 0xFA8522, 0x80858C, 0xE03A32, 0x4A4D52};
 
 constexpr double deltaDecades = 4;
 
@@ -118,6 +119,13 @@ std::vector<LegendEntry> rampEntries(Label&& label) {
 
 }  // namespace
 
+std::uint32_t packedColour(const glm::vec3& colour) {
+    const auto channel = [](float value) {
+        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
+    };
+    return 0xFF000000u | (channel(colour.z) << 16) | (channel(colour.y) << 8) | channel(colour.x);
+}
+
 glm::vec3 levelColour(int level) {
     const auto index = static_cast<std::size_t>(std::max(level, 0));
     const glm::vec3 colour = fromHex(hues[index % hues.size()]);
@@ -133,14 +141,14 @@ glm::vec3 errorColour(double epsOverTau) {
 }
 
 glm::vec3 rampColour(double share) {
-    const double along = std::clamp(share, 0.0, 1.0) * (ramp.size() - 1);
-    const std::size_t below = std::min(static_cast<std::size_t>(along), ramp.size() - 2);
-    return glm::mix(fromHex(ramp[below]), fromHex(ramp[below + 1]),
+    const double along = std::clamp(share, 0.0, 1.0) * (rampColours.size() - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(along), rampColours.size() - 2);
+    return glm::mix(fromHex(rampColours[below]), fromHex(rampColours[below + 1]),
                     static_cast<float>(along - static_cast<double>(below)));
 }
 
 glm::vec3 stateColour(planet::ChunkState state) {
-    return fromHex(states[static_cast<std::size_t>(state)]);
+    return fromHex(stateColours[static_cast<std::size_t>(state)]);
 }
 
 double deltaShare(double deltaCM, double topM) {

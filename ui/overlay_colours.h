@@ -14,6 +14,8 @@
 namespace ui {
 
 // sRGB in [0, 1].
+std::uint32_t packedColour(const glm::vec3& colour);  // as ImGui takes it, opaque
+
 glm::vec3 levelColour(int level);          // neighbouring levels are far apart in hue
 glm::vec3 errorColour(double epsOverTau);  // green 0, yellow 1, red 2 and over
 glm::vec3 rampColour(double share);        // dark blue 0 to light yellow 1: for amounts without a good or bad

@@ -26,7 +26,7 @@ namespace ui {
 
 namespace {
 
-constexpr double sampledEveryS = 0.1;
+constexpr double pagingSampledEveryS = 0.1;
 // The latency axis, seconds, logarithmic.
 constexpr double fastestS = 1e-4;
 constexpr double slowestS = 100;
@@ -124,7 +124,7 @@ void colourMemory(const EditorView& view) {
     }
 }
 
-void memory(const EditorView& view) {
+void residentMemory(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
     const planet::PagingSettings& settings = view.planet->pagingSettings();
     const bool hasColours = view.planet->colour().has_value();
@@ -296,7 +296,7 @@ void refresh(const EditorView& view, PagingPanelState& state) {
                          sample.shownKind == state.shownKind &&
                          sample.latencyOfReading == state.latencyOfReading &&
                          sample.failedShown == state.failedShown && view.timeS >= sample.takenAtS &&
-                         view.timeS < sample.takenAtS + sampledEveryS;
+                         view.timeS < sample.takenAtS + pagingSampledEveryS;
     if (current) return;
     sample.takenAtS = view.timeS;
     sample.planet = view.planet;
@@ -582,8 +582,8 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     latencyHistogram(state, lines);
 }
 
-void controls(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    memory(view);
+void pagingControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    residentMemory(view);
     knobs(settings.paging, view.planet->colour().has_value());
     buttons(view, commands);
 }
@@ -642,7 +642,7 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     constexpr float tableLines = 13;
     const std::array columns = {Column{"Paging", 1.2f, 0,
                                        [&] {
-                                           controls(view, settings, commands);
+                                           pagingControls(view, settings, commands);
                                            if (wide && section("Bad disk")) badDisk(settings.paging);
                                        }},
                                 Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},

@@ -24,14 +24,14 @@ namespace {
 using planet::PopEvent;
 using planet::PopMeter;
 
-constexpr double sampledEveryS = 0.25;
+constexpr double popsSampledEveryS = 0.25;
 constexpr std::size_t buckets = 40;
 
 void refresh(const EditorView& view, PopsPanelState& state) {
     PopsPanelState::Sample& sample = state.sample;
     const PopMeter& meter = *view.pops.meter;
     const bool current = sample.meter == &meter && view.timeS >= sample.takenAtS &&
-                         view.timeS < sample.takenAtS + sampledEveryS &&
+                         view.timeS < sample.takenAtS + popsSampledEveryS &&
                          meter.totals().switches >= sample.switches;
     if (current) return;
     sample = {};
@@ -50,7 +50,7 @@ void refresh(const EditorView& view, PopsPanelState& state) {
     sample.p99Px = meter.percentilePx(0.99);
 }
 
-void controls(const EditorView& view, PopsPanelState& state, Commands& commands) {
+void popsControls(const EditorView& view, PopsPanelState& state, Commands& commands) {
     bool measuring = view.pops.measuring;
     if (ImGui::Checkbox("Measure", &measuring)) commands.push_back(MeasurePops{measuring});
     noteItem("Measure");
@@ -66,7 +66,7 @@ void controls(const EditorView& view, PopsPanelState& state, Commands& commands)
 }
 
 void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
-    controls(view, state, commands);
+    popsControls(view, state, commands);
     const PopsPanelState::Sample& sample = state.sample;
     if (sample.seen == 0) {
         wrappedText(view.pops.measuring ? "No change of level in the last minutes. Fly, or change a setting "

@@ -20,10 +20,11 @@ namespace {
 struct NetCell {
     int column, row;
 };
-constexpr std::array<NetCell, planet::faceCount> cells = {{{1, 1}, {3, 1}, {2, 1}, {0, 1}, {1, 0}, {1, 2}}};
+constexpr std::array<NetCell, planet::faceCount> netCells = {
+    {{1, 1}, {3, 1}, {2, 1}, {0, 1}, {1, 0}, {1, 2}}};
 
 const NetCell& cellOf(planet::Face face) {
-    return cells[static_cast<std::size_t>(face)];
+    return netCells[static_cast<std::size_t>(face)];
 }
 
 // Room about the whole net, in faces.
@@ -42,13 +43,6 @@ constexpr bool isSeen(ChunkState state) {
     return state == ChunkState::Drawn || state == ChunkState::Split;
 }
 
-std::uint32_t packed(const glm::vec3& colour) {
-    const auto channel = [](float value) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
-    };
-    return 0xFF000000u | (channel(colour.z) << 16) | (channel(colour.y) << 8) | channel(colour.x);
-}
-
 constexpr std::size_t shadeCount = 256;
 constexpr float dimming = 0.62f;  // of what is not drawn, towards the ground
 
@@ -57,12 +51,12 @@ class NetPalette {
 public:
     NetPalette(const NetData& data, const NetColouring& colouring) : data_(data), colouring_(colouring) {
         for (std::size_t i = 0; i < states_.size(); ++i) {
-            states_[i] = packed(stateColour(static_cast<ChunkState>(i)));
+            states_[i] = packedColour(stateColour(static_cast<ChunkState>(i)));
         }
         for (std::size_t i = 0; i < shadeCount; ++i) {
             const glm::vec3 colour = shade(i);
-            seen_[i] = packed(colour);
-            unseen_[i] = packed(glm::mix(colour, colouring.ground, dimming));
+            seen_[i] = packedColour(colour);
+            unseen_[i] = packedColour(glm::mix(colour, colouring.ground, dimming));
         }
     }
 

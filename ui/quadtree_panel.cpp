@@ -73,7 +73,7 @@ void legendRows(const Legend& legend) {
     ImGui::PopStyleVar();
 }
 
-void controls(const EditorView& view, QuadtreePanelState& state) {
+void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
     choiceIndex(
         "Colour by", state.colourBy, 0,
         (std::string("State") + '\0' + "Level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "delta_c" +
@@ -352,7 +352,7 @@ void treeList(const EditorView& view, const NetData& data, ImVec2 size, Quadtree
 void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettings& settings,
                    Commands& commands) {
     if (!view.planet) return emptyState("No planet is open. Its quadtrees will be shown here.");
-    controls(view, state);
+    quadtreeControls(view, state);
     legendRows(legendOfNet(view, state, settings.overlay));
     const NetData data = netDataOf(*view.planet);
     const float font = ImGui::GetFontSize();

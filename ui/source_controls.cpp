@@ -114,13 +114,6 @@ bool fieldControls(const TerrainKind& kind, TerrainSettings& settings) {
     return changed;
 }
 
-// A label that is lit where the value is not that of the open file.
-void litLabel(const char* label, bool changed, const char* explanation) {
-    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
-    labelledControl(label, explanation);
-    if (changed) ImGui::PopStyleColor();
-}
-
 bool worldControl(const EditorView& view, SourceEdit& edit, BakeRequest& request) {
     if (view.bake.worlds.empty()) return false;
     constexpr const char* explanation =

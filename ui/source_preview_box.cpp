@@ -17,7 +17,7 @@ namespace ui {
 
 namespace {
 
-constexpr double askAfterS = 0.15;  // since the last change
+constexpr double previewAfterS = 0.15;  // since the last change
 constexpr int zoomStepLog2 = 2;
 constexpr int mostZoomLog2 = 14;
 
@@ -29,7 +29,7 @@ bool samePicture(const PreviewRequest& a, const PreviewRequest& b) {
 void ask(const EditorView& view, const PreviewRequest& wanted, PreviewBoxState& state, Commands& commands) {
     if (!state.wanted || !samePicture(*state.wanted, wanted)) {
         state.wanted = wanted;
-        state.askAtS = view.timeS + askAfterS;
+        state.askAtS = view.timeS + previewAfterS;
         state.asked = false;
     }
     if (state.asked || view.timeS < state.askAtS) return;

@@ -18,10 +18,10 @@ namespace ui {
 
 namespace {
 
-constexpr float leastLines = 6;
+constexpr float leastChartLines = 6;
 
 // How figures become pixels.
-struct Scale {
+struct ChartScale {
     ImVec2 start;
     ImVec2 end;
     LogAxis errors;
@@ -46,13 +46,13 @@ float tickWidth(const LogAxis& axis) {
     return width;
 }
 
-Scale scaleOver(std::span<const SweepPoint> points, SweepCost cost, ImVec2 start, ImVec2 end) {
+ChartScale scaleOver(std::span<const SweepPoint> points, SweepCost cost, ImVec2 start, ImVec2 end) {
     std::vector<double> errors, costs;
     for (const SweepPoint& point : points) {
         errors.push_back(plottedErrorPx(point.figures));
         costs.push_back(plottedCost(point.figures, cost));
     }
-    Scale scale{start, end, logAxisOver(errors), logAxisOver(costs), cost};
+    ChartScale scale{start, end, logAxisOver(errors), logAxisOver(costs), cost};
     const float gap = ImGui::GetFontSize() * 0.4f;
     scale.start.x += tickWidth(scale.costs) + 2 * gap;
     scale.start.y += ImGui::GetTextLineHeight();  // for the tau of a point at the top
@@ -62,7 +62,7 @@ Scale scaleOver(std::span<const SweepPoint> points, SweepCost cost, ImVec2 start
     return scale;
 }
 
-void drawAxes(const Scale& scale) {
+void drawAxes(const ChartScale& scale) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 line = packed(palette().dim, 0.25f);
     const ImU32 dim = packed(palette().dim);
@@ -111,7 +111,7 @@ void legend(std::span<const SweepSeries> series) {
     }
 }
 
-void drawSeries(const Scale& scale, std::span<const SweepPoint> points, const SweepSeries& series,
+void drawSeries(const ChartScale& scale, std::span<const SweepPoint> points, const SweepSeries& series,
                 const ImVec4& colour) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     std::vector<ImVec2> way;
@@ -122,7 +122,8 @@ void drawSeries(const Scale& scale, std::span<const SweepPoint> points, const Sw
 }
 
 // Of those that have room: a text over another is worse than none, and the pointer tells all.
-void drawTaus(const Scale& scale, std::span<const SweepPoint> points, std::span<const SweepSeries> series) {
+void drawTaus(const ChartScale& scale, std::span<const SweepPoint> points,
+              std::span<const SweepSeries> series) {
     struct Box {
         ImVec2 start, end;
     };
@@ -145,7 +146,7 @@ void drawTaus(const Scale& scale, std::span<const SweepPoint> points, std::span<
     }
 }
 
-std::optional<std::size_t> nearestToPointer(const Scale& scale, std::span<const SweepPoint> points) {
+std::optional<std::size_t> nearestToPointer(const ChartScale& scale, std::span<const SweepPoint> points) {
     if (!ImGui::IsItemHovered()) return std::nullopt;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float reach = ImGui::GetFontSize();
@@ -194,12 +195,12 @@ std::optional<std::size_t> sweepChart(std::span<const SweepPoint> points, SweepC
     legend(series);
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const ImVec2 size{std::max(room.x, ImGui::GetFontSize()),
-                      std::max(room.y, leastLines * ImGui::GetTextLineHeightWithSpacing())};
+                      std::max(room.y, leastChartLines * ImGui::GetTextLineHeightWithSpacing())};
     const ImVec2 start = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("chart", size);
     noteItem("chart");
     const ImVec2 end{start.x + size.x, start.y + size.y};
-    const Scale scale = scaleOver(points, cost, start, end);
+    const ChartScale scale = scaleOver(points, cost, start, end);
     ImGui::PushClipRect(start, end, true);
     ImGui::GetWindowDrawList()->AddRectFilled(scale.start, scale.end, ImGui::GetColorU32(ImGuiCol_FrameBg));
     drawAxes(scale);

@@ -22,14 +22,8 @@ namespace {
 
 constexpr float runApartFrom = 68;  // heights of the font
 
-void wrapped(const ImVec4& colour, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", text.c_str());
-    ImGui::PopStyleColor();
-}
-
 // "1 flight", "2 flights"
-std::string countText(std::size_t count, const char* of) {
+std::string countOf(std::size_t count, const char* of) {
     return fmt::format("{} {}{}", count, of, count == 1 ? "" : "s");
 }
 
@@ -74,7 +68,7 @@ TauList tausControl(SweepPanelState& state) {
     noteItem("Tolerances");
     tooltip(explanation.c_str());
     TauList taus = tausFromText(state.taus.data());
-    if (!taus.problem.empty()) wrapped(palette().bad, taus.problem);
+    if (!taus.problem.empty()) wrappedText(taus.problem, palette().bad);
     return taus;
 }
 
@@ -131,7 +125,7 @@ std::vector<int> chunksControl(const EditorView& view, SweepPanelState& state) {
         if (on) wanted.push_back(size);
     }
     ImGui::PopStyleVar();
-    if (anyBarred) wrapped(palette().dim, "Its source is not known: its own chunk size only.");
+    if (anyBarred) wrappedText("Its source is not known: its own chunk size only.", palette().dim);
     return wanted;
 }
 
@@ -195,7 +189,7 @@ void progressLines(const EditorView& view, Commands& commands) {
                "saved."))
         commands.push_back(CancelSweep{});
     ImGui::EndDisabled();
-    wrapped(palette().dim, now);
+    wrappedText(now, palette().dim);
 }
 
 // Why nothing can be run; empty: it can.
@@ -220,10 +214,10 @@ void runControl(const EditorView& view, const SweepRequest& request, const TauLi
     ImGui::EndDisabled();
     ImGui::SameLine();
     const std::size_t flights = request.tausPx.size() * request.chunkSizes.size() * request.metrics.size();
-    wrapped(palette().dim, problem.empty()
-                               ? fmt::format("{} of {}", countText(flights, "flight"),
-                                             countText(static_cast<std::size_t>(request.frames), "moment"))
-                               : problem);
+    wrappedText(problem.empty() ? fmt::format("{} of {}", countOf(flights, "flight"),
+                                              countOf(static_cast<std::size_t>(request.frames), "moment"))
+                                : problem,
+                palette().dim);
 }
 
 // Suggest.
@@ -257,9 +251,9 @@ void goalControl(SweepPanelState& state) {
 void answer(const SweepSuggestion& suggestion, const EditorView& view, ViewSettings& settings) {
     const bool tight = suggestion.metric == planet::ErrorMetric::Tight;
     const std::string text = suggestionText(suggestion.goal, suggestion.found, tauSymbol());
-    wrapped(
-        suggestion.found.met ? palette().text : palette().warning,
-        fmt::format("{} metric, chunks of {}: {}", tight ? "Tight" : "Additive", suggestion.chunkSize, text));
+    wrappedText(
+        fmt::format("{} metric, chunks of {}: {}", tight ? "Tight" : "Additive", suggestion.chunkSize, text),
+        suggestion.found.met ? palette().text : palette().warning);
     if (!suggestion.found.met) return;
     ImGui::PushID(tight ? 1 : 0);
     ImGui::BeginDisabled(view.recording.replay.has_value());
@@ -295,7 +289,7 @@ void suggestControls(const EditorView& view, SweepPanelState& state, SweepReques
         }
         if (request.metrics.empty()) {
             ImGui::SameLine();
-            wrapped(palette().dim, "Choose a metric.");
+            wrappedText("Choose a metric.", palette().dim);
         }
     }
     for (const SweepSuggestion& suggestion : view.sweep.suggestions) answer(suggestion, view, settings);
@@ -309,7 +303,7 @@ struct Asked {
 std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& state) {
     const Flights flights = flightsOf(view);
     if (flights.empty()) {
-        wrapped(palette().dim, "There is no flight to sweep over. Record one in the Flight panel.");
+        wrappedText("There is no flight to sweep over. Record one in the Flight panel.", palette().dim);
         return std::nullopt;
     }
     flightControl(flights, state);
@@ -327,11 +321,11 @@ std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& st
 
 void tableCaption(const SweepTable& table, const EditorView& view) {
     const std::string state = table.whole ? "" : view.sweep.running ? ", so far" : ", not whole";
-    wrapped(table.whole || view.sweep.running ? palette().dim : palette().warning,
-            fmt::format("{}, {}, {} x {} px, {}: {}{}", table.flight, table.source.filename().string(),
-                        table.request.widthPx, table.request.heightPx,
-                        countText(static_cast<std::size_t>(table.request.frames), "moment"),
-                        countText(table.points.size(), "point"), state));
+    wrappedText(fmt::format("{}, {}, {} x {} px, {}: {}{}", table.flight, table.source.filename().string(),
+                            table.request.widthPx, table.request.heightPx,
+                            countOf(static_cast<std::size_t>(table.request.frames), "moment"),
+                            countOf(table.points.size(), "point"), state),
+                table.whole || view.sweep.running ? palette().dim : palette().warning);
 }
 
 void useButton(const SweepTable& table, const EditorView& view, const SweepPanelState& state,
@@ -408,7 +402,7 @@ void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& se
     };
     std::optional<Asked> asked;
     const auto run = [&] {
-        if (!view.sweep.problem.empty()) wrapped(palette().warning, view.sweep.problem);
+        if (!view.sweep.problem.empty()) wrappedText(view.sweep.problem, palette().warning);
         if (!asked) return;
         runControl(view, asked->request, asked->taus, commands);
         if (section("Suggest a tolerance")) suggestControls(view, state, asked->request, settings, commands);

@@ -38,7 +38,7 @@ std::string predicted(double px) {
     return px < 1e5 ? fine(px) : "none";
 }
 
-constexpr std::array<SweepColumn, 10> columns = {{
+constexpr std::array<SweepColumn, 10> sweepColumns = {{
     {"Chunk", 1.15f, [](const SweepPoint& p) { return double{1} * p.chunkSize; }, whole,
      "Vertices a side. Ringed: on the Pareto front, no other point is both cheaper and truer."},
     {"Metric", 1.2f, [](const SweepPoint& p) { return p.metric == planet::ErrorMetric::Tight ? 1.0 : 0.0; },
@@ -65,9 +65,9 @@ constexpr std::array<SweepColumn, 10> columns = {{
 
 void headers() {
     ImGui::TableSetupScrollFreeze(1, 1);
-    for (const SweepColumn& column : columns) ImGui::TableSetupColumn(column.title, 0, column.share);
+    for (const SweepColumn& column : sweepColumns) ImGui::TableSetupColumn(column.title, 0, column.share);
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-    for (const SweepColumn& column : columns) {
+    for (const SweepColumn& column : sweepColumns) {
         ImGui::TableNextColumn();
         ImGui::TableHeader(column.title);
         noteItem(fmt::format("Sort by {}", column.title));
@@ -81,7 +81,7 @@ std::vector<std::size_t> orderOf(std::span<const SweepPoint> points) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
     if (!specs || specs->SpecsCount == 0) return order;
-    const auto value = columns[static_cast<std::size_t>(specs->Specs->ColumnIndex)].value;
+    const auto value = sweepColumns[static_cast<std::size_t>(specs->Specs->ColumnIndex)].value;
     const bool descending = specs->Specs->SortDirection == ImGuiSortDirection_Descending;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return descending ? value(points[a]) > value(points[b]) : value(points[a]) < value(points[b]);
@@ -101,9 +101,9 @@ void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
     const float line = ImGui::GetTextLineHeight();
     sweepMark({at.x + line * 0.5f, at.y + line * 0.5f}, colour, point.onFront);
     ImGui::SameLine(line * 1.2f);
-    for (const SweepColumn& column : columns) {
-        if (&column != &columns.front()) ImGui::TableNextColumn();
-        const bool violation = &column == &columns.back() && point.figures.violations > 0;
+    for (const SweepColumn& column : sweepColumns) {
+        if (&column != &sweepColumns.front()) ImGui::TableNextColumn();
+        const bool violation = &column == &sweepColumns.back() && point.figures.violations > 0;
         ImGui::PushStyleColor(ImGuiCol_Text, violation ? palette().bad : palette().text);
         ImGui::TextUnformatted(column.text(column.value(point)).c_str());
         ImGui::PopStyleColor();
@@ -121,7 +121,8 @@ void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& 
                                  48 * ImGui::GetFontSize());
     const float height =
         std::max(ImGui::GetContentRegionAvail().y, 5 * ImGui::GetTextLineHeightWithSpacing());
-    if (!ImGui::BeginTable("points", static_cast<int>(columns.size()), flags, {0, height}, width)) return;
+    if (!ImGui::BeginTable("points", static_cast<int>(sweepColumns.size()), flags, {0, height}, width))
+        return;
     headers();
     const std::vector<SweepSeries> series = seriesOf(points);
     std::vector<std::size_t> seriesIndex(points.size());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,6 +25,12 @@ std::string sourceName(const std::filesystem::path& source) {
     const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
     if (!terrain || terrain->of.empty()) return source.string();
     return sourceName(terrain->of) + " with detail";
+}
+
+std::string flightName(const std::filesystem::path& file) {
+    std::string name = file.stem().string();
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
 }
 
 std::string bytesText(double bytes) {

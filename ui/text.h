@@ -9,6 +9,7 @@ namespace ui {
 
 // How a source is called in a line: "elevation.tif", "elevation.tif with detail", "noise:ridged,seed=7".
 std::string sourceName(const std::filesystem::path& source);
+std::string flightName(const std::filesystem::path& file);       // "orbit to ground" of orbit_to_ground.toml
 std::string bytesText(double bytes);                             // "12.3 MiB"
 std::string countText(double count);                             // "950", "12.3 k", "4.56 M"
 std::string durationText(double seconds);                        // "0.4 s", "12 s", "3 min 20 s", "2 h 5 min"

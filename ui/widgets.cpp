@@ -17,13 +17,6 @@ namespace {
 // Share of the panel's width that labels take.
 constexpr float labelShare = 0.40f;
 
-// The label of a knob that does not have its default is lit.
-void knobLabel(const char* label, bool isDefault, const char* explanation) {
-    if (!isDefault) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
-    labelledControl(label, explanation);
-    if (!isDefault) ImGui::PopStyleColor();
-}
-
 // After the control. True where the user asks for the default.
 bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
     bool reset = false;
@@ -48,7 +41,7 @@ template <class T>
 bool sliderOf(const char* label, T& value, T defaultValue, T min, T max, const char* format,
               const char* explanation, ImGuiSliderFlags flags) {
     ImGui::PushID(label);
-    knobLabel(label, value == defaultValue, explanation);
+    litLabel(label, value != defaultValue, explanation);
     bool changed =
         ImGui::SliderScalar("##value", std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32,
                             &value, &min, &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
@@ -121,6 +114,12 @@ void labelledControl(const char* label, const char* explanation) {
     ImGui::SetNextItemWidth(-1);
 }
 
+void litLabel(const char* label, bool changed, const char* explanation) {
+    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    labelledControl(label, explanation);
+    if (changed) ImGui::PopStyleColor();
+}
+
 bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
             const char* explanation, ImGuiSliderFlags flags) {
     return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
@@ -171,7 +170,7 @@ bool combo(const char* name, int& index, const char* items) {
 bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items,
                  const char* explanation) {
     ImGui::PushID(label);
-    knobLabel(label, index == defaultIndex, explanation);
+    litLabel(label, index != defaultIndex, explanation);
     bool changed = combo(label, index, items);
     tooltip(explanation);
     const char* defaultItem = items;

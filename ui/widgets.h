@@ -26,6 +26,8 @@ void endValues();
 
 // A label in the left column and room for a control in the right one; call the control right after.
 void labelledControl(const char* label, const char* explanation);
+// Lit where the value is changed: not the default, or not that of the open file.
+void litLabel(const char* label, bool changed, const char* explanation);
 
 // Knobs: a label, a control, and a tooltip that says unit, meaning, formula, and what gets worse. A value
 // that is not its default has a lit label; a right click on the label or the control offers the default.

@@ -13,8 +13,8 @@ namespace planet::gl {
 namespace {
 
 // Of the fill program.
-constexpr GLint tilesUnit = 3;
-constexpr GLint pagesUnit = 4;
+constexpr GLint fillTilesUnit = 3;
+constexpr GLint fillPagesUnit = 4;
 
 // The Error names what there is no room for.
 Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float anisotropy) {
@@ -146,13 +146,13 @@ void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const TilePool&
     glEnable(GL_FRAMEBUFFER_SRGB);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     glBindVertexArray(noVertices_.name());
-    glActiveTexture(GL_TEXTURE0 + tilesUnit);
+    glActiveTexture(GL_TEXTURE0 + fillTilesUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, pool.tiles());
-    glActiveTexture(GL_TEXTURE0 + pagesUnit);
+    glActiveTexture(GL_TEXTURE0 + fillPagesUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, pool.pages());
     glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "colourTiles"), tilesUnit);
-    glUniform1i(glGetUniformLocation(program, "colourPages"), pagesUnit);
+    glUniform1i(glGetUniformLocation(program, "colourTiles"), fillTilesUnit);
+    glUniform1i(glGetUniformLocation(program, "colourPages"), fillPagesUnit);
     const GLint firstTexel = glGetUniformLocation(program, "firstTexel");
     const GLint filled = glGetUniformLocation(program, "filled");
     const auto draw = [&](const TexelRect& texels, int column, int row) {

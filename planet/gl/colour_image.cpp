@@ -13,8 +13,6 @@ namespace planet::gl {
 
 namespace {
 
-constexpr float wantedAnisotropy = 8;
-
 struct Pixels {
     std::vector<std::uint8_t> rgb;
     int width = 0;
@@ -61,14 +59,6 @@ void setSampling(GLenum target, GLint across, float anisotropy) {
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, mipmapFilter());
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     if (anisotropy > 1) glTexParameterf(target, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
-}
-
-// Mesa's software renderer has anisotropy, but some footprints make it sample at the wrong place.
-float anisotropyToUse() {
-    if (isSoftwareRenderer() || !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return 1;
-    GLfloat most = 1;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    return std::min(most, wantedAnisotropy);
 }
 
 Texture uploaded(std::span<const std::uint8_t> rgb, int width, int height) {

@@ -13,8 +13,8 @@ namespace planet::gl {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> vertexFiles = {"lines.vert"};
-constexpr std::array<std::string_view, 1> fragmentFiles = {"lines.frag"};
+constexpr std::array<std::string_view, 1> lineVertexFiles = {"lines.vert"};
+constexpr std::array<std::string_view, 1> lineFragmentFiles = {"lines.frag"};
 constexpr float faintOpacity = 0.25f;
 constexpr double nearestM = 0.1;  // lines come closer than a classic near plane: depth is clamped there
 
@@ -49,9 +49,9 @@ std::vector<LineEnd> relativeTo(const glm::dvec3& eyeM, std::span<const LineVert
 }  // namespace
 
 Result<DebugLines> DebugLines::create() {
-    const Result<ShaderText> vertex = readShader({}, vertexFiles);
+    const Result<ShaderText> vertex = readShader({}, lineVertexFiles);
     if (!vertex) return tl::unexpected(vertex.error());
-    const Result<ShaderText> fragment = readShader({}, fragmentFiles);
+    const Result<ShaderText> fragment = readShader({}, lineFragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());
     Result<Program> program = linkProgram(*vertex, *fragment);
     if (!program) return tl::unexpected(program.error());

@@ -12,8 +12,6 @@ namespace planet::gl {
 
 namespace {
 
-constexpr int size = detailNoiseSize;
-
 std::uint32_t hashed(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t seed) {
     std::uint32_t h = x * 0x8DA6B343u + y * 0xD8163841u + z * 0xCB1AB31Fu + seed * 0x9E3779B9u;
     h = (h ^ (h >> 16)) * 0x7FEB352Du;
@@ -57,7 +55,7 @@ float gradientNoise(const glm::vec3& p, std::uint32_t cells, std::uint32_t seed)
 
 // Three octaves, creased where the noise passes through 0: ridges, and rounded valleys between them.
 float ridges(int x, int y, int z) {
-    const glm::vec3 place = glm::vec3(x, y, z) / static_cast<float>(size);
+    const glm::vec3 place = glm::vec3(x, y, z) / static_cast<float>(detailNoiseSize);
     float sum = 0;
     float weight = 1;
     for (std::uint32_t cells = 4; cells <= 16; cells *= 2) {
@@ -68,29 +66,30 @@ float ridges(int x, int y, int z) {
 }
 
 std::size_t indexOf(int x, int y, int z) {
-    const auto wrapped = [](int at) { return static_cast<std::size_t>((at + size) % size); };
-    return (wrapped(z) * size + wrapped(y)) * size + wrapped(x);
+    const auto wrapped = [](int at) {
+        return static_cast<std::size_t>((at + detailNoiseSize) % detailNoiseSize);
+    };
+    return (wrapped(z) * detailNoiseSize + wrapped(y)) * detailNoiseSize + wrapped(x);
 }
 
 std::uint8_t toByte(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(128 + 127 * value, 0.0f, 255.0f)));
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> detailNoise() {
+std::vector<std::uint8_t> makeNoise() {
     std::vector<float> heights;
     double sum = 0;
-    for (int i = 0; i < size * size * size; ++i) {
-        heights.push_back(ridges(i % size, i / size % size, i / size / size));
+    for (int i = 0; i < detailNoiseSize * detailNoiseSize * detailNoiseSize; ++i) {
+        heights.push_back(ridges(i % detailNoiseSize, i / detailNoiseSize % detailNoiseSize,
+                                 i / detailNoiseSize / detailNoiseSize));
         sum += static_cast<double>(heights.back());
     }
     const auto mean = static_cast<float>(sum / static_cast<double>(heights.size()));
     std::vector<std::uint8_t> texels;
-    for (int i = 0; i < size * size * size; ++i) {
-        const int x = i % size;
-        const int y = i / size % size;
-        const int z = i / size / size;
+    for (int i = 0; i < detailNoiseSize * detailNoiseSize * detailNoiseSize; ++i) {
+        const int x = i % detailNoiseSize;
+        const int y = i / detailNoiseSize % detailNoiseSize;
+        const int z = i / detailNoiseSize / detailNoiseSize;
         const auto slope = [&](int dx, int dy, int dz) {
             return 4.0f *
                    (heights[indexOf(x + dx, y + dy, z + dz)] - heights[indexOf(x - dx, y - dy, z - dz)]);
@@ -102,11 +101,19 @@ std::vector<std::uint8_t> detailNoise() {
     return texels;
 }
 
+}  // namespace
+
+const std::vector<std::uint8_t>& detailNoise() {
+    static const std::vector<std::uint8_t> texels = makeNoise();
+    return texels;
+}
+
 Texture detailNoiseTexture() {
-    const std::vector<std::uint8_t> texels = detailNoise();
+    const std::vector<std::uint8_t>& texels = detailNoise();
     Texture texture = makeTexture();
     glBindTexture(GL_TEXTURE_3D, texture.name());
-    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, size, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, detailNoiseSize, detailNoiseSize, detailNoiseSize, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, texels.data());
     glGenerateMipmap(GL_TEXTURE_3D);
     for (const GLenum axis : std::to_array<GLenum>({GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}))
         glTexParameteri(GL_TEXTURE_3D, axis, GL_REPEAT);

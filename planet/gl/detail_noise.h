@@ -15,8 +15,8 @@ inline constexpr std::size_t detailNoiseBytes =
 
 // Ridged gradient noise (Perlin, "Improving noise", 2002) on a torus, x fastest: three channels of its slope,
 // noise units of half the range in one whole side, and one of its height; 128 is 0 and each channel's mean.
-// Pure, any thread; the same every time.
-std::vector<std::uint8_t> detailNoise();
+// Made at the first call, and kept. Any thread.
+const std::vector<std::uint8_t>& detailNoise();
 
 // The same as a 3-D texture with mipmaps, which end at 0: what is finer than a pixel is gone.
 Texture detailNoiseTexture();

@@ -11,16 +11,6 @@ namespace planet::gl {
 
 namespace {
 
-constexpr float wantedAnisotropy = 8;
-
-// As for the colour image: Mesa's software renderer samples some footprints at the wrong place.
-float anisotropyToUse() {
-    if (isSoftwareRenderer() || !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return 1;
-    GLfloat most = 1;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    return std::min(most, wantedAnisotropy);
-}
-
 Texture makeArray(GLenum format, int size, int slices) {
     Texture texture = makeTexture();
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());

@@ -13,13 +13,13 @@ namespace planet::gl {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> vertexFiles = {"compare.vert"};
+constexpr std::array<std::string_view, 1> compareVertexFiles = {"compare.vert"};
 constexpr std::array<std::string_view, 1> mixFiles = {"compare.frag"};
 constexpr std::array<std::string_view, 1> countFiles = {"compare_count.frag"};
 constexpr int blockSize = 16;
 
 Result<Program> programOf(std::span<const std::string_view> fragmentFiles) {
-    const Result<ShaderText> vertex = readShader({}, vertexFiles);
+    const Result<ShaderText> vertex = readShader({}, compareVertexFiles);
     if (!vertex) return tl::unexpected(vertex.error());
     const Result<ShaderText> fragment = readShader({}, fragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());

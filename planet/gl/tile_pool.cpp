@@ -13,21 +13,10 @@ namespace planet::gl {
 
 namespace {
 
-// Borders of tiles are wide enough for the samples of this.
-constexpr float wantedAnisotropy = 8;
-
 bool hasBc1() {
     return epoxy_has_gl_extension("GL_EXT_texture_compression_s3tc") &&
            (epoxy_has_gl_extension("GL_EXT_texture_sRGB") ||
             epoxy_has_gl_extension("GL_EXT_texture_compression_s3tc_srgb"));
-}
-
-// Mesa's software renderer has anisotropy, but some footprints make it sample at the wrong place.
-float anisotropyToUse() {
-    if (isSoftwareRenderer() || !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return 1;
-    GLfloat most = 1;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    return std::min(most, wantedAnisotropy);
 }
 
 void setSampling(GLint minFilter, GLint magFilter, GLint lastLevel) {

@@ -10,6 +10,7 @@
 
 namespace worldy {
 
+using tests::fileCountIn;
 using tests::TemporaryFolder;
 namespace {
 
@@ -30,10 +31,6 @@ planet::Result<planet::BakeReport> waitFor(BakeJob& job) {
     }
 }
 
-std::size_t fileCount(const fs::path& folder) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
-}
-
 TEST(BakeJob, LeavesAChunkFileAndReportsOnce) {
     const TemporaryFolder folder;
     BakeJob job(writeImage(folder), {.faceSize = 65, .chunkSize = 17}, folder.path() / "slope.chk");
@@ -52,14 +49,14 @@ TEST(BakeJob, CancelledEndsWithoutAFile) {
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().kind, planet::ErrorKind::Cancelled);
-    EXPECT_EQ(fileCount(folder.path()), 1u);
+    EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
 TEST(BakeJob, GoingOutOfScopeCancels) {
     const TemporaryFolder folder;
     const fs::path image = writeImage(folder);
     { const BakeJob job(image, {.faceSize = 16385, .chunkSize = 17}, folder.path() / "slope.chk"); }
-    EXPECT_EQ(fileCount(folder.path()), 1u);
+    EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
 void writeColourImage(const fs::path& file) {
@@ -97,7 +94,7 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
         const planet::Result<planet::BakeReport> refused = waitFor(strict);
         ASSERT_FALSE(refused);
         EXPECT_NE(refused.error().message.find(image.string()), std::string::npos) << refused.error().message;
-        EXPECT_EQ(fileCount(folder.path()), 3u);
+        EXPECT_EQ(fileCountIn(folder.path()), 3u);
         BakeJob lenient(source, {}, {.faceSize = 65, .chunkSize = 17}, output, {image, true});
         const planet::Result<planet::BakeReport> baked = waitFor(lenient);
         ASSERT_TRUE(baked) << baked.error().message;
@@ -124,7 +121,7 @@ TEST(BakeJob, CancelledAmongColoursItEndsWithoutAFile) {
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().kind, planet::ErrorKind::Cancelled);
-    EXPECT_EQ(fileCount(folder.path()), 2u);
+    EXPECT_EQ(fileCountIn(folder.path()), 2u);
 }
 
 TEST(BakeJob, ABadSourceIsAnError) {

@@ -21,13 +21,8 @@ std::vector<std::string> namesOf(const Bookmarks& bookmarks, bool shipped) {
     return names;
 }
 
-void write(const fs::path& file, const char* text) {
+void writeBookmarks(const fs::path& file, const char* text) {
     std::ofstream(file) << text;
-}
-
-std::string read(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 TEST(Bookmarks, withoutAFileThereAreTheShippedOnes) {
@@ -100,13 +95,13 @@ TEST(Bookmarks, aBadFileIsToldAndNeverWrittenOver) {
         {"places = 1\n", "line 1: places is not known"},
     };
     for (const auto& [text, message] : cases) {
-        write(file, text.c_str());
+        writeBookmarks(file, text.c_str());
         Bookmarks bookmarks = loadBookmarks(file);
         EXPECT_THAT(bookmarks.problem, HasSubstr(file.string()));
         EXPECT_THAT(bookmarks.problem, HasSubstr(message));
         EXPECT_EQ(bookmarks.list.size(), 7u);
         EXPECT_FALSE(addBookmark(bookmarks, "mine", {}));
-        EXPECT_EQ(read(file), text);
+        EXPECT_EQ(tests::contentOf(file), text);
     }
 }
 

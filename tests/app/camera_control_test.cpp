@@ -6,19 +6,15 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "tests/app/earth_camera.h"
+
 namespace worldy {
 namespace {
 
-constexpr double radiusM = 6'371'000;
-constexpr Ground sea{radiusM, 0};
-
-Camera cameraAt(double latitudeDeg, double longitudeDeg, double altitude, double headingDeg,
-                double pitchDeg) {
-    return cameraFromPose({latitudeDeg, longitudeDeg, altitude, headingDeg, pitchDeg}, radiusM);
-}
+constexpr Ground sea{planet::earthRadiusM, 0};
 
 planet::CameraPose poseOf(const Camera& camera) {
-    return planet::poseFromView(viewOf(camera, 1, 100, 100), radiusM);
+    return planet::poseFromView(viewOf(camera, 1, 100, 100), planet::earthRadiusM);
 }
 
 void expectLevelAndOrthonormal(const Camera& camera) {
@@ -33,7 +29,7 @@ TEST(CameraControl, NorthIsNoHeadingOf360Degrees) {
         for (const double latitudeDeg : {-60.0, 0.0, 20.0, 28.0}) {
             const planet::CameraPose north{
                 .latitudeDeg = latitudeDeg, .longitudeDeg = longitudeDeg, .altitudeM = 1e6, .headingDeg = 0};
-            const planet::CameraPose back = poseOf(cameraFromPose(north, radiusM));
+            const planet::CameraPose back = poseOf(cameraFromPose(north, planet::earthRadiusM));
             EXPECT_GE(back.headingDeg, 0);
             EXPECT_LT(back.headingDeg, 1e-6);
         }
@@ -50,7 +46,8 @@ TEST(CameraControl, PoseRoundTrips) {
 }
 
 TEST(CameraControl, MovingForwardGoesAlongTheHeadingAtTheSameAltitude) {
-    const Camera moved = moveOverGround(cameraAt(0, 0, 1000, 90, 0), sea, radiusM * glm::radians(2.0), 0);
+    const Camera moved =
+        moveOverGround(cameraAt(0, 0, 1000, 90, 0), sea, planet::earthRadiusM * glm::radians(2.0), 0);
     const planet::CameraPose pose = poseOf(moved);
     EXPECT_NEAR(pose.latitudeDeg, 0, 1e-9);
     EXPECT_NEAR(pose.longitudeDeg, 2, 1e-9);
@@ -59,15 +56,15 @@ TEST(CameraControl, MovingForwardGoesAlongTheHeadingAtTheSameAltitude) {
 }
 
 TEST(CameraControl, MovingRightOfNorthGoesEast) {
-    const planet::CameraPose pose =
-        poseOf(moveOverGround(cameraAt(0, 10, 1000, 0, -90), sea, 0, radiusM * glm::radians(3.0)));
+    const planet::CameraPose pose = poseOf(
+        moveOverGround(cameraAt(0, 10, 1000, 0, -90), sea, 0, planet::earthRadiusM * glm::radians(3.0)));
     EXPECT_NEAR(pose.longitudeDeg, 13, 1e-9);
 }
 
 TEST(CameraControl, FlyingOverThePoleStaysLevelAndGoesOnStraight) {
     Camera camera = cameraAt(89, 30, 10'000, 0, -10);
     for (int step = 0; step < 200; ++step) {
-        camera = moveOverGround(camera, sea, radiusM * glm::radians(0.01), 0);
+        camera = moveOverGround(camera, sea, planet::earthRadiusM * glm::radians(0.01), 0);
         expectLevelAndOrthonormal(camera);
     }
     const planet::CameraPose pose = poseOf(camera);
@@ -105,7 +102,7 @@ TEST(CameraControl, FlyingStraightDownOnlyDescends) {
 TEST(CameraControl, DraggingMovesTheGroundInTheMiddleWithThePointer) {
     const Camera camera = cameraAt(0, 0, 100'000, 0, -90);
     const planet::View before = viewOf(camera, glm::radians(60.0), 1000, 800);
-    const glm::dvec3 ground = glm::normalize(camera.eyeM) * radiusM;
+    const glm::dvec3 ground = glm::normalize(camera.eyeM) * planet::earthRadiusM;
     const Camera dragged = drag(camera, sea, before, {50, -30});
     const planet::View after = viewOf(dragged, glm::radians(60.0), 1000, 800);
     const glm::dvec3 seen = planet::cameraFromWorldRotation(after) * (ground - after.eyeM);
@@ -130,7 +127,8 @@ TEST(CameraControl, ApproachingKeepsThePointUnderThePointer) {
     const glm::dvec3 ray = rayThrough(before, pixel);
     // Where the ray meets the sea.
     const double b = glm::dot(camera.eyeM, ray);
-    const double t = -b - std::sqrt(b * b - glm::dot(camera.eyeM, camera.eyeM) + radiusM * radiusM);
+    const double t = -b - std::sqrt(b * b - glm::dot(camera.eyeM, camera.eyeM) +
+                                    planet::earthRadiusM * planet::earthRadiusM);
     const glm::dvec3 place = camera.eyeM + t * ray;
     const Camera nearer = approach(camera, sea, ray, 3);
     EXPECT_LT(poseOf(nearer).altitudeM, 13'000);
@@ -141,11 +139,11 @@ TEST(CameraControl, ApproachingKeepsThePointUnderThePointer) {
 }
 
 TEST(CameraControl, ApproachingForEverNeverGetsThroughTheGround) {
-    const Ground mountain{radiusM, 5000};
+    const Ground mountain{planet::earthRadiusM, 5000};
     Camera camera = cameraAt(30, 60, 20'000'000, 20, -60);
     for (int notch = 0; notch < 300; ++notch) {
         camera = keepInRange(approach(camera, mountain, -camera.back, 1), mountain);
-        ASSERT_GE(glm::length(camera.eyeM), radiusM + 5000 + minGroundClearanceM - 1e-6);
+        ASSERT_GE(glm::length(camera.eyeM), planet::earthRadiusM + 5000 + minGroundClearanceM - 1e-6);
         expectLevelAndOrthonormal(camera);
     }
     EXPECT_LT(heightAboveGroundM(camera, mountain), 3);
@@ -155,11 +153,11 @@ TEST(CameraControl, GoingAwayForEverStopsAtTheFarthestDistance) {
     Camera camera = cameraAt(30, 60, 20, 20, 10);
     for (int notch = 0; notch < 500; ++notch)
         camera = keepInRange(approach(camera, sea, -camera.back, -1), sea);
-    EXPECT_NEAR(glm::length(camera.eyeM), (1 + maxAltitudeRadii) * radiusM, 1);
+    EXPECT_NEAR(glm::length(camera.eyeM), (1 + maxAltitudeRadii) * planet::earthRadiusM, 1);
 }
 
 TEST(CameraControl, ACameraBelowGroundIsLiftedAboveIt) {
-    const Ground mountain{radiusM, 8000};
+    const Ground mountain{planet::earthRadiusM, 8000};
     const Camera lifted = keepInRange(cameraAt(28, 87, 100, 0, 0), mountain);
     EXPECT_NEAR(poseOf(lifted).altitudeM, 8000 + minGroundClearanceM, 1e-6);
     EXPECT_NEAR(poseOf(lifted).latitudeDeg, 28, 1e-9);
@@ -170,7 +168,7 @@ TEST(CameraControl, SpeedGrowsWithHeightAndTheFactorAndHasALimit) {
     const double high = speedMS(cameraAt(0, 0, 10'000, 0, 0), sea, 1);
     EXPECT_NEAR(high / low, 100, 1e-6);
     EXPECT_NEAR(speedMS(cameraAt(0, 0, 100, 0, 0), sea, 4), 4 * low, 1e-9);
-    EXPECT_LE(speedMS(cameraAt(0, 0, 1e8, 0, 0), sea, 1), 1.5 * radiusM);
+    EXPECT_LE(speedMS(cameraAt(0, 0, 1e8, 0, 0), sea, 1), 1.5 * planet::earthRadiusM);
 }
 
 TEST(CameraControl, KeysMoveInStepWithTime) {

@@ -7,30 +7,24 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "tests/app/earth_camera.h"
 #include "tests/temporary_folder.h"
 
 namespace worldy {
 namespace {
 
-constexpr double radiusM = 6'371'000;
-
 // A smooth planet whose ground lies at one height everywhere.
 Surroundings smoothPlanet(double heightM = 0) {
     return {[=](const glm::dvec3&) {
-                return Ground{radiusM, heightM};
+                return Ground{planet::earthRadiusM, heightM};
             },
             [=](const glm::dvec3& eyeM, const glm::dvec3& direction) -> std::optional<glm::dvec3> {
-                const double ground = radiusM + heightM;
+                const double ground = planet::earthRadiusM + heightM;
                 const double towards = -glm::dot(eyeM, direction);
                 const double chord = ground * ground - glm::dot(eyeM, eyeM) + towards * towards;
                 if (towards <= 0 || chord < 0) return std::nullopt;
                 return eyeM + (towards - std::sqrt(chord)) * direction;
             }};
-}
-
-Camera cameraAt(double latitudeDeg, double longitudeDeg, double altitude, double headingDeg,
-                double pitchDeg) {
-    return cameraFromPose({latitudeDeg, longitudeDeg, altitude, headingDeg, pitchDeg}, radiusM);
 }
 
 struct Driver {
@@ -101,7 +95,7 @@ TEST(CameraRig, orbitKeepsThePivotInTheMiddleAndItsDistance) {
     driver.settings.mode = ui::CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     const glm::dvec3 pivotM = *driver.rig.pivotM;
-    EXPECT_NEAR(glm::length(pivotM), radiusM, 1e-3);
+    EXPECT_NEAR(glm::length(pivotM), planet::earthRadiusM, 1e-3);
     const double distanceM = glm::length(driver.rig.camera.eyeM - pivotM);
     for (int i = 0; i < 200; ++i) {
         ASSERT_TRUE(driver.frame({.dragPx = {7, i < 100 ? 2.0 : -3.0}}));
@@ -135,10 +129,10 @@ TEST(CameraRig, orbitWheelGoesNearerButNeverThrough) {
     ASSERT_TRUE(driver.frame({.wheelNotches = 1}));
     EXPECT_NEAR(glm::length(driver.rig.camera.eyeM - *driver.rig.pivotM), 0.85 * far, 0.01);
     for (int i = 0; i < 200; ++i) ASSERT_TRUE(driver.frame({.wheelNotches = 1}));
-    EXPECT_GE(glm::length(driver.rig.camera.eyeM), radiusM + minGroundClearanceM - 1e-6);
+    EXPECT_GE(glm::length(driver.rig.camera.eyeM), planet::earthRadiusM + minGroundClearanceM - 1e-6);
     EXPECT_LT(offMiddleRad(driver.rig), 1e-3);
     for (int i = 0; i < 300; ++i) ASSERT_TRUE(driver.frame({.wheelNotches = -1}));
-    EXPECT_LE(glm::length(driver.rig.camera.eyeM), (1 + maxAltitudeRadii) * radiusM + 1);
+    EXPECT_LE(glm::length(driver.rig.camera.eyeM), (1 + maxAltitudeRadii) * planet::earthRadiusM + 1);
     EXPECT_LT(offMiddleRad(driver.rig), 1e-3);
 }
 
@@ -149,7 +143,8 @@ TEST(CameraRig, orbitOfTheSkyTurnsAboutTheGroundBelow) {
     driver.settings.mode = ui::CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, before);
-    EXPECT_NEAR(glm::length(*driver.rig.pivotM - radiusM * glm::normalize(before.eyeM)), 0, 1e-3);
+    EXPECT_NEAR(glm::length(*driver.rig.pivotM - planet::earthRadiusM * glm::normalize(before.eyeM)), 0,
+                1e-3);
 }
 
 TEST(CameraRig, orbitRightButtonMovesThePivotOverTheGround) {
@@ -159,7 +154,7 @@ TEST(CameraRig, orbitRightButtonMovesThePivotOverTheGround) {
     const glm::dvec3 before = *driver.rig.pivotM;
     ASSERT_TRUE(driver.frame({.lookPx = {100, 0}}));
     EXPECT_GT(glm::length(*driver.rig.pivotM - before), 1000);
-    EXPECT_NEAR(glm::length(*driver.rig.pivotM), radiusM, 1);
+    EXPECT_NEAR(glm::length(*driver.rig.pivotM), planet::earthRadiusM, 1);
     EXPECT_LT(offMiddleRad(driver.rig), 1e-6);
 }
 
@@ -174,12 +169,12 @@ TEST(CameraRig, aFlightIsJoinedWithoutAJumpAndThenFollowed) {
     for (int i = 0; i < 120; ++i) {
         const glm::dvec3 last = driver.rig.camera.eyeM;
         ASSERT_TRUE(driver.frame());
-        ASSERT_LT(glm::length(driver.rig.camera.eyeM - last), 0.03 * radiusM);
+        ASSERT_LT(glm::length(driver.rig.camera.eyeM - last), 0.03 * planet::earthRadiusM);
         expectLevel(driver.rig.camera);
     }
     ASSERT_FALSE(driver.rig.flight->from);
     const Camera expected =
-        cameraFromPose(poseAt(driver.rig.flight->path, 5 + driver.rig.flight->timeS), radiusM);
+        cameraFromPose(poseAt(driver.rig.flight->path, 5 + driver.rig.flight->timeS), planet::earthRadiusM);
     expectSame(driver.rig.camera, expected);
 }
 
@@ -266,7 +261,8 @@ TEST(CameraRig, theGroundLiftsEveryMode) {
         driver.settings.flight = writeFlight(folder).string();
         driver.settings.mode = mode;
         ASSERT_TRUE(driver.frame());
-        EXPECT_GE(glm::length(driver.rig.camera.eyeM), radiusM + 60'000 + minGroundClearanceM - 1e-6);
+        EXPECT_GE(glm::length(driver.rig.camera.eyeM),
+                  planet::earthRadiusM + 60'000 + minGroundClearanceM - 1e-6);
     }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write(const fs::path& file, const char* text) {
+void writeFile(const fs::path& file, const char* text) {
     std::ofstream(file) << text;
 }
 
@@ -28,7 +28,7 @@ TEST(DataSet, WhatIsNotThereIsAnError) {
 
 TEST(DataSet, AChunkFileIsOpenedWhereItLies) {
     const TemporaryFolder folder;
-    write(folder.path() / "moon.chk", "x");
+    writeFile(folder.path() / "moon.chk", "x");
     const planet::Result<DataSet> set = findDataSet(folder.path() / "moon.chk", {});
     ASSERT_TRUE(set);
     EXPECT_EQ(set->chunkFile, folder.path() / "moon.chk");
@@ -49,8 +49,8 @@ TEST(DataSet, ABakeOfOurOwnEarthKeepsItsColoursWhereverItLies) {
 
 TEST(DataSet, AnImageIsBakedIntoTheCache) {
     const TemporaryFolder folder;
-    write(folder.path() / "moon.tif", "x");
-    write(folder.path() / "colour.png", "x");
+    writeFile(folder.path() / "moon.tif", "x");
+    writeFile(folder.path() / "colour.png", "x");
     const planet::Result<DataSet> set = findDataSet(folder.path() / "moon.tif", {});
     ASSERT_TRUE(set);
     EXPECT_TRUE(set->needsBake);
@@ -65,7 +65,7 @@ TEST(DataSet, ColoursHaveABakeOfTheirOwn) {
     const fs::path image = folder.path() / "moon.tif";
     const fs::path colour = folder.path() / "colour.png";
     const fs::path other = folder.path() / "other.png";
-    for (const fs::path& file : {image, colour, other}) write(file, "x");
+    for (const fs::path& file : {image, colour, other}) writeFile(file, "x");
     const fs::path without = cachedBakeOf(image, {});
     const fs::path with = cachedBakeOf(image, {}, {}, colour);
     EXPECT_NE(with, without);
@@ -79,14 +79,14 @@ TEST(DataSet, ColoursHaveABakeOfTheirOwn) {
     EXPECT_NE(cachedBakeOf(image, {.colour = {.faceSize = 257}}, {}, colour), with);
     EXPECT_NE(cachedBakeOf(image, {.colour = {.format = planet::ColourFormat::Lossless}}, {}, colour), with);
     EXPECT_EQ(cachedBakeOf(image, {.colour = {.faceSize = 257}}), without);
-    write(colour, "changed");
+    writeFile(colour, "changed");
     EXPECT_NE(cachedBakeOf(image, {}, {}, colour), with);
 }
 
 TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
     const TemporaryFolder folder;
     const fs::path image = folder.path() / "moon.tif";
-    write(image, "x");
+    writeFile(image, "x");
     const fs::path first = cachedBakeOf(image, {});
     EXPECT_EQ(cachedBakeOf(image, {}), first);
     EXPECT_NE(cachedBakeOf(image, {.chunkSize = 65}), first);
@@ -104,7 +104,7 @@ TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
     const fs::path touched = cachedBakeOf(image, {});
     EXPECT_NE(touched, first);
     const auto time = fs::last_write_time(image);
-    write(image, "xy");
+    writeFile(image, "xy");
     fs::last_write_time(image, time);
     EXPECT_NE(cachedBakeOf(image, {}), touched);
 }
@@ -113,7 +113,7 @@ TEST(DataSet, ALongNameStillHasACache) {
     const TemporaryFolder folder;
     std::string name = "a";
     for (int i = 0; i < 100; ++i) name += "\u00e4";
-    write(folder.path() / (name + ".tif"), "x");
+    writeFile(folder.path() / (name + ".tif"), "x");
     const std::string cached = cachedBakeOf(folder.path() / (name + ".tif"), {}).filename().string();
     EXPECT_LT(cached.size(), 110u);
     EXPECT_TRUE(cached.starts_with(name.substr(0, 79) + "-")) << cached;
@@ -122,14 +122,14 @@ TEST(DataSet, ALongNameStillHasACache) {
 TEST(DataSet, AllSixFacesCountForAStemAndForOneOfThem) {
     const TemporaryFolder folder;
     for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
-        write(folder.path() / (std::string("moon_") + face + ".png"), "x");
+        writeFile(folder.path() / (std::string("moon_") + face + ".png"), "x");
     }
     const fs::path face = folder.path() / "moon_x_pos.png";
     const fs::path stem = folder.path() / "moon";
     EXPECT_TRUE(findDataSet(stem, {}));
     EXPECT_EQ(cachedBakeOf(face, {}), cachedBakeOf(stem, {}));
     const fs::path before = cachedBakeOf(face, {});
-    write(folder.path() / "moon_z_neg.png", "longer");
+    writeFile(folder.path() / "moon_z_neg.png", "longer");
     EXPECT_NE(cachedBakeOf(face, {}), before);
 }
 

@@ -13,8 +13,6 @@
 namespace worldy {
 namespace {
 
-void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
 class Errors : public testing::Test {
 protected:
     Errors() {
@@ -29,7 +27,7 @@ protected:
         view_ = planet::viewFromPose(
             {.latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 15'000, .pitchDeg = -20}, 100'000, 1.1, 800,
             600);
-        planet_->settle(view_, lod_, noUpload, 60);
+        planet_->settle(view_, lod_, planet::noUpload, 60);
     }
 
     // Frames until nothing is measured any more; fails after a minute.

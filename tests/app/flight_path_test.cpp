@@ -36,14 +36,14 @@ std::string keyText(double time, double latitude, double longitude, double altit
            "\nheading_deg = 0\npitch_deg = -10\n";
 }
 
-planet::Result<FlightPath> loadText(const std::string& text) {
+planet::Result<FlightPath> pathFromText(const std::string& text) {
     const TemporaryFolder folder;
     std::ofstream(folder.path() / "path.toml") << text;
     return loadFlightPath(folder.path() / "path.toml");
 }
 
-std::string errorOf(const std::string& text) {
-    const planet::Result<FlightPath> loaded = loadText(text);
+std::string pathErrorOf(const std::string& text) {
+    const planet::Result<FlightPath> loaded = pathFromText(text);
     return loaded ? "no error" : loaded.error().message;
 }
 
@@ -107,7 +107,7 @@ TEST(FlightPath, LongStepsFollowTheGreatCircle) {
 
 TEST(FlightPath, AGoodFileIsRead) {
     const planet::Result<FlightPath> path =
-        loadText("name = \"Two\"\n" + keyText(0, 1, 2) + keyText(5, 3, 4));
+        pathFromText("name = \"Two\"\n" + keyText(0, 1, 2) + keyText(5, 3, 4));
     ASSERT_TRUE(path) << path.error().message;
     EXPECT_EQ(path->name, "Two");
     ASSERT_EQ(path->keys.size(), 2u);
@@ -116,21 +116,22 @@ TEST(FlightPath, AGoodFileIsRead) {
 
 TEST(FlightPath, ErrorsNameFileKeyAndWhatWouldBeRight) {
     const std::string good = keyText(0, 1, 2);
-    EXPECT_THAT(errorOf(good + keyText(5, 91, 0)),
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)),
                 HasSubstr("path.toml: line 10: key 2: latitude_deg is 91"));
-    EXPECT_THAT(errorOf(good + keyText(5, 91, 0)), HasSubstr("from -90 to 90 would be right"));
-    EXPECT_THAT(errorOf(good + keyText(0, 0, 0)), HasSubstr("key 2: time_s is 0; a time after key 1's 0"));
-    EXPECT_THAT(errorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));
-    EXPECT_THAT(errorOf(good + "[[key]]\ntime_s = 5\n"), HasSubstr("key 2: latitude_deg is missing"));
-    EXPECT_THAT(errorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: lies"));
-    EXPECT_THAT(errorOf(good + keyText(5, 0, 0) + "roll_deg = 3\n"),
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)), HasSubstr("from -90 to 90 would be right"));
+    EXPECT_THAT(pathErrorOf(good + keyText(0, 0, 0)),
+                HasSubstr("key 2: time_s is 0; a time after key 1's 0"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));
+    EXPECT_THAT(pathErrorOf(good + "[[key]]\ntime_s = 5\n"), HasSubstr("key 2: latitude_deg is missing"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: lies"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0) + "roll_deg = 3\n"),
                 HasSubstr("key 2: roll_deg is not known"));
-    EXPECT_THAT(errorOf(good), HasSubstr("has 1 [[key]] tables; two or more would be right"));
-    EXPECT_THAT(errorOf(""), HasSubstr("has 0 [[key]] tables"));
-    EXPECT_THAT(errorOf("key = 3\n"), HasSubstr("key is not known"));
-    EXPECT_THAT(errorOf("speed = 3\n"), HasSubstr("speed is not known"));
-    EXPECT_THAT(errorOf("key = [3]\n"), HasSubstr("key 1 is not a table"));
-    EXPECT_THAT(errorOf("[[key]\n"), HasSubstr("path.toml: line 1: not TOML"));
+    EXPECT_THAT(pathErrorOf(good), HasSubstr("has 1 [[key]] tables; two or more would be right"));
+    EXPECT_THAT(pathErrorOf(""), HasSubstr("has 0 [[key]] tables"));
+    EXPECT_THAT(pathErrorOf("key = 3\n"), HasSubstr("key is not known"));
+    EXPECT_THAT(pathErrorOf("speed = 3\n"), HasSubstr("speed is not known"));
+    EXPECT_THAT(pathErrorOf("key = [3]\n"), HasSubstr("key 1 is not a table"));
+    EXPECT_THAT(pathErrorOf("[[key]\n"), HasSubstr("path.toml: line 1: not TOML"));
 }
 
 TEST(FlightPath, TheFlightsThatComeWithWorldyAreGood) {

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-fs::path shipped() {
+fs::path shippedLayers() {
     return fs::path(WORLDY_SOURCE_DIR) / "data" / "layers";
 }
 
@@ -32,12 +32,12 @@ void writePng(const fs::path& file, int width, int height, int channels, std::ui
 
 TEST(LayerDesk, ListsShippedSetsFirstAndSavesOnesOwn) {
     const tests::TemporaryFolder folder;
-    LayerDesk desk = openLayerDesk({shipped(), folder.path() / "own"});
+    LayerDesk desk = openLayerDesk({shippedLayers(), folder.path() / "own"});
     ASSERT_EQ(desk.sets.size(), 2u);
     EXPECT_EQ(desk.sets[0].name, "earth");
     EXPECT_TRUE(desk.sets[1].shipped);
     ui::LayerSettings layers;
-    layers.file = (shipped() / "earth.toml").string();
+    layers.file = (shippedLayers() / "earth.toml").string();
     layers.set.layers.resize(3);
     ASSERT_TRUE(saveAs(desk, "mine", layers));
     ASSERT_EQ(desk.sets.size(), 3u);
@@ -52,7 +52,7 @@ TEST(LayerDesk, ListsShippedSetsFirstAndSavesOnesOwn) {
 
 TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     const tests::TemporaryFolder folder;
-    LayerDesk desk = openLayerDesk({shipped(), folder.path()});
+    LayerDesk desk = openLayerDesk({shippedLayers(), folder.path()});
     ui::LayerSettings layers;
     std::ofstream(folder.path() / "broken.toml") << "[[layer]\n";
     EXPECT_FALSE(loadInto(desk, folder.path() / "broken.toml", layers));

@@ -31,7 +31,7 @@ protected:
     tests::TemporaryFolder folder_;
 };
 
-fs::path shipped() {
+fs::path layersFolder() {
     return fs::path(WORLDY_SOURCE_DIR) / "data" / "layers";
 }
 
@@ -75,10 +75,10 @@ TEST_F(LayerFile, ALayerInOneLineIsReadBackTheSame) {
 }
 
 TEST_F(LayerFile, TheShippedSetsAreTheLibrarysOwn) {
-    const auto earth = loadLayerSet(shipped() / "earth.toml");
+    const auto earth = loadLayerSet(layersFolder() / "earth.toml");
     ASSERT_TRUE(earth) << earth.error().message;
     EXPECT_EQ(*earth, planet::earthLayers());
-    const auto two = loadLayerSet(shipped() / "two_layer_height_blend.toml");
+    const auto two = loadLayerSet(layersFolder() / "two_layer_height_blend.toml");
     ASSERT_TRUE(two) << two.error().message;
     EXPECT_EQ(*two, planet::twoLayerHeightBlend());
 }
@@ -118,12 +118,13 @@ TEST_F(LayerFile, HostileFilesAreToldByLineAndWhatWouldBeRight) {
 TEST_F(LayerFile, ASetSavedElsewhereStillFindsItsTextures) {
     planet::LayerSet set = planet::twoLayerHeightBlend();
     set.layers[1].normal.clear();
-    const fs::path inside = shipped() / "mine" / "..";
-    EXPECT_EQ(movedTo(inside, shipped(), set), set);
-    const planet::LayerSet moved = movedTo(folder_.path(), shipped(), set);
-    EXPECT_EQ(fs::path(moved.layers[0].albedo), (shipped() / "grass_albedo.png").lexically_normal());
+    const fs::path inside = layersFolder() / "mine" / "..";
+    EXPECT_EQ(movedTo(inside, layersFolder(), set), set);
+    const planet::LayerSet moved = movedTo(folder_.path(), layersFolder(), set);
+    EXPECT_EQ(fs::path(moved.layers[0].albedo), (layersFolder() / "grass_albedo.png").lexically_normal());
     EXPECT_EQ(moved.layers[1].normal, "");
-    EXPECT_EQ(movedTo(shipped().parent_path(), shipped(), set).layers[0].albedo, "layers/grass_albedo.png");
+    EXPECT_EQ(movedTo(layersFolder().parent_path(), layersFolder(), set).layers[0].albedo,
+              "layers/grass_albedo.png");
 }
 
 TEST_F(LayerFile, TheShippedTexturesAreWhatTheProgramMakes) {
@@ -137,7 +138,7 @@ TEST_F(LayerFile, TheShippedTexturesAreWhatTheProgramMakes) {
             {"_roughness.png", &made.roughness}};
         for (const auto& [ending, bytes] : files) {
             int size = 0, channels = 0;
-            const std::vector<std::uint8_t> there = bytesOf(shipped() / (name + ending), size, channels);
+            const std::vector<std::uint8_t> there = bytesOf(layersFolder() / (name + ending), size, channels);
             ASSERT_EQ(there.size(), bytes->size());
             // Another compiler's last bit may round a texel the other way.
             std::size_t different = 0;

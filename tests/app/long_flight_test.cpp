@@ -23,7 +23,7 @@ using planet::gl::FeatureUse;
 using planet::gl::ObjectCounts;
 using planet::test::Holding;
 
-std::string textOf(const ObjectCounts& counts) {
+std::string countsText(const ObjectCounts& counts) {
     std::ostringstream stream;
     stream << counts.buffers << " buffers, " << counts.textures << " textures, " << counts.vertexArrays
            << " vertex arrays, " << counts.framebuffers << " framebuffers, " << counts.renderbuffers
@@ -127,18 +127,18 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
     std::cout << frames << " frames, each " << drawnEvery << "th drawn: " << paging.loaded()
               << " blocks loaded, " << paging.dropped() << " dropped, " << paging.loadedSoonAgain()
               << " soon loaded again\nGPU bytes at most " << mostGpuBytesEarly << " in the first half, "
-              << mostGpuBytes << " in all\nobjects: " << textOf(objectsEarly) << "; later "
-              << textOf(objectsLate) << "; closed " << textOf(after) << "; before " << textOf(before)
-              << "\nresident bytes " << holdingEarly->residentBytes << " then " << holdingLate->residentBytes
-              << ", heap " << holdingEarly->heapBytes << " then " << holdingLate->heapBytes << ", files "
-              << atStart.files << " then " << atEnd.files << "\n";
+              << mostGpuBytes << " in all\nobjects: " << countsText(objectsEarly) << "; later "
+              << countsText(objectsLate) << "; closed " << countsText(after) << "; before "
+              << countsText(before) << "\nresident bytes " << holdingEarly->residentBytes << " then "
+              << holdingLate->residentBytes << ", heap " << holdingEarly->heapBytes << " then "
+              << holdingLate->heapBytes << ", files " << atStart.files << " then " << atEnd.files << "\n";
     EXPECT_EQ(mostGpuBytes, mostGpuBytesEarly);
     EXPECT_GT(objectsEarly.total(), before.total() + 20);
     // Programs are made when a variant is first drawn with, and kept.
     EXPECT_LE(objectsLate.programs, objectsEarly.programs + 2);
     objectsLate.programs = objectsEarly.programs;
-    EXPECT_EQ(textOf(objectsLate), textOf(objectsEarly));
-    EXPECT_EQ(textOf(after), textOf(before));
+    EXPECT_EQ(countsText(objectsLate), countsText(objectsEarly));
+    EXPECT_EQ(countsText(after), countsText(before));
     EXPECT_EQ(atEnd.files, atStart.files);
     EXPECT_EQ(holdingLate->files, holdingEarly->files);
     EXPECT_GT(paging.loaded(), tests::sanitized ? 5u : 20u);
@@ -185,10 +185,10 @@ TEST_F(LongFlightDrawn, SwappedFilesLeaveNothingBehind) {
             warmGpuBytes = scene.renderer.gpuMemory().total();
         }
         if (i <= 8) continue;
-        EXPECT_EQ(textOf(countObjects()), textOf(warm)) << i;
+        EXPECT_EQ(countsText(countObjects()), countsText(warm)) << i;
         EXPECT_EQ(scene.renderer.gpuMemory().total(), warmGpuBytes) << i;
     }
-    std::cout << swaps << " files swapped in: " << textOf(warm) << "; resident bytes "
+    std::cout << swaps << " files swapped in: " << countsText(warm) << "; resident bytes "
               << warmHolding->residentBytes << " then " << laterHolding->residentBytes << ", heap "
               << warmHolding->heapBytes << " then " << laterHolding->heapBytes << ", files "
               << warmHolding->files << " then " << laterHolding->files << "\n";

@@ -11,8 +11,6 @@
 namespace worldy {
 namespace {
 
-constexpr double earthRadiusM = 6'371'000;
-
 // Where a point stands in a view's picture, in halves of its width and height; nothing behind the eye.
 std::optional<glm::dvec2> placeInPicture(const planet::View& view, const glm::dvec3& pointM) {
     const glm::dvec3 offset = pointM - view.eyeM;
@@ -32,15 +30,16 @@ TEST(Observer, beginsWhereItSeesTheEyeAndTheGroundBelowIt) {
     for (const double altitudeM : {50.0, 5000.0, 4e5, 1.4e7, 1e8}) {
         for (const double pitchDeg : {-90.0, -20.0, 30.0}) {
             const planet::View lodView =
-                planet::viewFromPose({27, 86, altitudeM, 120, pitchDeg}, earthRadiusM, 1.0, 800, 600);
-            const Ground ground{earthRadiusM, 0};
+                planet::viewFromPose({27, 86, altitudeM, 120, pitchDeg}, planet::earthRadiusM, 1.0, 800, 600);
+            const Ground ground{planet::earthRadiusM, 0};
             const Camera observer = observerStart(lodView, ground);
             const planet::View view = viewOf(observer, glm::radians(60.0), 800, 600);
             EXPECT_NEAR(glm::dot(observer.right, glm::normalize(observer.eyeM)), 0, 1e-9);
             EXPECT_GT(glm::length(observer.eyeM), glm::length(lodView.eyeM) * 0.999);
             EXPECT_TRUE(isInPicture(view, lodView.eyeM)) << altitudeM;
             if (altitudeM < 1e7) {
-                EXPECT_TRUE(isInPicture(view, earthRadiusM * glm::normalize(lodView.eyeM))) << altitudeM;
+                EXPECT_TRUE(isInPicture(view, planet::earthRadiusM * glm::normalize(lodView.eyeM)))
+                    << altitudeM;
             }
         }
     }
@@ -48,15 +47,16 @@ TEST(Observer, beginsWhereItSeesTheEyeAndTheGroundBelowIt) {
 
 TEST(Observer, theFrustumReachesTheGroundOrTheHorizon) {
     const planet::View down =
-        planet::viewFromPose({.altitudeM = 1000, .pitchDeg = -90}, earthRadiusM, 0.2, 400, 400);
-    EXPECT_NEAR(frustumLengthM(down, earthRadiusM), 1000 * std::sqrt(1 + 2 * std::pow(std::tan(0.1), 2)), 5);
+        planet::viewFromPose({.altitudeM = 1000, .pitchDeg = -90}, planet::earthRadiusM, 0.2, 400, 400);
+    EXPECT_NEAR(frustumLengthM(down, planet::earthRadiusM),
+                1000 * std::sqrt(1 + 2 * std::pow(std::tan(0.1), 2)), 5);
     const planet::View level =
-        planet::viewFromPose({.altitudeM = 1000, .pitchDeg = 0}, earthRadiusM, 0.2, 400, 400);
-    const double horizonM = std::sqrt(2 * earthRadiusM * 1000 + 1e6);
-    EXPECT_NEAR(frustumLengthM(level, earthRadiusM), horizonM, 1);
+        planet::viewFromPose({.altitudeM = 1000, .pitchDeg = 0}, planet::earthRadiusM, 0.2, 400, 400);
+    const double horizonM = std::sqrt(2 * planet::earthRadiusM * 1000 + 1e6);
+    EXPECT_NEAR(frustumLengthM(level, planet::earthRadiusM), horizonM, 1);
     const planet::View up =
-        planet::viewFromPose({.altitudeM = 1000, .pitchDeg = 90}, earthRadiusM, 0.2, 400, 400);
-    EXPECT_NEAR(frustumLengthM(up, earthRadiusM), 1000, 1e-6);
+        planet::viewFromPose({.altitudeM = 1000, .pitchDeg = 90}, planet::earthRadiusM, 0.2, 400, 400);
+    EXPECT_NEAR(frustumLengthM(up, planet::earthRadiusM), 1000, 1e-6);
 }
 
 class ObserverLines : public testing::Test {

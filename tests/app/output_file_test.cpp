@@ -10,20 +10,12 @@
 
 namespace worldy {
 
+using tests::contentOf;
+using tests::fileCountIn;
 using tests::TemporaryFolder;
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contentOf(const fs::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
-
-std::size_t fileCount(const fs::path& folder) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
-}
 
 TEST(OutputFile, ReplacesTheOldFile) {
     const TemporaryFolder folder;
@@ -31,7 +23,7 @@ TEST(OutputFile, ReplacesTheOldFile) {
     ASSERT_TRUE(writeTextFile(file, "old"));
     ASSERT_TRUE(writeTextFile(file, "new"));
     EXPECT_EQ(contentOf(file), "new");
-    EXPECT_EQ(fileCount(folder.path()), 1u);
+    EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
 TEST(OutputFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
@@ -44,7 +36,7 @@ TEST(OutputFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
     });
     EXPECT_FALSE(written);
     EXPECT_EQ(contentOf(file), "old");
-    EXPECT_EQ(fileCount(folder.path()), 1u);
+    EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
 TEST(OutputFile, TheTemporaryNameKeepsTheExtension) {
@@ -69,7 +61,7 @@ TEST(OutputFile, WhatAKilledWriterLeftIsGoneWithTheNext) {
         return planet::Result<void>();
     }));
     EXPECT_EQ(contentOf(file), "new");
-    EXPECT_EQ(fileCount(folder.path()), 1u);
+    EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
 TEST(OutputFile, ASecondWriterOfTheSameNameIsRefusedMeanwhile) {
@@ -89,7 +81,7 @@ TEST(OutputFile, ASecondWriterOfTheSameNameIsRefusedMeanwhile) {
     ASSERT_FALSE(second);
     EXPECT_THAT(second.error().message, testing::HasSubstr("another program is writing"));
     EXPECT_EQ(contentOf(file), "first");
-    EXPECT_EQ(fileCount(folder.path()), 1u);
+    EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
 TEST(OutputFile, AFolderThatIsNotThereIsAnErrorThatNamesTheFile) {

@@ -53,7 +53,7 @@ TEST(Screenshot, KeepsItsNoteAndItsPicture) {
     const planet::Result<ScreenshotNote> read = readScreenshotNote(folder / "s.png");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->settings, note.settings);
-    EXPECT_EQ(textOf(read->camera), textOf(note.camera));
+    EXPECT_EQ(cameraText(read->camera), cameraText(note.camera));
     EXPECT_EQ(read->camera.latitudeDeg, note.camera.latitudeDeg);
     EXPECT_EQ(read->dataSet, note.dataSet);
     EXPECT_EQ(read->shotLine, note.shotLine);

@@ -19,15 +19,15 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-planet::Result<Settings> loadText(const std::string& text) {
+planet::Result<Settings> settingsFromText(const std::string& text) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "settings.toml";
     std::ofstream(file) << text;
     return loadSettings(file);
 }
 
-std::string errorOf(const std::string& text) {
-    const planet::Result<Settings> loaded = loadText(text);
+std::string settingsErrorOf(const std::string& text) {
+    const planet::Result<Settings> loaded = settingsFromText(text);
     return loaded ? "no error" : loaded.error().message;
 }
 
@@ -73,7 +73,7 @@ Settings allOther() {
 }
 
 TEST(Settings, AnEmptyFileGivesTheDefaults) {
-    const planet::Result<Settings> loaded = loadText("");
+    const planet::Result<Settings> loaded = settingsFromText("");
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(*loaded, Settings{});
 }
@@ -121,14 +121,14 @@ TEST(Settings, APathThatIsNoUtf8IsLeftOutRatherThanBreakingTheFile) {
     Settings settings;
     settings.dataSet = "/caf\xe9.chk";
     settings.view.lod.tauPx = 5;
-    const planet::Result<Settings> loaded = loadText(settingsText(settings));
+    const planet::Result<Settings> loaded = settingsFromText(settingsText(settings));
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->dataSet, "");
     EXPECT_EQ(loaded->view.lod.tauPx, 5);
 }
 
 TEST(Settings, IntegersServeAsNumbers) {
-    const planet::Result<Settings> loaded = loadText("[lod]\ntau_px = 4\n");
+    const planet::Result<Settings> loaded = settingsFromText("[lod]\ntau_px = 4\n");
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->view.lod.tauPx, 4);
 }
@@ -143,7 +143,7 @@ TEST(Settings, WhatAFileDoesNotHoldStaysAsItWas) {
 }
 
 TEST(Settings, NamesOfFormerVersionsAreUnderstood) {
-    const planet::Result<Settings> loaded = loadText(
+    const planet::Result<Settings> loaded = settingsFromText(
         "[lod]\nskirt_factor = 3\n[view]\nskirts = false\ncolour_by = \"error\"\nsurface = \"ramp\"\n"
         "atmosphere = false\ndetail = false\nlighting = false\nsun_follows = false\nsun_latitude_deg = 1\n"
         "sun_longitude_deg = 2\nfov_deg = 33\n[window]\nlod_panel_width = 250\nlog_panel_height = 100\n");
@@ -161,43 +161,51 @@ TEST(Settings, NamesOfFormerVersionsAreUnderstood) {
     wanted.workspace.rightWidth = 250;
     wanted.workspace.bottomHeight = 100;
     EXPECT_EQ(*loaded, wanted);
-    EXPECT_EQ(loadText("[view]\nskirts = true\n")->view.seams.mode, planet::SeamMode::Skirts);
-    EXPECT_THAT(errorOf("[view]\nskirts = 1\n"), HasSubstr("line 2: view.skirts is 1; true or false"));
-    EXPECT_THAT(errorOf("[view]\ncolour_by = \"mood\"\n"), HasSubstr("view.colour_by is 'mood'"));
+    EXPECT_EQ(settingsFromText("[view]\nskirts = true\n")->view.seams.mode, planet::SeamMode::Skirts);
+    EXPECT_THAT(settingsErrorOf("[view]\nskirts = 1\n"),
+                HasSubstr("line 2: view.skirts is 1; true or false"));
+    EXPECT_THAT(settingsErrorOf("[view]\ncolour_by = \"mood\"\n"), HasSubstr("view.colour_by is 'mood'"));
 }
 
 TEST(Settings, WhereAFileHasBothNamesThePresentOneCounts) {
     for (const char* text : {"[seams]\nskirt_factor = 2\n[lod]\nskirt_factor = 3\n",
                              "[lod]\nskirt_factor = 3\n[seams]\nskirt_factor = 2\n"}) {
-        EXPECT_EQ(loadText(text)->view.seams.skirtFactor, 2) << text;
+        EXPECT_EQ(settingsFromText(text)->view.seams.skirtFactor, 2) << text;
     }
-    EXPECT_EQ(loadText("[view]\nsurface = \"image\"\n[surface]\ncolour = \"ramp\"\n")->view.surface.surface,
-              planet::gl::SurfaceColour::HeightRamp);
+    EXPECT_EQ(
+        settingsFromText("[view]\nsurface = \"image\"\n[surface]\ncolour = \"ramp\"\n")->view.surface.surface,
+        planet::gl::SurfaceColour::HeightRamp);
 }
 
 TEST(Settings, ErrorsNameFileLineKeyAndWhatWouldBeRight) {
-    const std::string range = errorOf("[lod]\n\ntau_px = -1\n");
+    const std::string range = settingsErrorOf("[lod]\n\ntau_px = -1\n");
     EXPECT_THAT(range, HasSubstr("settings.toml: line 3: lod.tau_px is -1"));
     EXPECT_THAT(range, HasSubstr("; a number of pixels from 0.1 to 64 would be right"));
 }
 
 TEST(Settings, EveryKindOfWrongValueIsRefused) {
-    EXPECT_THAT(errorOf("[lod]\ntau_px = \"two\"\n"), HasSubstr("lod.tau_px is 'two'; a number"));
-    EXPECT_THAT(errorOf("[lod]\ntau_px = nan\n"), HasSubstr("lod.tau_px is nan; a number"));
-    EXPECT_THAT(errorOf("[lod]\ntau_px = [2]\n"), HasSubstr("; a number"));
-    EXPECT_THAT(errorOf("[paging]\nbudget_mb = 2.5\n"), HasSubstr("paging.budget_mb is 2.5; a whole number"));
-    EXPECT_THAT(errorOf("[paging]\nbudget_mb = 1\n"), HasSubstr("from 16 to 65536"));
-    EXPECT_THAT(errorOf("[paging]\nloader_threads = 9999999999999\n"), HasSubstr("paging.loader_threads"));
-    EXPECT_THAT(errorOf("[bad_disk]\nseed = -1\n"), HasSubstr("bad_disk.seed is -1; a whole number from 0"));
-    EXPECT_THAT(errorOf("[lod]\nmorph = 1\n"), HasSubstr("lod.morph is 1; true or false"));
-    EXPECT_THAT(errorOf("[data]\nset = 7\n"), HasSubstr("data.set is 7; a text in quotes"));
-    EXPECT_THAT(errorOf("[overlay]\ncolour_by = \"mood\"\n"), HasSubstr("\"none\", \"level\", \"error\""));
-    EXPECT_THAT(errorOf("[surface]\ncolour = 3\n"), HasSubstr("\"image\", \"ramp\""));
-    EXPECT_THAT(errorOf("[panels]\nlod = \"top\"\n"), HasSubstr("\"left\", \"right\", \"bottom\""));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = \"two\"\n"), HasSubstr("lod.tau_px is 'two'; a number"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = nan\n"), HasSubstr("lod.tau_px is nan; a number"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = [2]\n"), HasSubstr("; a number"));
+    EXPECT_THAT(settingsErrorOf("[paging]\nbudget_mb = 2.5\n"),
+                HasSubstr("paging.budget_mb is 2.5; a whole number"));
+    EXPECT_THAT(settingsErrorOf("[paging]\nbudget_mb = 1\n"), HasSubstr("from 16 to 65536"));
+    EXPECT_THAT(settingsErrorOf("[paging]\nloader_threads = 9999999999999\n"),
+                HasSubstr("paging.loader_threads"));
+    EXPECT_THAT(settingsErrorOf("[bad_disk]\nseed = -1\n"),
+                HasSubstr("bad_disk.seed is -1; a whole number from 0"));
+    EXPECT_THAT(settingsErrorOf("[lod]\nmorph = 1\n"), HasSubstr("lod.morph is 1; true or false"));
+    EXPECT_THAT(settingsErrorOf("[data]\nset = 7\n"), HasSubstr("data.set is 7; a text in quotes"));
+    EXPECT_THAT(settingsErrorOf("[overlay]\ncolour_by = \"mood\"\n"),
+                HasSubstr("\"none\", \"level\", \"error\""));
+    EXPECT_THAT(settingsErrorOf("[surface]\ncolour = 3\n"), HasSubstr("\"image\", \"ramp\""));
+    EXPECT_THAT(settingsErrorOf("[panels]\nlod = \"top\"\n"), HasSubstr("\"left\", \"right\", \"bottom\""));
 }
 
 TEST(Settings, AWrongRampIsRefusedWithTheStopThatIsWrong) {
-    const auto ramp = [](const std::string& stops) { return errorOf("[surface]\nramp = " + stops + "\n"); };
+    const auto ramp = [](const std::string& stops) {
+        return settingsErrorOf("[surface]\nramp = " + stops + "\n");
+    };
     const std::string good = "{ height_m = 0, colour = \"#102030\" }";
     EXPECT_EQ(ramp("[" + good + ", { height_m = 0.5, colour = \"#FFaa00\" }]"), "no error");
     EXPECT_THAT(ramp("3"), HasSubstr("surface.ramp is 3; an array of stops would be right"));
@@ -218,15 +226,15 @@ TEST(Settings, AWrongRampIsRefusedWithTheStopThatIsWrong) {
 }
 
 TEST(Settings, UnknownKeysAreRefusedWithTheNearestKnownOne) {
-    EXPECT_THAT(errorOf("[lod]\ntua_px = 2\n"),
+    EXPECT_THAT(settingsErrorOf("[lod]\ntua_px = 2\n"),
                 HasSubstr("line 2: lod.tua_px is not a setting; the nearest one is lod.tau_px"));
-    EXPECT_THAT(errorOf("[lot]\ntau_px = 2\n"), HasSubstr("lot is not a setting"));
-    EXPECT_THAT(errorOf("tau_px = 2\n"), HasSubstr("tau_px is not a setting"));
-    EXPECT_THAT(errorOf("lod = 2\n"), HasSubstr("lod is not a setting"));
+    EXPECT_THAT(settingsErrorOf("[lot]\ntau_px = 2\n"), HasSubstr("lot is not a setting"));
+    EXPECT_THAT(settingsErrorOf("tau_px = 2\n"), HasSubstr("tau_px is not a setting"));
+    EXPECT_THAT(settingsErrorOf("lod = 2\n"), HasSubstr("lod is not a setting"));
 }
 
 TEST(Settings, BrokenTomlNamesItsLine) {
-    EXPECT_THAT(errorOf("[lod]\ntau_px = \n"), HasSubstr("settings.toml: line 2: not TOML"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = \n"), HasSubstr("settings.toml: line 2: not TOML"));
 }
 
 TEST(Settings, AMissingFileIsAnError) {

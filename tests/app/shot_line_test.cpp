@@ -39,8 +39,9 @@ planet::Result<ShotOptions> typed(const std::string& line) {
     return shotOptionsFrom(arguments);
 }
 
-constexpr PictureSize size{1357, 911};
-const planet::CameraPose pose{27.988123456789012, -86.92500000000001, 8848.860000000001, 359.99999999, -1e-7};
+constexpr PictureSize shotSize{1357, 911};
+const planet::CameraPose shotPose{27.988123456789012, -86.92500000000001, 8848.860000000001, 359.99999999,
+                                  -1e-7};
 
 TEST(ShotLine, OfTheDefaultsIsShort) {
     EXPECT_EQ(shotLine("earth.chk", {20, 10, 2e7, 0, -90}, {1280, 720}, {}, {}),
@@ -60,19 +61,19 @@ TEST(ShotLine, TypedAgainGivesTheSameViewAndSettings) {
     view.surface.sunLongitudeDeg = -179.99999999999997;
     view.camera.flight = "a \"flight\" of 'mine' $HOME `x` \\ ä\n.toml";
     const planet::Result<ShotOptions> options =
-        typed(shotLine("/data/earth.chk", pose, size, view, "/c.jpg"));
+        typed(shotLine("/data/earth.chk", shotPose, shotSize, view, "/c.jpg"));
     ASSERT_TRUE(options) << options.error().message;
     EXPECT_EQ(options->view, view);
     EXPECT_EQ(options->file, "/data/earth.chk");
     EXPECT_EQ(options->colourImage, "/c.jpg");
-    EXPECT_EQ(options->size.widthPx, size.widthPx);
-    EXPECT_EQ(options->size.heightPx, size.heightPx);
+    EXPECT_EQ(options->size.widthPx, shotSize.widthPx);
+    EXPECT_EQ(options->size.heightPx, shotSize.heightPx);
     ASSERT_TRUE(options->camera);
-    EXPECT_EQ(options->camera->latitudeDeg, pose.latitudeDeg);
-    EXPECT_EQ(options->camera->longitudeDeg, pose.longitudeDeg);
-    EXPECT_EQ(options->camera->altitudeM, pose.altitudeM);
-    EXPECT_EQ(options->camera->headingDeg, pose.headingDeg);
-    EXPECT_EQ(options->camera->pitchDeg, pose.pitchDeg);
+    EXPECT_EQ(options->camera->latitudeDeg, shotPose.latitudeDeg);
+    EXPECT_EQ(options->camera->longitudeDeg, shotPose.longitudeDeg);
+    EXPECT_EQ(options->camera->altitudeM, shotPose.altitudeM);
+    EXPECT_EQ(options->camera->headingDeg, shotPose.headingDeg);
+    EXPECT_EQ(options->camera->pitchDeg, shotPose.pitchDeg);
 }
 
 TEST(ShotLine, EachSettingByItselfComesThrough) {
@@ -130,7 +131,7 @@ TEST(ShotLine, AnyPathIsQuotedRight) {
                              "a;b&c|d.chk",
                              "!a.chk",
                              "a=b.chk"}) {
-        const planet::Result<ShotOptions> options = typed(shotLine(path, pose, size, {}, path));
+        const planet::Result<ShotOptions> options = typed(shotLine(path, shotPose, shotSize, {}, path));
         ASSERT_TRUE(options) << path << ": " << options.error().message;
         const std::filesystem::path wanted =
             std::string(path).starts_with('-') ? std::string("./") + path : path;

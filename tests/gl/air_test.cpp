@@ -18,7 +18,7 @@
 namespace planet::gl {
 namespace {
 
-constexpr int size = 32;  // directions, all around and from below to above
+constexpr int directionsASide = 32;  // directions, all around and from below to above
 
 // Each pixel works out one of shaders/air.glsl's functions in a direction of its own.
 constexpr const char* probeMain = R"(
@@ -48,8 +48,8 @@ void main() {
 constexpr int askable = 8;
 
 glm::dvec3 directionOf(int pixel) {
-    const double height = 2 * ((pixel / size) + 0.5) / size - 1;
-    const double turn = 2 * std::numbers::pi * ((pixel % size) + 0.5) / size;
+    const double height = 2 * ((pixel / directionsASide) + 0.5) / directionsASide - 1;
+    const double turn = 2 * std::numbers::pi * ((pixel % directionsASide) + 0.5) / directionsASide;
     const double aside = std::sqrt(1 - height * height);
     return {aside * std::cos(turn), aside * std::sin(turn), height};
 }
@@ -68,7 +68,7 @@ protected:
         AirTextures::connect(program_.name());
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
         glBindRenderbuffer(GL_RENDERBUFFER, colour_.name());
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, size, size);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, directionsASide, directionsASide);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
         array_ = makeVertexArray();
     }
@@ -86,14 +86,14 @@ protected:
         textures_.follow(drawing_.settings, false);
         textures_.bind(drawing_, eyeM, shape_.radiusM, glm::normalize(sun));
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-        glViewport(0, 0, size, size);
+        glViewport(0, 0, directionsASide, directionsASide);
         glUseProgram(program_.name());
         glUniform1i(glGetUniformLocation(program_.name(), "asked"), asked);
         glUniform1f(glGetUniformLocation(program_.name(), "distanceM"), static_cast<float>(distanceM));
         glBindVertexArray(array_.name());
         glDrawArrays(GL_TRIANGLES, 0, 3);
-        std::vector<glm::vec4> result(size * size);
-        glReadPixels(0, 0, size, size, GL_RGBA, GL_FLOAT, result.data());
+        std::vector<glm::vec4> result(directionsASide * directionsASide);
+        glReadPixels(0, 0, directionsASide, directionsASide, GL_RGBA, GL_FLOAT, result.data());
         return result;
     }
 
@@ -149,7 +149,7 @@ TEST_F(Air, TheShadersLightIsTheLibrarysDoubles) {
         const glm::dvec3 eyeM = (shape_.radiusM + heightM) * glm::normalize(glm::dvec3(0.7, 0.3, 0.5));
         const std::vector<glm::vec4> light = ask(0, eyeM, sun, 1), left = ask(1, eyeM, sun, 1);
         const glm::dvec3 whole(airUniforms(textures_.tables(), drawing_, eyeM, shape_.radiusM, sun).sun);
-        for (int pixel = 0; pixel < size * size; ++pixel) {
+        for (int pixel = 0; pixel < directionsASide * directionsASide; ++pixel) {
             const AirRay ray = rayTowards(directionOf(pixel), eyeM, sun);
             if (nearHorizon(ray)) continue;
             AirLight wanted = lightAlong(textures_.tables(), ray, 32);
@@ -173,7 +173,7 @@ TEST_F(Air, LightBeforeAPointIsTheLibrarysDoubles) {
     for (const double distanceM : {10.0, 5e3, 2e5}) {
         const std::vector<glm::vec4> light = ask(2, eyeM, sun, distanceM),
                                      left = ask(3, eyeM, sun, distanceM);
-        for (int pixel = 0; pixel < size * size; ++pixel) {
+        for (int pixel = 0; pixel < directionsASide * directionsASide; ++pixel) {
             AirRay ray = rayTowards(directionOf(pixel), eyeM, sun);
             ray.lengthKm = distanceM / shape_.radiusM * airRadiusKm;
             if (ray.rise < -5000 / distanceM) continue;  // below ground
@@ -236,12 +236,12 @@ TEST_F(Air, SmallPlanetsLookAsLargeOnes) {
 
 TEST_F(Air, TheSunsDiskIsAsLargeAsTheSun) {
     const glm::dvec3 eyeM(0, 0, shape_.radiusM);
-    const glm::dvec3 ray = directionOf(20 * size + 7);
-    EXPECT_EQ(ask(7, eyeM, -ray, 1)[20 * size + 7].r, 0);
-    EXPECT_GT(ask(7, eyeM, ray, 1)[20 * size + 7].r, 0.99f);
+    const glm::dvec3 ray = directionOf(20 * directionsASide + 7);
+    EXPECT_EQ(ask(7, eyeM, -ray, 1)[20 * directionsASide + 7].r, 0);
+    EXPECT_GT(ask(7, eyeM, ray, 1)[20 * directionsASide + 7].r, 0.99f);
     const glm::dvec3 aside = glm::normalize(glm::cross(ray, glm::dvec3(0, 0, 1)));
-    EXPECT_GT(ask(7, eyeM, glm::normalize(ray + 0.004 * aside), 1)[20 * size + 7].r, 0.5f);
-    EXPECT_EQ(ask(7, eyeM, glm::normalize(ray + 0.0056 * aside), 1)[20 * size + 7].r, 0);
+    EXPECT_GT(ask(7, eyeM, glm::normalize(ray + 0.004 * aside), 1)[20 * directionsASide + 7].r, 0.5f);
+    EXPECT_EQ(ask(7, eyeM, glm::normalize(ray + 0.0056 * aside), 1)[20 * directionsASide + 7].r, 0);
 }
 
 TEST_F(Air, ExposureIsOneNearGroundByDayLessFromSpaceMoreAtDusk) {

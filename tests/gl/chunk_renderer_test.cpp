@@ -14,11 +14,9 @@
 namespace planet::gl {
 namespace {
 
-constexpr double radiusM = 6'371'000;
-
 constexpr std::array<std::uint8_t, 4> green = {40, 168, 66, 225};
 
-double hills(const glm::dvec3& d) {
+double wavyHills(const glm::dvec3& d) {
     return 3000 * std::sin(40 * d.x + 3 * d.z) * std::cos(37 * d.y) + 1500 * std::sin(90 * d.z + 20 * d.x);
 }
 
@@ -48,7 +46,7 @@ using ChunkRendererTest = GlTest;
 TEST_F(ChunkRendererTest, TheSilhouetteIsRound) {
     TestPlanet planet({}, 384);
     planet.addLevel(3, flat);
-    const View view = viewFrom({}, 12, 34, 2 * radiusM, -90, 25, 600, 600);
+    const View view = viewFrom({}, 12, 34, 2 * earthRadiusM, -90, 25, 600, 600);
     const Picture picture = drawPicture(planet.renderer(), view, planet.items(), plainSettings());
     const double rimPx = screenScalePx(view) * std::tan(std::asin(1 / 3.0));
     for (int degree = 0; degree < 360; degree += 3) {
@@ -68,11 +66,11 @@ TEST_F(ChunkRendererTest, NoHoleShowsAtPolesEdgesAndCornersBetweenLevels) {
         for (std::uint32_t i = 0; i < 16; ++i) {
             const ChunkId id{face, 2, i % 4, i / 4};
             if ((id.x + id.y) % 2 == 0) {
-                planet.add(id, hills, 6000);
+                planet.add(id, wavyHills, 6000);
                 continue;
             }
             for (int quadrant = 0; quadrant < quadrantCount; ++quadrant)
-                planet.add(childOf(id, quadrant), hills, 6000);
+                planet.add(childOf(id, quadrant), wavyHills, 6000);
         }
     }
     for (const double x : {-1.0, 0.0, 1.0}) {
@@ -81,7 +79,7 @@ TEST_F(ChunkRendererTest, NoHoleShowsAtPolesEdgesAndCornersBetweenLevels) {
                 if (x == 0 && y == 0 && z == 0) continue;
                 const View view = lookingAtCentre({x, y, z}, 4e6, 256);
                 const Picture picture = drawPicture(planet.renderer(), view, planet.items(), plainSettings());
-                EXPECT_EQ(holesInDisc(picture, view, radiusM - 5000), 0) << x << " " << y << " " << z;
+                EXPECT_EQ(holesInDisc(picture, view, earthRadiusM - 5000), 0) << x << " " << y << " " << z;
             }
         }
     }
@@ -99,10 +97,12 @@ TEST_F(ChunkRendererTest, SkirtsFillACrackThatShowsWithoutThem) {
     }
     const View view = lookingAtCentre({1, 0.3, -0.2}, 8e6, 512);
     RenderSettings settings = plainSettings();
-    EXPECT_EQ(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, radiusM), 0);
+    EXPECT_EQ(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, earthRadiusM),
+              0);
     const std::uint64_t withSkirts = planet.renderer().counters().triangles;
     for (DrawItem& item : planet.items()) item.skirtDepthM = 0;
-    EXPECT_GT(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, radiusM), 50);
+    EXPECT_GT(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, earthRadiusM),
+              50);
     EXPECT_EQ(planet.renderer().counters().triangles, 96u * 2 * 32 * 32);
     EXPECT_EQ(withSkirts, 96u * (2 * 32 * 32 + 2 * 4 * 32));
     EXPECT_EQ(planet.renderer().counters().chunks, 96u);
@@ -114,7 +114,7 @@ TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
     RenderSettings settings;
     settings.atmosphere = false;
     const std::vector<ChunkTint> tints = oneTint(planet.items().size(), green);
-    const View view = viewFrom({}, 0, 0, 2 * radiusM, -90, 0, 401, 401);
+    const View view = viewFrom({}, 0, 0, 2 * earthRadiusM, -90, 0, 401, 401);
     const double sunLatitude = glm::radians(20.0);
     const double sunLongitude = glm::radians(35.0);
     settings.sunDirection = 5.0 * directionFromGeographic({sunLatitude, sunLongitude});
@@ -137,8 +137,8 @@ TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
         ++count;
     }
     // Where the point under the sun falls in the picture; east is right and north up.
-    const glm::dvec3 under = radiusM * directionFromGeographic({sunLatitude, sunLongitude});
-    const double scale = screenScalePx(view) / (3 * radiusM - under.x);
+    const glm::dvec3 under = earthRadiusM * directionFromGeographic({sunLatitude, sunLongitude});
+    const double scale = screenScalePx(view) / (3 * earthRadiusM - under.x);
     EXPECT_NEAR(x / count, 200 + under.y * scale, 6);
     EXPECT_NEAR(y / count, 200 - under.z * scale, 6);
 
@@ -158,7 +158,7 @@ TEST_F(ChunkRendererTest, SlopesTowardsTheSunAreBrighter) {
     RenderSettings settings;
     settings.atmosphere = false;
     settings.sunDirection = {1, 0.7, 0};
-    const View view = viewFrom({}, 0, 5, radiusM, -90, 0, 400, 400);
+    const View view = viewFrom({}, 0, 5, earthRadiusM, -90, 0, 400, 400);
     const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings, 1,
                                         oneTint(planet.items().size(), green));
     const auto at = [&](double longitudeDeg) {
@@ -199,7 +199,7 @@ TEST_F(ChunkRendererTest, LightKnowsNoBordersBetweenChunksOfALevel) {
 TEST_F(ChunkRendererTest, WhatIsNearerHidesWhatIsBehindInAnyOrder) {
     TestPlanet planet({}, 96);
     planet.addLevel(
-        2, [](const glm::dvec3& d) { return 10 * hills(d); }, 20000);
+        2, [](const glm::dvec3& d) { return 10 * wavyHills(d); }, 20000);
     const View view = viewFrom({}, 5, 5, 300000, -15, 40, 320, 240);
     const Picture forwards = drawPicture(planet.renderer(), view, planet.items(), plainSettings());
     std::reverse(planet.items().begin(), planet.items().end());
@@ -223,7 +223,7 @@ TEST_F(ChunkRendererTest, DepthSaysHowFarTheGroundIs) {
 
 TEST_F(ChunkRendererTest, APlainDepthBufferGetsAClassicProjection) {
     TestPlanet planet({}, 384);
-    planet.addLevel(3, hills, 6000);
+    planet.addLevel(3, wavyHills, 6000);
     const View view = viewFrom({}, 10, 20, 1e6, -90, 0, 200, 200);
     const Picture reversed = drawPicture(planet.renderer(), view, planet.items(), plainSettings());
 
@@ -255,11 +255,6 @@ TEST_F(ChunkRendererTest, APlainDepthBufferGetsAClassicProjection) {
     EXPECT_LT(different, 200 * 200 / 500);
 }
 
-bool areNear(const glm::ivec3& a, const glm::ivec3& b) {
-    const glm::ivec3 d = glm::abs(a - b);
-    return std::max({d.x, d.y, d.z}) <= 1;
-}
-
 TEST_F(ChunkRendererTest, WithoutLightATintIsExactlyItsColour) {
     TestPlanet planet({}, 32);
     planet.addLevel(1, flat);
@@ -286,7 +281,7 @@ TEST_F(ChunkRendererTest, WithoutLightATintIsExactlyItsColour) {
 TEST_F(ChunkRendererTest, WireframeDrawsLinesOnTheEdgesOfTriangles) {
     TestPlanet planet({}, 6);
     planet.addLevel(0, flat);
-    View view = viewFrom({}, 0, 0, radiusM, -90, 0, 500, 500);
+    View view = viewFrom({}, 0, 0, earthRadiusM, -90, 0, 500, 500);
     RenderSettings settings = plainSettings();
     const Picture filled = drawPicture(planet.renderer(), view, planet.items(), settings);
     settings.wireframe = true;
@@ -493,7 +488,7 @@ TEST_F(ChunkRendererTest, SeveralSamplesSmoothTheRim) {
     TestPlanet planet({}, 24);
     planet.addLevel(1, flat);
     ASSERT_GE(planet.renderer().capabilities().samples, 4);
-    const View view = viewFrom({}, 0, 0, 2 * radiusM, -90, 0, 200, 200);
+    const View view = viewFrom({}, 0, 0, 2 * earthRadiusM, -90, 0, 200, 200);
     const auto between = [&](int samples) {
         const Picture picture =
             drawPicture(planet.renderer(), view, planet.items(), plainSettings(), samples);
@@ -635,7 +630,7 @@ TEST_F(ShaderFolder, ABrokenReloadKeepsTheLastGoodShaders) {
         DrawItem item;
         item.id = {face, 0, 0, 0};
         item.slot = static_cast<std::uint32_t>(face);
-        renderer.upload(item.slot, chunkSteps(shape, item.id, hills));
+        renderer.upload(item.slot, chunkSteps(shape, item.id, wavyHills));
         items.push_back(item);
     }
     const View view = viewFrom({}, 0, 0, 1e7);

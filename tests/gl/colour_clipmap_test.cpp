@@ -14,15 +14,15 @@ namespace planet::gl {
 namespace {
 
 // A pole, the date line, corners and edges of the cube, and between them.
-constexpr std::array<std::pair<double, double>, 9> places = {{{90, 0},
-                                                              {-90, 30},
-                                                              {10, 180},
-                                                              {35.264, 45},
-                                                              {-35.1, -134.8},
-                                                              {3, 45.2},
-                                                              {46, 10},
-                                                              {12, 20},
-                                                              {-60, 100}}};
+constexpr std::array<std::pair<double, double>, 9> placesToSee = {{{90, 0},
+                                                                   {-90, 30},
+                                                                   {10, 180},
+                                                                   {35.264, 45},
+                                                                   {-35.1, -134.8},
+                                                                   {3, 45.2},
+                                                                   {46, 10},
+                                                                   {12, 20},
+                                                                   {-60, 100}}};
 
 class ClippedColours : public StreamedColours {
 protected:
@@ -48,7 +48,7 @@ protected:
         const auto between = [&](double low, double high) {
             return std::uniform_real_distribution<double>(low, high)(random);
         };
-        const auto& place = places[random() % places.size()];
+        const auto& place = placesToSee[random() % placesToSee.size()];
         return smallView(
             {std::clamp(place.first + between(-3, 3), -90.0, 90.0), place.second + between(-3, 3)},
             std::exp2(between(14.5, 23)), between(-90, -10), between(0, 360));
@@ -193,7 +193,7 @@ TEST_F(ClippedColours, AreTheSourcesBeyondTheWindowsToo) {
     addRoots(tile);
     for (const Face face : allFaces) addChildren({face, 0, 0, 0}, tile);
     useClipmap(256);
-    for (const auto& [latitude, longitude] : places) {
+    for (const auto& [latitude, longitude] : placesToSee) {
         for (const double altitudeM : {2e7, 4e6, 5e5}) {
             const View view = viewFrom({}, latitude, longitude, altitudeM);
             moveTo(view);
@@ -219,7 +219,7 @@ TEST_F(ClippedColours, AreOfTheLevelsThatTheWindowsReach) {
         return std::pow((ofLevel[static_cast<std::size_t>(level)][channel] / 255.0 + 0.055) / 1.055, 2.4);
     };
     std::array<int, 3> seen{};
-    for (const auto& place : places) {
+    for (const auto& place : placesToSee) {
         const View view = smallView(place, 3e6);
         moveTo(view);
         const Picture picture = drawn(view);

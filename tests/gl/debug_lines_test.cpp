@@ -12,7 +12,7 @@ namespace {
 constexpr LineColour red = {255, 0, 0, 255};
 
 // Where a point falls in a picture, pixels from the upper left corner; none behind the eye.
-std::optional<glm::dvec2> pixelOf(const View& view, const glm::dvec3& pointM) {
+std::optional<glm::dvec2> pixelInFront(const View& view, const glm::dvec3& pointM) {
     const glm::dvec3 camera = cameraFromWorldRotation(view) * (pointM - view.eyeM);
     if (camera.z >= 0) return std::nullopt;
     const double scale = screenScalePx(view) / -camera.z;
@@ -84,8 +84,8 @@ TEST_F(DebugLinesTest, ALinesPixelsAreWhereProjectionSays) {
             };
             const Lines lines = {{at(-0.4, -0.1, 1), red}, {at(1.5, 1.2, 4), red}};
             const Picture picture = draw(view, lines, 3, LineDepth::InFront, plain, false);
-            const glm::dvec2 start = *pixelOf(view, lines[0].positionM);
-            const glm::dvec2 along = *pixelOf(view, lines[1].positionM) - start;
+            const glm::dvec2 start = *pixelInFront(view, lines[0].positionM);
+            const glm::dvec2 along = *pixelInFront(view, lines[1].positionM) - start;
             const glm::dvec2 across = glm::normalize(glm::dvec2(-along.y, along.x));
             ASSERT_GT(glm::length(along), 100);
             for (double share = 0.02; share < 1; share += 0.02) {
@@ -124,15 +124,15 @@ TEST_F(DebugLinesTest, ALineThatPassesTheEyeIsSeenAsFarAsItLiesBeforeIt) {
             const Picture picture = draw(view, lines, 3, LineDepth::InFront, false, false);
             int seen = 0;
             for (double depth = 499; depth > 0.1; depth *= 0.98) {
-                const std::optional<glm::dvec2> pixel = pixelOf(view, at(depth));
+                const std::optional<glm::dvec2> pixel = pixelInFront(view, at(depth));
                 if (!isInside(view, *pixel)) continue;
                 EXPECT_GT(redAt(picture, *pixel), 240) << aside << " " << depth;
                 ++seen;
             }
             EXPECT_GT(seen, 20);
             // Nothing on the other side of the point where it vanishes.
-            const glm::dvec2 far = *pixelOf(view, at(1e9));
-            const glm::dvec2 opposite = 2.0 * far - *pixelOf(view, at(std::abs(aside) * 2 + 1));
+            const glm::dvec2 far = *pixelInFront(view, at(1e9));
+            const glm::dvec2 opposite = 2.0 * far - *pixelInFront(view, at(std::abs(aside) * 2 + 1));
             if (isInside(view, opposite)) {
                 EXPECT_LT(redAt(picture, opposite), 100);
             }
@@ -155,7 +155,7 @@ TEST_F(DebugLinesTest, ThePlanetHidesLinesBehindItAsAskedFor) {
         const Picture none = draw(view, {}, 3, LineDepth::Hidden, plain);
         const auto atShare = [&](const Picture& picture, double share) {
             const glm::dvec3 pointM = glm::mix(lines[0].positionM, lines[1].positionM, share);
-            return redAt(picture, *pixelOf(view, pointM));
+            return redAt(picture, *pixelInFront(view, pointM));
         };
         // Enters the sphere of 6371 km between, comes out between, from the two roots of the quadratic.
         const glm::dvec3 d = lines[1].positionM - lines[0].positionM;

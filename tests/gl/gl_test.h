@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,6 +55,12 @@ template <class T>
 T valueOf(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().message);
     return std::move(*result);
+}
+
+// Colours that differ by so little in each channel.
+inline bool areNear(const glm::ivec3& a, const glm::ivec3& b, int by = 1) {
+    const glm::ivec3 d = glm::abs(a - b);
+    return std::max({d.x, d.y, d.z}) <= by;
 }
 
 // A drawn picture, rows from the top.

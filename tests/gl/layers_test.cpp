@@ -13,10 +13,10 @@
 namespace planet::gl {
 namespace {
 
-constexpr int size = 64;  // texels a side
+constexpr int texelsASide = 64;  // texels a side
 
 // Steep and gentle ground, from below the sea to some hundred metres.
-double hills(const glm::dvec3& d) {
+double layeredHills(const glm::dvec3& d) {
     const double metres = 6.371e6;
     return 350 * std::sin(metres * d.y / 900) * std::cos(metres * d.z / 1300) +
            60 * std::sin(metres * (d.z + d.y) / 260) + 150;
@@ -44,7 +44,7 @@ View viewAt(const glm::dvec3& eyeM, const glm::dvec3& pointM) {
 
 LayerPicture plainPicture(const std::array<std::uint8_t, 4>& rgba) {
     LayerPicture picture;
-    for (int i = 0; i < size * size; ++i) {
+    for (int i = 0; i < texelsASide * texelsASide; ++i) {
         picture.albedo.insert(picture.albedo.end(), rgba.begin(), rgba.end());
         picture.surface.insert(picture.surface.end(), {128, 128, 230, 255});
     }
@@ -54,13 +54,13 @@ LayerPicture plainPicture(const std::array<std::uint8_t, 4>& rgba) {
 // Red and green say where in the repeat, as waves that meet themselves.
 LayerPicture placePicture() {
     LayerPicture picture = plainPicture({0, 0, 40, 128});
-    for (int i = 0; i < size * size; ++i) {
+    for (int i = 0; i < texelsASide * texelsASide; ++i) {
         const auto wave = [](int texel) {
             return static_cast<std::uint8_t>(
-                std::lround(128 + 90 * std::sin(2 * std::numbers::pi * (texel + 0.5) / size)));
+                std::lround(128 + 90 * std::sin(2 * std::numbers::pi * (texel + 0.5) / texelsASide)));
         };
-        picture.albedo[static_cast<std::size_t>(4 * i)] = wave(i % size);
-        picture.albedo[static_cast<std::size_t>(4 * i + 1)] = wave(i / size);
+        picture.albedo[static_cast<std::size_t>(4 * i)] = wave(i % texelsASide);
+        picture.albedo[static_cast<std::size_t>(4 * i + 1)] = wave(i / texelsASide);
     }
     return picture;
 }
@@ -78,7 +78,7 @@ protected:
         settings_.layers.pictures = {0};
     }
 
-    void use(const LayerPicture& picture) { planet_.renderer().setLayers(std::array{picture}, size); }
+    void use(const LayerPicture& picture) { planet_.renderer().setLayers(std::array{picture}, texelsASide); }
 
     // A chunk around a place, and where its ground is there.
     glm::dvec3 addGround(const glm::dvec3& direction, const HeightFunction& height, int level = 12) {
@@ -124,9 +124,9 @@ TEST_F(Layers, WeightsAreThoseOfTheReferenceAtRandomPoints) {
         const glm::dvec3 middle(0.8 + 0.4 * share(random), 1.2 * share(random) - 0.6,
                                 0.2 + 0.7 * share(random));
         const ChunkId id = chunkAt(facePointFromDirection(middle), 12);
-        const std::vector<std::int16_t> steps = chunkSteps(fineShape(), id, hills);
+        const std::vector<std::int16_t> steps = chunkSteps(fineShape(), id, layeredHills);
         planet_.items().clear();
-        planet_.add(id, hills);
+        planet_.add(id, layeredHills);
         settings_.layers.set = randomSet(random);
         const FaceSquare square = faceSquareOf(id);
         for (int point = 0; point < 25; ++point) {
@@ -162,11 +162,11 @@ TEST_F(Layers, ExaggeratedAndBoostedReliefIsWeighedAsItTrulyIs) {
     TestPlanet exaggerated(tall, 4);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(1, 0.21, 0.33));
     const ChunkId id = chunkAt(facePointFromDirection(direction), 12);
-    const HeightFunction threefold = [](const glm::dvec3& d) { return 3 * hills(d); };
+    const HeightFunction threefold = [](const glm::dvec3& d) { return 3 * layeredHills(d); };
     exaggerated.add(id, threefold);
     const std::vector<std::int16_t> steps = chunkSteps(tall, id, threefold);
     const LayerPlace place = layerPlace(tall, id, steps, direction, 0, 3);
-    EXPECT_NEAR(place.heightM, hills(direction), 1.0);
+    EXPECT_NEAR(place.heightM, layeredHills(direction), 1.0);
     ASSERT_GT(place.slopeDeg, 5);
     settings_.layers.preview = LayerPreview::Mask;
     settings_.exaggeration = 3;
@@ -302,7 +302,7 @@ TEST_F(Layers, TheColourBelowGoesThrough) {
 TEST_F(Layers, ABlendByHeightFollowsTheRelief) {
     const std::array<LayerPicture, 2> pictures = {plainPicture({255, 0, 0, 160}),
                                                   plainPicture({0, 0, 255, 90})};
-    planet_.renderer().setLayers(pictures, size);
+    planet_.renderer().setLayers(pictures, texelsASide);
     LayerSet& set = settings_.layers.set;
     set.layers = {TextureLayer{}, TextureLayer{}};
     set.layers[1].opacity = 0.5;

@@ -178,13 +178,13 @@ protected:
 };
 
 // Faces' middles, an edge, a corner of the cube, a pole.
-constexpr std::array<std::array<double, 2>, 4> places = {{{0, 0}, {35.26, 45}, {90, 0}, {-30, -120}}};
+constexpr std::array<std::array<double, 2>, 4> litPlaces = {{{0, 0}, {35.26, 45}, {90, 0}, {-30, -120}}};
 
 TEST_F(NormalTiles, RootChunksAreLitAsTheFinestMeshIsOverTheWholeDisc) {
     addGround(wavesM);
     makePool();
     addTiles(waveTiles());
-    for (const auto& [latitude, longitude] : places) {
+    for (const auto& [latitude, longitude] : litPlaces) {
         const View view = wholeDisc(latitude, longitude);
         lightFrom(view);
         const Picture truth = drawn(view, fine(view), FeatureUse::Off);
@@ -238,7 +238,7 @@ TEST_F(NormalTiles, NoStepShowsAtTilesFacesOrLevels) {
     makePool();
     const Tiles tiles = tilesOf(gentleM);
     addTiles(tiles);
-    for (const auto& [latitude, longitude] : places) {
+    for (const auto& [latitude, longitude] : litPlaces) {
         for (const double nearer : {1.0, 0.8, 1.4}) {  // levels are mixed
             View view = wholeDisc(latitude, longitude);
             view.eyeM *= nearer;

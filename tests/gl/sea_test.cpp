@@ -11,8 +11,6 @@ namespace planet::gl {
 
 namespace {
 
-constexpr double radiusM = 6.371e6;
-
 class SeaTest : public GlTest {
 protected:
     SeaTest() {
@@ -66,7 +64,7 @@ TEST_F(SeaTest, WhatIsMeasuredIsTheBed) {
     const std::vector<glm::vec3> positions =
         valueOf(planet.renderer().readVertexPositions(view, planet.items(), settings_));
     for (std::size_t i = 0; i < positions.size(); i += 97)
-        EXPECT_NEAR(glm::length(glm::dvec3(positions[i]) + view.eyeM), radiusM - 4000, 2);
+        EXPECT_NEAR(glm::length(glm::dvec3(positions[i]) + view.eyeM), earthRadiusM - 4000, 2);
 }
 
 // Straight down, no air, the sun too far aside for a glint: what comes out is the water's own, less the share

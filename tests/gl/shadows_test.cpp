@@ -10,8 +10,6 @@ namespace planet::gl {
 
 namespace {
 
-constexpr double radiusM = 6.371e6;
-
 // A wall along the meridian of Greenwich, so wide on each side.
 constexpr double wallHeightM = 20000;
 constexpr double wallHalfWidthRad = 0.004;
@@ -57,8 +55,8 @@ double shadowEndRad(double heightDeg) {
     double high = 0.1;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        const double topM = (radiusM + 9000) * (std::cos(middle) + std::sin(middle) * rise);
-        (topM < radiusM + 9000 + wallHeightM ? low : high) = middle;
+        const double topM = (earthRadiusM + 9000) * (std::cos(middle) + std::sin(middle) * rise);
+        (topM < earthRadiusM + 9000 + wallHeightM ? low : high) = middle;
     }
     return low;
 }
@@ -70,8 +68,8 @@ TEST_F(ShadowsTest, AWallsShadowIsAsLongAsItMustBe) {
     const double scale = screenScalePx(view);
     const auto columnOf = [&](double longitudeRad) {
         const double turn = longitudeRad + glm::radians(1.0);
-        const double groundM = radiusM + 9000;
-        return 300 + scale * groundM * std::sin(turn) / (radiusM + 500e3 - groundM * std::cos(turn));
+        const double groundM = earthRadiusM + 9000;
+        return 300 + scale * groundM * std::sin(turn) / (earthRadiusM + 500e3 - groundM * std::cos(turn));
     };
     for (const double heightDeg : {12.0, 20.0, 30.0}) {
         setSun(heightDeg);

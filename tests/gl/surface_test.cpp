@@ -16,11 +16,6 @@ glm::vec3 fromBytes(const glm::ivec3& bytes) {
     return glm::vec3(bytes) / 255.0f;
 }
 
-bool areNear(const glm::ivec3& a, const glm::ivec3& b, int by = 1) {
-    const glm::ivec3 d = glm::abs(a - b);
-    return std::max({d.x, d.y, d.z}) <= by;
-}
-
 // Level ground of one height, seen from straight above.
 class Surface : public GlTest {
 protected:

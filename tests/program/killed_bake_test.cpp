@@ -31,7 +31,7 @@ using testing::IsEmpty;
 using Clock = std::chrono::steady_clock;
 
 constexpr int killsByTime = 26, killsBySize = 16, killsAtTheEnd = 8;
-constexpr const char* settings = "--face-size 129 --chunk-size 17 --colour map.ppm --colour-face-size 257";
+constexpr const char* bakeOptions = "--face-size 129 --chunk-size 17 --colour map.ppm --colour-face-size 257";
 
 std::uint64_t sizeOf(const fs::path& file) {
     struct stat status {};
@@ -60,7 +60,7 @@ public:
         const std::string command = "cd '" + home + "' && export TMPDIR='" + home +
                                     "/tmp' && exec '" WORLDY_BINARY
                                     "' bake noise:ridged,seed=2 -o out/a.chk " +
-                                    settings + " >/dev/null 2>&1";
+                                    bakeOptions + " >/dev/null 2>&1";
         const char* const arguments[] = {"sh", "-c", command.c_str(), nullptr};
         if (::posix_spawn(&process_, "/bin/sh", nullptr, nullptr, const_cast<char* const*>(arguments),
                           environ) != 0)
@@ -94,7 +94,7 @@ protected:
         fs::create_directories(folder_ / "out");
         fs::create_directories(folder_ / "tmp");
         const auto bake = [&](const std::string& source, const std::string& output) {
-            const Ran ran = runWorldy(folder_, "bake " + source + " -o " + output + " " + settings);
+            const Ran ran = runWorldy(folder_, "bake " + source + " -o " + output + " " + bakeOptions);
             ASSERT_EQ(ran.exitCode, 0) << ran.errors;
             const Ran verified = runWorldy(folder_, "verify " + output);
             ASSERT_EQ(verified.exitCode, 0) << verified.errors;

@@ -3,14 +3,13 @@
 
 #include <sys/wait.h>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "tests/temporary_folder.h"
 
 namespace worldy {
 
+using tests::contentOf;
 using tests::TemporaryFolder;
 
 struct Ran {
@@ -18,12 +17,6 @@ struct Ran {
     std::string output;
     std::string errors;
 };
-
-inline std::string contentOf(const std::filesystem::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 // Settings, cache and pictures land in the folder; there is no display but where the arguments set one. Only
 // what Mesa makes of shaders for a processor is shared by all: it takes two thirds of a picture's time.
