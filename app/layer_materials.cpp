@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "app/layer_file.h"
-#include "app/output_file.h"
+#include "planet/atomic_file.h"
 
 namespace worldy {
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using planet::Result;
 
 Result<void> writeTexture(const fs::path& file, std::span<const std::uint8_t> bytes, int size, int channels) {
-    return writeAtomically(file, [&](const fs::path& temporary) -> Result<void> {
+    return planet::writeAtomically(file, [&](const fs::path& temporary) -> Result<void> {
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
         OIIO::ImageSpec spec(size, size, channels, OIIO::TypeDesc::UINT8);
         spec.attribute("png:compressionLevel", 9);

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "app/output_file.h"
+#include "planet/atomic_file.h"
 
 namespace worldy {
 
@@ -50,7 +50,7 @@ planet::Result<std::string> readPictureText(const std::filesystem::path& file, c
 
 planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file,
                                   std::span<const PictureText> texts) {
-    return writeAtomically(file, [&](const std::filesystem::path& temporary) -> planet::Result<void> {
+    return planet::writeAtomically(file, [&](const std::filesystem::path& temporary) -> planet::Result<void> {
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
         OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
         for (const PictureText& text : texts) spec.attribute(text.keyword, text.text);

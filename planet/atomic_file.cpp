@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace planet {
 
@@ -46,6 +49,23 @@ void syncFolderOf(const std::filesystem::path& path, const FileCalls& calls) {
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const auto opened = OpenFile::open(folder, O_RDONLY | O_DIRECTORY, calls);
     if (opened) uninterrupted([&] { return calls.fsync(opened->descriptor()); });
+}
+
+Result<void> copyInto(AtomicFile& file, const std::filesystem::path& from) {
+    constexpr std::size_t pieceBytes = std::size_t{1} << 20;
+    std::error_code status;
+    std::uintmax_t left = std::filesystem::file_size(from, status);
+    if (status) return ioError(fmt::format("{}: cannot be read: {}", from.string(), status.message()));
+    const auto opened = OpenFile::open(from, O_RDONLY, systemFileCalls());
+    if (!opened) return tl::unexpected(opened.error());
+    std::vector<std::byte> piece;
+    while (left > 0) {
+        piece.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(left, pieceBytes)));
+        if (auto read = opened->read(file.size(), piece); !read) return read;
+        if (auto written = file.append(piece); !written) return written;
+        left -= piece.size();
+    }
+    return {};
 }
 
 }  // namespace
@@ -116,6 +136,20 @@ Result<void> AtomicFile::commit() {
     // The name is durable once its folder is; where folders cannot be synced the file is whole all the same.
     syncFolderOf(path_, calls);
     return {};
+}
+
+Result<void> writeAtomically(const std::filesystem::path& target,
+                             const std::function<Result<void>(const std::filesystem::path&)>& write) {
+    // From here on no other may write the target, nor what is written beside it.
+    Result<AtomicFile> file = AtomicFile::create(target);
+    if (!file) return tl::unexpected(file.error());
+    const std::filesystem::path temporary =
+        target.parent_path() / fmt::format(".{}.new{}", target.stem().string(), target.extension().string());
+    Result<void> written = write(temporary);
+    if (written) written = copyInto(*file, temporary);
+    std::error_code status;
+    std::filesystem::remove(temporary, status);
+    return written ? file->commit() : written;
 }
 
 }  // namespace planet

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "planet/file_calls.h"
@@ -41,5 +42,11 @@ private:
     OpenFile file_;  // closed once it is committed
     std::uint64_t size_ = 0;
 };
+
+// For libraries that write files by their names: calls write with a name beside the target that has the same
+// extension, and takes over what is there then. One writer a target at a time, as above.
+Result<void> writeAtomically(
+    const std::filesystem::path& target,
+    const std::function<Result<void>(const std::filesystem::path& temporary)>& write);
 
 }  // namespace planet

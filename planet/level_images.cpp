@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "planet/atomic_file.h"
 #include "planet/chunk_file.h"
 
 namespace planet {
@@ -43,10 +44,11 @@ public:
           width_((cells_ << level) + 1),
           band_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(cells_ + 1)) {}
 
-    Result<void> write(const std::filesystem::path& path) {
-        const auto output = OIIO::ImageOutput::create(path.string());
+    // Under another name, which it is to get, for messages.
+    Result<void> write(const std::filesystem::path& path, const std::filesystem::path& temporary) {
+        const auto output = OIIO::ImageOutput::create(temporary.string());
         const OIIO::ImageSpec spec(width_, width_, 1, OIIO::TypeDesc::UINT16);
-        if (!output || !output->open(path.string(), spec)) {
+        if (!output || !output->open(temporary.string(), spec)) {
             return ioError(fmt::format("{}: cannot write it: {}", path.string(),
                                        output ? output->geterror() : OIIO::geterror()));
         }
@@ -110,7 +112,10 @@ Result<void> writeLevelImages(const std::filesystem::path& chunkFile, const std:
         if (!root) return tl::unexpected(root.error());
         for (int level = 0; level <= leafLevel(file->info().shape); ++level) {
             const auto path = folder / fmt::format("{}_level{:02}.png", faceName(face), level);
-            if (auto written = LevelImage(*file, *root, level).write(path); !written) return written;
+            const auto written = writeAtomically(path, [&](const std::filesystem::path& temporary) {
+                return LevelImage(*file, *root, level).write(path, temporary);
+            });
+            if (!written) return written;
         }
     }
     return {};

@@ -1,5 +1,6 @@
 #include "planet/atomic_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -102,6 +103,64 @@ TEST(AtomicFile, fullDiskIsAnErrorAndKeepsTheOldFile) {
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(contentOf(folder / "a"), "old");
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, aFailedWriteLeavesTheOldFileAndNothingElse) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "a.txt";
+    std::ofstream(file) << "old";
+    const Result<void> written = writeAtomically(file, [](const std::filesystem::path& temporary) {
+        std::ofstream(temporary) << "half";
+        return Result<void>(ioError("disk full"));
+    });
+    EXPECT_FALSE(written);
+    EXPECT_EQ(contentOf(file), "old");
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, theTemporaryNameKeepsTheExtension) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::path seen;
+    ASSERT_TRUE(writeAtomically(folder.path() / "a.png", [&](const std::filesystem::path& temporary) {
+        seen = temporary;
+        std::ofstream(temporary) << "x";
+        return Result<void>();
+    }));
+    EXPECT_EQ(seen.extension(), ".png");
+    EXPECT_EQ(seen.parent_path(), folder.path());
+}
+
+TEST(WriteAtomically, whatAKilledWriterLeftIsGoneWithTheNext) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "a.png";
+    std::ofstream(folder / ".a.png.part") << "half of one that was killed";
+    std::ofstream(folder / ".a.new.png") << "half of one that was killed";
+    ASSERT_TRUE(writeAtomically(file, [](const std::filesystem::path& temporary) {
+        std::ofstream(temporary) << "new";
+        return Result<void>();
+    }));
+    EXPECT_EQ(contentOf(file), "new");
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, aSecondWriterOfTheSameNameIsRefusedMeanwhile) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "a.png";
+    const auto write = [&](const std::string& text) {
+        return [text](const std::filesystem::path& temporary) {
+            std::ofstream(temporary) << text;
+            return Result<void>();
+        };
+    };
+    Result<void> second;
+    ASSERT_TRUE(writeAtomically(file, [&](const std::filesystem::path& temporary) {
+        second = writeAtomically(file, write("second"));
+        return write("first")(temporary);
+    }));
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message, testing::HasSubstr("another program is writing"));
+    EXPECT_EQ(contentOf(file), "first");
     EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
 }
 

@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "tests/temporary_folder.h"
 
 namespace worldy {
@@ -23,64 +20,6 @@ TEST(OutputFile, ReplacesTheOldFile) {
     ASSERT_TRUE(writeTextFile(file, "old"));
     ASSERT_TRUE(writeTextFile(file, "new"));
     EXPECT_EQ(contentOf(file), "new");
-    EXPECT_EQ(fileCountIn(folder.path()), 1u);
-}
-
-TEST(OutputFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
-    const TemporaryFolder folder;
-    const fs::path file = folder.path() / "a.txt";
-    ASSERT_TRUE(writeTextFile(file, "old"));
-    const planet::Result<void> written = writeAtomically(file, [](const fs::path& temporary) {
-        std::ofstream(temporary) << "half";
-        return planet::Result<void>(planet::ioError("disk full"));
-    });
-    EXPECT_FALSE(written);
-    EXPECT_EQ(contentOf(file), "old");
-    EXPECT_EQ(fileCountIn(folder.path()), 1u);
-}
-
-TEST(OutputFile, TheTemporaryNameKeepsTheExtension) {
-    const TemporaryFolder folder;
-    fs::path seen;
-    ASSERT_TRUE(writeAtomically(folder.path() / "a.png", [&](const fs::path& temporary) {
-        seen = temporary;
-        std::ofstream(temporary) << "x";
-        return planet::Result<void>();
-    }));
-    EXPECT_EQ(seen.extension(), ".png");
-    EXPECT_EQ(seen.parent_path(), folder.path());
-}
-
-TEST(OutputFile, WhatAKilledWriterLeftIsGoneWithTheNext) {
-    const TemporaryFolder folder;
-    const fs::path file = folder.path() / "a.png";
-    std::ofstream(folder / ".a.png.part") << "half of one that was killed";
-    std::ofstream(folder / ".a.new.png") << "half of one that was killed";
-    ASSERT_TRUE(writeAtomically(file, [](const fs::path& temporary) {
-        std::ofstream(temporary) << "new";
-        return planet::Result<void>();
-    }));
-    EXPECT_EQ(contentOf(file), "new");
-    EXPECT_EQ(fileCountIn(folder.path()), 1u);
-}
-
-TEST(OutputFile, ASecondWriterOfTheSameNameIsRefusedMeanwhile) {
-    const TemporaryFolder folder;
-    const fs::path file = folder.path() / "a.png";
-    const auto write = [&](const std::string& text) {
-        return [text](const fs::path& temporary) {
-            std::ofstream(temporary) << text;
-            return planet::Result<void>();
-        };
-    };
-    planet::Result<void> second;
-    ASSERT_TRUE(writeAtomically(file, [&](const fs::path& temporary) {
-        second = writeAtomically(file, write("second"));
-        return write("first")(temporary);
-    }));
-    ASSERT_FALSE(second);
-    EXPECT_THAT(second.error().message, testing::HasSubstr("another program is writing"));
-    EXPECT_EQ(contentOf(file), "first");
     EXPECT_EQ(fileCountIn(folder.path()), 1u);
 }
 
