@@ -266,7 +266,7 @@ void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log) {
         b.drawCpuMs = 0;
         b.drawn = {};
     }
-    for (const std::string& problem : b.planet->takeProblems()) log->error("B: {}", problem);
+    for (const std::string& problem : takeProblems(b)) log->error("B: {}", problem);
     advanceErrorMeter(*now.a.planet, now.frame, now.timeS, desk.meters[0].errors);
     advanceErrorMeter(*b.planet, now.frame, now.timeS, desk.meters[1].errors);
 }

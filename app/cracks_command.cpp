@@ -272,7 +272,7 @@ Result<bool> runCracks(const CracksOptions& options) {
     Measured all;
     if (const Result<void> done = measureAll(*offscreen, options, all); !done)
         return tl::unexpected(done.error());
-    for (const std::string& problem : offscreen->scene.planet->takeProblems())
+    for (const std::string& problem : takeProblems(offscreen->scene))
         fmt::print(stderr, "worldy: {}\n", problem);
     printTable(all);
     bool tight = totalsOf(all.views).leaking == 0;

@@ -147,11 +147,8 @@ Result<void> flyPath(const FlyOptions& options) {
         if (!frame) return tl::unexpected(frame.error());
         frames.push_back(*frame);
     }
-    for (const std::string& problem : takeLayerProblems(offscreen->scene))
+    for (const std::string& problem : takeProblems(offscreen->scene))
         fmt::print(stderr, "worldy: {}\n", problem);
-    for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
-        fmt::print(stderr, "worldy: {}\n", problem);
-    }
     printSummary(*path, frames);
     if (options.jsonOutput.empty()) return {};
     return writeTextFile(options.jsonOutput, jsonText(jsonOf(options, *path, frames)));

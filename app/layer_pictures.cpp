@@ -138,7 +138,10 @@ void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, L
     }
     std::vector<planet::gl::LayerPicture> all;
     for (const LayerTexels& texels : read) all.push_back(enlarged(texels, pictures.size).picture);
-    renderer.setLayers(all, pictures.size);
+    const Result<void> held = renderer.setLayers(all, pictures.size);
+    if (held) return;
+    for (std::string& problem : pictures.problems)
+        if (problem.empty()) problem = held.error().message;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "app/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,12 +98,15 @@ void followColours(Scene& scene) {
     const planet::gl::ColourPoolConfig wanted{colour->format, colour->leafLevel,
                                               scene.planet->colourPaging().tileCapacity};
     if (scene.colourPool != wanted) {
-        // Where there is no room for it the image or the ramp is drawn.
-        const bool made = scene.renderer.setColours(wanted).has_value();
-        if (!made) static_cast<void>(scene.renderer.setColours(std::nullopt));
+        const planet::Result<void> made = scene.renderer.setColours(wanted);
+        if (!made) {
+            scene.problems.push_back(fmt::format(
+                "The file's colours are not drawn, but an image or the ramp: {}", made.error().message));
+            static_cast<void>(scene.renderer.setColours(std::nullopt));
+        }
         scene.colourPool = wanted;
         scene.clipmap.sizePx.reset();  // it went with the pool
-        scene.drawsColours = made;
+        scene.drawsColours = made.has_value();
     }
     const std::vector<planet::TileChange> changes = scene.planet->takeColourChanges();
     if (scene.drawsColours) scene.renderer.followColours(changes);
@@ -115,10 +120,14 @@ void followNormals(Scene& scene) {
         wanted = {planet.normalLeafLevel(), planet.normalPaging().tileCapacity,
                   planet.tree().storedShape.quantumM};
     if (scene.normalPool != wanted) {
-        // Where there is no room for it the light follows the meshes.
-        scene.drawsNormals = scene.renderer.setNormals(wanted).has_value() && wanted;
-        if (!scene.drawsNormals) static_cast<void>(scene.renderer.setNormals(std::nullopt));
+        const planet::Result<void> made = scene.renderer.setNormals(wanted);
+        if (!made) {
+            scene.problems.push_back(
+                fmt::format("The light follows the meshes' normals: {}", made.error().message));
+            static_cast<void>(scene.renderer.setNormals(std::nullopt));
+        }
         scene.normalPool = wanted;
+        scene.drawsNormals = made && wanted;
     }
     const std::vector<planet::TileChange> changes = scene.planet->takeNormalChanges();
     if (scene.drawsNormals) scene.renderer.followNormals(changes);
@@ -162,11 +171,10 @@ planet::ViewInput viewInputOf(const planet::View& view, const ui::ViewSettings& 
             normalSettingsOf(settings)};
 }
 
-void beginFrame(Scene& scene, const ui::ViewSettings& settings) {
-    const ui::SurfaceSettings& surface = settings.surface;
-    const bool drawn = surface.sea && surface.lighting && !settings.overlay.cube &&
-                       planet::gl::isUsed(surface.light.sea.use, scene.renderer.capabilities().software);
-    scene.seaSurfaceM = drawn ? std::optional(surface.seaLevelM * surface.exaggeration) : std::nullopt;
+void beginFrame(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
+    const planet::gl::RenderSettings render = renderSettingsOf(settings, lodView, scene.planet->tree());
+    scene.seaSurfaceM =
+        scene.renderer.drawsSeaSurface(render) ? std::optional(render.seaLevelM) : std::nullopt;
     scene.clipmap.filledTexels = 0;
     scene.drawCpuMs = 0;
     scene.drawn = {};
@@ -185,8 +193,12 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
     scene.identity = std::make_shared<const int>(0);
     scene.exaggeration = settings.surface.exaggeration;
     if (config.colour) {
-        scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
-        scene.hasColourImage = true;
+        const planet::Result<void> made =
+            scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
+        if (!made)
+            scene.problems.push_back(
+                fmt::format("A ramp of colours is drawn instead of the image: {}", made.error().message));
+        scene.hasColourImage = made.has_value();
     }
     // Only now it is known who draws; what is refused is told of when settings are next applied.
     if (auto applied = applyPaging(scene, pagingSettingsOf(settings, false, std::nullopt, drawsByCpu(scene)));
@@ -295,7 +307,7 @@ namespace {
 
 void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet::ViewInput> views,
           std::optional<double> elapsedS) {
-    beginFrame(scene, settings);
+    beginFrame(scene, views.front().lodView, settings);
     if (elapsedS)
         scene.planet->step(views, uploadInto(scene.renderer), *elapsedS);
     else
@@ -347,13 +359,18 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     scene.drawn.shadowsMs += counters.shadowsMs;
 }
 
-std::vector<std::string> takeLayerProblems(Scene& scene) {
-    return std::exchange(scene.layers.untold, {});
+std::vector<std::string> takeProblems(Scene& scene) {
+    std::vector<std::string> problems = std::exchange(scene.problems, {});
+    for (std::vector<std::string>& more :
+         std::array{std::exchange(scene.layers.untold, {}), scene.renderer.takeProblems(),
+                    scene.planet->takeProblems()})
+        problems.insert(problems.end(), more.begin(), more.end());
+    return problems;
 }
 
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked, double timeoutS) {
     const ui::ViewSettings settings = afforded(scene, asked);
-    beginFrame(scene, settings);
+    beginFrame(scene, lodView, settings);
     const planet::ViewInput only = viewInputOf(lodView, settings);
     return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
 }

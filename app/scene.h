@@ -37,6 +37,7 @@ struct Scene {
     bool drawsNormals = false;
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
+    std::vector<std::string> problems{};  // not yet told
     LayerPictures layers{};               // read when they are first drawn
     ui::TurnedDown turnedDown{};          // of what is Automatic; by the window's own measuring
     std::optional<double> seaSurfaceM{};  // above the radius, where it is drawn as water
@@ -92,8 +93,9 @@ planet::UploadChunk uploadInto(Scene& scene);
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
                std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {});
 
-// What is wrong with the texture layers that were drawn, each once.
-std::vector<std::string> takeLayerProblems(Scene& scene);
+// What has gone wrong since this was asked last, each once: blocks that could not be read, layers without
+// their textures, what the context has no memory for.
+std::vector<std::string> takeProblems(Scene& scene);
 
 // The same for any chunks whose slots hold them.
 void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,

@@ -173,8 +173,7 @@ void advanceEstimate(SessionEstimate& estimate) {
 
 void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
     if (!open) return;
-    for (const std::string& problem : takeLayerProblems(open->scene)) log->error("{}", problem);
-    for (const std::string& problem : open->scene.planet->takeProblems()) log->error("{}", problem);
+    for (const std::string& problem : takeProblems(open->scene)) log->error("{}", problem);
 }
 
 fs::file_time_type newestIn(const fs::path& folder) {

@@ -72,12 +72,10 @@ Result<void> takeShot(const ShotOptions& options) {
     }
     if (!view.settled)
         fmt::print(stderr, "worldy: not everything was loaded in time; the picture may be coarse\n");
-    for (const std::string& problem : offscreen->scene.planet->takeProblems()) {
+    const Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view);
+    for (const std::string& problem : takeProblems(offscreen->scene))
         fmt::print(stderr, "worldy: {}\n", problem);
-    }
-    if (Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view); !drawn) return drawn;
-    for (const std::string& problem : takeLayerProblems(offscreen->scene))
-        fmt::print(stderr, "worldy: {}\n", problem);
+    if (!drawn) return drawn;
     if (Result<void> written = writeShot(readPicture(*offscreen), view.pose, options); !written)
         return written;
     printReport(*offscreen, view, options);

@@ -1,11 +1,16 @@
 #include "planet/gl/air_textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <utility>
+
+#include "planet/gl/gpu_memory.h"
 
 namespace planet::gl {
 
@@ -82,33 +87,57 @@ AirUniforms airUniforms(const AirTables& tables, const AirDrawing& drawing, cons
 
 AirTextures::AirTextures() : frame_(makeBuffer()) {}
 
+// They are the same for every planet, so that one that takes another's place need not wait for them.
 AirTextures::Made AirTextures::made(const AirSettings& settings) {
+    static std::mutex guard;
+    static std::optional<Made> last;
+    {
+        const std::lock_guard lock(guard);
+        if (last && last->settings == settings) return *last;
+    }
     const auto start = std::chrono::steady_clock::now();
     Made made{settings, makeAirTables(atmosphereOf(settings)), 0};
     made.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const std::lock_guard lock(guard);
+    last = made;
     return made;
 }
 
-void AirTextures::take(Made&& made) {
+Result<void> AirTextures::take(Made&& made) {
+    Texture transmittance, glow, sky;
+    const bool fit = hasRoomFor([&] {
+        transmittance = uploaded(GL_TEXTURE_2D, made.tables.transmittance);
+        glow = uploaded(GL_TEXTURE_2D_ARRAY, made.tables.glow);
+        sky = uploaded(GL_TEXTURE_3D, made.tables.sky);
+    });
+    if (!fit) {
+        refused_ = made.settings;
+        return badInput(fmt::format("this OpenGL context has no memory for {} KB of its tables",
+                                    made.tables.bytesOnGpu() / 1000));
+    }
+    refused_.reset();
     settings_ = made.settings;
     tables_ = std::move(made.tables);
-    transmittance_ = uploaded(GL_TEXTURE_2D, tables_.transmittance);
-    glow_ = uploaded(GL_TEXTURE_2D_ARRAY, tables_.glow);
-    sky_ = uploaded(GL_TEXTURE_3D, tables_.sky);
+    transmittance_ = std::move(transmittance);
+    glow_ = std::move(glow);
+    sky_ = std::move(sky);
     figures_.tablesMs = made.ms;
     figures_.tableBytes = tables_.bytesOnGpu();
+    return {};
 }
 
-void AirTextures::follow(const AirSettings& settings, bool inBackground) {
+Result<void> AirTextures::follow(const AirSettings& settings, bool inBackground) {
+    Result<void> followed;
     if (next_.valid() &&
         (!inBackground || next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready))
-        take(next_.get());
-    const bool current = transmittance_.name() != 0 && settings_ == settings;
-    if (!current && transmittance_.name() != 0 && inBackground && !next_.valid())
+        followed = take(next_.get());
+    const bool done = refused_ == settings || (exist() && settings_ == settings);
+    if (!done && exist() && inBackground && !next_.valid())
         next_ = std::async(std::launch::async, made, settings);
-    else if (!current && !next_.valid())
-        take(made(settings));
+    else if (!done && !next_.valid())
+        followed = take(made(settings));
     figures_.working = next_.valid();
+    return followed;
 }
 
 void AirTextures::bind(const AirDrawing& drawing, const glm::dvec3& eyeM, double radiusM,

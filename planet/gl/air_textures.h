@@ -6,10 +6,12 @@
 #include <future>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 
 #include "planet/atmosphere.h"
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/light_drawing.h"
+#include "planet/result.h"
 
 namespace planet::gl {
 
@@ -28,8 +30,11 @@ public:
     AirTextures();
 
     // The tables for these settings. Where others are there and it may be done in the background, those stay
-    // until the new ones have come; else it waits.
-    void follow(const AirSettings& settings, bool inBackground);
+    // until the new ones have come; else it waits. The Error, once: the context has no memory for them, and
+    // what there was stays.
+    Result<void> follow(const AirSettings& settings, bool inBackground);
+    // Whether there is anything to bind.
+    bool exist() const { return transmittance_.name() != 0; }
 
     // To the uniform block and the texture units below.
     void bind(const AirDrawing& drawing, const glm::dvec3& eyeM, double radiusM, const glm::dvec3& sun) const;
@@ -45,10 +50,11 @@ private:
         double ms = 0;
     };
     static Made made(const AirSettings& settings);
-    void take(Made&& made);
+    Result<void> take(Made&& made);
 
     AirTables tables_;
-    AirSettings settings_;  // of the tables
+    AirSettings settings_;                // of the tables
+    std::optional<AirSettings> refused_;  // for whose tables there was no memory
     AirFigures figures_;
     Texture transmittance_, glow_, sky_;
     Buffer frame_;

@@ -10,24 +10,25 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "planet/gl/air_textures.h"
 #include "planet/gl/chunk_grid.h"
+#include "planet/gl/chunk_instances.h"
+#include "planet/gl/chunk_programs.h"
 #include "planet/gl/colour_clipmap.h"
 #include "planet/gl/colour_image.h"
 #include "planet/gl/detail_noise.h"
 #include "planet/gl/frame_uniforms.h"
 #include "planet/gl/gl_objects.h"
+#include "planet/gl/gpu_memory.h"
 #include "planet/gl/gpu_timer.h"
 #include "planet/gl/height_pool.h"
 #include "planet/gl/keep_framebuffers.h"
 #include "planet/gl/layer_textures.h"
 #include "planet/gl/layer_uniforms.h"
 #include "planet/gl/sea_uniforms.h"
-#include "planet/gl/shader_source.h"
 #include "planet/gl/shadow_maps.h"
 #include "planet/gl/shadow_uniforms.h"
 #include "planet/gl/software_renderer.h"
@@ -37,142 +38,7 @@ namespace planet::gl {
 
 namespace {
 
-constexpr auto chunkVertexFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
-constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "water.glsl", "sea.glsl",
-     "shadows.glsl", "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl", "colour_clipmap.glsl",
-     "normal_tiles.glsl", "chunk.frag"});
-constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
-constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
-constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
-                                                              "tone.glsl", "sky.frag"};
-constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
-constexpr std::array<std::string_view, 2> faceImageFragmentFiles = {"water.glsl", "face_image.frag"};
-constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
-constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
-
-// Uniform blocks. The air's is 5 (air_textures.cpp).
-constexpr GLuint frameBinding = 0;
-constexpr GLuint layersBinding = 4;
-constexpr GLuint seaBinding = 6;
-constexpr GLuint shadowsBinding = 7;
-constexpr GLuint clipmapBinding = 12;
-// Texture units. The air's are 10 to 12.
-constexpr GLint heightUnit = 0;
-constexpr GLint imageUnit = 1;
-constexpr GLint noiseUnit = 2;
-constexpr GLint tilesUnit = 3;
-constexpr GLint pagesUnit = 4;
-constexpr GLint rootsUnit = 5;
-constexpr GLint clipmapStackUnit = tilesUnit;  // drawn from in place of the tiles
-constexpr GLint clipmapBaseUnit = 6;
-constexpr GLint shadowsUnit = 7;
-constexpr GLint layerAlbedoUnit = 8;
-constexpr GLint layerSurfaceUnit = 9;
-constexpr GLint normalTilesUnit = 13;
-constexpr GLint normalPagesUnit = 14;
-constexpr GLint normalRootsUnit = 15;
 constexpr int checkerSize = 64;  // until pictures are given
-
-// One drawn chunk, as shaders/chunk.vert reads it.
-struct Instance {
-    std::uint32_t faceAndLevel = 0;  // face + 8 level
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-    std::uint32_t slot = 0;                         // packedPlace
-    std::array<std::uint32_t, edgeCount> beside{};  // packedPlace of the neighbours, west to north, or noSlot
-    float skirtDepthM = 0;
-    float morph = 0;
-    std::array<std::uint8_t, 4> tint{};  // sRGB and strength
-    std::array<std::uint8_t, edgeCount> coarserBy{};
-    std::array<float, edgeCount> edgeMorph{};
-};
-static_assert(sizeof(Instance) == 64);
-constexpr std::uint32_t noSlot = ~std::uint32_t{0};
-
-struct Programs {
-    ShaderText chunkVertex, chunkFragment, depthFragment;
-    std::unordered_map<int, Program> chunk;  // by variant; those that were drawn with
-    std::unordered_map<int, Program> depth;  // likewise, for shadows
-    Program sky, physicalSky, faceImage, clipmapFill;
-};
-
-void connect(const Program& program) {
-    constexpr auto blocks = std::to_array<std::pair<const char*, GLuint>>({{"Frame", frameBinding},
-                                                                           {"Layers", layersBinding},
-                                                                           {"Clipmap", clipmapBinding},
-                                                                           {"Sea", seaBinding},
-                                                                           {"Shadows", shadowsBinding}});
-    for (const auto& [name, binding] : blocks) {
-        const GLuint block = glGetUniformBlockIndex(program.name(), name);
-        if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
-    }
-    constexpr auto samplers =
-        std::to_array<std::pair<const char*, GLint>>({{"heightPool", heightUnit},
-                                                      {"colourImage", imageUnit},
-                                                      {"detailNoise", noiseUnit},
-                                                      {"colourTiles", tilesUnit},
-                                                      {"colourPages", pagesUnit},
-                                                      {"colourRoots", rootsUnit},
-                                                      {"clipmapStack", clipmapStackUnit},
-                                                      {"clipmapBase", clipmapBaseUnit},
-                                                      {"shadowMaps", shadowsUnit},
-                                                      {"layerAlbedo", layerAlbedoUnit},
-                                                      {"layerSurface", layerSurfaceUnit},
-                                                      {"normalTiles", normalTilesUnit},
-                                                      {"normalPages", normalPagesUnit},
-                                                      {"normalRoots", normalRootsUnit}});
-    glUseProgram(program.name());
-    for (const auto& [name, unit] : samplers) glUniform1i(glGetUniformLocation(program.name(), name), unit);
-    glUseProgram(0);
-    AirTextures::connect(program.name());
-}
-
-Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
-                             ShaderFiles fragmentFiles, int variant = 0) {
-    const Result<ShaderText> vertex = readShader(folder, vertexFiles);
-    if (!vertex) return tl::unexpected(vertex.error());
-    const Result<ShaderText> fragment = readShader(folder, fragmentFiles);
-    if (!fragment) return tl::unexpected(fragment.error());
-    Result<Program> program = linkProgram(*vertex, *fragment, variant);
-    if (program) connect(*program);
-    return program;
-}
-
-// With chunk programs for the variants given. All of them see the whole text, so that when one compiles,
-// others will later.
-Result<Programs> buildPrograms(const std::filesystem::path& folder, const std::vector<int>& variants) {
-    Result<ShaderText> vertex = readShader(folder, chunkVertexFiles);
-    if (!vertex) return tl::unexpected(vertex.error());
-    Result<ShaderText> fragment = readShader(folder, chunkFragmentFiles);
-    if (!fragment) return tl::unexpected(fragment.error());
-    Result<ShaderText> depthFragment = readShader(folder, depthFragmentFiles);
-    if (!depthFragment) return tl::unexpected(depthFragment.error());
-    Programs programs;
-    for (const int variant : variants) {
-        Result<Program> chunk = linkProgram(*vertex, *fragment, variant);
-        if (!chunk) return tl::unexpected(chunk.error());
-        connect(*chunk);
-        programs.chunk[variant] = std::move(*chunk);
-    }
-    Result<Program> sky = buildProgram(folder, skyVertexFiles, skyFragmentFiles);
-    if (!sky) return tl::unexpected(sky.error());
-    Result<Program> physicalSky = buildProgram(folder, skyVertexFiles, skyFragmentFiles, switchPhysicalAir);
-    if (!physicalSky) return tl::unexpected(physicalSky.error());
-    Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
-    if (!faceImage) return tl::unexpected(faceImage.error());
-    Result<Program> clipmapFill = buildProgram(folder, clipmapVertexFiles, clipmapFragmentFiles);
-    if (!clipmapFill) return tl::unexpected(clipmapFill.error());
-    programs.chunkVertex = std::move(*vertex);
-    programs.chunkFragment = std::move(*fragment);
-    programs.depthFragment = std::move(*depthFragment);
-    programs.sky = std::move(*sky);
-    programs.physicalSky = std::move(*physicalSky);
-    programs.faceImage = std::move(*faceImage);
-    programs.clipmapFill = std::move(*clipmapFill);
-    return programs;
-}
 
 Result<void> checkContext() {
     const int version = epoxy_gl_version();
@@ -202,46 +68,6 @@ bool boundDepthIsFloat() {
     glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
                                           GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
     return type == GL_FLOAT;
-}
-
-// Slots of drawn chunks, to find those beside a chunk.
-using DrawnSlots = std::unordered_map<std::uint64_t, std::uint32_t>;
-
-// The chunk's neighbours of its own level on its own face, as far as they are drawn.
-std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const ChunkId& id) {
-    const std::uint32_t last = (1u << id.level) - 1;
-    const auto slotAt = [&](bool onFace, std::uint32_t x, std::uint32_t y) {
-        if (!onFace) return noSlot;
-        const auto found = drawn.find(keyOf({id.face, id.level, x, y}));
-        return found == drawn.end() ? noSlot : found->second;
-    };
-    return {slotAt(id.x > 0, id.x - 1, id.y), slotAt(id.x < last, id.x + 1, id.y),
-            slotAt(id.y > 0, id.x, id.y - 1), slotAt(id.y < last, id.x, id.y + 1)};
-}
-
-// Without the slots and the tint.
-Instance instanceOf(const DrawItem& item, bool stitched) {
-    Instance instance;
-    instance.faceAndLevel = static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level;
-    instance.x = item.id.x;
-    instance.y = item.id.y;
-    instance.skirtDepthM = item.skirtDepthM;
-    instance.morph = item.morph;
-    instance.edgeMorph = item.edgeMorph;
-    if (stitched) instance.coarserBy = item.coarserBy;
-    return instance;
-}
-
-// The switches for what vertices do beside standing where their heights say.
-int slidingSwitches(std::span<const DrawItem> items, bool stitched) {
-    const auto anyOver0 = [](const auto& values) {
-        return std::any_of(values.begin(), values.end(), [](auto value) { return value > 0; });
-    };
-    const auto morphs = [&](const DrawItem& item) { return item.morph > 0 || anyOver0(item.edgeMorph); };
-    if (std::any_of(items.begin(), items.end(), morphs))
-        return switchSlide | switchMorph | (stitched ? switchGather : 0);
-    const auto moves = [&](const DrawItem& item) { return anyOver0(item.coarserBy); };
-    return stitched && std::any_of(items.begin(), items.end(), moves) ? switchSlide : 0;
 }
 
 // Light and air are worked out at vertices where cells are small beside their distance, so that air is all
@@ -278,7 +104,7 @@ struct ChunkRenderer::State {
     Projection projection;
     HeightPool pool;
     std::vector<std::int16_t> highestSteps;  // of each slot
-    Programs programs;
+    ChunkPrograms programs;
     Program capture;  // made when first asked for, for one variant
     int captureVariant = 0;
     Texture noise;
@@ -286,8 +112,7 @@ struct ChunkRenderer::State {
     Buffer gridVertices, gridIndices, instances, frame, layersFrame, clipmapFrame, seaFrame, shadowsFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
-    std::vector<Instance> instanceData;
-    DrawnSlots drawnSlots;
+    ChunkInstances instanceData;
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     ColourImage image;
@@ -300,20 +125,20 @@ struct ChunkRenderer::State {
     bool airInBackground = false;
     std::optional<ShadowMaps> shadows;  // while they are drawn
     int shadowsAskedPx = 0;             // the maps' size that was last asked for; 0: none are drawn
+    std::vector<std::string> problems;  // not yet told
     FrameUniforms uniforms{};           // as last filled
     GpuTimer chunksTimer, skyTimer, shadowsTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
-    State(const RendererConfig& from, HeightPool heightPool, Programs built);
+    State(const RendererConfig& from, HeightPool heightPool, ChunkPrograms built, LayerTextures checker);
     void makeGrid();
     void describeVertices();
     double highestRadiusM(std::span<const DrawItem> items) const;
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
     int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                       bool tinted, int more = 0) const;
-    bool airIsPhysical(const RenderSettings& settings) const;
-    const Program& chunkProgram(int variant);
-    const Program& depthProgram(int variant);
+    bool wantsPhysicalAir(const RenderSettings& settings) const;
+    bool airIsPhysical(const RenderSettings& settings) const;  // and there are tables for it
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched,
                        std::span<const DrawItem> shadowCasters = {});
     bool drawsShadows(const RenderSettings& settings) const;
@@ -331,7 +156,8 @@ struct ChunkRenderer::State {
     void drawSky(const Program& program) const;
 };
 
-ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, Programs built)
+ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, ChunkPrograms built,
+                            LayerTextures checker)
     : config(from),
       capabilities(findCapabilities()),
       pool(std::move(heightPool)),
@@ -348,7 +174,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, P
       clipmapFrame(makeBuffer()),
       seaFrame(makeBuffer()),
       shadowsFrame(makeBuffer()),
-      layers({}, checkerSize) {
+      layers(std::move(checker)) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
     makeGrid();
@@ -373,16 +199,16 @@ void ChunkRenderer::State::makeGrid() {
 }
 
 void ChunkRenderer::State::describeVertices() {
-    constexpr GLsizei stride = sizeof(Instance);
+    constexpr GLsizei stride = sizeof(ChunkInstance);
     glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
     glVertexAttribIPointer(0, 4, GL_UNSIGNED_BYTE, sizeof(GridVertex), nullptr);
     glBindBuffer(GL_ARRAY_BUFFER, instances.name());
-    glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, faceAndLevel)));
-    glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(Instance, beside)));
-    glVertexAttribPointer(3, 2, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, skirtDepthM)));
-    glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(Instance, tint)));
-    glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(Instance, edgeMorph)));
-    glVertexAttribIPointer(6, 4, GL_UNSIGNED_BYTE, stride, byteOffset(offsetof(Instance, coarserBy)));
+    glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, faceAndLevel)));
+    glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, beside)));
+    glVertexAttribPointer(3, 2, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, skirtDepthM)));
+    glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(ChunkInstance, tint)));
+    glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, edgeMorph)));
+    glVertexAttribIPointer(6, 4, GL_UNSIGNED_BYTE, stride, byteOffset(offsetof(ChunkInstance, coarserBy)));
     for (GLuint attribute = 0; attribute <= 6; ++attribute) glEnableVertexAttribArray(attribute);
     for (GLuint attribute = 1; attribute <= 6; ++attribute) glVertexAttribDivisor(attribute, 1);
 }
@@ -418,61 +244,26 @@ int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawIt
            slidingSwitches(items, settings.stitched);
 }
 
-bool ChunkRenderer::State::airIsPhysical(const RenderSettings& settings) const {
+bool ChunkRenderer::State::wantsPhysicalAir(const RenderSettings& settings) const {
     return settings.atmosphere && !settings.cube && isUsed(settings.light.air.use, capabilities.software);
 }
 
-// Compiled when first drawn with. The text has compiled for another variant before, so this one does; should
-// a driver think otherwise, any that did is drawn with.
-const Program& ChunkRenderer::State::chunkProgram(int variant) {
-    const auto found = programs.chunk.find(variant);
-    if (found != programs.chunk.end()) return found->second;
-    Result<Program> program = linkProgram(programs.chunkVertex, programs.chunkFragment, variant);
-    if (!program) return programs.chunk.begin()->second;
-    connect(*program);
-    return programs.chunk.emplace(variant, std::move(*program)).first->second;
-}
-
-// As chunkProgram; none where a driver will not have it.
-const Program& ChunkRenderer::State::depthProgram(int variant) {
-    const int shape = variant & (switchSlide | switchMorph | switchGather | switchSeaSurface);
-    const auto found = programs.depth.find(shape);
-    if (found != programs.depth.end()) return found->second;
-    Program& made = programs.depth[shape];
-    if (Result<Program> program = linkProgram(programs.chunkVertex, programs.depthFragment, shape)) {
-        connect(*program);
-        made = std::move(*program);
-    }
-    return made;
+bool ChunkRenderer::State::airIsPhysical(const RenderSettings& settings) const {
+    return wantsPhysicalAir(settings) && air.exist();
 }
 
 void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints,
                                          bool stitched, std::span<const DrawItem> shadowCasters) {
-    assert(tints.empty() || tints.size() == items.size());
-    drawnSlots.clear();
-    for (const DrawItem& item : items) {
-        assert(item.slot < pool.slotCapacity());
-        drawnSlots[keyOf(item.id)] = packedPlace(pool.layout(), item.slot);
-    }
-    instanceData.clear();
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        instanceData.push_back(instanceOf(items[i], stitched));
-        Instance& instance = instanceData.back();
-        instance.slot = packedPlace(pool.layout(), items[i].slot);
-        instance.beside = slotsBeside(drawnSlots, items[i].id);
-        if (!tints.empty()) instance.tint = tints[i].rgba;
-    }
-    for (const DrawItem& item : shadowCasters) {
-        instanceData.push_back(instanceOf(item, stitched));
-        instanceData.back().slot = packedPlace(pool.layout(), item.slot);
-        instanceData.back().beside.fill(noSlot);
-    }
+    assert(std::all_of(items.begin(), items.end(),
+                       [&](const DrawItem& item) { return item.slot < pool.slotCapacity(); }));
+    instanceData.fill(pool.layout(), items, tints, stitched, shadowCasters);
+    const std::span<const ChunkInstance> filled = instanceData.all();
     // A new store each frame, so that the GPU may still read the last one's.
-    const std::size_t needed = instanceData.size() * sizeof(Instance);
+    const std::size_t needed = filled.size_bytes();
     while (instanceBytes < needed) instanceBytes = std::max<std::size_t>(2 * instanceBytes, 4096);
     glBindBuffer(GL_ARRAY_BUFFER, instances.name());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instanceBytes), nullptr, GL_STREAM_DRAW);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(needed), instanceData.data());
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(needed), filled.data());
 }
 
 void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
@@ -493,8 +284,10 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
     const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.exaggeration);
     glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
+    if (!wantsPhysicalAir(settings)) return;
+    if (const Result<void> followed = air.follow(settings.light.air.settings, airInBackground); !followed)
+        problems.push_back(fmt::format("The air is not drawn as it is set: {}", followed.error().message));
     if (!airIsPhysical(settings)) return;
-    air.follow(settings.light.air.settings, airInBackground);
     air.bind(settings.light.air, view.eyeM, config.shape.radiusM, glm::normalize(settings.sunDirection));
 }
 
@@ -590,7 +383,10 @@ bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::s
     if (shadowsAskedPx != wanted.mapSizePx) {
         shadows.reset();
         shadowsAskedPx = wanted.mapSizePx;
-        if (Result<ShadowMaps> made = ShadowMaps::create(wanted.mapSizePx)) shadows = std::move(*made);
+        if (Result<ShadowMaps> made = ShadowMaps::create(wanted.mapSizePx))
+            shadows = std::move(*made);
+        else
+            problems.push_back(fmt::format("No shadows are drawn: {}", made.error().message));
     }
     return shadows.has_value();
 }
@@ -607,7 +403,7 @@ void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawIte
     const ShadowUniforms told = shadowUniforms(cascades, settings.light.shadows.softness, shadows->sizePx());
     glBindBuffer(GL_UNIFORM_BUFFER, shadowsFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(told), &told, GL_STREAM_DRAW);
-    const Program& program = depthProgram(variant);
+    const Program& program = programs.depth(variant);
     const KeepFramebuffers keep;
     glUseProgram(program.name());
     glBindVertexArray(chunkArray.name());
@@ -619,7 +415,7 @@ void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawIte
         shadows->begin(i);
         if (program.name() != 0)
             glDrawElementsInstanced(GL_TRIANGLES, gridIndexCount, GL_UNSIGNED_SHORT, nullptr,
-                                    static_cast<GLsizei>(instanceData.size()));
+                                    static_cast<GLsizei>(instanceData.all().size()));
     }
     ShadowMaps::end();
     glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
@@ -657,9 +453,16 @@ Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
     if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
     Result<HeightPool> pool = HeightPool::create(config.slotCapacity, chunkSize(config.shape));
     if (!pool) return tl::unexpected(pool.error());
-    Result<Programs> programs = buildPrograms(config.shaderFolder, {0});
+    Result<ChunkPrograms> programs = ChunkPrograms::build(config.shaderFolder, std::array{0});
     if (!programs) return tl::unexpected(programs.error());
-    return ChunkRenderer(std::make_unique<State>(config, std::move(*pool), std::move(*programs)));
+    Result<LayerTextures> checker = LayerTextures::create({}, checkerSize);
+    if (!checker) return tl::unexpected(checker.error());
+    std::unique_ptr<State> state;
+    const bool made = hasRoomFor([&] {
+        state = std::make_unique<State>(config, std::move(*pool), std::move(*programs), std::move(*checker));
+    });
+    if (!made) return badInput("this OpenGL context has no memory for what chunks are drawn with");
+    return ChunkRenderer(std::move(state));
 }
 
 ChunkRenderer::ChunkRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -687,8 +490,9 @@ void ChunkRenderer::setShape(const PlanetShape& shape) {
     state_->config.shape = shape;
 }
 
-void ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
-    state_->image = ColourImage(rgb, width, height, state_->programs.faceImage.name());
+Result<void> ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
+    return ColourImage::create(rgb, width, height, state_->programs.faceImage().name())
+        .map([this](ColourImage image) { state_->image = std::move(image); });
 }
 
 Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& config) {
@@ -722,7 +526,7 @@ Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finest
     State& state = *state_;
     assert(state.clipmap);
     Result<void> moved =
-        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs.clipmapFill.name());
+        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs.clipmapFill().name());
     if (!moved) {
         state.clipmap.reset();
         return moved;
@@ -750,8 +554,10 @@ void ChunkRenderer::followNormals(std::span<const TileChange> changes) {
     if (state_->normals) state_->normals->follow(changes);
 }
 
-void ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
-    state_->layers = LayerTextures(pictures, size);
+Result<void> ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
+    return LayerTextures::create(pictures, size).map([this](LayerTextures layers) {
+        state_->layers = std::move(layers);
+    });
 }
 
 void ChunkRenderer::setAirInBackground(bool inBackground) {
@@ -759,9 +565,8 @@ void ChunkRenderer::setAirInBackground(bool inBackground) {
 }
 
 Result<void> ChunkRenderer::reloadShaders() {
-    std::vector<int> variants;
-    for (const auto& [variant, program] : state_->programs.chunk) variants.push_back(variant);
-    Result<Programs> programs = buildPrograms(state_->config.shaderFolder, variants);
+    Result<ChunkPrograms> programs =
+        ChunkPrograms::build(state_->config.shaderFolder, state_->programs.variants());
     if (!programs) return tl::unexpected(programs.error());
     state_->programs = std::move(*programs);
     state_->capture = Program();
@@ -791,10 +596,10 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     glClearColor(0, 0, 0, 1);
     state.beginDepth();
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    state.drawChunks(items, settings, state.chunkProgram(variant));
+    state.drawChunks(items, settings, state.programs.chunk(variant));
     state.chunksTimer.end();
     state.skyTimer.begin();
-    state.drawSky(state.airIsPhysical(settings) ? state.programs.physicalSky : state.programs.sky);
+    state.drawSky(state.programs.sky(state.airIsPhysical(settings)));
     state.skyTimer.end();
     state.endDepth();
     glBindVertexArray(0);
@@ -813,10 +618,8 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
     const int variant = state.chooseVariant(view, items, settings, false) & ~switchSeaSurface;
     if (state.capture.name() == 0 || state.captureVariant != variant) {
         const std::array<const char*, 1> captured = {"surface"};
-        Result<Program> program =
-            linkProgram(state.programs.chunkVertex, state.programs.chunkFragment, variant, captured);
+        Result<Program> program = state.programs.capturing(variant, captured);
         if (!program) return tl::unexpected(program.error());
-        connect(*program);
         state.capture = std::move(*program);
         state.captureVariant = variant;
     }
@@ -829,7 +632,11 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
     const auto bytes = static_cast<GLsizeiptr>(surface.size() * sizeof(glm::vec3));
     const Buffer out = makeBuffer();
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, out.name());
-    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ);
+    if (!hasRoomFor([&] { glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ); })) {
+        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+        return badInput(
+            fmt::format("this OpenGL context has no memory for the vertices of {} chunks", items.size()));
+    }
     glUseProgram(state.capture.name());
     glBindVertexArray(state.chunkArray.name());
     glEnable(GL_RASTERIZER_DISCARD);
@@ -846,6 +653,14 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
 
 bool ChunkRenderer::drawsShadows(const RenderSettings& settings) const {
     return state_->drawsShadows(settings);
+}
+
+bool ChunkRenderer::drawsSeaSurface(const RenderSettings& settings) const {
+    return isSeaSurfaceDrawn(settings, state_->capabilities.software);
+}
+
+std::vector<std::string> ChunkRenderer::takeProblems() {
+    return std::exchange(state_->problems, {});
 }
 
 const Projection& ChunkRenderer::projection() const {

@@ -140,8 +140,9 @@ public:
     void upload(std::uint32_t slot, std::span<const std::int16_t> heights);
 
     // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Keeps what is
-    // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off.
-    void setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
+    // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off. On an Error
+    // what there was stays.
+    Result<void> setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
     // A pool for the planet's own colours, which then take the image's place; none: the image again. Follow
     // with all of Planet::takeColourChanges() since beginColoursAnew() or the planet's opening. On an Error
@@ -164,8 +165,9 @@ public:
     Result<void> setNormals(const std::optional<NormalPoolConfig>& config);
     void followNormals(std::span<const TileChange> changes);
 
-    // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096].
-    void setLayers(std::span<const LayerPicture> pictures, int size);
+    // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096]. On an
+    // Error those that there were stay.
+    Result<void> setLayers(std::span<const LayerPicture> pictures, int size);
 
     // Tables of the physical atmosphere that follow a change of its settings: made in the background while
     // the last ones are drawn with, for windows; or, as from the start, waited for.
@@ -186,8 +188,11 @@ public:
     // looked at where drawsShadows() says no.
     void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
               std::span<const ChunkTint> tints = {}, std::span<const DrawItem> shadowCasters = {});
-    // Whether the ground's shadows would be drawn.
+    // Whether the ground's shadows, or the sea's surface, would be drawn.
     bool drawsShadows(const RenderSettings& settings) const;
+    bool drawsSeaSurface(const RenderSettings& settings) const;
+    // What could not be drawn as the settings say since this was asked last, each once.
+    std::vector<std::string> takeProblems();
 
     // How the last draw's depths come to be, for turning them into metres.
     const Projection& projection() const;

@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "planet/gl/gpu_memory.h"
+
 namespace planet::gl {
 
 namespace {
@@ -22,7 +24,6 @@ Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
-    while (glGetError() != GL_NO_ERROR) continue;  // so that what follows is the allocation's own
     Texture texture = makeTexture();
     bool made = std::max(size.x, size.y) <= largest && layers <= most;
     if (made) {
@@ -34,9 +35,10 @@ Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float
         glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
         if (anisotropy > 1) glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
-        glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_SRGB8_ALPHA8, size.x, size.y, layers, 0, GL_RGBA,
-                     GL_UNSIGNED_BYTE, nullptr);
-        made = glGetError() == GL_NO_ERROR;
+        made = hasRoomFor([&] {
+            glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_SRGB8_ALPHA8, size.x, size.y, layers, 0, GL_RGBA,
+                         GL_UNSIGNED_BYTE, nullptr);
+        });
     }
     if (made) return texture;
     return badInput(

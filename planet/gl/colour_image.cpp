@@ -1,5 +1,7 @@
 #include "planet/gl/colour_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "planet/cube_sphere.h"
+#include "planet/gl/gpu_memory.h"
 #include "planet/gl/software_renderer.h"
 
 namespace planet::gl {
@@ -108,8 +111,18 @@ void drawFaces(GLuint program, GLuint faces, int size) {
 
 }  // namespace
 
-ColourImage::ColourImage(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram)
-    : texture_(makeTexture()) {
+Result<ColourImage> ColourImage::create(std::span<const std::uint8_t> rgb, int width, int height,
+                                        GLuint faceProgram) {
+    ColourImage image;
+    const bool made = hasRoomFor([&] { image.fill(rgb, width, height, faceProgram); });
+    if (made) return image;
+    return badInput(fmt::format(
+        "this OpenGL context has no memory for an image of {} x {} pixels over the planet; a smaller "
+        "one needs less",
+        width, height));
+}
+
+void ColourImage::fill(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram) {
     assert(width > 0 && height > 0 && rgb.size() == byteCount(width, height));
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -126,6 +139,7 @@ ColourImage::ColourImage(std::span<const std::uint8_t> rgb, int width, int heigh
 
     // A quarter of the way around, and a quarter more, since each texel is read through another filter.
     faceSizePx_ = std::max(width * 5 / 16, 2);
+    texture_ = makeTexture();
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, faceSizePx_, faceSizePx_, faceCount, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, nullptr);

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "planet/gl/gl_objects.h"
+#include "planet/result.h"
 
 namespace planet::gl {
 
@@ -17,8 +18,10 @@ public:
     ColourImage() = default;  // none
 
     // 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Halved until the context can hold it.
-    // Draws with the program of shaders/face_image; leaves depth test, culling, blending and scissor off.
-    ColourImage(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram);
+    // Draws with the program of shaders/face_image; leaves depth test, culling, blending and scissor off. The
+    // Error says what the context has no memory for.
+    static Result<ColourImage> create(std::span<const std::uint8_t> rgb, int width, int height,
+                                      GLuint faceProgram);
 
     bool exists() const { return texture_.name() != 0; }
     GLuint texture() const { return texture_.name(); }
@@ -26,6 +29,8 @@ public:
     std::size_t bytes() const { return bytes_; }    // mipmaps included
 
 private:
+    void fill(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram);
+
     Texture texture_;
     int faceSizePx_ = 0;
     std::size_t bytes_ = 0;

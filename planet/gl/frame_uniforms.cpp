@@ -126,6 +126,10 @@ void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUnif
                                        shape.radiusM * shape.quantumM / normals.quantumM, 0);
 }
 
+bool isSeaSurfaceDrawn(const RenderSettings& settings, bool software) {
+    return settings.lighting && !settings.cube && settings.sea && isUsed(settings.light.sea.use, software);
+}
+
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
                 const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software) {
     const bool withImage =
@@ -137,10 +141,9 @@ int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings
     const bool detail = settings.detail && settings.lighting && !settings.cube && !tinted && stepPx > 2;
     const bool fineDetail = detail && stepPx > 200;
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
-    const bool lit = settings.lighting && !settings.cube;
-    const bool seaSurface = lit && settings.sea && isUsed(settings.light.sea.use, software);
     const bool tiles = withImage && colours.streamed;
-    return (settings.lighting ? switchLighting : 0) | (seaSurface ? switchSeaSurface : 0) |
+    return (settings.lighting ? switchLighting : 0) |
+           (isSeaSurfaceDrawn(settings, software) ? switchSeaSurface : 0) |
            (settings.wireframe ? switchWireframe : 0) | (settings.cube ? switchCube : 0) |
            (withImage ? switchImage : 0) | (tiles ? switchTiles : 0) |
            (tiles && colours.fromClipmap ? switchClipmap : 0) | (settings.sea ? switchSea : 0) |

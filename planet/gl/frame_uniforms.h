@@ -88,6 +88,9 @@ struct NormalsDrawn {
 
 void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUniforms& uniforms);
 
+// Water with waves, not the bed's ground in its colour. software: what is Automatic is left off.
+bool isSeaSurfaceDrawn(const RenderSettings& settings, bool software);
+
 // The switches that follow from the settings and how near the ground is, metres. LightByVertex, Slide
 // and Morph follow from the chunks, and are left off. software: what is Automatic is left off too.
 int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "planet/gl/gpu_memory.h"
+
 namespace planet::gl {
 
 namespace {
@@ -72,14 +74,15 @@ Result<HeightPool> HeightPool::create(std::uint32_t slotCapacity, int chunkSize)
     pool.layout_ = *layout;
     pool.slotCapacity_ = slotCapacity;
     pool.texture_ = makeTexture();
-    while (glGetError() != GL_NO_ERROR) continue;  // so that what follows is the allocation's own
     glBindTexture(GL_TEXTURE_2D_ARRAY, pool.texture());
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R16I, layout->pageSize, layout->pageSize, layout->pages, 0,
-                 GL_RED_INTEGER, GL_SHORT, nullptr);
-    if (glGetError() != GL_NO_ERROR) {
+    const bool made = hasRoomFor([&] {
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R16I, layout->pageSize, layout->pageSize, layout->pages, 0,
+                     GL_RED_INTEGER, GL_SHORT, nullptr);
+    });
+    if (!made) {
         return badInput(fmt::format("OpenGL has no room for {} MB of heights; set a smaller memory budget",
                                     layout->bytes() / 1'000'000));
     }

@@ -1,10 +1,13 @@
 #include "planet/gl/layer_textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
+#include "planet/gl/gpu_memory.h"
 #include "planet/gl/software_renderer.h"
 
 namespace planet::gl {
@@ -61,7 +64,17 @@ LayerPicture checkerPicture(int size) {
     return picture;
 }
 
-LayerTextures::LayerTextures(std::span<const LayerPicture> pictures, int size) {
+Result<LayerTextures> LayerTextures::create(std::span<const LayerPicture> pictures, int size) {
+    LayerTextures textures;
+    const bool made = hasRoomFor([&] { textures.fill(pictures, size); });
+    if (made) return textures;
+    return badInput(fmt::format(
+        "this OpenGL context has no memory for {} textures of {} x {} texels; smaller ones, or fewer, "
+        "need less",
+        2 * pictures.size(), size, size));
+}
+
+void LayerTextures::fill(std::span<const LayerPicture> pictures, int size) {
     const int slices = static_cast<int>(pictures.size()) + 1;
     glActiveTexture(GL_TEXTURE0);
     albedo_ = makeArray(GL_SRGB8_ALPHA8, size, slices);

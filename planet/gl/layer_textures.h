@@ -10,6 +10,7 @@
 
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/layer_picture.h"
+#include "planet/result.h"
 
 namespace planet::gl {
 
@@ -18,8 +19,8 @@ LayerPicture checkerPicture(int size);
 
 class LayerTextures {
 public:
-    // size: a power of two, [8, 4096].
-    LayerTextures(std::span<const LayerPicture> pictures, int size);
+    // size: a power of two, [8, 4096]. The Error says what the context has no memory for.
+    static Result<LayerTextures> create(std::span<const LayerPicture> pictures, int size);
 
     GLuint albedo() const { return albedo_.name(); }
     GLuint surface() const { return surface_.name(); }
@@ -28,6 +29,9 @@ public:
     std::size_t bytes() const { return bytes_; }  // mipmaps included
 
 private:
+    LayerTextures() = default;
+    void fill(std::span<const LayerPicture> pictures, int size);
+
     Texture albedo_;
     Texture surface_;
     std::vector<glm::vec3> means_;

@@ -1,7 +1,10 @@
 #include "planet/gl/shadow_maps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "planet/gl/gpu_memory.h"
 #include "planet/gl/keep_framebuffers.h"
 
 namespace planet::gl {
@@ -13,8 +16,15 @@ Result<ShadowMaps> ShadowMaps::create(int sizePx) {
     maps.sizePx_ = std::min(sizePx, static_cast<int>(largest));
     maps.depth_ = makeTexture();
     glBindTexture(GL_TEXTURE_2D_ARRAY, maps.depth_.name());
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, maps.sizePx_, maps.sizePx_,
-                 static_cast<GLsizei>(shadowCascadeCount), 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    const bool made = hasRoomFor([&] {
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, maps.sizePx_, maps.sizePx_,
+                     static_cast<GLsizei>(shadowCascadeCount), 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    });
+    if (!made) {
+        return badInput(fmt::format(
+            "this OpenGL context has no memory for {} shadow maps of {} x {}; smaller ones need less",
+            shadowCascadeCount, maps.sizePx_, maps.sizePx_));
+    }
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 
+#include "planet/gl/gpu_memory.h"
 #include "planet/gl/software_renderer.h"
 #include "planet/normal_tile.h"
 
@@ -80,9 +81,7 @@ Result<TilePool> TilePool::make(const Texels& texels, int leafLevel, std::uint32
     pool.texels_ = texels;
     pool.leafLevel_ = leafLevel;
     pool.tileCapacity_ = tileCapacity;
-    while (glGetError() != GL_NO_ERROR) continue;  // so that what follows is the allocations' own
-    pool.allocate();
-    if (glGetError() != GL_NO_ERROR) {
+    if (!hasRoomFor([&] { pool.allocate(); })) {
         return badInput(
             fmt::format("this OpenGL context has no memory for {} {}; a smaller share of the "
                         "budget needs fewer",

@@ -83,7 +83,7 @@ protected:
         glBindBuffer(GL_UNIFORM_BUFFER, frame_.name());
         glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
-        textures_.follow(drawing_.settings, false);
+        EXPECT_TRUE(textures_.follow(drawing_.settings, false));
         textures_.bind(drawing_, eyeM, shape_.radiusM, glm::normalize(sun));
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
         glViewport(0, 0, directionsASide, directionsASide);
@@ -258,18 +258,31 @@ TEST_F(Air, ExposureIsOneNearGroundByDayLessFromSpaceMoreAtDusk) {
     EXPECT_NEAR(light(2, {0, 0, 1}), 2 * noon, 1e-5f);
 }
 
+TEST_F(Air, APlanetThatTakesAnothersPlaceNeedNotWaitForItsTables) {
+    const AirSettings hazy{.haze = 3};
+    ASSERT_TRUE(textures_.follow(hazy, false));
+    AirTextures next;
+    ASSERT_TRUE(next.follow(hazy, false));
+    EXPECT_EQ(next.figures().tablesMs, textures_.figures().tablesMs);  // not made again
+    EXPECT_EQ(next.tables().sky.texels, textures_.tables().sky.texels);
+    EXPECT_GT(next.figures().tableBytes, 0u);
+    ASSERT_TRUE(next.follow({.haze = 2}, false));
+    EXPECT_NE(next.figures().tablesMs, textures_.figures().tablesMs);
+    EXPECT_NE(next.tables().sky.texels, textures_.tables().sky.texels);
+}
+
 TEST_F(Air, InTheBackgroundTheLastTablesStayUntilNewOnesHaveCome) {
-    textures_.follow({}, true);
+    ASSERT_TRUE(textures_.follow({}, true));
     EXPECT_FALSE(textures_.figures().working);  // the first ones are waited for
     EXPECT_GT(textures_.figures().tablesMs, 0);
     EXPECT_GT(textures_.figures().tableBytes, 0u);
     const AirSettings hazy{.haze = 4};
-    textures_.follow(hazy, true);
+    ASSERT_TRUE(textures_.follow(hazy, true));
     EXPECT_TRUE(textures_.figures().working);
     EXPECT_EQ(textures_.tables().air.hazeScattered, atmosphereOf({}).hazeScattered);
     // Who cannot wait for the next frame gets them at once, whatever was on its way.
     const AirSettings clear{.haze = 0.5};
-    textures_.follow(clear, false);
+    ASSERT_TRUE(textures_.follow(clear, false));
     EXPECT_FALSE(textures_.figures().working);
     EXPECT_EQ(textures_.tables().air.hazeScattered, atmosphereOf(clear).hazeScattered);
 }

@@ -321,7 +321,7 @@ TEST_F(ChunkRendererTest, TheImageLiesWhereItsLongitudesAndLatitudesSay) {
             rgb.push_back(x < width / 2 ? 30 : 60);  // west, east
         }
     }
-    planet.renderer().setColourImage(rgb, width, height);
+    ASSERT_TRUE(planet.renderer().setColourImage(rgb, width, height));
     RenderSettings settings;
     settings.lighting = false;
     settings.atmosphere = false;
@@ -437,7 +437,7 @@ TEST_F(ChunkRendererTest, DetailShowsNearTheGroundAndMovesNothing) {
 TEST_F(ChunkRendererTest, DetailAndImageHaveNoSeamAtTheEdgesOfFaces) {
     TestPlanet planet({}, 384);
     planet.addLevel(3, ridges);
-    planet.renderer().setColourImage(imageOfStripes(512, 256), 512, 256);
+    ASSERT_TRUE(planet.renderer().setColourImage(imageOfStripes(512, 256), 512, 256));
     RenderSettings settings;
     settings.sunDirection = {1, 1.2, 0.4};
     const auto stepAcross = [](const Picture& picture, int column) {
@@ -525,12 +525,12 @@ TEST_F(ChunkRendererTest, GpuMemoryIsWhatWasAllocated) {
     EXPECT_EQ(before.textures, (64u * 64 * 64 * 8 - 1) / 7 * 4 + 2 * 4 * withMipmaps(64));
     EXPECT_EQ(before.total(), before.heightPool + before.meshes + before.textures);
     const std::vector<std::uint8_t> rgb(16 * 8 * 3, 128);
-    planet.renderer().setColourImage(rgb, 16, 8);
+    ASSERT_TRUE(planet.renderer().setColourImage(rgb, 16, 8));
     EXPECT_EQ(planet.renderer().gpuMemory().textures - before.textures,
               6u * 4u * (5 * 5 + 2 * 2 + 1));  // six faces
     const std::size_t withImage = planet.renderer().gpuMemory().textures;
     const LayerPicture picture = checkerPicture(128);
-    planet.renderer().setLayers(std::array{picture, picture}, 128);
+    ASSERT_TRUE(planet.renderer().setLayers(std::array{picture, picture}, 128));
     EXPECT_EQ(planet.renderer().gpuMemory().textures,
               withImage + 2 * 4 * (3 * withMipmaps(128) - withMipmaps(64)));
     ASSERT_TRUE(planet.renderer().setSlotCapacity(25));

@@ -72,7 +72,7 @@ TEST_F(StreamedColours, AreOfTheLevelWithATexelAPixel) {
 
 TEST_F(StreamedColours, GiveWayToTheImageWhereTheyAreNotWanted) {
     const std::vector<std::uint8_t> rgb(16 * 8 * 3, 90);
-    planet_.renderer().setColourImage(rgb, 16, 8);
+    ASSERT_TRUE(planet_.renderer().setColourImage(rgb, 16, 8));
     const glm::ivec3 image = colourFrom(1e5);
     useFormat(ColourFormat::Bc1);
     addRoots([&](const ChunkId& id) { return plainTile(id, {200, 40, 40}); });

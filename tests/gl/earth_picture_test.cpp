@@ -73,7 +73,7 @@ protected:
         int height = 0;
         const auto rgb =
             readImage<std::uint8_t>(dataFile("colour.jpg"), 3, OIIO::TypeDesc::UINT8, width, height);
-        planet_.renderer().setColourImage(rgb, width, height);
+        EXPECT_TRUE(planet_.renderer().setColourImage(rgb, width, height));
     }
 
     // The whole planet, finer near the eye: what a selection would do, without its errors and bounds.

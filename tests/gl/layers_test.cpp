@@ -78,7 +78,9 @@ protected:
         settings_.layers.pictures = {0};
     }
 
-    void use(const LayerPicture& picture) { planet_.renderer().setLayers(std::array{picture}, texelsASide); }
+    void use(const LayerPicture& picture) {
+        ASSERT_TRUE(planet_.renderer().setLayers(std::array{picture}, texelsASide));
+    }
 
     // A chunk around a place, and where its ground is there.
     glm::dvec3 addGround(const glm::dvec3& direction, const HeightFunction& height, int level = 12) {
@@ -302,7 +304,7 @@ TEST_F(Layers, TheColourBelowGoesThrough) {
 TEST_F(Layers, ABlendByHeightFollowsTheRelief) {
     const std::array<LayerPicture, 2> pictures = {plainPicture({255, 0, 0, 160}),
                                                   plainPicture({0, 0, 255, 90})};
-    planet_.renderer().setLayers(pictures, texelsASide);
+    ASSERT_TRUE(planet_.renderer().setLayers(pictures, texelsASide));
     LayerSet& set = settings_.layers.set;
     set.layers = {TextureLayer{}, TextureLayer{}};
     set.layers[1].opacity = 0.5;

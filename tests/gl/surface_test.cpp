@@ -38,7 +38,7 @@ protected:
 
     void setGreyImage(std::uint8_t value) {
         const std::vector<std::uint8_t> rgb(16 * 8 * 3, value);
-        planet_.renderer().setColourImage(rgb, 16, 8);
+        ASSERT_TRUE(planet_.renderer().setColourImage(rgb, 16, 8));
     }
 
     TestPlanet planet_;
