@@ -165,10 +165,14 @@ ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
     return settings;
 }
 
-planet::ViewInput viewInputOf(const planet::View& view, const ui::ViewSettings& settings,
+// Of tiles that there is no memory to draw from, none are wanted.
+planet::ViewInput viewInputOf(const Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
                               double priorityFactor = 1) {
-    return {view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
-            normalSettingsOf(settings)};
+    planet::ViewInput input{view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
+                            normalSettingsOf(settings)};
+    if (scene.colourPool && !scene.drawsColours) input.colours.enabled = false;
+    if (scene.normalPool && !scene.drawsNormals) input.normals.enabled = false;
+    return input;
 }
 
 void beginFrame(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
@@ -319,7 +323,7 @@ void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet
 void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked,
                std::optional<double> elapsedS) {
     const ui::ViewSettings settings = afforded(scene, asked);
-    const planet::ViewInput only = viewInputOf(lodView, settings);
+    const planet::ViewInput only = viewInputOf(scene, lodView, settings);
     step(scene, settings, std::span(&only, 1), elapsedS);
 }
 
@@ -327,7 +331,8 @@ void stepScene(Scene& scene, const planet::View& lodView, const planet::View& ob
                const ui::ViewSettings& asked, std::optional<double> elapsedS) {
     const ui::ViewSettings settings = afforded(scene, asked);
     const std::array<planet::ViewInput, 2> views = {
-        viewInputOf(lodView, settings), viewInputOf(observerView, settings, observerPriorityFactor)};
+        viewInputOf(scene, lodView, settings),
+        viewInputOf(scene, observerView, settings, observerPriorityFactor)};
     step(scene, settings, views, elapsedS);
 }
 
@@ -371,7 +376,7 @@ std::vector<std::string> takeProblems(Scene& scene) {
 bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked, double timeoutS) {
     const ui::ViewSettings settings = afforded(scene, asked);
     beginFrame(scene, lodView, settings);
-    const planet::ViewInput only = viewInputOf(lodView, settings);
+    const planet::ViewInput only = viewInputOf(scene, lodView, settings);
     return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
 }
 

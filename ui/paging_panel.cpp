@@ -416,10 +416,10 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     const std::span<const PagingRow> queue = shownQueue(state);
     if (queue.empty()) return emptyState(emptyQueueText(view, state));
     constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Children of", 1.7f},
-                                    TableColumn{"Priority", 0.9f}, TableColumn{"Age", 0.9f},
+                                    TableColumn{"Priority", 0.9f}, TableColumn{"Age", 1.15f},
                                     TableColumn{"Why", 2.4f}};
     const std::vector<TableColumn> shown = withKind(view, columns, 1);
-    if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 30 : 26)) return;
+    if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 31 : 27)) return;
     tableRows(queue.size(), [&](std::size_t at) {
         const PagingRow& row = queue[at];
         const double ageS = std::max(view.planet->seconds() - row.askedAtS, 0.0);

@@ -45,6 +45,7 @@ std::string badDiskText(const planet::BadDiskSettings& disk) {
 }
 
 std::string latencyText(double seconds) {
+    if (seconds > 0 && seconds < 1e-4) return fmt::format("{} µs", axisText(1e6 * seconds));
     if (seconds < 0.995) return fmt::format("{} ms", axisText(1000 * seconds));
     return seconds < 100.5 ? fmt::format("{} s", axisText(seconds)) : durationText(seconds);
 }

@@ -26,7 +26,7 @@ bool isBad(const planet::BadDiskSettings& disk);
 // What is made bad: "+200 ms a read, 5 MB/s, 10 % of the reads fail, shuffled order"; empty where nothing is.
 std::string badDiskText(const planet::BadDiskSettings& disk);
 
-// A duration as short as it can be said: "0.4 ms", "12 ms", "3.25 s", "4 min 10 s".
+// A duration as short as it can be said: "3.6 µs", "0.4 ms", "12 ms", "3.25 s", "4 min 10 s".
 std::string latencyText(double seconds);
 
 }  // namespace ui

@@ -120,6 +120,10 @@ protected:
         drawScene(*scene, view_, settings_);
         EXPECT_EQ(allocations, before);
         EXPECT_THAT(takeProblems(*scene), testing::IsEmpty());
+        // Nor is anything read that cannot be drawn.
+        settleScene(*scene, view_, settings_, 60);
+        EXPECT_EQ(scene->planet->colourSelection().splits.empty(), !scene->drawsColours);
+        EXPECT_EQ(scene->planet->normalSelection().splits.empty(), !scene->drawsNormals);
         return drawn;
     }
 

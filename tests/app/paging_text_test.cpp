@@ -55,6 +55,8 @@ TEST(PagingText, aPageOutSaysHowLongItIsUnused) {
 
 TEST(PagingText, latenciesKeepThreeDigits) {
     EXPECT_EQ(latencyText(0), "0 ms");
+    EXPECT_EQ(latencyText(3.634e-6), "3.63 µs");
+    EXPECT_EQ(latencyText(0.0001), "0.1 ms");
     EXPECT_EQ(latencyText(0.00042), "0.42 ms");
     EXPECT_EQ(latencyText(0.9), "900 ms");
     EXPECT_EQ(latencyText(0.996), "0.996 s");
