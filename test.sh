@@ -11,7 +11,7 @@ fi
 . .ci/packages.sh
 preset=${PRESET:-release}
 install_missing "$assume_yes" "$build_packages" "$test_packages"
-configure "$preset"
+configure_tests "$preset"
 cmake --build --preset "$preset"
 folder=build
 [ "$preset" = release ] || folder="build-$preset"

@@ -85,9 +85,18 @@ EOF
         $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >&2
 }
 
-# configure PRESET: once; a configured folder looks after itself.
+# configure PRESET: configures the preset's folder unless that is done. Ninja configures it again when a file changes.
 configure() {
     folder=build
     [ "$1" = release ] || folder="build-$1"
     [ -f "$folder/build.ninja" ] || cmake --preset "$1"
+}
+
+# configure_tests PRESET: the same with the tests, also in a folder that is configured without them.
+configure_tests() {
+    folder=build
+    [ "$1" = release ] || folder="build-$1"
+    if [ ! -f "$folder/build.ninja" ] || ! grep -q '^WORLDY_TESTS:BOOL=ON$' "$folder/CMakeCache.txt"; then
+        cmake --preset "$1" -DWORLDY_TESTS=ON
+    fi
 }

@@ -107,12 +107,15 @@ Result<void> bakeIfNeeded(const DataSet& data) {
         .map([](const auto&) {});
 }
 
-// The first view that the window would have shown.
+// Writes the first view that the window would have shown. It lies beside the bakes, since Worldy overwrites
+// it each time and the current folder may be a checkout.
 Result<void> writeFirstView(const AppOptions& options, const DataSet& data, const Settings& settings) {
     if (Result<void> baked = bakeIfNeeded(data); !baked) return baked;
     ShotOptions shot;
     shot.file = data.chunkFile;
-    shot.output = fs::current_path() / "worldy-first-view.png";
+    shot.output = cacheFolder() / "worldy-first-view.png";
+    std::error_code status;
+    fs::create_directories(shot.output.parent_path(), status);
     shot.shaderFolder = options.shaderFolder;
     shot.colourImage = data.colourImage;
     shot.size = {settings.windowWidthPx, settings.windowHeightPx};

@@ -68,7 +68,7 @@ case ${1:-} in
 esac
 . .ci/packages.sh
 install_missing no "$build_packages" "$test_packages"
-configure release
+configure_tests release
 cmake --build --preset release --target fuzz_seeds
 configure fuzz
 cmake --build --preset fuzz

@@ -1,5 +1,6 @@
 # Installs the package into an empty folder, builds the embedding program against it, and runs it on a small bake.
-# Given: BUILD_FOLDER, SOURCE_FOLDER (this one), WORLDY (the binary), SANITIZE, COMPILER, DATA (an elevation image).
+# Given: BUILD_FOLDER, SOURCE_FOLDER (this one), WORLDY (the binary), SANITIZE, COMPILER, GENERATOR (of CMake), DATA (an
+# elevation image).
 file(REMOVE_RECURSE ${BUILD_FOLDER}/embed)
 file(MAKE_DIRECTORY ${BUILD_FOLDER}/embed)
 
@@ -16,7 +17,7 @@ if(SANITIZE)
   set(flags "-fsanitize=${SANITIZE}")
 endif()
 run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --component planet --prefix ${BUILD_FOLDER}/embed/installed)
-run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${BUILD_FOLDER}/embed/build -DCMAKE_BUILD_TYPE=Release
+run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${BUILD_FOLDER}/embed/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_PREFIX_PATH=${BUILD_FOLDER}/embed/installed -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${BUILD_FOLDER}/embed/build)
 run(${WORLDY} bake ${DATA} --face-size 257 -o ${BUILD_FOLDER}/embed/earth.chk)

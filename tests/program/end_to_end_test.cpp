@@ -335,15 +335,17 @@ TEST(Program, WithoutADisplayItWritesAPictureOfTheFirstView) {
     const Ran ran = runWorldy(folder, "hills.pgm --settings small.toml");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_THAT(ran.errors, HasSubstr("no display"));
-    EXPECT_THAT(ran.output, HasSubstr("worldy-first-view.png"));
-    const planet::Result<Picture> picture = readPicture(folder.path() / "worldy-first-view.png");
+    EXPECT_THAT(ran.output, HasSubstr("cache/worldy/worldy-first-view.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "worldy-first-view.png"));
+    const planet::Result<Picture> picture =
+        readPicture(folder.path() / "cache" / "worldy" / "worldy-first-view.png");
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->width, 640);
     EXPECT_GT(meanOf(*picture), 5);
 
     // The second time the bake is found in the cache.
     const std::set<std::string> cached = filesIn(folder.path() / "cache" / "worldy");
-    EXPECT_EQ(cached.size(), 1u);
+    EXPECT_EQ(cached.size(), 2u);  // the bake and the picture
     const Ran again = runWorldy(folder, "hills.pgm --settings small.toml");
     EXPECT_EQ(again.exitCode, 0);
     EXPECT_THAT(again.errors, testing::Not(HasSubstr("samples")));
