@@ -16,6 +16,7 @@ struct PopMeter::Switch {
     bool merged = false;        // the coarser one is drawn now
     std::uint32_t coarser = 0;  // places in the chunks of their frames
     std::vector<std::uint32_t> finer;
+    PopCause cause = PopCause::CameraMoved;
     SurfaceJump jump{};
     double besidePx = 0;
 };
@@ -51,6 +52,24 @@ bool isStitched(const LodSettings& settings) {
 bool isHeldBack(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
     return isStitched(settings) && children == ChildrenState::Resident &&
            item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
+}
+
+// Whether two frames' settings choose the same levels for one camera. How a chunk slides and what hides its
+// seams changes no level.
+bool chooseAlike(const LodSettings& a, const LodSettings& b) {
+    return a.metric == b.metric && a.tauPx == b.tauPx && a.hysteresis == b.hysteresis &&
+           a.maxLevel == b.maxLevel && a.frustumCulling == b.frustumCulling &&
+           a.horizonCulling == b.horizonCulling && isStitched(a) == isStitched(b);
+}
+
+bool projectAlike(const View& a, const View& b) {
+    return a.horizontalFovRad == b.horizontalFovRad && a.widthPx == b.widthPx && a.heightPx == b.heightPx;
+}
+
+// Whether a chunk that is split is to stay so by its own error.
+bool keepsSplit(const ChildrenRequest& split, const LodSettings& settings) {
+    return split.parentId.level<settings.maxLevel&& static_cast<double>(split.priority)> 1 -
+           settings.hysteresis;
 }
 
 bool sameEdge(const DrawItem& a, const DrawItem& b, Edge edge) {
@@ -90,18 +109,21 @@ void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View
                    const LodSettings& settings, double timeS) {
     Frame now = keep(tree, selection, view, settings);
     if (timeS < nowS_) clear();
-    if (before_ && before_->exaggeration != now.exaggeration) before_.reset();
     nowS_ = timeS;
-    if (before_) {
-        if (std::vector<Switch> switches = findSwitches(now); !switches.empty()) {
-            const auto start = std::chrono::steady_clock::now();
-            measure(tree.shape, now, switches);
-            measureBeside(tree.shape, now, switches);
-            totals_.measuringS += secondsSince(start);
-            now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
-            for (const Switch& change : switches) note(now, change);
+    std::vector<Switch> switches;
+    if (before_ && before_->exaggeration == now.exaggeration) switches = findSwitches(now);
+    if (!switches.empty()) {
+        const auto start = std::chrono::steady_clock::now();
+        measure(tree.shape, now, switches);
+        measureBeside(tree.shape, now, switches);
+        totals_.measuringS += secondsSince(start);
+        now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
+        for (Switch& change : switches) {
+            change.cause = causeOf(now, change);
+            note(now, change);
         }
     }
+    decided_ = findDecided(now, selection, switches);
     noteLate(now);
     forgetOld();
     before_ = std::move(now);
@@ -205,12 +227,21 @@ bool PopMeter::neighbourCameOrWent(const Frame& now, const ChunkId& chunk) const
     return false;
 }
 
+PopCause PopMeter::cameraOrSettings(const Frame& now) const {
+    const bool same =
+        !before_ || (chooseAlike(before_->settings, now.settings) && projectAlike(before_->view, now.view) &&
+                     before_->exaggeration == now.exaggeration);
+    return same ? PopCause::CameraMoved : PopCause::SettingsChanged;
+}
+
 PopCause PopMeter::causeOf(const Frame& now, const Switch& change) const {
     const Frame& coarse = change.merged ? now : *before_;
     const KeptChunk& coarser = coarse.chunks[change.coarser];
     if (isWaiting(coarser.item, coarser.children, coarse.settings))
         return change.merged ? PopCause::Evicted : PopCause::LoadFinished;
-    if (before_->settings != now.settings) return PopCause::SettingsChanged;
+    const auto& decided = change.merged ? decided_.merges : decided_.splits;
+    if (const auto earlier = decided.find(change.chunk); earlier != decided.end()) return earlier->second;
+    if (cameraOrSettings(now) == PopCause::SettingsChanged) return PopCause::SettingsChanged;
     if (isHeldBack(coarser.item, coarser.children, coarse.settings))
         return neighbourCameOrWent(now, change.chunk) ? PopCause::Culling : PopCause::SeamLimit;
     // Hysteresis would have kept it split.
@@ -219,6 +250,55 @@ PopCause PopMeter::causeOf(const Frame& now, const Switch& change) const {
         static_cast<double>(coarser.item.epsPx) > leastPx)
         return PopCause::Evicted;
     return PopCause::CameraMoved;
+}
+
+// Of a drawn chunk whose split is due and waits from this frame on.
+PopCause PopMeter::causeOfWaiting(const Frame& now, const ChunkId& chunk,
+                                  std::span<const Switch> switches) const {
+    if (!before_) return PopCause::CameraMoved;
+    if (const std::uint32_t* place = before_->places.find(chunk)) {
+        const KeptChunk& was = before_->chunks[*place];
+        if (isWaiting(was.item, was.children, before_->settings)) return PopCause::LoadFinished;
+        const PopCause cause = cameraOrSettings(now);
+        if (cause == PopCause::SettingsChanged || !isHeldBack(was.item, was.children, before_->settings))
+            return cause;
+        return neighbourCameOrWent(now, chunk) ? PopCause::Culling : PopCause::SeamLimit;
+    }
+    // It took the place of a coarser one on its way to a finer level.
+    if (const std::uint32_t* above = drawnAbove(before_->places, chunk)) {
+        const ChunkId& split = before_->chunks[*above].item.id;
+        const auto found =
+            std::lower_bound(switches.begin(), switches.end(), split,
+                             [](const Switch& change, const ChunkId& id) { return change.chunk < id; });
+        if (found != switches.end() && found->chunk == split) return found->cause;
+    }
+    return cameraOrSettings(now);
+}
+
+PopMeter::Decided PopMeter::findDecided(const Frame& now, const Selection& selection,
+                                        std::span<const Switch> switches) const {
+    Decided decided;
+    if (!now.settings.morph || now.settings.fadeS == 0) return decided;
+    // Parents come first: what a chunk's merge takes with it merges for the same reason.
+    for (const ChildrenRequest& split : selection.splits) {
+        const ChunkId& id = split.parentId;
+        const auto above = id.level > 0 ? decided.merges.find(parentOf(id)) : decided.merges.end();
+        const bool keeps = keepsSplit(split, now.settings);
+        if (keeps && above == decided.merges.end()) continue;
+        const auto earlier = decided_.merges.find(id);
+        const PopCause cause = earlier != decided_.merges.end() ? earlier->second
+                               : keeps                          ? above->second
+                                                                : cameraOrSettings(now);
+        decided.merges.emplace(id, cause);
+    }
+    for (const KeptChunk& chunk : now.chunks) {
+        if (!chunk.item.splitWaits) continue;
+        const ChunkId& id = chunk.item.id;
+        const auto earlier = decided_.splits.find(id);
+        decided.splits.emplace(
+            id, earlier != decided_.splits.end() ? earlier->second : causeOfWaiting(now, id, switches));
+    }
+    return decided;
 }
 
 void PopMeter::note(const Frame& now, const Switch& change) {
@@ -241,7 +321,7 @@ void PopMeter::note(const Frame& now, const Switch& change) {
     event.timeS = nowS_;
     event.frame = frame_;
     event.chunk = change.chunk;
-    event.cause = causeOf(now, change);
+    event.cause = change.cause;
     event.jump = change.jump;
     event.besidePx = change.besidePx;
     event.viewBefore = before_->view;

@@ -25,9 +25,12 @@
 
 namespace planet {
 
+// Why a place changed its level. A switch that fades is drawn many frames after it was decided: it has the
+// cause of the frame that decided it, and so have those below and above it that it is followed by. Where the
+// settings and the camera change in one frame, the settings are the cause.
 enum class PopCause : std::uint8_t {
     CameraMoved,      // its error crossed the tolerance
-    SettingsChanged,  // LodSettings differ from the frame before's
+    SettingsChanged,  // what chooses the level, field of view, picture size or exaggeration changed
     LoadFinished,     // it was waiting for its children, and they came
     Evicted,          // its children are gone though they are wanted
     SeamLimit,        // how far neighbours may differ with stitched seams, since a neighbour changed
@@ -134,6 +137,11 @@ private:
         std::shared_ptr<const DrawnFrame> drawn;
     };
     struct Switch;
+    // Switches that are decided and not drawn yet, with what decided them; by the coarser chunk.
+    struct Decided {
+        std::unordered_map<ChunkId, PopCause> splits;
+        std::unordered_map<ChunkId, PopCause> merges;
+    };
 
     static Frame keep(const ChunkTree& tree, const Selection& selection, const View& view,
                       const LodSettings& settings);
@@ -141,7 +149,10 @@ private:
     void measure(const PlanetShape& shape, const Frame& now, std::vector<Switch>& switches) const;
     void measureBeside(const PlanetShape& shape, const Frame& now, std::vector<Switch>& switches) const;
     bool isDrawn(const Frame& now, const Switch& change, const ChunkId& place) const;
+    PopCause cameraOrSettings(const Frame& now) const;
     PopCause causeOf(const Frame& now, const Switch& change) const;
+    PopCause causeOfWaiting(const Frame& now, const ChunkId& chunk, std::span<const Switch> switches) const;
+    Decided findDecided(const Frame& now, const Selection& selection, std::span<const Switch> switches) const;
     bool neighbourCameOrWent(const Frame& now, const ChunkId& chunk) const;
     void note(const Frame& now, const Switch& change);
     void noteLate(const Frame& now);
@@ -149,6 +160,7 @@ private:
     void forgetOld();
 
     std::optional<Frame> before_;
+    Decided decided_;  // as of the last frame
     std::deque<PopEvent> events_;
     std::deque<LateArrival> late_;  // ended ones, then those in open_ as of the last frame
     std::unordered_map<ChunkId, LateArrival> open_;

@@ -301,6 +301,108 @@ TEST(PopMeter, AnotherToleranceIsTheSettings) {
     EXPECT_EQ(countOf(meter, PopCause::SettingsChanged), meter.totals().switches);
 }
 
+// Frames of a selection that remembers the one before, as the window draws them.
+struct FadingFrames {
+    PopMeter meter{};
+    Selection selection{};
+    double timeS = 0;
+
+    void add(const ChunkTree& tree, const View& view, const LodSettings& settings, int frames = 1) {
+        for (int i = 0; i < frames; ++i) {
+            selectChunks(tree, view, settings, selection, popFrameS);
+            meter.add(tree, selection, view, settings, timeS += popFrameS);
+        }
+    }
+    std::uint64_t switches() const { return meter.totals().switches; }
+};
+
+LodSettings fadingSettings(double tauPx, SeamMode seams = SeamMode::Skirts) {
+    LodSettings settings = tauOf(tauPx);
+    settings.morph = true;
+    settings.fadeS = 0.25;
+    settings.seams = seams;
+    return settings;
+}
+
+constexpr int fadedFrames = 120;  // in which every fade comes to its end
+
+TEST(PopMeter, ASwitchThatFadesAfterAnotherToleranceIsTheSettings) {
+    for (const SeamMode seams : {SeamMode::Skirts, SeamMode::Stitched}) {
+        FadingFrames frames;
+        for (const double tauPx : {2.0, 24.0, 2.0}) {
+            const std::uint64_t before = frames.switches();
+            frames.add(wholeTree(), viewAt(30, 20), fadingSettings(tauPx, seams), fadedFrames);
+            EXPECT_EQ(frames.selection.counters.fading, 0u);
+            if (before > 0 || tauPx > 2) {
+                EXPECT_GT(frames.switches(), before + 2);
+            }
+        }
+        EXPECT_EQ(countOf(frames.meter, PopCause::SettingsChanged), frames.switches());
+    }
+}
+
+TEST(PopMeter, ASwitchThatFadesAfterTheCameraMovedIsTheCamera) {
+    FadingFrames frames;
+    frames.add(wholeTree(), viewAt(30, 20, 60000), fadingSettings(1), fadedFrames);
+    frames.add(wholeTree(), viewAt(30, 20, 8000), fadingSettings(1), fadedFrames);
+    const std::uint64_t down = frames.switches();
+    EXPECT_GT(down, 2u);
+    frames.add(wholeTree(), viewAt(30, 20, 60000), fadingSettings(1), fadedFrames);
+    EXPECT_GT(frames.switches(), down + 2);
+    EXPECT_EQ(countOf(frames.meter, PopCause::CameraMoved), frames.switches());
+}
+
+// Another tolerance while the camera's switches still fade.
+TEST(PopMeter, EachSwitchKeepsTheCauseThatDecidedIt) {
+    FadingFrames frames;
+    frames.add(wholeTree(), viewAt(30, 20, 60000), fadingSettings(1), fadedFrames);
+    frames.add(wholeTree(), viewAt(30, 20, 8000), fadingSettings(1), 2);
+    ASSERT_GT(frames.selection.counters.fading, 0u);
+    LodSettings finer = fadingSettings(0.2);
+    frames.add(wholeTree(), viewAt(30, 20, 8000), finer, fadedFrames);
+    EXPECT_GT(countOf(frames.meter, PopCause::CameraMoved), 0u);
+    EXPECT_GT(countOf(frames.meter, PopCause::SettingsChanged), 0u);
+    EXPECT_EQ(countOf(frames.meter, PopCause::CameraMoved) + countOf(frames.meter, PopCause::SettingsChanged),
+              frames.switches());
+}
+
+TEST(PopMeter, SettingsThatChooseNoLevelAreNoCause) {
+    PopMeter meter;
+    LodSettings settings = tauOf(1);
+    addSelected(meter, wholeTree(), viewAt(30, 20, 8000), settings, 0);
+    settings.skirtFactor = 2;
+    settings.morphRange = 0.5;
+    addSelected(meter, wholeTree(), viewAt(30, 20, 60000), settings, popFrameS);
+    EXPECT_GT(meter.totals().switches, 1u);
+    EXPECT_EQ(countOf(meter, PopCause::CameraMoved), meter.totals().switches);
+}
+
+TEST(PopMeter, AnotherFieldOfViewOrPictureSizeIsTheSettings) {
+    const View view = viewAt(30, 20);
+    View narrow = view;
+    narrow.horizontalFovRad /= 8;
+    View large = view;
+    large.widthPx *= 4;
+    large.heightPx *= 4;
+    for (const View& other : {narrow, large}) {
+        FadingFrames frames;
+        frames.add(wholeTree(), view, fadingSettings(4), fadedFrames);
+        frames.add(wholeTree(), other, fadingSettings(4), fadedFrames);
+        EXPECT_GT(frames.switches(), 0u);
+        EXPECT_EQ(countOf(frames.meter, PopCause::SettingsChanged), frames.switches());
+    }
+}
+
+TEST(PopMeter, AnotherExaggerationIsTheSettingsWhereItFades) {
+    ChunkTree tree = residentTree(fakePyramid(), 5);
+    FadingFrames frames;
+    frames.add(tree, viewAt(30, 20), fadingSettings(4), fadedFrames);
+    setExaggeration(tree, 3);
+    frames.add(tree, viewAt(30, 20), fadingSettings(4), fadedFrames);
+    EXPECT_GT(frames.switches(), 0u);
+    EXPECT_EQ(countOf(frames.meter, PopCause::SettingsChanged), frames.switches());
+}
+
 TEST(PopMeter, AJumpOfTheCameraIsTheCamera) {
     PopMeter meter;
     addSelected(meter, wholeTree(), viewAt(30, 20, 8000), tauOf(1), 0);
@@ -342,6 +444,27 @@ TEST(PopMeter, ALoadHeldBackForThirtyFramesIsLateForThirtyFrames) {
     EXPECT_NEAR(arrival.untilS, 0.5, 1e-9);
     EXPECT_NEAR(arrival.worstEpsPx, epsPx, 1e-4 * epsPx);
     EXPECT_EQ(arrival.tauPx, 2);
+}
+
+// The children's own children come while the children still fade in.
+TEST(PopMeter, ALoadThatComesDuringAFadeIsTheLoad) {
+    ChunkTree tree = residentTree(fakePyramid(), 2);
+    const View view = viewAt(30, 20);
+    FadingFrames frames;
+    frames.add(tree, view, fadingSettings(0.2), fadedFrames);
+    const auto loadRequested = [&] {
+        for (const ChildrenRequest& request : frames.selection.requests) addBlock(tree, request.parentId);
+    };
+    loadRequested();
+    for (int i = 0; i < fadedFrames && frames.switches() == 0; ++i)
+        frames.add(tree, view, fadingSettings(0.2));
+    ASSERT_GT(frames.selection.counters.fading, 0u);
+    ASSERT_FALSE(frames.selection.requests.empty());
+    const std::uint64_t before = frames.switches();
+    loadRequested();
+    frames.add(tree, view, fadingSettings(0.2), fadedFrames);
+    EXPECT_GT(frames.switches(), before);
+    EXPECT_EQ(countOf(frames.meter, PopCause::LoadFinished), frames.switches());
 }
 
 TEST(PopMeter, WhatIsNoLongerWantedIsNoLongerLate) {

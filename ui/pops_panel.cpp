@@ -100,7 +100,8 @@ void totals(const EditorView& view, const PopsPanelState& state) {
     if (!beginValues("totals")) return;
     constexpr std::array<const char*, planet::popCauseCount> meanings = {
         "The chunk's error on screen crossed the tolerance since the camera moved.",
-        "A setting of level of detail was changed in that frame.",
+        "A setting that chooses the level was changed: tolerance, hysteresis, metric, max level, culling, "
+        "stitched seams, field of view, picture size or exaggeration. A switch that fades keeps this cause.",
         "The chunk was drawn too coarse, and its children came.",
         "The chunk's children are gone though they are wanted: the memory budget is too small.",
         "Stitched seams allow neighbours to differ by so many levels only, and a neighbour changed.",
