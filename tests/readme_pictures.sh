@@ -148,7 +148,7 @@ picture_chunk() {
 }
 picture_paging() {
     start < <(above_india; window 1820 440; only paging 1000; echo 'lod.tau_px = 0.4'; slow_disk 900 0.1)
-    settle; click "paging/Drop all"; aside; sleep 4
+    settle; click "paging/Evict all"; aside; sleep 4
     dock paging
 }
 picture_frame() {

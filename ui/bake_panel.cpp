@@ -54,9 +54,9 @@ void parameterRow(const char* name, const std::string& value, bool live, const c
     ImGui::TextUnformatted(value.c_str());
     tooltip(explanation);
     ImGui::TableNextColumn();
-    ImGui::TextColored(live ? palette().good : palette().dim, "%s", live ? "live" : "needs a bake");
-    tooltip(live ? "Takes effect at once, in the panel that is named."
-                 : "Stands in the file; changed below.");
+    ImGui::TextColored(live ? palette().good : palette().dim, "%s", live ? "live" : "baked");
+    tooltip(live ? "Takes effect immediately; change it in the panel named here."
+                 : "Stored in the chunk file. Change it below and bake again.");
 }
 
 std::string bakedColours(const EditorView& view) {
@@ -67,35 +67,36 @@ std::string bakedColours(const EditorView& view) {
 void bakedRows(const EditorView& view) {
     const planet::BakeSettings& baked = view.bake.current.settings;
     parameterRow("Source",
-                 view.bake.current.source.empty() ? "not recorded" : sourceName(view.bake.current.source),
-                 false,
-                 view.bake.current.source.empty() ? "The file does not say where its source lies."
+                 view.bake.current.source.empty() ? "unknown" : sourceName(view.bake.current.source), false,
+                 view.bake.current.source.empty() ? "The file does not record the path of its source."
                                                   : view.bake.current.source.string().c_str());
     parameterRow("Face size", fmt::format("{} samples", baked.faceSize.value_or(0)), false,
-                 "Samples along a side of each of the six faces, on the finest level.");
+                 "Samples along a side of each of the six cube faces at the finest level.");
     parameterRow("Chunk size", fmt::format("{} vertices", baked.chunkSize), false,
-                 "Vertices along a chunk's side, the same on every level.");
+                 "Vertices along a side of a chunk, the same at every level.");
     parameterRow("Radius", fmt::format("{:.1f} km", baked.radiusM / 1000), false,
-                 "Of the sphere that heights are counted from.");
+                 "Radius of the sphere that heights are measured from.");
     parameterRow("Quantum", fmt::format("{:g} m", baked.quantumM.value_or(0)), false,
-                 "Height of one of the 65536 steps that the file keeps.");
+                 "Height of one of the 65536 quantisation steps of the file.");
     parameterRow("Compression",
-                 view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel)
-                                            : "not recorded in the file",
-                 false, "How hard the encoder tried. Reading takes the same time whatever it was.");
+                 view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel) : "unknown",
+                 false,
+                 "Compression level of the encoder. The level does not affect the reading speed. Older files "
+                 "do not record it.");
     parameterRow(
         "Colours", bakedColours(view), false,
-        view.planet->colour() ? view.planet->colour()->source.c_str() : "The file holds no tiles of colour.");
+        view.planet->colour() ? view.planet->colour()->source.c_str() : "The file contains no colour tiles.");
 }
 
 void liveRows(const ViewSettings& settings) {
-    parameterRow("Tolerance", fmt::format("{:.2f} px", settings.lod.tauPx), true, "In the LOD panel.");
+    parameterRow("Tolerance", fmt::format("{:.2f} px", settings.lod.tauPx), true,
+                 "Screen-space error threshold, set in the LOD panel.");
     parameterRow("Exaggeration", fmt::format("{:.2f} x", settings.surface.exaggeration), true,
-                 "Heights are drawn this many times as high. In the Surface panel.");
+                 "Factor applied to heights when drawing, set in the Surface panel.");
     parameterRow("Sea level", fmt::format("{:.0f} m", settings.surface.seaLevelM), true,
-                 "In the Surface panel.");
+                 "Set in the Surface panel.");
     parameterRow("Memory", fmt::format("{} MiB", settings.paging.budgetMB), true,
-                 "For resident chunks and tiles of colour. In the Paging panel.");
+                 "Budget for resident chunks and colour tiles, set in the Paging panel.");
 }
 
 void openFileSection(const EditorView& view, const ViewSettings& settings) {
@@ -115,8 +116,8 @@ void bakeControl(const char* label, bool changed, const char* explanation) {
 
 bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
-        "Vertices along a chunk's side. Larger: fewer draw items and nodes, better compression, but coarser "
-        "steps of detail and more triangles than the tolerance needs. Smaller: the other way round.";
+        "Vertices along a side of a chunk. Larger: fewer draw calls and nodes and better compression, but "
+        "more triangles than the tolerance needs. Smaller: the opposite.";
     int index = static_cast<int>(
         std::find(planet::chunkSizes.begin(), planet::chunkSizes.end(), request.settings.chunkSize) -
         planet::chunkSizes.begin());
@@ -130,8 +131,8 @@ bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
 
 bool faceSizeControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
-        "Samples along a side of each of the six faces, 2^n + 1. Natural: the smallest that loses nothing of "
-        "the source. Smaller: less detail; larger: a bigger file and nothing new to see.";
+        "Samples along a side of each of the six faces, 2^n + 1. Natural: the smallest size that keeps all "
+        "detail of the source. Smaller: less detail. Larger: a bigger file without more detail.";
     const std::optional<int> size = request.settings.faceSize;
     const auto text = [](int samples) { return fmt::format("{} samples", samples); };
     bakeControl("Face size", size != current.settings.faceSize, explanation);
@@ -159,9 +160,8 @@ bool faceSizeControl(const BakeRequest& current, BakeRequest& request) {
 
 bool radiusControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
-        "Of the sphere that heights are counted from, kilometres: Earth 6371, Mars 3389.5, Moon 1737.4. "
-        "Wrong: "
-        "mountains look too steep or too flat.";
+        "Radius of the sphere that heights are measured from, in kilometres: Earth 6371, Mars 3389.5, Moon "
+        "1737.4. With a wrong radius, mountains look too steep or too flat.";
     bakeControl("Radius", request.settings.radiusM != current.settings.radiusM, explanation);
     double radiusKm = request.settings.radiusM / 1000;
     const bool changed = ImGui::InputDouble("##radius", &radiusKm, 0, 0, "%.3f km");
@@ -172,9 +172,9 @@ bool radiusControl(const BakeRequest& current, BakeRequest& request) {
 
 bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
-        "Metres of one of the file's 65536 height steps. Automatic: the source's own step, or for floating "
-        "point the finest that holds its range. Larger: terraces on flat ground, a smaller file; too small: "
-        "the bake says that the heights do not fit.";
+        "Height in metres of one of the file's 65536 quantisation steps. Automatic: the source's own step, "
+        "or for floating-point sources the smallest step that covers the range. Larger: a smaller file, but "
+        "terraces on flat ground. Too small: the heights do not fit, and the bake stops with an error.";
     std::optional<double>& quantum = request.settings.quantumM;
     bakeControl("Quantum", quantum != current.settings.quantumM, explanation);
     bool automatic = !quantum;
@@ -195,16 +195,17 @@ bool quantumControl(const BakeRequest& current, BakeRequest& request) {
 
 bool effortControls(const EditorView& view, BakeRequest& request) {
     const planet::BakeSettings& current = view.bake.current.settings;
-    const bool packed = slider(
-        "Compression", request.settings.compressionLevel,
-        view.bake.compressionKnown ? current.compressionLevel : planet::defaultCompressionLevel,
-        planet::minCompressionLevel, planet::maxCompressionLevel, "level %d",
-        "How hard the encoder tries. 0: samples as they are, 2 bytes each; 2: the usual; 3: a fifth of "
-        "the speed for about 1 % fewer bytes. Reading takes the same time.");
+    const bool packed =
+        slider("Compression", request.settings.compressionLevel,
+               view.bake.compressionKnown ? current.compressionLevel : planet::defaultCompressionLevel,
+               planet::minCompressionLevel, planet::maxCompressionLevel, "level %d",
+               "Compression level of the encoder. 0: uncompressed, 2 bytes per sample; 2: default; 3: five "
+               "times slower for about 1 % fewer bytes. The level does not affect the reading speed.");
     const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
-    const bool threads = slider(
-        "Threads", request.settings.threads, 0, 0, cores, request.settings.threads == 0 ? "one a core" : "%d",
-        "Threads that bake. Fewer: slower, but more is left for flying meanwhile. Same file either way.");
+    const bool threads = slider("Threads", request.settings.threads, 0, 0, cores,
+                                request.settings.threads == 0 ? "one per core" : "%d",
+                                "Number of threads for baking. Fewer: slower, but the window stays more "
+                                "responsive. The file is the same.");
     return packed || threads;
 }
 
@@ -221,7 +222,7 @@ bool sourceSection(const EditorView& view, BakePanelState& state, BakeRequest& r
 }
 
 void requestSection(const EditorView& view, BakePanelState& state, Commands& commands) {
-    if (!section("Bake anew")) return;
+    if (!section("Bake settings")) return;
     BakeRequest request = state.edited.value_or(view.bake.current);
     ImGui::BeginDisabled(view.bake.running.has_value());
     bool changed = sourceSection(view, state, request);
@@ -251,7 +252,7 @@ void askForEstimate(const EditorView& view, BakePanelState& state, Commands& com
 std::string sizeText(const EditorView& view, double bytes) {
     if (!view.planet) return bytesText(bytes);
     const double open = static_cast<double>(view.planet->file().sizeBytes());
-    return fmt::format("{}, {:.2f} x as now", bytesText(bytes), bytes / open);
+    return fmt::format("{}, {:.2f} x current", bytesText(bytes), bytes / open);
 }
 
 std::string colourTilesText(const std::optional<planet::ColourEstimate>& colour) {
@@ -262,7 +263,7 @@ std::string colourTilesText(const std::optional<planet::ColourEstimate>& colour)
 
 std::string colourMemoryText(const std::optional<planet::ColourEstimate>& colour) {
     if (!colour) return {};
-    return fmt::format("{}, then {}", bytesText(static_cast<double>(colour->bakeBytes)),
+    return fmt::format("{} baking, {} resident", bytesText(static_cast<double>(colour->bakeBytes)),
                        bytesText(static_cast<double>(colour->residentBytes)));
 }
 
@@ -282,31 +283,30 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
     };
     using Estimate = planet::BakeEstimate;
     valueRow("Expected size", value([&](const Estimate& e) { return sizeText(view, e.fileBytes); }),
-             "Of the file, from a few of its blocks baked in memory; right to about a tenth.");
+             "Estimated file size, from a sample of blocks baked in memory; accurate to about 10 %.");
     valueRow("Expected time", value([](const Estimate& e) { return durationText(e.seconds); }),
-             "On this machine, with these threads and nothing else to do; flying meanwhile takes its share.");
+             "Estimated time on this machine with these threads and no other load.");
     valueRow("Chunks", value([](const Estimate& e) {
                  return fmt::format("{} on {} levels", countText(static_cast<double>(e.chunks)),
                                     planet::leafLevel(e.shape) + 1);
              }),
-             "Of all levels together.");
+             "Number of chunks in all levels.");
     valueRow("Samples", value([](const Estimate& e) {
-                 return fmt::format("{}, {} a face side", countText(static_cast<double>(e.samples)),
+                 return fmt::format("{}, {} per face side", countText(static_cast<double>(e.samples)),
                                     planet::faceCells(e.shape) + 1);
              }),
-             "Of the finest level.");
+             "Number of samples at the finest level.");
     if (!state.edited->colour.empty()) {
-        valueRow(
-            "Colours", value([](const Estimate& e) { return colourTilesText(e.colour); }),
-            "Tiles of 256 x 256 texels, of all levels, and what they add to the file: packed from a few of "
-            "them.");
-        valueRow("Colours' time", value([](const Estimate& e) {
+        valueRow("Colours", value([](const Estimate& e) { return colourTilesText(e.colour); }),
+                 "Number of colour tiles of 256 x 256 texels in all levels, and their estimated share of the "
+                 "file size.");
+        valueRow("Colour time", value([](const Estimate& e) {
                      return e.colour ? durationText(e.colour->seconds) : std::string();
                  }),
-                 "Of the expected time, for reading the image and packing tiles.");
-        valueRow("Colours' memory", value([](const Estimate& e) { return colourMemoryText(e.colour); }),
-                 "While they are baked at most, the image's cache included; and on the GPU, were all tiles "
-                 "resident: only as many are as their share of the budget pays for.");
+                 "Part of the expected time that reads the image and packs tiles.");
+        valueRow("Colour memory", value([](const Estimate& e) { return colourMemoryText(e.colour); }),
+                 "Peak memory while baking, including the image cache; and GPU memory if all tiles were "
+                 "resident. The colour share of the budget limits how many are.");
     }
     endValues();
 }
@@ -315,17 +315,16 @@ void bakeButtons(const EditorView& view, BakePanelState& state, Commands& comman
     const BakeRequest request = state.edited.value_or(view.bake.current);
     const bool same = sameFile(request, view.bake.current);
     ImGui::BeginDisabled(!state.source.problem.empty() || !mayBake(state.colour));
-    if (button(
-            same ? "Bake again" : "Bake",
-            "Bakes in the background while the planet flies on; then the new one takes its place, with the "
-            "camera and all settings kept. The old one stays at hand for comparison.")) {
+    if (button(same ? "Bake again" : "Bake",
+               "Bakes in the background, then shows the new planet with the same camera and settings. The "
+               "previous bake stays available for comparison.")) {
         state.estimateAtS.reset();
         commands.push_back(StartBake{request});
     }
     ImGui::EndDisabled();
     if (!state.edited) return;
     ImGui::SameLine();
-    if (button("As the open file", "Takes back what was changed above.")) {
+    if (button("Revert to open file", "Discards the changes made above.")) {
         state.edited.reset();
         state.estimateAtS.reset();
         setSource(view.bake.current.source, state.source);
@@ -342,13 +341,14 @@ void progressSection(const BakeView& bake, Commands& commands) {
     if (beginValues("progress")) {
         valueRow("Baking", sourceName(bake.running->source), bake.running->source.string().c_str());
         valueRow("Rate", begun ? fmt::format("{} samples/s", countText(progress.samplesPerS)) : "...",
-                 "Finest-level samples, and texels of colour, a second since the bake began.");
-        valueRow("Time left", begun ? durationText(progress.remainingS) : "...", "At this rate.");
+                 "Finest-level samples and colour texels per second, since the bake began.");
+        valueRow("Time left", begun ? durationText(progress.remainingS) : "...",
+                 "Estimated from the current rate.");
         endValues();
     }
     ImGui::BeginDisabled(bake.stopping);
     if (button(bake.stopping ? "Stopping..." : "Cancel",
-               "Ends the bake and leaves nothing behind; the planet stays as it is."))
+               "Cancels the bake and discards its output; the open planet stays."))
         commands.push_back(CancelBake{});
     ImGui::EndDisabled();
 }
@@ -360,24 +360,24 @@ void outcomeLines(const BakeView& bake) {
     } else if (bake.lastReport) {
         const planet::BakeReport& report = *bake.lastReport;
         const std::string text = fmt::format(
-            "Last bake: {} in {}, {:.2f} bits a sample; roots' delta_c {}, tight {}{}",
+            "Last bake: {} in {}, {:.2f} bits per sample; root errors: additive {}, tight {}{}",
             bytesText(static_cast<double>(report.fileBytes)), durationText(report.seconds),
             8 * static_cast<double>(report.fileBytes - report.colourBytes) /
                 static_cast<double>(report.samples),
             distanceText(static_cast<double>(report.largestDeltaCM)),
             distanceText(static_cast<double>(report.largestDeltaTightM)),
             report.missingSamples == 0 ? std::string()
-                                       : fmt::format("; {} samples had no data",
+                                       : fmt::format("; {} samples without data",
                                                      countText(static_cast<double>(report.missingSamples))));
-        const std::string colours = report.colourTiles == 0
-                                        ? std::string()
-                                        : fmt::format("; {} tiles of colour, {} of it",
-                                                      countText(static_cast<double>(report.colourTiles)),
-                                                      bytesText(static_cast<double>(report.colourBytes)));
+        const std::string colours =
+            report.colourTiles == 0
+                ? std::string()
+                : fmt::format("; {} colour tiles, {}", countText(static_cast<double>(report.colourTiles)),
+                              bytesText(static_cast<double>(report.colourBytes)));
         ImGui::TextColored(palette().good, "%s", (text + colours).c_str());
         tooltip(
-            "The largest errors of the six root chunks: delta_c, which adds up what each level may lose, and "
-            "the tight metric, how far the farthest finest sample really lies off.");
+            "Root errors are the largest geometric errors of the six root chunks: additive (δc) sums the "
+            "errors of all levels; tight is the largest measured distance to the finest samples.");
     }
     ImGui::PopTextWrapPos();
 }
@@ -386,11 +386,11 @@ void previousSection(const DataView& data, Commands& commands) {
     if (!data.hasPreviousBake || !section("Previous bake")) return;
     ImGui::TextColored(palette().dim, "%s", data.previousName.c_str());
     bool shown = data.showsPreviousBake;
-    if (ImGui::Checkbox("Show it", &shown)) commands.push_back(ShowPreviousBake{shown});
-    noteItem("Show it");
-    tooltip("Flips between the two with the camera where it is. What differs is what the bake changed.");
+    if (ImGui::Checkbox("Show previous bake", &shown)) commands.push_back(ShowPreviousBake{shown});
+    noteItem("Show previous bake");
+    tooltip("Switches between the two bakes; the camera stays. The difference is what the bake changed.");
     secondColumn();
-    if (button("Dismiss", "Gives its memory back. Its file stays in the cache."))
+    if (button("Dismiss", "Frees its memory. Its file stays in the cache."))
         commands.push_back(DismissPreviousBake{});
 }
 

@@ -20,10 +20,11 @@ void progressLines(const planet::BakeProgress& progress) {
     if (!beginValues("bake")) return;
     valueRow("Samples",
              fmt::format("{} of {}", countText(static_cast<double>(progress.samplesDone)), countText(total)),
-             "Heights of the finest level, and texels of colour.");
-    valueRow("Rate", fmt::format("{} samples/s", countText(progress.samplesPerS)), "Since the bake began.");
+             "Finest-level height samples and colour texels.");
+    valueRow("Rate", fmt::format("{} samples/s", countText(progress.samplesPerS)),
+             "Mean rate since the bake began.");
     valueRow("Time left", progress.samplesDone == 0 ? "..." : durationText(progress.remainingS),
-             "At this rate.");
+             "Estimated from the current rate.");
     endValues();
 }
 
@@ -46,7 +47,7 @@ BakeWindowCommands bakeWindow(const BakeWindowInput& input, const Rect& within) 
     ImGui::TextUnformatted(input.problem.empty() ? fmt::format("Baking {}", input.source).c_str()
                                                  : fmt::format("{} cannot be shown", input.source).c_str());
     if (input.problem.empty()) {
-        ImGui::TextDisabled("Needed once; the result is kept for the next time.");
+        ImGui::TextDisabled("This is needed only once; the result is cached.");
         progressLines(input.progress);
         if (ImGui::Button(input.stopping ? "Stopping..." : "Cancel") && !input.stopping)
             commands.cancel = true;

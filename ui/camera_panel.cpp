@@ -27,20 +27,22 @@ struct PoseField {
 };
 using Pose = planet::CameraPose;
 constexpr std::array<PoseField, 5> poseFields = {{
-    {"Latitude", &Pose::latitudeDeg, -90, 90, "%.5f deg", "Degrees north of the equator."},
-    {"Longitude", &Pose::longitudeDeg, -360, 360, "%.5f deg", "Degrees east."},
+    {"Latitude", &Pose::latitudeDeg, -90, 90, "%.5f deg", "Latitude in degrees, north positive."},
+    {"Longitude", &Pose::longitudeDeg, -360, 360, "%.5f deg", "Longitude in degrees, east positive."},
     {"Altitude", &Pose::altitudeM, -1e8, 2e10, "%.1f m",
-     "Metres above the planet's radius, which is not the ground; the ground keeps the camera above it."},
-    {"Heading", &Pose::headingDeg, -360, 360, "%.2f deg", "Degrees from north over east."},
-    {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f deg", "Degrees above level; -90 looks straight down."},
+     "Height in metres above the planet's radius (not above the ground). The camera cannot go below the "
+     "ground."},
+    {"Heading", &Pose::headingDeg, -360, 360, "%.2f deg", "Degrees clockwise from north."},
+    {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f deg", "Degrees above the horizontal; -90 looks straight down."},
 }};
 
 void modeControl(const EditorView& view, ViewSettings& settings, Commands& commands) {
     CameraMode mode = settings.camera.mode;
     if (!choice("Mode", mode, defaultCamera.mode, "fly\0orbit\0follow a flight\0",
-                "Fly: drag moves the ground, keys W A S D E Q move the camera. Orbit: drag turns the camera "
-                "about the ground that was in the middle, the wheel changes the distance, the right button "
-                "moves the point. Follow a flight: a recorded way; touching the controls leaves it."))
+                "Fly: drag moves the ground, the keys W A S D E Q move the camera. Orbit: drag turns the "
+                "camera around the ground point in the centre of the view, the wheel changes the distance, "
+                "the right button moves the point. Follow a flight: plays a recorded camera path; using the "
+                "controls ends it."))
         return;
     const bool follows = mode == CameraMode::FollowFlight;
     if (follows && settings.camera.flight.empty()) {
@@ -53,11 +55,12 @@ void modeControl(const EditorView& view, ViewSettings& settings, Commands& comma
 void motionSection(const EditorView& view, ViewSettings& settings, Commands& commands) {
     modeControl(view, settings, commands);
     slider("Field of view", settings.camera.fovDeg, defaultCamera.fovDeg, 5.0, 150.0, "%.0f deg",
-           "Horizontal angle of view, degrees. Smaller: errors are magnified, so more detail is chosen, "
+           "Horizontal field of view in degrees. Smaller: errors are magnified, so more detail is selected; "
            "K' = W / (2 tan(fov / 2)).");
     double factor = view.camera.speedFactor;
     if (slider("Speed", factor, 1.0, 1.0 / 64, 64.0, "%.2f x",
-               "Of the keys, + and -. At 1 x the camera moves 0.6 of its height above the ground a second.",
+               "Speed of the movement keys; + and - change it. At 1 x the camera moves 0.6 of its height "
+               "above ground per second.",
                ImGuiSliderFlags_Logarithmic))
         commands.push_back(SetSpeedFactor{factor});
 }
@@ -93,9 +96,10 @@ void poseSection(const EditorView& view, CameraPanelState& state, Commands& comm
                  "Height above the finest ground that is loaded below the camera.");
         endValues();
     }
-    if (button("Reset", "Back to where this session started (F3).")) commands.push_back(ResetCamera{});
+    if (button("Reset", "Moves the camera to where this session started (F3)."))
+        commands.push_back(ResetCamera{});
     ImGui::SameLine();
-    if (button("Start here", "Sessions begin with this view from now on."))
+    if (button("Set as start", "Future sessions start with this view."))
         commands.push_back(KeepCameraAsStart{});
 }
 
@@ -107,15 +111,15 @@ void bookmarkRow(const Bookmark& bookmark, Commands& commands) {
     if (ImGui::Selectable(bookmark.name.c_str(), false, 0, {width, 0}))
         commands.push_back(MoveCamera{bookmark.pose});
     noteItem(bookmark.name);
-    tooltip(fmt::format("{}\n{} high, heading {:.0f} deg, pitch {:.0f} deg{}",
+    tooltip(fmt::format("{}\naltitude {}, heading {:.0f} deg, pitch {:.0f} deg{}",
                         placeText(bookmark.pose.latitudeDeg, bookmark.pose.longitudeDeg),
                         distanceText(bookmark.pose.altitudeM), bookmark.pose.headingDeg,
-                        bookmark.pose.pitchDeg, bookmark.shipped ? "\nComes with Worldy." : "")
+                        bookmark.pose.pitchDeg, bookmark.shipped ? "\nBuilt-in." : "")
                 .c_str());
     if (!bookmark.shipped) {
         ImGui::SameLine();
         if (ImGui::SmallButton("remove")) commands.push_back(RemoveBookmark{bookmark.name});
-        tooltip("Forgets this bookmark.");
+        tooltip("Deletes this bookmark.");
     }
     ImGui::PopID();
 }
@@ -125,13 +129,13 @@ void addBookmarkControl(CameraPanelState& state, Commands& commands) {
         ImGui::CalcTextSize("Add").x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - room);
     const bool entered =
-        ImGui::InputTextWithHint("##name", "name of this view", state.bookmarkName.data(),
+        ImGui::InputTextWithHint("##name", "Bookmark name", state.bookmarkName.data(),
                                  state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     noteItem("Name");
-    tooltip("Up to 60 letters. The name of one of your own replaces it.");
+    tooltip("Up to 60 characters. A bookmark of your own with the same name is replaced.");
     ImGui::SameLine();
     ImGui::BeginDisabled(state.bookmarkName[0] == 0);
-    const bool pressed = button("Add", "Keeps the camera as it is under this name.");
+    const bool pressed = button("Add", "Saves the current camera under this name.");
     ImGui::EndDisabled();
     if ((!entered && !pressed) || state.bookmarkName[0] == 0) return;
     commands.push_back(AddBookmark{state.bookmarkName.data()});
@@ -149,46 +153,47 @@ void followedFlight(const FlightView& flight, Commands& commands) {
     constexpr double start = 0;
     const std::string format = fmt::format("%.1f s of {:.0f} s", flight.durationS);
     if (ImGui::Button(flight.paused ? "Play" : "Pause")) commands.push_back(PauseFlight{!flight.paused});
-    tooltip("Holds the flight, or lets it go on. It begins anew at its end.");
+    tooltip("Pauses or resumes the flight. At its end it starts again.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &timeS, &start, &flight.durationS, format.c_str(),
                             ImGuiSliderFlags_AlwaysClamp))
         commands.push_back(MoveFlight{timeS});
-    tooltip("Time since the flight's start, seconds. Drag it to look at any moment again.");
+    tooltip("Time since the start of the flight, in seconds. Drag to seek.");
 }
 
 void flightsSection(const EditorView& view, const ViewSettings& settings, Commands& commands) {
     if (!section("Flights")) return;
     if (view.camera.flights.empty())
-        ImGui::TextColored(palette().dim, "There are none: TOML files in a folder \"flights\".");
+        ImGui::TextColored(palette().dim,
+                           "No flights found. Flights are TOML files in a folder \"flights\".");
     for (const std::filesystem::path& file : view.camera.flights) {
         const bool followed = view.camera.flight && settings.camera.flight == file.string();
         if (ImGui::Selectable(flightName(file).c_str(), followed)) commands.push_back(StartFlight{file});
         noteItem(flightName(file));
-        tooltip(fmt::format("Follows it from its beginning.\n{}", file.string()).c_str());
+        tooltip(fmt::format("Follows this flight from the start.\n{}", file.string()).c_str());
     }
     if (view.camera.flight) followedFlight(*view.camera.flight, commands);
 }
 
 void observerSection(CameraSettings& camera) {
     if (!section("Observer")) return;
-    choice("Picture", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
-           "A second camera that looks at the first one's view from outside: what was chosen for that view, "
-           "and what was culled. Split: both side by side. Draws the planet twice.");
+    choice("View", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
+           "A second camera that shows the LOD view's selection and culling from outside. Split: both views "
+           "side by side. The planet is drawn twice.");
     ImGui::BeginDisabled(camera.observer == ObserverMode::Off);
     checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
-             "The four edges of the first camera's view, to the farthest ground it can see.");
+             "Draws the edges of the LOD view's frustum, up to the farthest visible ground.");
     secondColumn();
     checkbox("Horizon", camera.showHorizon, defaultCamera.showHorizon,
-             "The circle beyond which the planet hides itself from the first camera.");
-    checkbox("d_m of selected", camera.showSwitchDistances, defaultCamera.showSwitchDistances,
-             "How far d_m = delta_c K reaches about the selected chunk, K = W / (2 tau tan(fov / 2)): an eye "
-             "inside must see it replaced by its children. Nothing for a leaf.");
+             "Draws the LOD view's horizon circle, beyond which the planet occludes itself.");
+    checkbox("Switch distance", camera.showSwitchDistances, defaultCamera.showSwitchDistances,
+             "Draws the switch distance d_m = δc K around the selected chunk, K = W / (2 τ tan(fov / 2)). A "
+             "camera within this distance requires the chunk to be split. Leaves have none.");
     secondColumn();
     checkbox("Own LOD", camera.observerOwnLod, defaultCamera.observerOwnLod,
-             "The observer draws what it would choose itself, as a second view with requests of its own, "
-             "instead of what was chosen for the first. Loads more.");
+             "The observer uses its own LOD selection and requests instead of the LOD view's. This loads "
+             "more chunks.");
     ImGui::EndDisabled();
 }
 

@@ -22,7 +22,7 @@ void failedRow(const EditorView& view, const planet::FailedBlock& failed, Comman
     ImGui::TableNextColumn();
     if (ImGui::SmallButton("Retry")) commands.push_back(RetryFailed{failed.block});
     noteItem("Retry " + planet::toString(failed.block));
-    tooltip("Lets this block be asked for again at once, as if it had never failed.");
+    tooltip("Retries this block now and resets its failure count.");
     const bool isTile = failed.block.kind != planet::BlockKind::Heights;
     ImGui::TableNextColumn();
     if (isTile)
@@ -47,26 +47,25 @@ void sortFailed(std::vector<planet::FailedBlock>& blocks) {
 }
 
 std::string retryText(const std::optional<double>& retryInS) {
-    if (!retryInS) return "for good";
-    return *retryInS > 0 ? "in " + latencyText(*retryInS) : "when wanted";
+    if (!retryInS) return "never";
+    return *retryInS > 0 ? "in " + latencyText(*retryInS) : "when needed";
 }
 
 void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands) {
     if (blocks.empty())
-        return emptyState(
-            "Every block that was asked for could be read. \"Failures\" under Bad disk makes some fail.");
+        return emptyState("No read has failed. \"Failure rate\" under I/O fault injection makes reads fail.");
     // As wide as their texts, in heights of the font.
     constexpr std::array columns = {
         TableColumn{"##retry", 3.6f},
-        TableColumn{"Children of", 7, "A click selects the chunk, a double click looks at it."},
-        TableColumn{
-            "Again", 6.8f,
-            "When the block is asked for again by itself: after a delay that doubles with each failure, "
-            "as soon as a view wants it. For good: only by Retry. \"Retries\" and \"Retry after\" say how "
-            "often and when; data that was read and is wrong has failed for good at once."},
-        TableColumn{"Tried", 3.2f, "Reads that failed since the block was last there or asked for by Retry."},
-        TableColumn{"Kind", 4.4f, "Heights of chunks, tiles of colour, or tiles of normals."},
-        TableColumn{"Why", 24, "What went wrong last; the whole text stands in its tooltip."}};
+        TableColumn{"Parent", 7, "Click to select the chunk; double-click to look at it."},
+        TableColumn{"Retry", 6.8f,
+                    "When the block is retried automatically: after a delay that doubles with each failure, "
+                    "if a view needs it. Never: the block has failed permanently and only the Retry button "
+                    "requests it again. \"Retries\" and \"Retry delay\" set the number and the delay; "
+                    "corrupt blocks fail permanently at once."},
+        TableColumn{"Attempts", 3.2f, "Failed reads since the block was last loaded or retried manually."},
+        TableColumn{"Kind", 4.4f, "Kind of block: heights of a chunk, colour tile or normal tile."},
+        TableColumn{"Reason", 24, "The last error; its tooltip shows the full text."}};
     if (!beginWideTable("failed", columns, 49, 2)) return;
     tableRows(blocks.size(), [&](std::size_t row) { failedRow(view, blocks[row], commands); });
     ImGui::EndTable();

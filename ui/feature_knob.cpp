@@ -15,17 +15,14 @@ void featureKnob(const char* label, CostlyPart part, const EditorView& view, Sur
     if (use != FeatureUse::Automatic) return;
     if (view.light.software) {
         wrappedText(
-            fmt::format("Turned down: the CPU draws here, and {} more than 20 frames a second leave.", costs),
+            fmt::format("Off: software rendering; {} would exceed the 50 ms budget of a frame.", costs),
             palette().warning);
     } else if (view.light.turnedDown.has(part)) {
-        wrappedText(
-            fmt::format("Turned down: with it a picture took {:.0f} ms of the GPU; 20 frames a second "
-                        "leave {:.0f}.",
-                        view.light.turnedDown.tookMs[static_cast<std::size_t>(part)], affordedMs),
-            palette().warning);
+        wrappedText(fmt::format("Off: it took the GPU to {:.0f} ms per frame; the budget is {:.0f} ms.",
+                                view.light.turnedDown.tookMs[static_cast<std::size_t>(part)], affordedMs),
+                    palette().warning);
         ImGui::PushID(label);
-        if (button("Try again",
-                   "Everything that was turned down is drawn again, until pictures are too slow."))
+        if (button("Try again", "Turns all reduced features back on until a frame exceeds the budget again."))
             commands.emplace_back(TryCostlyParts{});
         ImGui::PopID();
     }

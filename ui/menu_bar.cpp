@@ -85,16 +85,15 @@ void viewMenu(Workspace& workspace) {
     panelItems(workspace);
     ImGui::Separator();
     if (beginMenu("Theme")) {
-        if (menuItem("Dark colours", nullptr, workspace.theme == Theme::Dark)) workspace.theme = Theme::Dark;
-        if (menuItem("Light colours", nullptr, workspace.theme == Theme::Light))
-            workspace.theme = Theme::Light;
+        if (menuItem("Dark theme", nullptr, workspace.theme == Theme::Dark)) workspace.theme = Theme::Dark;
+        if (menuItem("Light theme", nullptr, workspace.theme == Theme::Light)) workspace.theme = Theme::Light;
         ImGui::EndMenu();
     }
     if (menuItem("Larger text", "Ctrl++")) workspace.scale = std::min(workspace.scale * 1.1, 3.0);
     if (menuItem("Smaller text", "Ctrl+-")) workspace.scale = std::max(workspace.scale / 1.1, 0.5);
-    if (menuItem("Text as the monitor's", nullptr, false, workspace.scale != 1)) workspace.scale = 1;
+    if (menuItem("Match monitor scale", nullptr, false, workspace.scale != 1)) workspace.scale = 1;
     ImGui::Separator();
-    if (menuItem("Reset arrangement")) {
+    if (menuItem("Reset layout")) {
         const Theme theme = workspace.theme;
         workspace = {};
         workspace.theme = theme;
@@ -129,7 +128,7 @@ void cameraMenu(const EditorView& view, ViewSettings& settings, Commands& comman
         if (menuItem(name, "F7", camera.observer == value)) camera.observer = value;
     };
     observer("Observer off", ObserverMode::Off);
-    observer("Observer beside", ObserverMode::Split);
+    observer("Observer split", ObserverMode::Split);
     observer("Observer alone", ObserverMode::Alone);
     ImGui::EndMenu();
 }
@@ -146,31 +145,31 @@ struct KeyHelp {
     const char* meaning;
 };
 constexpr std::array keyHelp = {
-    KeyHelp{"Left drag", "move over the planet"},
+    KeyHelp{"Left drag", "move across the planet"},
     KeyHelp{"Right drag", "look around"},
-    KeyHelp{"Wheel", "nearer and farther"},
+    KeyHelp{"Wheel", "zoom"},
     KeyHelp{"Click", "select the chunk under the pointer"},
     KeyHelp{"W A S D, E Q", "fly; up and down"},
     KeyHelp{"I J K L", "turn"},
-    KeyHelp{"+ -", "faster, slower"},
+    KeyHelp{"+ -", "change the speed"},
     KeyHelp{"F1", "wireframe"},
-    KeyHelp{"F2", "freeze LOD: the camera flies on, what is drawn stays chosen"},
-    KeyHelp{"F3", "camera back to the start"},
-    KeyHelp{"F4", "the cube before it is blown up"},
-    KeyHelp{"F5, F6", "pause frames, step one frame"},
-    KeyHelp{"F7", "observer: off, beside, alone"},
-    KeyHelp{"F8", "next colouring of the chunks"},
-    KeyHelp{"F9", "while comparing: flip between A and B"},
-    KeyHelp{"F11", "hide and show all panels"},
-    KeyHelp{"F12, Shift+F12", "screenshot, with panels"},
+    KeyHelp{"F2", "freeze LOD: keep the selection while the camera moves"},
+    KeyHelp{"F3", "move the camera to the start"},
+    KeyHelp{"F4", "unprojected cube"},
+    KeyHelp{"F5, F6", "pause frames; step one frame"},
+    KeyHelp{"F7", "observer: off, split, alone"},
+    KeyHelp{"F8", "next chunk tint"},
+    KeyHelp{"F9", "while comparing: switch between A and B"},
+    KeyHelp{"F11", "show or hide all panels"},
+    KeyHelp{"F12, Shift+F12", "screenshot; with panels"},
     KeyHelp{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
-    KeyHelp{"Ctrl+O", "open a file; or drop it onto the window"},
+    KeyHelp{"Ctrl+O", "open a file (or drop it onto the window)"},
     KeyHelp{"Ctrl+Shift+C", "copy as command line"},
     KeyHelp{"Ctrl++, Ctrl+-", "larger, smaller text"},
-    KeyHelp{"Ctrl+0 to 9, Ctrl+P, Ctrl+L", "show and hide the panels"},
+    KeyHelp{"Ctrl+0 to 9, Ctrl+P, Ctrl+L", "show or hide a panel"},
     KeyHelp{"Ctrl+click on a slider", "type a number"},
-    KeyHelp{"Right click on a setting", "back to its default"},
-    KeyHelp{"Esc", "nothing selected"},
+    KeyHelp{"Right click on a setting", "reset to its default"},
+    KeyHelp{"Esc", "clear the selection"},
     KeyHelp{"Ctrl+Q", "quit"},
 };
 

@@ -122,8 +122,7 @@ void openDialog(OpenDialogState& state, Commands& commands) {
         state.opening = false;
     }
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    const std::string title =
-        std::string(state.forColours ? "Choose an image of colours" : "Open a file") + popup;
+    const std::string title = std::string(state.forColours ? "Choose a colour image" : "Open a file") + popup;
     if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
         return;
@@ -134,7 +133,7 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     if (!state.problem.empty())
         ImGui::TextColored(palette().warning, "%s", state.problem.c_str());
     else if (state.entries.empty())
-        ImGui::TextDisabled("Nothing here that Worldy opens.");
+        ImGui::TextDisabled("This folder contains no file that Worldy can open.");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     accepted |=

@@ -187,7 +187,7 @@ Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deep
         case ColourBy::Error:
             return {std::string("Error ") + epsSymbol(), errorEntries(tauPx * overlay.errorScale)};
         case ColourBy::DeltaC:
-            return {"delta_c", rampEntries([&](double share) {
+            return {inFont("δc"), rampEntries([&](double share) {
                         return deltaText(overlay.deltaTopM * std::pow(10.0, deltaDecades * (share - 1)));
                     })};
         case ColourBy::Morph:

@@ -37,33 +37,30 @@ constexpr std::size_t latencyBuckets = 36;
 void knobs(PagingKnobs& paging, bool hasColours) {
     const PagingKnobs defaults;
     slider("Budget", paging.budgetMB, defaults.budgetMB, 16, 65536, "%d MiB",
-           "Memory for resident chunks and tiles of colour, CPU and GPU together, MiB. Smaller: when it is "
-           "full, what is wanted "
-           "stays coarse, and turning back loads again. Larger: takes it from everything else.",
+           "Memory budget for resident chunks and colour tiles, CPU and GPU together, in MiB. Smaller: once "
+           "the budget is full, some chunks stay coarse and evicted chunks must be loaded again. Larger: "
+           "less memory for everything else.",
            ImGuiSliderFlags_Logarithmic);
     if (hasColours) {
-        slider("Colours' share", paging.colourShare, defaults.colourShare, 0.01, 0.9, "%.2f",
-               "Of the budget, for streamed tiles of colour. Larger: sharper colours, and coarser ground "
-               "once the "
-               "budget is full.");
+        slider("Colour share", paging.colourShare, defaults.colourShare, 0.01, 0.9, "%.2f",
+               "Fraction of the budget for streamed colour tiles. Larger: sharper colours, but coarser "
+               "ground once the budget is full.");
     }
     slider("Loaders", paging.loaderThreads, defaults.loaderThreads, 1, 64, "%d",
-           "Threads that read and decode chunks. More: a slow disk keeps more reads in flight, but they take "
-           "cores from the frame.",
+           "Number of threads that read and decode chunks. More: more reads in flight on a slow disk, but "
+           "less CPU time for drawing.",
            ImGuiSliderFlags_Logarithmic);
-    slider(
-        "Upload limit", paging.uploadLimitMs, defaults.uploadLimitMs, 0.1, 100, "%.1f ms",
-        "Time a frame spends on making loaded chunks drawable, milliseconds; at least one block is. Larger: "
-        "detail arrives sooner, but frames stutter while it does.",
-        ImGuiSliderFlags_Logarithmic);
-    slider(
-        "Retries", paging.retries, defaults.retries, 0, 10, "%d",
-        "How often a block that could not be read is asked for again by itself; then it has failed for "
-        "good. Fewer: a disk that stumbles leaves holes in the detail. More: a broken one is asked longer. "
-        "Data that was read and is wrong is not asked for again.");
-    slider("Retry after", paging.retryDelayS, defaults.retryDelayS, 0, 60, "%.2f s",
-           "From a failed read to the first retry, seconds; twice as long to each further one. Smaller: "
-           "detail comes sooner, but a disk in trouble gets no rest.",
+    slider("Upload limit", paging.uploadLimitMs, defaults.uploadLimitMs, 0.1, 100, "%.1f ms",
+           "Time per frame for uploading loaded chunks, in milliseconds; at least one block is uploaded per "
+           "frame. Larger: detail arrives sooner, but frames may stutter.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Retries", paging.retries, defaults.retries, 0, 10, "%d",
+           "How often a failed read is retried before it counts as permanently failed. Fewer: an unreliable "
+           "disk leaves chunks coarse. More: a broken disk is retried for longer. Corrupt blocks are never "
+           "retried.");
+    slider("Retry delay", paging.retryDelayS, defaults.retryDelayS, 0, 60, "%.2f s",
+           "Delay before the first retry of a failed read, in seconds; it doubles with each further retry. "
+           "Smaller: detail arrives sooner, but a failing disk is read more often.",
            ImGuiSliderFlags_Logarithmic);
 }
 
@@ -71,17 +68,15 @@ void buttons(const EditorView& view, Commands& commands) {
     bool paused = view.pagingPaused;
     if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PausePaging{paused});
     noteItem("Pause");
-    tooltip("Loaders take nothing more from the queue. What is missing stays coarse.");
+    tooltip("Stops loaders from taking requests from the queue. Missing chunks stay coarse.");
     ImGui::SameLine();
     ImGui::BeginDisabled(!view.pagingPaused);
-    if (button("Load one", "While paused: lets the most urgent request through."))
-        commands.push_back(LoadOne{});
+    if (button("Load one", "While paused: processes the most urgent request.")) commands.push_back(LoadOne{});
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (button(
-            "Drop all",
-            "Drops every chunk and every tile of colour but the six roots of each, and every request that no "
-            "loader has taken: shows how the picture comes back."))
+    if (button("Evict all",
+               "Evicts all chunks and colour tiles except the six roots, and cancels all queued requests, to "
+               "show how the picture loads again."))
         commands.push_back(DropAll{});
     const planet::PagingCounters& p = view.stats.paging;
     if (p.failedForGood + p.awaitingRetry == 0) return;
@@ -92,10 +87,8 @@ void buttons(const EditorView& view, Commands& commands) {
     if (retry) commands.push_back(RetryFailed{});
     ImGui::PopStyleColor();
     tooltip(
-        "Blocks that could not be read are drawn as their parents, and asked for again some times by "
-        "themselves. Those that have failed for good, of colours drawn as a loud checker, are asked for "
-        "again "
-        "only by this. \"Failed\" lists them.");
+        "Retries all blocks that failed permanently. Where a block could not be read, its parent is drawn "
+        "instead; permanently failed colour tiles are drawn as a checkerboard. The Failed tab lists them.");
 }
 
 std::size_t tileBytes(const planet::Planet& planet) {
@@ -110,16 +103,16 @@ void colourMemory(const EditorView& view) {
     usageBar(room > 0 ? used / room : 0, fmt::format("colours {} of {}", bytesText(used), bytesText(room)));
     const planet::PagingSettings& settings = view.planet->pagingSettings();
     tooltip(
-        fmt::format("Resident tiles of colour against their share of the budget, all on the GPU: {} of {} "
-                    "tiles of {} each. The share, {:.2f}, is {}; no more of it is taken than the file's "
-                    "tiles fill, and no more than {} tiles.",
-                    p.residentTiles, p.tileCapacity, bytesText(bytes), settings.colourShare,
-                    bytesText(settings.colourShare * static_cast<double>(settings.budgetBytes)),
-                    settings.maxColourTiles)
+        fmt::format(
+            "Resident colour tiles and their share of the budget, all on the GPU: {} of {} tiles of {} each. "
+            "The share, {:.2f}, is {}. It is limited to the number of tiles in the file and to {} tiles.",
+            p.residentTiles, p.tileCapacity, bytesText(bytes), settings.colourShare,
+            bytesText(settings.colourShare * static_cast<double>(settings.budgetBytes)),
+            settings.maxColourTiles)
             .c_str());
     if (p.budgetWaits > 0) {
         wrappedText(
-            fmt::format("{} blocks of colours wanted have no room in their share.", countText(p.budgetWaits)),
+            fmt::format("{} requested colour tiles do not fit into their share.", countText(p.budgetWaits)),
             palette().warning);
     }
 }
@@ -133,14 +126,14 @@ void residentMemory(const EditorView& view) {
         static_cast<double>(settings.budgetBytes) * (hasColours ? 1 - settings.colourShare : 1);
     usageBar(budget > 0 ? used / budget : 0,
              fmt::format("{}{} of {}", hasColours ? "heights " : "", bytesText(used), bytesText(budget)));
-    tooltip(fmt::format("Resident chunks against {}: {} chunks, {} on the CPU and {} on the GPU.",
-                        hasColours ? "what the colours' share leaves of the budget" : "the budget",
+    tooltip(fmt::format("Resident chunks and {}: {} chunks, {} on the CPU and {} on the GPU.",
+                        hasColours ? "the budget minus the colour share" : "the budget",
                         countText(static_cast<double>(p.residentChunks)),
                         bytesText(static_cast<double>(p.residentBytesCpu)),
                         bytesText(static_cast<double>(p.residentBytesGpu)))
                 .c_str());
     if (p.budgetWaits > 0) {
-        wrappedText(fmt::format("{} blocks wanted have no room in the budget.", countText(p.budgetWaits)),
+        wrappedText(fmt::format("{} requested blocks do not fit into the budget.", countText(p.budgetWaits)),
                     palette().warning);
     }
     if (hasColours) colourMemory(view);
@@ -166,15 +159,16 @@ void totalsByKind(const EditorView& view) {
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
     kindRow("Loaded", count(p.loaded - c.loaded), count(c.loaded), "Blocks read and made resident.");
     kindRow("Evicted", count(p.evicted - c.evicted), count(c.evicted),
-            "Blocks dropped, for the budget's sake.");
+            "Blocks evicted to stay within the budget.");
     kindRow("Failed", count(p.failed - c.failed), count(c.failed),
-            "Reads that failed, those that were tried again included.", p.failed > 0);
+            "Failed reads, including those retried later.", p.failed > 0);
     kindRow("Read", bytesText(static_cast<double>(p.bytesRead - c.bytesRead)),
-            bytesText(static_cast<double>(c.bytesRead)), "From the file.");
-    kindRow("Resident", count(p.residentChunks), count(c.residentTiles),
-            "Chunks, and tiles of 256 x 256 texels of colour; the six roots of each always are.");
-    kindRow("No room", count(p.budgetWaits), count(c.budgetWaits),
-            "Blocks wanted last frame that the budget or its share has no room for.");
+            bytesText(static_cast<double>(c.bytesRead)), "Bytes read from the chunk file.");
+    kindRow(
+        "Resident", count(p.residentChunks), count(c.residentTiles),
+        "Resident chunks and colour tiles of 256 x 256 texels; the six roots of each are always resident.");
+    kindRow("Over budget", count(p.budgetWaits), count(c.budgetWaits),
+            "Blocks requested in the last frame that do not fit into the budget or its share.");
     ImGui::EndTable();
 }
 
@@ -183,24 +177,24 @@ void totals(const EditorView& view) {
     const bool hasColours = view.planet->colour().has_value();
     if (!beginValues("totals")) return;
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
-    valueRow("Requested", count(p.requested), "Page-ins put into the queue, since the file was opened.");
-    valueRow("Merged", count(p.merged), "Asked for again while they were queued.");
-    valueRow("Cancelled", count(p.cancelled), "Taken back by the opposite request, or no longer wanted.");
+    valueRow("Requested", count(p.requested), "Load requests queued since the file was opened.");
+    valueRow("Merged", count(p.merged), "Requests repeated while they were queued.");
+    valueRow("Cancelled", count(p.cancelled),
+             "Requests cancelled by the opposite request or no longer needed.");
     if (hasColours) {
         endValues();
         return totalsByKind(view);
     }
     valueRow("Loaded", count(p.loaded), "Blocks read and made resident.");
-    valueRow("Evicted", count(p.evicted), "Blocks paged out, for the budget's sake.");
-    valueRow("Failed", count(p.failed), "Reads that failed, those that were tried again included.",
+    valueRow("Evicted", count(p.evicted), "Blocks evicted to stay within the budget.");
+    valueRow("Failed", count(p.failed), "Failed reads, including those retried later.",
              p.failed > 0 ? &palette().bad : nullptr);
-    valueRow("Read", bytesText(static_cast<double>(p.bytesRead)), "From the file.");
+    valueRow("Read", bytesText(static_cast<double>(p.bytesRead)), "Bytes read from the chunk file.");
     endValues();
 }
 
 void seedKnob(std::uint32_t& seed) {
-    constexpr const char* explanation =
-        "Of all that is random about the bad disk: the same seed gives the same trouble.";
+    constexpr const char* explanation = "Seed of the injected faults; the same seed gives the same faults.";
     labelledControl("Seed", explanation);
     const std::uint32_t step = 1;
     ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed, &step);
@@ -211,36 +205,35 @@ void badDisk(PagingKnobs& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
     const planet::BadDiskSettings defaults;
     if (isBad(disk)) {
-        wrappedText(fmt::format("The disk is made bad: {}.", badDiskText(disk)), palette().warning);
-        if (button("Off", "The disk as it is. The seed stays.")) {
+        wrappedText(fmt::format("Injecting I/O faults: {}.", badDiskText(disk)), palette().warning);
+        if (button("Off", "Turns all fault injection off. The seed is kept.")) {
             const std::uint32_t seed = disk.seed;
             disk = {};
             disk.seed = seed;
         }
     }
     slider("Latency", disk.latencyMs, defaults.latencyMs, 0, 10000, "%.1f ms",
-           "Added to each read, milliseconds, half as much to half as much again. Larger: detail arrives "
-           "later; more loaders hide some of it.",
+           "Latency added to each read, in milliseconds, varied randomly by ±50 %. Larger: detail arrives "
+           "later; more loaders hide part of it.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Bandwidth", disk.bandwidthMBs, defaults.bandwidthMBs, 0, 100000,
+           disk.bandwidthMBs > 0 ? "%.2f MB/s" : "unlimited",
+           "Bandwidth per loader thread, in MB/s (10^6 bytes); 0 is unlimited. Smaller: large blocks take "
+           "longer.",
            ImGuiSliderFlags_Logarithmic);
     slider(
-        "Bandwidth", disk.bandwidthMBs, defaults.bandwidthMBs, 0, 100000,
-        disk.bandwidthMBs > 0 ? "%.2f MB/s" : "unlimited",
-        "Of each loader thread, MB (10^6 bytes) a second; 0: unlimited. Smaller: large blocks take longer.",
-        ImGuiSliderFlags_Logarithmic);
-    slider(
-        "Failures", disk.failureRate, defaults.failureRate, 0, 1, "%.3f",
-        "Share of the reads that fail, 0 to 1. What fails is drawn as its parent until it is tried again.");
+        "Failure rate", disk.failureRate, defaults.failureRate, 0, 1, "%.3f",
+        "Fraction of reads that fail, [0, 1]. The parent of a failed block is drawn until a retry succeeds.");
     checkbox("Shuffled order", disk.shuffledOrder, defaults.shuffledOrder,
-             "Reads are served in an order of the seed's instead of the most urgent first: what the "
-             "priorities are good for.");
+             "Serves reads in a random order given by the seed instead of by priority, to show the benefit "
+             "of priorities.");
     seedKnob(disk.seed);
     int time = paging.simulated ? 1 : 0;
-    if (choiceIndex(
-            "Reads end", time, 0, "by the clock\0simulated\0",
-            "By the clock: loader threads, as fast as they are. Simulated: no thread reads; a read lasts "
-            "just as long as the knobs above and the seed say, in the time of frames, so that the same "
-            "flight brings the same blocks in the same frames on any machine. Without latency or "
-            "bandwidth a read takes no time at all. What is being read when this changes is read anew."))
+    if (choiceIndex("Read timing", time, 0, "real time\0simulated\0",
+                    "Real time: loader threads read as fast as they can. Simulated: a read takes exactly the "
+                    "time given by the settings above and the seed, counted in frame time, so that a flight "
+                    "loads the same blocks in the same frames on any machine. Without latency and bandwidth "
+                    "a read takes no time. Changing this restarts reads in progress."))
         paging.simulated = time == 1;
 }
 
@@ -323,7 +316,7 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     if (row.type == planet::PagingType::PageOut) return pageOutReason(ageS);
     if (row.kind == planet::BlockKind::Colours) return colourReason(row.priority);
     const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
-    if (index == planet::noNode) return "its parent is gone";
+    if (index == planet::noNode) return "parent evicted";
     const std::size_t v =
         shownView >= 0 ? static_cast<std::size_t>(shownView) : wantingView(row.views, planet.viewCount());
     const planet::ChunkNode& node = planet.tree().nodes[index];
@@ -351,8 +344,8 @@ std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableC
     if (view.planet->colour())
         all.insert(all.begin() + static_cast<std::ptrdiff_t>(name),
                    TableColumn{"Kind", 0.9f,
-                               "Heights of chunks, or tiles of colour. A click on tiles selects the chunk on "
-                               "whose ground they lie, a double click looks at their square."});
+                               "Kind of block: heights of a chunk, or colour tiles. Click a tile to select "
+                               "the chunk it covers; double-click to look at it."});
     return all;
 }
 
@@ -366,17 +359,17 @@ void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = t
         state.shownKind =
             index == 0 ? std::nullopt : std::optional(static_cast<planet::BlockKind>(index - 1));
     }
-    tooltip("Rows and latencies of both kinds of blocks, or of one.");
+    tooltip("Shows requests and latencies of both kinds of blocks or of one.");
 }
 
 void queueFilter(const EditorView& view, PagingPanelState& state) {
-    ImGui::Checkbox("Page-in", &state.showPageIns);
-    tooltip("Blocks to be loaded, most urgent first.");
+    ImGui::Checkbox("Load", &state.showPageIns);
+    tooltip("Load requests, most urgent first.");
     ImGui::SameLine();
-    ImGui::Checkbox("Page-out", &state.showPageOuts);
+    ImGui::Checkbox("Evict", &state.showPageOuts);
     tooltip(
-        "Blocks out of use, the longest unused first. They stay until their room is needed. Colours have "
-        "none: what is out of use makes room the moment that it is needed.");
+        "Eviction candidates: unused blocks, least recently used first. They stay resident until their "
+        "memory is needed. Colour tiles are not listed; they are evicted directly when memory is needed.");
     kindFilter(view, state);
     if (view.planet->viewCount() < 2) return;
     ImGui::SameLine();
@@ -386,7 +379,7 @@ void queueFilter(const EditorView& view, PagingPanelState& state) {
                                                                  "view 4"};
     if (ImGui::Combo("##view", &index, names.data(), static_cast<int>(view.planet->viewCount()) + 1))
         state.shownView = index - 1;
-    tooltip("Each view asks for what it wants with its own priorities.");
+    tooltip("Shows the requests of one view; each view requests blocks with its own priorities.");
 }
 
 // The part of the queue that is shown: page-ins stand before page-outs.
@@ -401,23 +394,23 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
 }
 
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
-    if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No request of these kinds.";
+    if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No requests of this kind.";
     const planet::PagingCounters& p = view.stats.paging;
     if (p.awaitingRetry > 0)
-        return "The queue is empty: what is still missing could not be read, and is tried again in a while.";
-    if (p.failedForGood > 0) return "The queue is empty: what is still missing could not be read.";
+        return "The queue is empty: missing blocks could not be read and will be retried.";
+    if (p.failedForGood > 0) return "The queue is empty: missing blocks could not be read.";
     const bool waiting =
         view.stats.selection.waiting > 0 || view.planet->colourSelection().counters.waiting > 0;
-    return !waiting ? "The queue is empty: all that is wanted is resident." : "The queue is empty.";
+    return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
 }
 
 void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
     queueFilter(view, state);
     const std::span<const PagingRow> queue = shownQueue(state);
     if (queue.empty()) return emptyState(emptyQueueText(view, state));
-    constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Children of", 1.7f},
+    constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Parent", 1.7f},
                                     TableColumn{"Priority", 0.9f}, TableColumn{"Age", 1.15f},
-                                    TableColumn{"Why", 2.4f}};
+                                    TableColumn{"Reason", 2.4f}};
     const std::vector<TableColumn> shown = withKind(view, columns, 1);
     if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 31 : 27)) return;
     tableRows(queue.size(), [&](std::size_t at) {
@@ -437,11 +430,11 @@ void loadingTable(const EditorView& view, PagingPanelState& state, Commands& com
     const bool any = !loading.empty();
     std::erase_if(loading, [&](const auto& load) { return !isShown(load.kind, state.shownKind); });
     kindFilter(view, state, false);
-    if (any && loading.empty()) return emptyState("Nothing of this kind is being read now.");
+    if (any && loading.empty()) return emptyState("No block of this kind is being read.");
     if (loading.empty())
-        return emptyState(view.pagingPaused ? "Paging is paused." : "Nothing is being read now.");
-    constexpr std::array columns = {TableColumn{"Children of", 1.7f}, TableColumn{"Priority"},
-                                    TableColumn{"Size"}, TableColumn{"For"}};
+        return emptyState(view.pagingPaused ? "Paging is paused." : "No block is being read.");
+    constexpr std::array columns = {TableColumn{"Parent", 1.7f}, TableColumn{"Priority"}, TableColumn{"Size"},
+                                    TableColumn{"Elapsed"}};
     const std::vector<TableColumn> shown = withKind(view, columns, 0);
     if (!beginWideTable("loading", shown, shown.size() > columns.size() ? 24 : 20)) return;
     tableRows(loading.size(), [&](std::size_t row) {
@@ -495,13 +488,13 @@ void historyFilter(const EditorView& view, PagingPanelState& state) {
     tooltip("Blocks that could not be read.");
     sameLineIfRoom(checkboxWidth("Cancelled"));
     ImGui::Checkbox("Cancelled", &state.showCancelled);
-    tooltip("Requests taken back before a loader took them.");
+    tooltip("Requests cancelled before a loader took them.");
     sameLineIfRoom(checkboxWidth("Evicted"));
     ImGui::Checkbox("Evicted", &state.showEvicted);
-    tooltip("Blocks dropped, for the budget's sake.");
+    tooltip("Blocks evicted to stay within the budget.");
     sameLineIfRoom(checkboxWidth("Merged only"));
     ImGui::Checkbox("Merged only", &state.onlyMerged);
-    tooltip("Only requests that were asked for more than once.");
+    tooltip("Shows only blocks requested more than once.");
     kindFilter(view, state);
 }
 
@@ -525,11 +518,11 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
     for (auto event = history.rbegin(); event != history.rend(); ++event)
         if (isShown(*event, state)) shown.push_back(&*event);
     if (shown.empty())
-        return emptyState(history.empty() ? "No request has ended yet." : "No request of these kinds.");
-    constexpr std::array columns = {TableColumn{"Outcome", 1.1f}, TableColumn{"Children of", 1.7f},
+        return emptyState(history.empty() ? "No request has finished yet." : "No requests of this kind.");
+    constexpr std::array columns = {TableColumn{"Outcome", 1.1f}, TableColumn{"Parent", 1.7f},
                                     TableColumn{"Waited"},        TableColumn{"Reading"},
-                                    TableColumn{"Size"},          TableColumn{"Asked", 0.7f},
-                                    TableColumn{"When", 1.2f}};
+                                    TableColumn{"Size"},          TableColumn{"Requests", 0.7f},
+                                    TableColumn{"Finished", 1.2f}};
     const std::vector<TableColumn> all = withKind(view, columns, 1);
     if (!beginWideTable("history", all, all.size() > columns.size() ? 38 : 34)) return;
     tableRows(shown.size(), [&](std::size_t row) { historyRow(view, *shown[row], commands); });
@@ -542,11 +535,11 @@ void latencyHistogram(PagingPanelState& state, float lines) {
     const PagingPanelState::Sample& sample = state.sample;
     int index = state.latencyOfReading ? 1 : 0;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::Combo("##latency", &index, "latency until loaded\0latency of reading\0"))
+    if (ImGui::Combo("##latency", &index, "total latency\0read latency\0"))
         state.latencyOfReading = index == 1;
     tooltip(
-        "Until loaded: from the first time a block was asked for until it was there. Of reading: "
-        "reading and decoding it, a bad disk's waiting included.");
+        "Total latency: from the first request of a block until it is loaded. Read latency: reading and "
+        "decoding it, including injected delays.");
     std::vector<HistogramMark> marks;
     if (sample.latencies > 0) {
         marks.push_back({logarithmicPosition(static_cast<double>(sample.medianS), fastestS, slowestS),
@@ -576,7 +569,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
         const auto colours = historyValues<double>(view.history, [](const FrameStats& s) {
             return static_cast<double>(s.colourPaging.bytesRead) / 1e6;
         });
-        rate.push_back({"of colours", seriesColour(3), growthPerS(times, colours, windowS)});
+        rate.push_back({"colours", seriesColour(3), growthPerS(times, colours, windowS)});
     }
     linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
     latencyHistogram(state, lines);
@@ -597,8 +590,7 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
     const bool open = ImGui::BeginTabItem(fmt::format("Failed {}###failed", failed).c_str());
     if (failed > 0) ImGui::PopStyleColor();
     noteItem("Failed blocks");
-    tooltip(
-        "Blocks that could not be read: those that are tried again, and those that have failed for good.");
+    tooltip("Blocks that could not be read: those that will be retried, and those that failed permanently.");
     state.failedShown = open;
     if (!open) return;
     failedTable(view, state.sample.failed, commands);
@@ -635,7 +627,7 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     if (!view.planet) {
         knobs(settings.paging, false);
         badDisk(settings.paging);
-        return emptyState("Requests show here once a planet is open.");
+        return emptyState("No planet is open. Open one to see its paging requests.");
     }
     refresh(view, state);
     const bool wide = hasWideRoom();
@@ -643,12 +635,13 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     const std::array columns = {Column{"Paging", 1.2f, 0,
                                        [&] {
                                            pagingControls(view, settings, commands);
-                                           if (wide && section("Bad disk")) badDisk(settings.paging);
+                                           if (wide && section("I/O fault injection"))
+                                               badDisk(settings.paging);
                                        }},
                                 Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
                                 Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
     drawColumns("paging", columns);
-    if (!wide && section("Bad disk")) badDisk(settings.paging);
+    if (!wide && section("I/O fault injection")) badDisk(settings.paging);
 }
 
 }  // namespace ui

@@ -14,11 +14,11 @@ std::string pageInReason(double epsPx, double tauPx, double hysteresis, const ch
     const double mergesAtPx = tauPx * (1 - hysteresis);
     if (epsPx > mergesAtPx)
         return fmt::format("{} > {:.2f}: was split ({} {:.2f})", eps, mergesAtPx, tauSymbol, tauPx);
-    return fmt::format("{}: no longer over {} {:.2f}", eps, tauSymbol, tauPx);
+    return fmt::format("{}: no longer > {} {:.2f}", eps, tauSymbol, tauPx);
 }
 
 std::string colourReason(double timesTooFew) {
-    return fmt::format("{:.0f} % of its texels", 100 / timesTooFew);
+    return fmt::format("{:.0f} % of texels", 100 / timesTooFew);
 }
 
 std::string pageOutReason(double ageS) {
@@ -37,9 +37,9 @@ bool isBad(const planet::BadDiskSettings& disk) {
 std::string badDiskText(const planet::BadDiskSettings& disk) {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    if (disk.latencyMs > 0) add(fmt::format("+{} ms a read", axisText(disk.latencyMs)));
+    if (disk.latencyMs > 0) add(fmt::format("+{} ms per read", axisText(disk.latencyMs)));
     if (disk.bandwidthMBs > 0) add(fmt::format("{} MB/s", axisText(disk.bandwidthMBs)));
-    if (disk.failureRate > 0) add(fmt::format("{} % of the reads fail", axisText(100 * disk.failureRate)));
+    if (disk.failureRate > 0) add(fmt::format("{} % of reads fail", axisText(100 * disk.failureRate)));
     if (disk.shuffledOrder) add("shuffled order");
     return text;
 }

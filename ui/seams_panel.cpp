@@ -23,33 +23,31 @@ namespace {
 void depthKnobs(SeamKnobs& seams) {
     const SeamKnobs defaults;
     choice("Skirt depth", seams.depth, defaults.depth, "automatic\0fixed\0",
-           "Automatic: as deep as the errors that a skirt has to hide. Fixed: the same for all chunks.");
+           "Automatic: each skirt is as deep as the errors it must hide. Fixed: one depth for all chunks.");
     if (seams.depth == planet::SkirtDepth::Automatic) {
         slider(
             "Factor", seams.skirtFactor, defaults.skirtFactor, 0, 10, "%.2f",
-            "Depth = factor (delta_c of the chunk + delta_c of the drawn neighbour that differs most from "
-            "the truth). At 1 no crack shows, since neither surface is farther than its delta_c from the "
-            "finest. Less: cracks may show; 0: no skirts. More: pixels drawn for nothing, and longer walls "
-            "where a skirt is seen from the side.");
+            "Skirt depth = factor (δc of the chunk + the largest δc of its drawn neighbours). At 1 no crack "
+            "shows, because each surface is within its δc of the finest data. Smaller: cracks may show; 0: "
+            "no skirts. Larger: more overdraw, and longer walls where a skirt is seen from the side.");
     } else {
         slider("Depth", seams.skirtDepthM, defaults.skirtDepthM, 0, 100000, "%.1f m",
-               "Metres, towards the planet's centre. Less than the gaps: cracks show. More: pixels drawn for "
-               "nothing.",
+               "Skirt depth in metres, towards the planet's centre. Smaller than a gap: a crack shows. "
+               "Larger: more overdraw.",
                ImGuiSliderFlags_Logarithmic);
     }
 }
 
 void knobs(SeamKnobs& seams) {
     const SeamKnobs defaults;
-    choice(
-        "Seams", seams.mode, defaults.mode, "none\0skirts\0stitched\0",
-        "None: cracks show where levels differ. Skirts: curtains along the chunks' edges hide them, for more "
-        "triangles. Stitched: edge vertices are moved onto the coarser neighbour's edge, so there is nothing "
-        "to hide; neighbours may then not differ too much in level, so some are drawn coarser than the "
-        "tolerance asks for.");
+    choice("Seams", seams.mode, defaults.mode, "none\0skirts\0stitched\0",
+           "None: cracks show where levels differ. Skirts: vertical strips along chunk edges hide cracks at "
+           "the cost of more triangles. Stitched: edge vertices move onto the coarser neighbour's edge, so "
+           "no cracks exist; this limits the level difference of neighbours, so some chunks are drawn "
+           "coarser than the tolerance asks for.");
     if (seams.mode == planet::SeamMode::Skirts) depthKnobs(seams);
-    checkbox("Mark pairs in the viewport", seams.showPairs, defaults.showPairs,
-             "Lights up the edges between chunks of different levels.");
+    checkbox("Highlight LOD seams", seams.showPairs, defaults.showPairs,
+             "Highlights edges between chunks of different levels in the viewport.");
 }
 
 // Largest and median of what is drawn, metres.
@@ -73,13 +71,14 @@ void values(const planet::Selection& selection) {
     if (!beginValues("seams")) return;
     const Depths depths = drawnDepths(selection.draw);
     valueRow("Deepest skirt", distanceText(static_cast<double>(depths.largestM)),
-             "Of what is drawn, metres.");
-    valueRow("Median skirt", distanceText(static_cast<double>(depths.medianM)), "Of what is drawn, metres.");
-    valueRow("Edges between levels", countText(static_cast<double>(selection.seams.size())),
-             "Pairs of drawn chunks side by side whose levels differ.");
-    valueRow("Largest difference", fmt::format("{}", selection.counters.widestSeam),
-             "Levels that two drawn neighbours differ at most. A finer chunk's edge then has "
-             "2^difference times as many vertices as the coarser one's beside it.");
+             "Skirt depth of the drawn chunks, in metres.");
+    valueRow("Median skirt", distanceText(static_cast<double>(depths.medianM)),
+             "Skirt depth of the drawn chunks, in metres.");
+    valueRow("LOD seams", countText(static_cast<double>(selection.seams.size())),
+             "Number of pairs of adjacent drawn chunks with different levels.");
+    valueRow("Max level difference", fmt::format("{}", selection.counters.widestSeam),
+             "Largest level difference of two drawn neighbours. The finer chunk's edge has 2^difference "
+             "times as many vertices as the coarser one's.");
     endValues();
 }
 
@@ -94,7 +93,7 @@ void differenceBars(std::span<const planet::LevelSeam> seams) {
                         static_cast<double>(counts[levels]), colour, fmt::format("{}", counts[levels])});
     }
     barList("differences", bars);
-    tooltip("Pairs by the number of levels they differ.");
+    tooltip("LOD seams by level difference.");
 }
 
 const char* edgeName(planet::Edge edge) {
@@ -111,8 +110,8 @@ void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& co
 
 // Widest first, then by id. Only the rows that are seen are sorted.
 void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
-    constexpr std::array columns = {TableColumn{"Finer", 1.6f}, TableColumn{"Its edge", 0.9f},
-                                    TableColumn{"Coarser", 1.6f}, TableColumn{"By", 0.5f}};
+    constexpr std::array columns = {TableColumn{"Finer", 1.6f}, TableColumn{"Edge", 0.9f},
+                                    TableColumn{"Coarser", 1.6f}, TableColumn{"Level difference", 0.5f}};
     if (!beginListTable("pairs", columns, seams.size(), 14)) return;
     std::vector<const planet::LevelSeam*> order;
     order.reserve(seams.size());
@@ -130,15 +129,15 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
 
 void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
     if (section("Seams between chunks")) knobs(settings.seams);
-    if (!view.planet) return emptyState("Pairs of chunks show here once a planet is open.");
+    if (!view.planet) return emptyState("No planet is open. Open one to see its LOD seams.");
     const planet::Selection& selection = view.planet->selection();
     if (section("Drawn now")) {
         values(selection);
         differenceBars(selection.seams);
     }
-    if (!section("Pairs that differ in level")) return;
+    if (!section("LOD seams")) return;
     if (selection.seams.empty())
-        return emptyState("All neighbours that are drawn have the same level: there is no seam to hide.");
+        return emptyState("All drawn neighbours have the same level: there are no seams.");
     seamTable(view, selection.seams, commands);
 }
 

@@ -49,18 +49,17 @@ void planetCells(const EditorView& view, Cells& cells) {
     const Palette& colours = palette();
     const planet::PagingCounters& paging = view.stats.paging;
     const planet::CameraPose& pose = view.camera.pose;
-    cells.add(placeText(pose.latitudeDeg, pose.longitudeDeg), "Where the camera is: latitude, longitude.",
+    cells.add(placeText(pose.latitudeDeg, pose.longitudeDeg), "Camera position: latitude, longitude.",
               colours.text);
     cells.add(distanceText(view.camera.heightAboveGroundM) + " above ground",
               "Height of the camera over the surface that is loaded.", colours.text);
     const double perSecond = view.stats.frameMs > 0 ? 1000 / view.stats.frameMs : 0;
     cells.add(fmt::format("{:.1f} ms  {:.0f}/s", view.stats.frameMs, perSecond),
-              "From one frame to the next, waiting for the monitor included.", colours.text);
+              "Frame time and frame rate, including the wait for the monitor.", colours.text);
     cells.add(bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
-              "Resident chunks, CPU and GPU together.", colours.text);
+              "Memory of resident chunks, CPU and GPU together.", colours.text);
     const std::uint32_t waiting = paging.queued + paging.loading;
-    cells.add(fmt::format("queue {}", waiting),
-              "Blocks that are queued, being read or waiting for their upload.",
+    cells.add(fmt::format("queue {}", waiting), "Blocks queued, being read or waiting for upload.",
               waiting > 0 ? colours.good : colours.dim);
 }
 
@@ -75,15 +74,18 @@ void warningCells(const EditorView& view, Cells& cells) {
     const planet::PagingCounters& paging = view.stats.paging;
     if (paging.failedForGood > 0) {
         cells.add(fmt::format("{} failed", paging.failedForGood),
-                  "Blocks that could not be read: see Failed in Paging, and Log.", colours.bad);
+                  "Blocks that could not be read: see the Failed tab of the Paging panel, and the Log panel.",
+                  colours.bad);
     }
     if (paging.awaitingRetry > 0) {
-        cells.add(fmt::format("{} to retry", paging.awaitingRetry),
-                  "Blocks that could not be read, and are tried again in a while: see Failed in Paging.",
-                  colours.warning);
+        cells.add(
+            fmt::format("{} retrying", paging.awaitingRetry),
+            "Blocks that could not be read and will be retried: see the Failed tab of the Paging panel.",
+            colours.warning);
     }
     if (paging.budgetWaits > 0) {
-        cells.add("memory full", "Chunks that this view wants do not fit into the budget: see Paging.",
+        cells.add("budget full",
+                  "Chunks that this view needs do not fit into the budget: see the Paging panel.",
                   colours.warning);
     }
     if (view.bake.running) {
@@ -111,7 +113,7 @@ void statusBar(const EditorView& view, const Rect& rect) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
     beginFixedWindow("status bar", rect, ImGuiWindowFlags_NoScrollbar);
     Cells cells(rect);
-    cells.add(view.data.name.empty() ? "nothing open" : shortened(view.data.name, 32),
+    cells.add(view.data.name.empty() ? "no planet open" : shortened(view.data.name, 32),
               view.data.chunkFile.string().c_str(), palette().accent);
     // What is wrong comes before what is merely so: a narrow window leaves out from the right.
     warningCells(view, cells);

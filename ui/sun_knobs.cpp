@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -45,7 +46,7 @@ bool sunMap(const EditorView& view, SurfaceSettings& surface) {
         drawList.AddCircleFilled(at(glm::degrees(sun.latitudeRad), glm::degrees(sun.longitudeRad)), dot,
                                  ImGui::GetColorU32(palette().warning));
     }
-    tooltip("Drag to place the sun: where it stands in the zenith. The ring is the camera. West is left.");
+    tooltip("Drag to move the subsolar point. The ring is the camera. West is left.");
     if (!ImGui::IsItemActive()) return false;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const auto shareX = static_cast<double>(std::clamp((mouse.x - start.x) / size.x, 0.0f, 1.0f));
@@ -64,11 +65,9 @@ SunChoice sunChoiceOf(const SurfaceSettings& surface) {
 
 void chooseSun(SurfaceSettings& surface) {
     SunChoice sun = sunChoiceOf(surface);
-    if (!choice(
-            "Sun", sun, SunChoice::Follows, "follows\0by date\0placed\0",
-            "Follows: it keeps to the camera's east, so that it is always day there. By date: as at a moment "
-            "over the Earth. Placed: where you put it. But for the first, half of the planet lies in the "
-            "dark."))
+    if (!choice("Sun", sun, SunChoice::Follows, "follow camera\0by date\0fixed\0",
+                "Follow camera: the sun stays east of the camera, so it is always day there. By date: the "
+                "sun's position over the Earth at a given time. Fixed: the position set below."))
         return;
     surface.sunFollows = sun == SunChoice::Follows;
     surface.sunByDate = sun == SunChoice::ByDate;
@@ -93,15 +92,16 @@ void dateKnobs(planet::SunDate& date) {
     constexpr std::array monthNames = {"%d: January",   "%d: February", "%d: March",    "%d: April",
                                        "%d: May",       "%d: June",     "%d: July",     "%d: August",
                                        "%d: September", "%d: October",  "%d: November", "%d: December"};
-    slider("Year", date.year, defaults.year, 1950, 2050, "%d", "Gregorian calendar. It hardly matters.");
+    slider("Year", date.year, defaults.year, 1950, 2050, "%d",
+           "Year in the Gregorian calendar; it has little effect.");
     slider("Month", date.month, defaults.month, 1, 12,
            monthNames[static_cast<std::size_t>(std::clamp(date.month, 1, 12) - 1)],
-           "Through the year the sun goes from 23.4 degrees north in June to as far south in December.");
+           "Month. The subsolar latitude varies from 23.4° N in June to 23.4° S in December.");
     slider("Day", date.day, defaults.day, 1, planet::daysInMonth(date.year, date.month), "%d",
-           "Of the month.");
+           "Day of the month.");
     date.day = std::min(date.day, planet::daysInMonth(date.year, date.month));
     slider("Hour", date.hour, defaults.hour, 0, 24, clockText(date.hour).c_str(),
-           "Universal time, hours: at 12 it is noon in Greenwich. Each hour the sun goes 15 degrees west.");
+           "Universal time in hours; noon in Greenwich is 12. The subsolar point moves 15° west per hour.");
 }
 
 }  // namespace
@@ -116,21 +116,19 @@ void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
     chooseSun(surface);
     if (!surface.sunFollows && surface.sunByDate) dateKnobs(surface.sunDate);
     if (!surface.sunFollows && !surface.sunByDate) {
-        slider("Sun, north", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f deg",
-               "Latitude where the sun stands in the zenith, degrees north.");
-        slider("Sun, east", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f deg",
-               "Longitude where the sun stands in the zenith, degrees east.");
+        slider("Sun latitude", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f deg",
+               "Latitude of the subsolar point, in degrees north.");
+        slider("Sun longitude", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f deg",
+               "Longitude of the subsolar point, in degrees east.");
     }
     if (sunMap(view, surface)) surface.sunFollows = surface.sunByDate = false;
     if (surface.sunFollows || !beginValues("sun")) return;
     const planet::Geographic sun = sunOverheadOf(surface);
-    valueRow("In the zenith at",
-             fmt::format("{:.1f} N, {:.1f} E", glm::degrees(sun.latitudeRad), glm::degrees(sun.longitudeRad)),
-             "Degrees north and east.");
-    valueRow(
-        "Height at the camera", fmt::format("{:.1f} deg", sunHeightDeg(view, surface)),
-        "Of the sun's middle above the horizon of a sphere, degrees, for the place under the camera. Less "
-        "than 0: night.");
+    valueRow("Subsolar point", placeText(glm::degrees(sun.latitudeRad), glm::degrees(sun.longitudeRad), 1),
+             "The place where the sun is in the zenith.");
+    valueRow("Sun elevation", fmt::format("{:.1f} deg", sunHeightDeg(view, surface)),
+             "Angle of the sun's centre above the horizon of a sphere, at the place under the camera. "
+             "Negative: night.");
     endValues();
 }
 

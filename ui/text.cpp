@@ -71,10 +71,10 @@ std::string distanceText(double metres) {
     return fmt::format("{:.0f} km", metres / 1000);
 }
 
-std::string placeText(double latitudeDeg, double longitudeDeg) {
+std::string placeText(double latitudeDeg, double longitudeDeg, int decimals) {
     const double longitude = std::remainder(longitudeDeg, 360.0);
-    return fmt::format("{:.4f} {}  {:.4f} {}", std::abs(latitudeDeg), latitudeDeg < 0 ? "S" : "N",
-                       std::abs(longitude), longitude < 0 ? "W" : "E");
+    return fmt::format("{:.{}f}° {}, {:.{}f}° {}", std::abs(latitudeDeg), decimals,
+                       latitudeDeg < 0 ? "S" : "N", std::abs(longitude), decimals, longitude < 0 ? "W" : "E");
 }
 
 std::string millisecondsText(double milliseconds) {

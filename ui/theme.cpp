@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 namespace ui {
 
@@ -144,6 +145,17 @@ const char* tauSymbol() {
 
 const char* epsSymbol() {
     return greekFont ? "\u03b5" : "eps";
+}
+
+std::string inFont(std::string text) {
+    if (greekFont) return text;
+    constexpr std::array<std::array<std::string_view, 2>, 4> names = {
+        {{"\u03b4", "delta_"}, {"\u03b5", "eps"}, {"\u03c4", "tau"}, {"\u2192", "->"}}};
+    for (const auto& [symbol, name] : names) {
+        for (std::size_t at = text.find(symbol); at != std::string::npos; at = text.find(symbol, at))
+            text.replace(at, symbol.size(), name);
+    }
+    return text;
 }
 
 float unitPx() {

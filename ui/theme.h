@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 #include <glm/vec3.hpp>
 
 #include "ui/layout.h"
@@ -36,6 +38,8 @@ void applyTheme(Theme theme, float contentScale);
 // "τ" and "ε", or "tau" and "eps" where the font has no Greek. Valid after applyTheme.
 const char* tauSymbol();
 const char* epsSymbol();
+// Returns the text with "τ", "ε", "δ" and "→" written out where the font lacks them: "δc" becomes "delta_c".
+std::string inFont(std::string text);
 
 // Pixels of one unit of ui::PanelSizes.
 float unitPx();

@@ -174,7 +174,7 @@ void addPagingBadges(const EditorView& view, const ViewSettings& settings,
         badges.push_back({waiting > 0 ? fmt::format("Paging paused, {} waiting", waiting) : "Paging paused",
                           palette().warning});
     }
-    if (isBad(settings.paging.badDisk)) badges.push_back({"Bad disk on", palette().warning});
+    if (isBad(settings.paging.badDisk)) badges.push_back({"I/O fault injection", palette().warning});
     if (paging.budgetWaits > 0)
         badges.push_back({fmt::format("Memory full, {} waiting", paging.budgetWaits), palette().bad});
     if (!view.pagingPaused && waiting > 0)
@@ -231,23 +231,25 @@ std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSett
     if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
     if (view.pops.side != PopSide::Live && view.pops.problem.empty())
-        badges.push_back(
-            {view.pops.side == PopSide::Before ? "Before the pop" : "After the pop", palette().warning});
+        badges.push_back({view.pops.side == PopSide::Before ? "Before the switch" : "After the switch",
+                          palette().warning});
     if (view.planet) addPagingBadges(view, settings, badges);
     if (showsMarks(view, settings)) {
         const planet::gl::CrackMap& map = view.cracks.measured->map;
         const auto leaking = static_cast<std::size_t>(map.leaking);
-        if (leaking > 0) badges.push_back({fmt::format("Leaking cracks: {} px", leaking), palette().bad});
+        if (leaking > 0)
+            badges.push_back({fmt::format("Uncovered crack pixels: {}", leaking), palette().bad});
         if (map.pixels.size() > leaking) {
-            badges.push_back(
-                {fmt::format("Cracks behind skirts: {} px", map.pixels.size() - leaking), palette().warning});
+            badges.push_back({fmt::format("Crack pixels covered by skirts: {}", map.pixels.size() - leaking),
+                              palette().warning});
         }
         if (map.pixels.empty()) badges.push_back({"No cracks", palette().good});
     }
     if (settings.overlay.wireframe) badges.push_back({"Wireframe (F1)", palette().accent});
-    if (settings.overlay.cube) badges.push_back({"Cube (F4)", palette().accent});
+    if (settings.overlay.cube) badges.push_back({"Unprojected cube (F4)", palette().accent});
     if (settings.surface.exaggeration != 1)
-        badges.push_back({fmt::format("Heights x {:.3g}", settings.surface.exaggeration), palette().accent});
+        badges.push_back(
+            {fmt::format("Exaggeration {:.3g} x", settings.surface.exaggeration), palette().accent});
     return badges;
 }
 
@@ -300,8 +302,7 @@ void observerOverlay(const EditorView& view, const ViewSettings& settings, const
     ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
                         true);
     const PlacedBadge name =
-        placed({settings.camera.observerOwnLod ? "Observer, chunks of its own" : "Observer of the lod view",
-                palette().accent},
+        placed({settings.camera.observerOwnLod ? "Observer, own LOD" : "Observer", palette().accent},
                viewport.x + marginPx(), viewport.y + marginPx());
     const bool ownSelection = settings.camera.observerOwnLod && view.planet && view.planet->viewCount() > 1;
     drawLabels(drawList, view.planet, settings.overlay,

@@ -75,7 +75,7 @@ void tooltip(const char* text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-    ImGui::TextUnformatted(text);
+    ImGui::TextUnformatted(inFont(text).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
@@ -88,7 +88,7 @@ void valueRow(const char* name, const std::string& value, const char* explanatio
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-    ImGui::TextUnformatted(name);
+    ImGui::TextUnformatted(inFont(name).c_str());
     ImGui::PopStyleColor();
     tooltip(explanation);
     ImGui::TableNextColumn();
@@ -108,7 +108,7 @@ void labelledControl(const char* label, const char* explanation) {
     const float start = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(label);
+    ImGui::TextUnformatted(inFont(label).c_str());
     tooltip(explanation);
     ImGui::SameLine(start + std::round(width * labelShare));
     ImGui::SetNextItemWidth(-1);
@@ -150,10 +150,10 @@ bool combo(const char* name, int& index, const char* items) {
     for (int i = 0; i < index && *shown; ++i) shown = next(shown);
     bool changed = false;
     ImGui::PushID(name);
-    if (ImGui::BeginCombo("##value", shown)) {
+    if (ImGui::BeginCombo("##value", inFont(shown).c_str())) {
         int i = 0;
         for (const char* item = items; *item; item = next(item), ++i) {
-            if (ImGui::Selectable(item, i == index)) {
+            if (ImGui::Selectable(inFont(item).c_str(), i == index)) {
                 changed = i != index;
                 index = i;
             }
@@ -205,7 +205,7 @@ float checkboxWidth(const char* label) {
 
 void wrappedText(const std::string& text, const ImVec4& colour) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::TextWrapped("%s", inFont(text).c_str());
     ImGui::PopStyleColor();
 }
 

@@ -74,9 +74,9 @@ TEST(ChunkHeights, AFaceSpansAQuarterOfThePlanet) {
 }
 
 TEST(ChunkHeights, PlacesAreThoseOfTheMiddle) {
-    EXPECT_EQ(middlePlaceText({Face::PosX, 0, 0, 0}), "0.0000 N  0.0000 E");
-    EXPECT_EQ(middlePlaceText({Face::PosY, 0, 0, 0}), "0.0000 N  90.0000 E");
-    EXPECT_EQ(middlePlaceText({Face::NegZ, 0, 0, 0}).substr(0, 9), "90.0000 S");
+    EXPECT_EQ(middlePlaceText({Face::PosX, 0, 0, 0}), "0.0000° N, 0.0000° E");
+    EXPECT_EQ(middlePlaceText({Face::PosY, 0, 0, 0}), "0.0000° N, 90.0000° E");
+    EXPECT_EQ(middlePlaceText({Face::NegZ, 0, 0, 0}).substr(0, 11), "90.0000° S");
 }
 
 TEST(ChunkHeights, AWrongIdIsToldWhatWouldBeRight) {

@@ -112,8 +112,8 @@ TEST_F(ChunkPanel, BadgesTellWhatChangesHowThePictureIsRead) {
     settings.overlay.wireframe = settings.overlay.cube = true;
     std::string all;
     for (const ViewportBadge& badge : viewportBadges(view, settings)) all += badge.text + '\n';
-    for (const char* part :
-         {"Paused", "LOD frozen", "Previous bake", "Paging paused", "Bad disk", "Wireframe", "Cube"}) {
+    for (const char* part : {"Paused", "LOD frozen", "Previous bake", "Paging paused", "I/O fault injection",
+                             "Wireframe", "Unprojected cube"}) {
         EXPECT_NE(all.find(part), std::string::npos) << part;
     }
 }

@@ -19,20 +19,20 @@ TEST(PagingText, aSplitKeptByHysteresisSaysSo) {
 }
 
 TEST(PagingText, aRequestThatIsNoLongerNeededSaysSo) {
-    EXPECT_EQ(pageInReason(1.5, 2, 0.1, "eps", "tau"), "eps 1.50: no longer over tau 2.00");
-    EXPECT_EQ(pageInReason(2, 2, 0, "eps", "tau"), "eps 2.00: no longer over tau 2.00");
+    EXPECT_EQ(pageInReason(1.5, 2, 0.1, "eps", "tau"), "eps 1.50: no longer > tau 2.00");
+    EXPECT_EQ(pageInReason(2, 2, 0, "eps", "tau"), "eps 2.00: no longer > tau 2.00");
 }
 
 TEST(PagingText, aTileOfColourSaysWhatShareOfItsTexelsItHas) {
-    EXPECT_EQ(colourReason(2), "50 % of its texels");
+    EXPECT_EQ(colourReason(2), "50 % of texels");
     EXPECT_STREQ(kindText(planet::BlockKind::Heights), "heights");
     EXPECT_STREQ(kindText(planet::BlockKind::Colours), "colours");
 }
 
 TEST(PagingText, aFailedBlockSaysWhenItIsTriedAgain) {
-    EXPECT_EQ(retryText(std::nullopt), "for good");
+    EXPECT_EQ(retryText(std::nullopt), "never");
     EXPECT_EQ(retryText(1.25), "in 1.25 s");
-    EXPECT_EQ(retryText(0), "when wanted");
+    EXPECT_EQ(retryText(0), "when needed");
     EXPECT_STREQ(kindText(planet::BlockKind::Normals), "normals");
 }
 
@@ -75,11 +75,11 @@ TEST(PagingText, everyTroubleOfABadDiskIsNamed) {
     planet::BadDiskSettings disk;
     disk.latencyMs = 200;
     EXPECT_TRUE(isBad(disk));
-    EXPECT_EQ(badDiskText(disk), "+200 ms a read");
+    EXPECT_EQ(badDiskText(disk), "+200 ms per read");
     disk.bandwidthMBs = 5;
     disk.failureRate = 0.1;
     disk.shuffledOrder = true;
-    EXPECT_EQ(badDiskText(disk), "+200 ms a read, 5 MB/s, 10 % of the reads fail, shuffled order");
+    EXPECT_EQ(badDiskText(disk), "+200 ms per read, 5 MB/s, 10 % of reads fail, shuffled order");
 }
 
 TEST(PagingText, eachTroubleAloneMakesADiskBad) {

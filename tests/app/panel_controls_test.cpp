@@ -136,7 +136,7 @@ TEST_F(PanelControls, oneRequestIsLetThroughOnlyWhilePaused) {
     const Commands resume = click(PanelId::Paging, "Pause");
     ASSERT_TRUE(only<PausePaging>(resume));
     EXPECT_FALSE(only<PausePaging>(resume)->paused);
-    EXPECT_TRUE(only<DropAll>(click(PanelId::Paging, "Drop all")));
+    EXPECT_TRUE(only<DropAll>(click(PanelId::Paging, "Evict all")));
 }
 
 TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAll) {

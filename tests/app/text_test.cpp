@@ -37,9 +37,10 @@ TEST(Text, DistancesChangeUnitWithSize) {
 }
 
 TEST(Text, PlacesSayTheirHemisphere) {
-    EXPECT_EQ(placeText(27.988, 86.925), "27.9880 N  86.9250 E");
-    EXPECT_EQ(placeText(-33.5, -70.25), "33.5000 S  70.2500 W");
-    EXPECT_EQ(placeText(0, 190), "0.0000 N  170.0000 W");
+    EXPECT_EQ(placeText(27.988, 86.925), "27.9880° N, 86.9250° E");
+    EXPECT_EQ(placeText(-33.5, -70.25), "33.5000° S, 70.2500° W");
+    EXPECT_EQ(placeText(0, 190), "0.0000° N, 170.0000° W");
+    EXPECT_EQ(placeText(23.44, -114.02, 1), "23.4° N, 114.0° W");
 }
 
 TEST(Text, PixelsHaveNoMoreDigitsThanCanBeSeen) {

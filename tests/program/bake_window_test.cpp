@@ -43,9 +43,9 @@ key ctrl+shift+c; expect times_said 'Copied: ' 2
 second=$(counter file); [ "$second" != "$first" ] || echo "it is the same file"
 cp "$second" second.chk
 
-click "bake/Show it"; expect counts chunk_size -eq $size
-click "bake/Show it"; expect counts chunk_size -eq 17
-click bake/Dismiss; expect hidden "bake/Show it"
+click "bake/Show previous bake"; expect counts chunk_size -eq $size
+click "bake/Show previous bake"; expect counts chunk_size -eq 17
+click bake/Dismiss; expect hidden "bake/Show previous bake"
 
 # Another size is offered by the LOD panel too.
 choose "lod/Chunk size" "65 x 65"; click lod/Bake; expect counts chunk_size -eq 65; settle
@@ -59,7 +59,7 @@ click bake/Cancel; expect counts baking -eq 0; expect says 'The bake was cancell
 [ "$(counter file)" = "$third" ] || echo "a cancelled bake leaves $(counter file)"
 [ "$(counter camera)" = "$camera" ] || echo "a cancelled bake leaves the camera at $(counter camera)"
 settle; same "$plain" || echo "a cancelled bake changes the picture"
-hidden "bake/Show it" || echo "a cancelled bake is there to compare"
+hidden "bake/Show previous bake" || echo "a cancelled bake is there to compare"
 
 mv hills.pgm gone.pgm; click bake/Bake; expect says 'hills.pgm: no such source'
 [ "$(counter file)" = "$third" ] || echo "a bake without a source leaves $(counter file)"

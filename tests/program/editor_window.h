@@ -55,7 +55,7 @@ slide() { point "$1" && press && xdotool mousemove $(at "$1" $2 0.5) && frames &
 choose() { click "$1" && click "$1: $2"; }
 # Shows a panel by its tab.
 tab() { click "tab/$1"; }
-# Turns the wheel over one thing until another is in sight: reach lod/Hysteresis "camera/Picture"
+# Turns the wheel over one thing until another is in sight: reach lod/Hysteresis "camera/View"
 reach() {
     point "$1" 0.5 0.5 || return 1
     for i in $(seq 60); do

@@ -48,7 +48,7 @@ record() {
     tab Flight; click flight/Record; expect shown "flight/Stop and keep"
     point viewport/picture 0.4 0.3
     for i in 1 2 3 4 5 6 7 8; do xdotool click 4; frames 2; done
-    tab Paging; click "paging/Drop all"; tab LOD; slide "lod/Tolerance τ" 0.3; tab Flight
+    tab Paging; click "paging/Evict all"; tab LOD; slide "lod/Tolerance τ" 0.3; tab Flight
     expect counts recorded -gt 40
     click "flight/Stop and keep"; expect hidden "flight/Stop and keep"
 }

@@ -86,8 +86,8 @@ key ctrl+z; expect counts triangles -eq $fine; expect same "$picture"
 key ctrl+shift+z; expect counts triangles -lt 5000
 key ctrl+z; expect counts triangles -eq $fine
 
-slide "lod/Largest level" 0; expect counts deepest -eq 0
-point "lod/Largest level"; xdotool click 3; frames; click lod/reset; expect counts triangles -eq $fine
+slide "lod/Max LOD level" 0; expect counts deepest -eq 0
+point "lod/Max LOD level"; xdotool click 3; frames; click lod/reset; expect counts triangles -eq $fine
 drawn=$(counter drawn)
 click "lod/Horizon culling"; expect counts drawn -gt $drawn; key ctrl+z; expect counts drawn -eq $drawn
 
@@ -113,9 +113,9 @@ choose seams/Seams stitched; settle
 counts triangles -lt $skirts || echo "stitched, there are $(counter triangles) triangles, with skirts $skirts"
 choose seams/Seams skirts; expect counts triangles -eq $skirts; settle
 plain=$(viewport)
-click "seams/Mark pairs in the viewport"; expect differs "$plain"
-click "seams/Mark pairs in the viewport"; expect same "$plain"
-tab Overlay; choose overlay/Skirts "Loud alone"; expect differs "$plain"; loud=$(viewport)
+click "seams/Highlight LOD seams"; expect differs "$plain"
+click "seams/Highlight LOD seams"; expect same "$plain"
+tab Overlay; choose overlay/Skirts "Only skirts"; expect differs "$plain"; loud=$(viewport)
 tab Seams; choose "seams/Skirt depth" fixed; slide seams/Depth 1; expect differs "$loud"
 )sh");
 }
@@ -147,10 +147,10 @@ TEST_F(PanelsWindowTest, PagingDropsHoldsAndFailsAsItIsTold) {
 slide "lod/Tolerance τ" 0; settle
 all=$(counter resident); requested=$(counter requested); triangles=$(counter triangles)
 [ $all -gt 100 ] || echo "$all chunks are resident"
-click "paging/Drop all"; expect counts requested -gt $requested; settle
+click "paging/Evict all"; expect counts requested -gt $requested; settle
 counts triangles -eq $triangles || echo "$(counter triangles) triangles come back, not $triangles"
 
-click paging/Pause; click "paging/Drop all"
+click paging/Pause; click "paging/Evict all"
 expect counts resident -eq 6; expect counts queued -gt 0
 held=$(counter queued); frames 10
 counts resident -eq 6 && counts queued -eq $held || echo "paused, but it loads"
@@ -158,8 +158,8 @@ loaded=$(counter loaded)
 click "paging/Load one"; expect counts loaded -eq $((loaded + 1))
 click paging/Pause; expect counts triangles -eq $triangles
 
-slide "paging/Retry after" 0; slide paging/Failures 1
-click "paging/Drop all"; expect counts failed_for_good -gt 0; expect counts awaiting_retry -eq 0; settle
+slide "paging/Retry delay" 0; slide "paging/Failure rate" 1
+click "paging/Evict all"; expect counts failed_for_good -gt 0; expect counts awaiting_retry -eq 0; settle
 counts failed -eq $((5 * $(counter failed_for_good))) || echo "$(counter failed) reads failed in all"
 counts resident -eq 6 || echo "on a disk that fails, $(counter resident) chunks are resident"
 expect says 'read failed on purpose'
@@ -177,7 +177,7 @@ choose "overlay/Colour by" Level; expect differs "$plain"; tinted=$(viewport)
 choose overlay/Labels Level; expect differs "$tinted"
 choose overlay/Labels None; expect same "$tinted"
 slide overlay/Opacity 0.3; expect differs "$tinted"; key ctrl+z
-choose "overlay/Colour by" delta_c; expect differs "$tinted"
+choose "overlay/Colour by" δc; expect differs "$tinted"
 choose "overlay/Colour by" Nothing; expect same "$plain"
 for box in Outlines Bounds Wireframe; do
     click overlay/$box; expect differs "$plain"; click overlay/$box; expect same "$plain"
@@ -193,8 +193,8 @@ tab Light
 click light/Lighting; expect differs "$plain"; click light/Lighting; expect same "$plain"
 choose light/Sun "by date"; expect differs "$plain"; dated=$(viewport)
 slide light/Hour 0.9; expect differs "$dated"
-choose light/Sun placed; expect differs "$dated"
-choose light/Sun follows; expect same "$plain"
+choose light/Sun fixed; expect differs "$dated"
+choose light/Sun "follow camera"; expect same "$plain"
 tab Surface
 slide surface/Exaggeration 0.7; expect differs "$plain"
 )sh");
@@ -216,12 +216,12 @@ enter camera/Name "A place"; expect shown "camera/A place"
 click camera/Andes; frames; ! is_at "$place" || echo "another bookmark does not move the camera"
 click "camera/A place"; expect is_at "$place"
 click camera/Reset; expect is_at "$start"
-reach camera/Mode camera/Picture
-choose camera/Picture split; expect shown observer/picture; settle
+reach camera/Mode camera/View
+choose camera/View split; expect shown observer/picture; settle
 [ "$(picture observer/picture)" != "$(viewport)" ] || echo "the observer sees the same"
 observed=$(picture observer/picture)
 click camera/Frustum; frames; [ "$(picture observer/picture)" != "$observed" ] || echo "no frustum is drawn"
-choose camera/Picture off; expect hidden observer/picture
+choose camera/View off; expect hidden observer/picture
 
 # What is typed goes into the field that is active: none now.
 tab Frame; click frame/Pause; before=$(counter camera)
@@ -233,8 +233,8 @@ frames 6; [ "$(counter camera)" = "$stepped" ] || echo "after a step it goes on"
 xdotool keyup w; frames
 # Paused, what moves the camera by name still does, and a second selection that was never made is not drawn.
 key F3; expect is_at "$start"; expect counts triangles -gt 0
-tab Camera; choose camera/Picture split; click "camera/Own LOD"; expect shown observer/picture
-click "camera/Own LOD"; choose camera/Picture off; expect hidden observer/picture
+tab Camera; choose camera/View split; click "camera/Own LOD"; expect shown observer/picture
+click "camera/Own LOD"; choose camera/View off; expect hidden observer/picture
 tab Frame; stepped=$(counter camera); click frame/Pause
 xdotool keydown w; frames 6; xdotool keyup w; [ "$(counter camera)" != "$stepped" ] || echo "it stays paused"
 

@@ -72,7 +72,7 @@ set -- $1 $(place viewport/picture)
 [ $2 -eq $(($1 + 70)) ] || echo "the splitter went from $1 to $2"
 
 [ "$(bright)" = 0 ] || echo "the dark theme is bright"
-click menu/View && click menu/Theme && click "menu item/Light colours"
+click menu/View && click menu/Theme && click "menu item/Light theme"
 [ "$(bright)" = 1 ] || echo "the light theme is dark"
 
 set -- $(place tab/LOD)
