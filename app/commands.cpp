@@ -43,8 +43,15 @@ struct CommandHandler {
     void operator()(const ui::SelectChunk& command) const { editor.focus.selected = command.id; }
     void operator()(const ui::LookAtChunk& command) const;
     void operator()(const ui::FreezeLod& command) const {
-        if (maySet()) editor.lodFrozen = command.frozen;
+        if (!maySet()) return;
+        editor.lodFrozen = command.frozen;
+        editor.beforeInspection.reset();  // the user takes over from here
     }
+    void operator()(const ui::InspectPlace& command) const {
+        if (shownScene(session) && editor.rig)
+            inspect(editor, cameraFromPose(command.pose, radiusM()), command.lodView);
+    }
+    void operator()(const ui::EndInspection&) const { endInspection(editor); }
     void operator()(const ui::MoveCamera& command) const {
         if (shownScene(session)) moveCamera(cameraFromPose(command.pose, radiusM()));
     }
@@ -281,6 +288,7 @@ void CommandHandler::operator()(const ui::StartReplay& command) const {
     if (!scene || !editor.rig)
         return log->warn("{}: no planet is open to be flown over", command.file.string());
     stopRecording(editor.desk, scene->planet.get(), log);
+    endInspection(editor);
     endReplay(editor, scene);
     const BeforeReplay before{editor.settings.view, editor.rig->camera, editor.pagingPaused, editor.lodView,
                               editor.lodFrozen};
@@ -406,12 +414,11 @@ void CommandHandler::operator()(const ui::TakeScreenshot& command) const {
 
 void CommandHandler::operator()(const ui::GoBackToPop& command) const {
     const planet::PopEvent* event = findPop(editor.pops, command.frame, command.chunk);
-    if (!event || !shownScene(session)) return;
+    if (!event || !shownScene(session) || !editor.rig) return;
     editor.pops.shown = *event;
     editor.pops.side = ui::PopSide::Live;
     editor.focus.selected = event->chunk;
-    if (editor.desk.replay) editor.desk.replay->controls.playing = false;
-    moveCamera({event->view.eyeM, event->view.right, event->view.back});
+    inspect(editor, {event->view.eyeM, event->view.right, event->view.back}, event->view);
 }
 
 template <class... Kinds>

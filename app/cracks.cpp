@@ -83,6 +83,7 @@ Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& vie
     const planet::ChunkTree& tree = scene.planet->tree();
     ui::CrackMeasurement made;
     made.view = view;
+    made.lodView = scene.planet->lodView();
     made.seams = settings.seams.mode;
     made.pairs = planet::drawnPairs(selection.draw);
     for (const planet::DrawItem& item : selection.draw) made.items.push_back(item.id);

@@ -30,6 +30,14 @@
 
 namespace worldy {
 
+// What inspecting a place has changed, to be given back.
+struct BeforeInspection {
+    Camera camera;
+    planet::View lodView;
+    bool lodFrozen = false;
+    bool replayPlaying = false;
+};
+
 // Where the user is, looks and has got to. Plain state; owns no window and no planet.
 struct Editor {
     Settings settings;
@@ -39,6 +47,7 @@ struct Editor {
     ui::CameraSettings observerControls;
     planet::View lodView;  // follows the camera but while frozen
     bool lodFrozen = false;
+    std::optional<BeforeInspection> beforeInspection;
     bool framesPaused = false;
     bool stepOneFrame = false;
     bool pagingPaused = false;
@@ -84,6 +93,11 @@ Editor openEditor(const Settings& settings, const Log& log);
 // The planet has begun anew or gone back in a replay: what differs from the frame before is no change of
 // level.
 void forgetChanges(Editor& editor);
+
+// Moves the camera and freezes LOD at lodView; pauses a replay instead of freezing. Wants a rig.
+void inspect(Editor& editor, const Camera& camera, const planet::View& lodView);
+// Gives back what was before the first inspect(); does nothing if there was none.
+void endInspection(Editor& editor);
 
 // Ends the replay, if one runs, and gives back the settings and the camera of before. scene: null where its
 // planet is gone.

@@ -6,6 +6,7 @@
 
 #include "ui/bake_window.h"
 #include "ui/compare_overlay.h"
+#include "ui/inspection.h"
 #include "ui/item_map.h"
 #include "ui/status_bar.h"
 #include "ui/text.h"
@@ -38,7 +39,7 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
         picture.pointer.positionPx.x = planet::gl::pictureColumn(picture.mix, picture.pointer.positionPx.x);
 }
 
-void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor) {
+void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor, ui::Commands& commands) {
     Viewport& viewport = editor.viewport;
     ui::CompareKnobs& compare = editor.settings.view.compare;
     const bool wiping = view.compare.on && compare.mode == ui::CompareMode::Wipe;
@@ -46,6 +47,7 @@ void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& edito
     if (viewport.main.shown()) {
         if (view.planet) ui::viewportOverlay(view, editor.settings.view, viewport.main.rect);
         ImGui::End();
+        if (view.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
     }
     pictureWindow("observer", viewport.observer, pixelRatio);
     if (viewport.observer.shown()) {
@@ -95,6 +97,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.lodView = editor.lodView;
     view.renderView = editor.viewport.main.view;
     view.lodFrozen = editor.lodFrozen;
+    view.inspecting = editor.beforeInspection.has_value();
     view.framesPaused = editor.framesPaused;
     view.pagingPaused = editor.pagingPaused;
     view.timeS = editor.timeS;
@@ -127,7 +130,7 @@ void drawPanels(const Session& session, const ui::EditorView& view, const ui::La
     ui::ViewSettings& settings = editor.settings.view;
     ui::menuBar(view, editor.menu, workspace, settings, commands);
     if (view.planet)
-        viewportWindows(view, pixelRatio, editor);
+        viewportWindows(view, pixelRatio, editor, commands);
     else
         emptyViewport(session, view, layout.viewport, editor, commands);
     for (const ui::Dock dock : {ui::Dock::Left, ui::Dock::Right, ui::Dock::Bottom}) {

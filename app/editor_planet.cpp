@@ -28,6 +28,7 @@ void meetPlanet(Scene& scene, Editor& editor, const Log& log) {
     endReplay(editor, nullptr);
     planet.keepMoves(false);
     const double radiusM = planet.shape().radiusM;
+    editor.beforeInspection.reset();
     if (radiusM != editor.lastRadiusM && editor.lastScene) {
         editor.rig.reset();
         editor.observer.reset();
@@ -164,6 +165,7 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
     if (replayed.next() > 0) holdRecordedSettings(replayed.settings(), editor.settings.view);
     // Between frames the camera may stand where a pop was gone back to.
     if (replayed.next() == frameBefore) return;
+    editor.beforeInspection.reset();  // played on, the replay moves the camera again
     editor.lodView = replayed.view();
     editor.rig->camera = {editor.lodView.eyeM, editor.lodView.right, editor.lodView.back};
 }

@@ -31,6 +31,7 @@ void takeResult(ErrorMeter& meter) {
     ui::ErrorMeasurement measurement = ui::measurementOf(std::move(**result));
     measurement.frame = meter.running.frame;
     measurement.atS = meter.running.atS;
+    measurement.lodView = meter.running.lodView;
     measurement.tauPx = meter.running.tauPx;
     measurement.metric = meter.running.metric;
     measurement.tookS = tookS;
@@ -86,6 +87,7 @@ void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double
     const planet::LodSettings& lod = planet.lodSettings();
     meter.running.frame = frame;
     meter.running.atS = timeS;
+    meter.running.lodView = planet.lodView();
     meter.running.tauPx = lod.tauPx;
     meter.running.metric = lod.metric;
     meter.job = std::make_unique<ErrorJob>(

@@ -39,6 +39,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
         add("chunk_size", planet::chunkSize(scene->planet->shape()));
         add("file", scene->planet->file().name());
     }
+    add("lod_frozen", editor.lodFrozen ? 1 : 0);
     add("recorded", editor.desk.recorder ? editor.desk.recorder->encoded().frames() : 0);
     add("replayed", editor.desk.replay ? editor.desk.replay->replay.next() : 0);
     add("different", editor.desk.replay ? editor.desk.replay->replay.framesDifferent() : 0);

@@ -40,6 +40,13 @@ struct FreezeLod {
 struct MoveCamera {
     planet::CameraPose pose;
 };
+// Freezes LOD at the view that something was measured in, so that what was found there is still drawn, and
+// moves the camera near it. In a replay, which chooses its chunks itself, pauses the replay instead.
+struct InspectPlace {
+    planet::View lodView;
+    planet::CameraPose pose;
+};
+struct EndInspection {};  // gives back the camera and the LOD view of before the first InspectPlace
 struct ResetCamera {};
 struct KeepCameraAsStart {};
 struct AddBookmark {  // of the camera as it is; replaces one of the same name
@@ -159,7 +166,7 @@ struct MeasurePops {
     bool on = true;
 };
 struct ClearPops {};
-struct GoBackToPop {  // moves the camera to where one of the meter's events was seen
+struct GoBackToPop {  // inspects where one of the meter's events was seen
     std::uint64_t frame = 0;
     planet::ChunkId chunk;
 };
@@ -227,16 +234,16 @@ struct CommandKindList {};
 
 // All there are. app/commands.cpp does not compile without a function for each.
 using CommandKinds = CommandKindList<
-    HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, ResetCamera, KeepCameraAsStart, AddBookmark,
-    RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight, PausePaging, LoadOne, DropAll,
-    RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake, BakeAgain, EstimateBake, CancelBake,
-    ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset, LoadPreset, DeletePreset, CopyCommandLine,
-    CopyText, TakeScreenshot, Quit, MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops,
-    GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors, StartRecording, StopRecording,
-    DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay, StopReplay, StartSweep, CancelSweep,
-    SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
-    CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures, PreviewSource, AskForColourImage,
-    ChooseColourImage, TryCostlyParts, MarkAllocations>;
+    HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, InspectPlace, EndInspection, ResetCamera,
+    KeepCameraAsStart, AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
+    PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake,
+    BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset,
+    LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit, MeasureCracks, MeasureCosts,
+    FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors,
+    StartRecording, StopRecording, DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay,
+    StopReplay, StartSweep, CancelSweep, SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare,
+    MeasureCompare, CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures,
+    PreviewSource, AskForColourImage, ChooseColourImage, TryCostlyParts, MarkAllocations>;
 
 template <class Kind, class... Kinds>
 constexpr bool isOneOf(CommandKindList<Kinds...>) {

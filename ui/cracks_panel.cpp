@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "ui/chunk_link.h"
+#include "ui/inspection.h"
 #include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
@@ -76,30 +76,11 @@ void values(const CracksView& cracks) {
     endValues();
 }
 
-// Nearer along the line from the measured eye, from which the place can be seen.
-MoveCamera towards(const CrackMeasurement& measured, const glm::dvec3& placeM, double radiusM) {
-    planet::View view = measured.view;
-    const glm::dvec3 back = view.eyeM - placeM;
-    view.eyeM = placeM + 0.35 * back;
-    view.back = glm::normalize(back);
-    const glm::dvec3 aside = glm::cross(glm::normalize(view.eyeM), view.back);
-    if (glm::length(aside) > 1e-3) view.right = glm::normalize(aside);
-    view.up = glm::normalize(glm::cross(view.back, view.right));
-    view.right = glm::cross(view.up, view.back);
-    return {planet::poseFromView(view, radiusM)};
-}
-
-void jump(const EditorView& view, const planet::ChunkId& finer, const glm::dvec3& placeM,
-          Commands& commands) {
-    commands.emplace_back(SelectChunk{finer});
-    commands.emplace_back(towards(*view.cracks.measured, placeM, view.planet->shape().radiusM));
-}
-
 void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::dvec3& placeM,
               Commands& commands) {
     ImGui::TableNextColumn();
-    if (ImGui::SmallButton("Go")) jump(view, finer, placeM, commands);
-    tooltip("Moves the camera nearer to it and selects the finer chunk.");
+    const CrackMeasurement& measured = *view.cracks.measured;
+    inspectButton(measured.lodView, measured.view, finer, placeM, view.planet->shape().radiusM, commands);
 }
 
 void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& commands) {

@@ -21,6 +21,7 @@ struct SmallestSkirts {
 // Of one view. Chunks by name, so that it holds after they have gone.
 struct CrackMeasurement {
     planet::View view;
+    planet::View lodView;  // that chose what was drawn; differs from view while LOD is frozen
     planet::SeamMode seams = planet::SeamMode::Skirts;
     std::vector<planet::ChunkId> items;    // what was drawn
     std::vector<planet::DrawnPair> pairs;  // indices are those of items

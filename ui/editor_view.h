@@ -130,6 +130,7 @@ struct EditorView {
     planet::View lodView{};
     planet::View renderView{};
     bool lodFrozen = false;
+    bool inspecting = false;  // EndInspection leads back
     bool framesPaused = false;
     bool pagingPaused = false;
     double timeS = 0;

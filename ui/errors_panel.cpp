@@ -10,6 +10,7 @@
 
 #include "ui/chunk_link.h"
 #include "ui/columns.h"
+#include "ui/inspection.h"
 #include "ui/item_map.h"
 #include "ui/plot_scale.h"
 #include "ui/tables.h"
@@ -227,10 +228,18 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
         "diagonal the prediction is exact, above it wrong; far below it wastes triangles.");
 }
 
+void goToWorst(const ChunkError& chunk, const EditorView& view, Commands& commands) {
+    const planet::View& from = view.errors.last->lodView;
+    inspectButton(from, from, chunk.id, chunk.worstM, view.planet->shape().radiusM, commands);
+}
+
 void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& commands) {
     const bool wrong = planet::isViolation(chunk);
     if (wrong) ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-    chunkCell(chunk.id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+    chunkCell(chunk.id, view, commands,
+              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
+    ImGui::TableNextColumn();
+    goToWorst(chunk, view, commands);
     cell(finePx(chunk.facingPx, ""));
     cell(finePx(chunk.predictedPx, ""));
     cell(fmt::format("{:.0f} %", 100 * planet::slackOf(chunk)));
@@ -242,6 +251,7 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
 
 constexpr std::array worstColumns = {
     TableColumn{"Chunk", 1.9f, "Click selects it, a double click looks at it."},
+    TableColumn{"##go", 0.6f},
     TableColumn{"Facing", 0.9f, "Measured, pixels, the view turned to face the sample."},
     TableColumn{"Predicted", 1.1f, "Pixels, morphing counted in."},
     TableColumn{"Slack", 0.8f, "1 - facing / predicted."},

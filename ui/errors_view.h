@@ -18,6 +18,7 @@ struct ErrorMeasurement {
     std::vector<std::size_t> worstFirst;                       // violations, then by facing pixels
     std::uint64_t frame = 0;                                   // since the window opened
     double atS = 0;                                            // the same, seconds
+    planet::View lodView;                                      // that chose what is measured
     double tauPx = 2;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
     double tookS = 0;

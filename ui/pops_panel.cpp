@@ -172,7 +172,9 @@ void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& comm
         wrappedText("Click a tick or a row to select a switch. Drag the timeline, or turn the wheel.",
                     palette().dim);
     } else {
-        if (button("Go back", "Moves the camera to where the switch was seen, and selects its chunk."))
+        if (button(
+                "Go back",
+                "Moves the camera to where the switch was seen, freezes LOD there, and selects its chunk."))
             commands.push_back(GoBackToPop{found->frame, found->chunk});
         ImGui::SameLine();
         chunkLink(found->chunk, view, commands);
