@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
 #include "app/bake_progress.h"
 #include "app/editor.h"
 #include "app/exit_code.h"
+#include "app/message.h"
 #include "app/places.h"
 #include "app/screenshot.h"
 #include "app/shot_command.h"
@@ -143,8 +143,8 @@ int runApp(const AppOptions& options) {
     if (window.error().problem == WindowProblem::NoOpenGl) {
         return reportError({planet::ErrorKind::BadInput, window.error().message});
     }
-    fmt::print(stderr, "worldy: no display ({}); writing a picture of the first view instead\n",
-               window.error().message);
+    printMessage("worldy: no display ({}); writing a picture of the first view instead\n",
+                 window.error().message);
     const Result<void> written = writeFirstView(options, *data, open->settings);
     return written ? exitOk : reportError(written.error());
 }

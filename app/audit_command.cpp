@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "app/camera_control.h"
 #include "app/flight_path.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/output_file.h"
 #include "app/report.h"
 #include "app/scene.h"
@@ -248,7 +248,7 @@ Result<Audit> audit(const AuditOptions& options) {
         audit.views.push_back(std::move(audited));
     }
     audit.blocksRead = heights.blocksRead();
-    for (const std::string& problem : planet.takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
+    for (const std::string& problem : planet.takeProblems()) printMessage("worldy: {}\n", problem);
     return audit;
 }
 
@@ -269,7 +269,7 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
         chunks += view.report.chunks.size();
         triangles += view.triangles;
         printRow(fmt::format("{}", i + 1), view.report.chunks.size(), view.triangles, view.report);
-        if (!view.settled) fmt::print(stderr, "worldy: view {}: not everything was loaded in time\n", i + 1);
+        if (!view.settled) printMessage("worldy: view {}: not everything was loaded in time\n", i + 1);
     }
     printRow("all", chunks, triangles, totalsOf(audit));
     printWorst(audit, options.worst);

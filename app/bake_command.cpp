@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/bake_progress.h"
+#include "app/message.h"
 #include "app/report.h"
 #include "app/worlds.h"
 #include "planet/colour_source.h"
@@ -66,8 +66,8 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
 
 void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {
     if (report.missingSamples > 0) {
-        fmt::print(stderr, "worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
-                   report.missingSamples, options.sourceSettings.fillM);
+        printMessage("worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
+                     report.missingSamples, options.sourceSettings.fillM);
     }
 }
 

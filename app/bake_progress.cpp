@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -25,7 +26,7 @@ std::string progressText(const planet::BakeProgress& progress, double share) {
 TerminalProgress::TerminalProgress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 TerminalProgress::~TerminalProgress() {
-    if (lineOpen_) fmt::print(stderr, "\n");
+    if (lineOpen_) printMessage("\n");
 }
 
 void TerminalProgress::show(const planet::BakeProgress& progress) {
@@ -33,14 +34,14 @@ void TerminalProgress::show(const planet::BakeProgress& progress) {
     const double share =
         static_cast<double>(progress.samplesDone) / static_cast<double>(progress.samplesTotal);
     if (terminal_) {
-        fmt::print(stderr, "\r\033[K{}", progressText(progress, share));
+        printMessage("\r\033[K{}", progressText(progress, share));
         std::fflush(stderr);
         lineOpen_ = true;
         return;
     }
     const int tenths = static_cast<int>(10 * share);
     if (tenths <= tenthsShown_) return;
-    fmt::print(stderr, "{}\n", progressText(progress, share));
+    printMessage("{}\n", progressText(progress, share));
     tenthsShown_ = tenths;
 }
 
@@ -71,7 +72,7 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
         };
         return bakeWithColour(source, settings, output, show, colour, problem);
     }();
-    if (!problem.empty()) fmt::print(stderr, "worldy: {}; baked without colours\n", problem);
+    if (!problem.empty()) printMessage("worldy: {}; baked without colours\n", problem);
     return report;
 }
 

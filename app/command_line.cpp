@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -605,7 +607,9 @@ Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments) {
     return understand(line.shot, line.shotView);
 }
 
-int runCommandLine(int argumentCount, const char* const* arguments) {
+namespace {
+
+int runCommand(int argumentCount, const char* const* arguments) {
     CommandLine line;
     const CLI::App& app = line.app;
     try {
@@ -637,6 +641,19 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
         if (app.got_subcommand(name)) return run();
     }
     return runApp(line.window);
+}
+
+}  // namespace
+
+int runCommandLine(int argumentCount, const char* const* arguments) {
+    occupyStandardStreams();
+    try {
+        return afterStandardOutput(runCommand(argumentCount, arguments));
+    } catch (const std::system_error&) {
+        // fmt::print throws where standard output takes no more.
+        if (std::ferror(stdout) == 0) throw;
+        return afterStandardOutput(exitBadInput);
+    }
 }
 
 }  // namespace worldy

@@ -8,8 +8,8 @@
 
 namespace worldy {
 
-// The program's exit code: 0, 1 where a check has failed, 2 for bad input or a failing disk, 130 when
-// cancelled.
+// The program's exit code: 0, 1 where a check has failed, 2 for bad input or a failing disk, standard
+// output's too, 130 when cancelled.
 int runCommandLine(int argumentCount, const char* const* arguments);
 
 // What `worldy shot ...` would draw, program name first.

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/message.h"
 #include "app/offscreen.h"
 #include "app/output_file.h"
 #include "app/report.h"
@@ -48,7 +48,7 @@ Result<void> runCosts(const CostsOptions& options) {
     const double radiusM = offscreen->scene.planet->shape().radiusM;
     const SettledView at =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), all);
-    if (!at.settled) fmt::print(stderr, "worldy: not everything was loaded in time\n");
+    if (!at.settled) printMessage("worldy: not everything was loaded in time\n");
     Result<CostMeter> meter = CostMeter::create(offscreen->scene, at.view, options.view, options.rounds);
     if (!meter) return tl::unexpected(meter.error());
     while (meter->step(offscreen->scene)) {

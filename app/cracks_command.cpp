@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <tuple>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "app/cracks.h"
 #include "app/flight_path.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/offscreen.h"
 #include "app/output_file.h"
 #include "app/report.h"
@@ -272,8 +272,7 @@ Result<bool> runCracks(const CracksOptions& options) {
     Measured all;
     if (const Result<void> done = measureAll(*offscreen, options, all); !done)
         return tl::unexpected(done.error());
-    for (const std::string& problem : takeProblems(offscreen->scene))
-        fmt::print(stderr, "worldy: {}\n", problem);
+    for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
     printTable(all);
     bool tight = totalsOf(all.views).leaking == 0;
     if (options.findDepth) {

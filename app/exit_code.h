@@ -13,4 +13,12 @@ inline constexpr int exitCancelled = 130;
 // Writes "worldy: message" to stderr; the code that the program must end with.
 int reportError(const planet::Error& error);
 
+// Opens /dev/null in the place of each standard stream that is closed. Else the next file that is opened
+// would take its number, and with it the text that is meant for the terminal.
+void occupyStandardStreams();
+
+// Flushes standard output. Returns exitCode, or where text was lost writes why to stderr and returns
+// exitBadInput instead of exitOk and exitCheckFailed. Call last.
+int afterStandardOutput(int exitCode);
+
 }  // namespace worldy

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/report.h"
 #include "app/worlds.h"
 #include "planet/chunk_file.h"
@@ -107,6 +108,10 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
     }
 }
 
+std::string problemsText(std::uint64_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "problem" : "problems");
+}
+
 void printVerified(const FileCommandOptions& options, const planet::VerifyReport& report,
                    const planet::ColourVerifyReport& colours) {
     std::vector<std::string> problems = report.problems;
@@ -125,13 +130,13 @@ void printVerified(const FileCommandOptions& options, const planet::VerifyReport
         return;
     }
     for (const std::string& problem : problems) fmt::print("{}\n", problem);
-    fmt::print(
-        "{}: {} chunks and {} shared edges checked, {} samples compared with the source, {} problems\n",
-        options.file.string(), report.chunks, report.edges, report.leafSamples, report.problemCount);
+    fmt::print("{}: {} chunks and {} shared edges checked, {} samples compared with the source, {}\n",
+               options.file.string(), report.chunks, report.edges, report.leafSamples,
+               problemsText(report.problemCount));
     if (colours.tiles > 0) {
-        fmt::print(
-            "{}: {} tiles of colour and {} shared edges checked, {} compared with the image, {} problems\n",
-            options.file.string(), colours.tiles, colours.edges, colours.compared, colours.problemCount);
+        fmt::print("{}: {} tiles of colour and {} shared edges checked, {} compared with the image, {}\n",
+                   options.file.string(), colours.tiles, colours.edges, colours.compared,
+                   problemsText(colours.problemCount));
     }
 }
 
@@ -207,7 +212,7 @@ Result<void> runInfo(const FileCommandOptions& options) {
     return {};
 }
 
-Result<void> runVerify(const FileCommandOptions& options) {
+Result<bool> runVerify(const FileCommandOptions& options) {
     const Result<ChunkFile> file = ChunkFile::open(options.file);
     if (!file) return tl::unexpected(file.error());
     std::optional<planet::HeightSource> source;
@@ -227,9 +232,10 @@ Result<void> runVerify(const FileCommandOptions& options) {
     if (!colours) return tl::unexpected(colours.error());
     printVerified(options, *report, *colours);
     const std::uint64_t problems = report->problemCount + colours->problemCount;
-    if (problems == 0) return {};
-    return planet::badInput(
-        fmt::format("{}: has {} problems; baking it again would be right", options.file.string(), problems));
+    if (problems == 0) return true;
+    printMessage("worldy: {}: {} found, 0 expected; bake the file again\n", options.file.string(),
+                 problemsText(problems));
+    return false;
 }
 
 Result<void> runProbe(const FileCommandOptions& options) {

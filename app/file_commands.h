@@ -19,7 +19,8 @@ struct FileCommandOptions {
 };
 
 planet::Result<void> runInfo(const FileCommandOptions& options);
-planet::Result<void> runVerify(const FileCommandOptions& options);
+// False: the file was read, and problems were found and printed.
+planet::Result<bool> runVerify(const FileCommandOptions& options);
 planet::Result<void> runProbe(const FileCommandOptions& options);
 
 }  // namespace worldy

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/flight_path.h"
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/offscreen.h"
 #include "app/output_file.h"
 #include "app/report.h"
@@ -147,8 +147,7 @@ Result<void> flyPath(const FlyOptions& options) {
         if (!frame) return tl::unexpected(frame.error());
         frames.push_back(*frame);
     }
-    for (const std::string& problem : takeProblems(offscreen->scene))
-        fmt::print(stderr, "worldy: {}\n", problem);
+    for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
     printSummary(*path, frames);
     if (options.jsonOutput.empty()) return {};
     return writeTextFile(options.jsonOutput, jsonText(jsonOf(options, *path, frames)));

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/output_file.h"
 #include "app/pops_flight.h"
 #include "app/report.h"
@@ -118,7 +118,7 @@ Result<void> runPops(const PopsOptions& options) {
     const Result<PopsFlight> flown = flyForPops(**planet, *path, options.view, options.size, options.stepS,
                                                 [&](double) { return !watch.interrupted(); });
     if (!flown) return tl::unexpected(flown.error());
-    for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
+    for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
     printSummary(*path, options, *flown);
     if (options.output.empty()) return {};
     return writeTextFile(options.output,

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/interrupt.h"
+#include "app/message.h"
 #include "app/output_file.h"
 #include "app/report.h"
 
@@ -111,7 +111,7 @@ Result<bool> replayFlight(const ReplayOptions& options) {
         static_cast<void>((*planet)->takeColourChanges());  // nothing draws them
         static_cast<void>((*planet)->takeNormalChanges());
     }
-    for (const std::string& problem : (*planet)->takeProblems()) fmt::print(stderr, "worldy: {}\n", problem);
+    for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
     printReport(*replay);
     if (!options.output.empty()) {
         const Result<void> written =

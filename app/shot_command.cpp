@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/message.h"
 #include "app/offscreen.h"
 #include "app/picture.h"
 #include "app/report.h"
@@ -67,14 +67,12 @@ Result<void> takeShot(const ShotOptions& options) {
     const SettledView view =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), options.view);
     if (view.lifted) {
-        fmt::print(stderr, "worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
-                   view.pose.altitudeM, minGroundClearanceM);
+        printMessage("worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
+                     view.pose.altitudeM, minGroundClearanceM);
     }
-    if (!view.settled)
-        fmt::print(stderr, "worldy: not everything was loaded in time; the picture may be coarse\n");
+    if (!view.settled) printMessage("worldy: not everything was loaded in time; the picture may be coarse\n");
     const Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view);
-    for (const std::string& problem : takeProblems(offscreen->scene))
-        fmt::print(stderr, "worldy: {}\n", problem);
+    for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
     if (!drawn) return drawn;
     if (Result<void> written = writeShot(readPicture(*offscreen), view.pose, options); !written)
         return written;

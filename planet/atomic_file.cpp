@@ -30,6 +30,20 @@ Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& call
     return ioError(path.string() + ": is a folder or a device; name a file");
 }
 
+// The file that a chain of symbolic links leads to, whether it exists or not; path itself if it is no link.
+Result<std::filesystem::path> linkTarget(const std::filesystem::path& path) {
+    constexpr int mostLinks = 40;  // as the kernel follows
+    std::filesystem::path target = path;
+    for (int i = 0; i <= mostLinks; ++i) {
+        std::error_code status;
+        if (!std::filesystem::is_symlink(target, status)) return target;
+        const std::filesystem::path next = std::filesystem::read_symlink(target, status);
+        if (status) return ioError(fmt::format("{}: cannot be written: {}", path.string(), status.message()));
+        target = target.parent_path() / next;
+    }
+    return ioError(fmt::format("{}: cannot be written: too many symbolic links", path.string()));
+}
+
 // False where the lock was won on a file that its last writer has renamed or removed meanwhile.
 Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& temporary,
                           const std::filesystem::path& path) {
@@ -70,13 +84,19 @@ Result<void> copyInto(AtomicFile& file, const std::filesystem::path& from) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path temporary, OpenFile file)
-    : path_(std::move(path)), temporary_(std::move(temporary)), file_(std::move(file)) {}
+AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path target,
+                       std::filesystem::path temporary, OpenFile file)
+    : path_(std::move(path)),
+      target_(std::move(target)),
+      temporary_(std::move(temporary)),
+      file_(std::move(file)) {}
 
 Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const FileCalls& calls) {
     if (auto free = checkPlace(path, calls); !free) return tl::unexpected(std::move(free.error()));
-    std::filesystem::path temporary = path;
-    temporary.replace_filename("." + path.filename().string() + ".part");
+    const Result<std::filesystem::path> target = linkTarget(path);
+    if (!target) return tl::unexpected(target.error());
+    std::filesystem::path temporary = *target;
+    temporary.replace_filename("." + target->filename().string() + ".part");
     for (;;) {
         const int descriptor =
             uninterrupted([&] { return calls.open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644); });
@@ -92,7 +112,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const F
             return problem;
         }
         // From here on the temporary file is removed on any Error.
-        AtomicFile file(path, temporary, std::move(opened));
+        AtomicFile file(path, *target, temporary, std::move(opened));
         const Result<bool> own = stillHasName(file.file_, temporary, path);
         if (!own) return tl::unexpected(own.error());
         if (!*own) {
@@ -129,12 +149,12 @@ Result<void> AtomicFile::commit() {
     const FileCalls& calls = file_.calls();
     if (uninterrupted([&] { return calls.fsync(file_.descriptor()); }) != 0)
         return systemError(path_, "writing failed");
-    if (uninterrupted([&] { return calls.rename(temporary_.c_str(), path_.c_str()); }) != 0)
+    if (uninterrupted([&] { return calls.rename(temporary_.c_str(), target_.c_str()); }) != 0)
         return systemError(path_, "cannot take this name");
     // What closing can still say was said by the sync.
     file_.close();
     // The name is durable once its folder is; where folders cannot be synced the file is whole all the same.
-    syncFolderOf(path_, calls);
+    syncFolderOf(target_, calls);
     return {};
 }
 
@@ -144,7 +164,8 @@ Result<void> writeAtomically(const std::filesystem::path& target,
     Result<AtomicFile> file = AtomicFile::create(target);
     if (!file) return tl::unexpected(file.error());
     const std::filesystem::path temporary =
-        target.parent_path() / fmt::format(".{}.new{}", target.stem().string(), target.extension().string());
+        file->target().parent_path() /
+        fmt::format(".{}.new{}", file->target().stem().string(), target.extension().string());
     Result<void> written = write(temporary);
     if (written) written = copyInto(*file, temporary);
     std::error_code status;

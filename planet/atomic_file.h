@@ -13,6 +13,7 @@
 
 namespace planet {
 
+// A symbolic link is kept: the file that it leads to is written, and the temporary file lies beside that one.
 // Owns the temporary file; unless committed, the destructor removes it and what was there before stays. Only
 // one writer a path at a time: a second one gets an Error. What a killed writer left behind is written over.
 // One thread.
@@ -24,7 +25,8 @@ public:
     AtomicFile& operator=(AtomicFile&&) = delete;
     ~AtomicFile();
 
-    const std::filesystem::path& path() const { return path_; }  // the name that it will have
+    const std::filesystem::path& path() const { return path_; }      // as given to create
+    const std::filesystem::path& target() const { return target_; }  // path() with its links followed
     std::uint64_t size() const { return size_; }
     Result<void> append(std::span<const std::byte> bytes);
     // Replaces bytes that were appended before.
@@ -35,9 +37,11 @@ public:
     Result<void> commit();
 
 private:
-    AtomicFile(std::filesystem::path path, std::filesystem::path temporary, OpenFile file);
+    AtomicFile(std::filesystem::path path, std::filesystem::path target, std::filesystem::path temporary,
+               OpenFile file);
 
     std::filesystem::path path_;
+    std::filesystem::path target_;
     std::filesystem::path temporary_;
     OpenFile file_;  // closed once it is committed
     std::uint64_t size_ = 0;

@@ -84,6 +84,45 @@ TEST(AtomicFile, deviceIsNotReplacedByAFile) {
     EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
+TEST(AtomicFile, linkIsKeptAndItsTargetWritten) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "data");
+    std::ofstream(folder / "data/file") << "old";
+    std::filesystem::create_symlink("data/file", folder / "near");
+    std::filesystem::create_symlink("near", folder / "far");
+    auto file = AtomicFile::create(folder / "far");
+    ASSERT_TRUE(file);
+    EXPECT_FALSE(AtomicFile::create(folder / "data/file")) << "two writers of one file";
+    ASSERT_TRUE(file->append(asBytes("new")));
+    ASSERT_TRUE(file->commit());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "near"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "far"));
+    EXPECT_FALSE(std::filesystem::is_symlink(folder / "data/file"));
+    EXPECT_EQ(contentOf(folder / "data/file"), "new");
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 3u);
+    EXPECT_EQ(::tests::fileCountIn(folder / "data"), 1u);
+}
+
+TEST(AtomicFile, linkToNothingMakesTheFileThatItNames) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::create_symlink(folder / "later", folder / "link");
+    auto file = AtomicFile::create(folder / "link");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->append(asBytes("new")));
+    ASSERT_TRUE(file->commit());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(contentOf(folder / "later"), "new");
+}
+
+TEST(AtomicFile, linkToItselfIsAnErrorThatNamesIt) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::create_symlink("loop", folder / "loop");
+    const auto file = AtomicFile::create(folder / "loop");
+    ASSERT_FALSE(file);
+    EXPECT_NE(file.error().message.find("loop: cannot be written"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "loop"));
+}
+
 TEST(AtomicFile, fullDiskIsAnErrorAndKeepsTheOldFile) {
     const tests::TemporaryFolder folder;
     std::ofstream(folder / "a") << "old";
@@ -117,6 +156,21 @@ TEST(WriteAtomically, aFailedWriteLeavesTheOldFileAndNothingElse) {
     EXPECT_FALSE(written);
     EXPECT_EQ(contentOf(file), "old");
     EXPECT_EQ(::tests::fileCountIn(folder.path()), 1u);
+}
+
+TEST(WriteAtomically, linkIsKeptAndItsTargetWritten) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "data");
+    std::ofstream(folder / "data/picture.png") << "old";
+    std::filesystem::create_symlink("data/picture.png", folder / "link.png");
+    ASSERT_TRUE(writeAtomically(folder / "link.png", [](const std::filesystem::path& temporary) {
+        std::ofstream(temporary) << "new";
+        return Result<void>();
+    }));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.png"));
+    EXPECT_EQ(contentOf(folder / "data/picture.png"), "new");
+    EXPECT_EQ(::tests::fileCountIn(folder.path()), 2u);
+    EXPECT_EQ(::tests::fileCountIn(folder / "data"), 1u);
 }
 
 TEST(WriteAtomically, theTemporaryNameKeepsTheExtension) {

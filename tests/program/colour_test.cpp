@@ -101,7 +101,7 @@ TEST_F(ColourProgram, ADamagedBlockIsALoudCheckerAndIsNamedAndTheRestGoesOn) {
     EXPECT_EQ(other.errors, "");
     EXPECT_GT(sharesOf(folder_.path() / "other.png").green, 0.9);
     const Ran verified = runWorldy(folder_, "verify planet.chk");
-    EXPECT_EQ(verified.exitCode, 2);
+    EXPECT_EQ(verified.exitCode, 1);
     EXPECT_THAT(verified.output + verified.errors, HasSubstr("colour tile x_pos/0/0/0 is damaged"));
 }
 

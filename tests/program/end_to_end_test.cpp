@@ -72,8 +72,9 @@ TEST(Program, VerifyPassesAGoodFileAndFindsDamage) {
     file.put('\x5A').put('\x5A').put('\x5A').put('\x5A');
     file.close();
     const Ran bad = runWorldy(folder, "verify planet.chk");
-    EXPECT_EQ(bad.exitCode, 2);
-    EXPECT_THAT(bad.errors, HasSubstr("worldy: planet.chk: has"));
+    EXPECT_EQ(bad.exitCode, 1);
+    EXPECT_THAT(bad.output, HasSubstr("compared with the source, 1 problem\n"));
+    EXPECT_EQ(bad.errors, "worldy: planet.chk: 1 problem found, 0 expected; bake the file again\n");
 }
 
 TEST(Program, ProbeTellsTheHeightOfTheImage) {
