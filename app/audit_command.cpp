@@ -51,15 +51,18 @@ Result<std::vector<planet::CameraPose>> posesOf(const AuditOptions& options, con
     return auditPoses(planet.file());
 }
 
-// A camera below the ground is lifted above it; only once it has settled is that known as finely as it is.
+// Loads for this view alone: a full budget and the height of the ground depend on what is resident. A camera
+// below the ground is lifted above it, whose height is known once the view has settled.
 AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const planet::LodSettings& lod,
                      const AuditOptions& options, planet::View& view) {
     const double radiusM = planet.shape().radiusM;
     Camera camera = cameraFromPose(pose, radiusM);
     AuditedView audited;
+    planet.startAnew();
     for (int attempt = 0; attempt < 4; ++attempt) {
         view = viewOf(camera, glm::radians(options.view.camera.fovDeg), options.size.widthPx,
                       options.size.heightPx);
+        planet.forgetSelections();
         audited.settled = planet.settle(view, lod, planet::noUpload, settleTimeoutS);
         const Ground ground{radiusM, planet::residentHeightM(planet.tree(), glm::normalize(camera.eyeM))};
         if (altitudeM(camera, ground) >= ground.heightM + minGroundClearanceM - 1e-3) break;

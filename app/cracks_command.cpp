@@ -100,6 +100,8 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
                          const CracksOptions& options, Measured& all) {
     MeasuredView view;
     view.timeS = timeS;
+    // Neither hysteresis nor what is resident may carry over from the view before.
+    offscreen.scene.planet->startAnew();
     view.at = settleAt(offscreen, pose, options.view);
     const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
     if (!measured) return tl::unexpected(measured.error());
@@ -134,6 +136,7 @@ Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const 
     settings.seams.skirtFactor = all.smallest.factor;
     int leaking = 0;
     for (const MeasuredView& view : all.views) {
+        offscreen.scene.planet->startAnew();
         const SettledView at = settleAt(offscreen, view.at.pose, settings);
         const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, at.view, settings);
         if (!measured) return tl::unexpected(measured.error());

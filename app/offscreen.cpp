@@ -114,6 +114,7 @@ SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const
         result.view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                              offscreen.target.heightPx());
         result.pose = planet::poseFromView(result.view, radiusM);
+        scene.planet->forgetSelections();
         result.settled = settleWhile(scene, result.view, settings, goOn);
     };
     settle();

@@ -34,8 +34,11 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
 
 Picture readPicture(const Offscreen& offscreen);
 
-// The view from a pose, once everything for it is loaded. A camera below the ground is lifted above it. goOn
-// is asked several times a second; where it says no, the view is left unsettled.
+// The view from a pose, once everything for it is loaded. Its selection does not depend on earlier views:
+// hysteresis and fades begin without a memory. What is resident stays, and with it a small budget and the
+// height of the ground may still depend on earlier views; Planet::startAnew() excludes that too. A camera
+// below the ground is lifted above it. goOn is called several times a second; when it returns false, the view
+// is left unsettled.
 struct SettledView {
     planet::View view;
     planet::CameraPose pose;

@@ -285,6 +285,11 @@ void Planet::startAnew() {
     state_->count();
 }
 
+void Planet::forgetSelections() {
+    for (PlanetView& view : state_->views) view.selection = {};
+    state_->changed = true;
+}
+
 void Planet::keepMoves(bool kept) {
     state_->keepsMoves = kept;
     state_->moves = {};

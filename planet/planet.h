@@ -223,6 +223,10 @@ public:
     // time begins anew. Totals, history and seconds() go on. Nothing is selected until the next step.
     void startAnew();
 
+    // Forgets the selections, which hysteresis and fades refer to: the next step selects as the first one
+    // does. Resident blocks and requests stay. Nothing is selected until the next step.
+    void forgetSelections();
+
     // Whether moves are kept for takeMoves(); at first they are not.
     void keepMoves(bool kept);
     // Those since the last call. To be called after each step and each other call while moves are kept: a

@@ -34,6 +34,22 @@ TEST(Planet, SettlesOnWhatAWholeTreeWouldDraw) {
     EXPECT_TRUE(planet->takeProblems().empty());
 }
 
+TEST(Planet, ForgottenSelectionsDoNotKeepChunksSplit) {
+    const auto planet = openFake();
+    LodSettings settings = fineSettings();
+    settings.hysteresis = 0.5;
+    const View near = viewAt(10, 20, 8000), far = viewAt(10, 20, 12000);
+    ASSERT_TRUE(planet->settle(near, settings, noUpload, timeoutS));
+    ASSERT_TRUE(planet->settle(far, settings, noUpload, timeoutS));
+    EXPECT_NE(drawn(*planet), drawnOfWhole(far, settings));
+    const std::size_t resident = planet->tree().residentChunks;
+    planet->forgetSelections();
+    EXPECT_FALSE(planet->settled());
+    EXPECT_EQ(planet->tree().residentChunks, resident);
+    ASSERT_TRUE(planet->settle(far, settings, noUpload, timeoutS));
+    EXPECT_EQ(drawn(*planet), drawnOfWhole(far, settings));
+}
+
 TEST(Planet, EachResidentChunkIsUploadedToASlotOfItsOwn) {
     const auto planet = openFake(fakePyramid().source(), 120);
     std::map<std::uint32_t, std::vector<std::int16_t>> pool;

@@ -63,6 +63,28 @@ TEST(Audit, MeasuresTheViewsThatItIsTold) {
     EXPECT_NEAR(report["view"][2]["camera"]["longitude_deg"], 30, 1e-6);
 }
 
+// Hysteresis keeps chunks split, a small budget keeps blocks resident, and a camera below the ground is
+// lifted above the finest ground that is resident: none of these may carry over.
+TEST(Audit, AViewDoesNotDependOnTheViewsBeforeIt) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const std::string audit =
+        "audit planet.chk -o report.json --tau 2 --size 640x480 --set lod.hysteresis=0.5";
+    const std::array<std::string, 3> cameras = {" --camera 20,120,4000,0,-90", " --camera 20,120,60000,0,-90",
+                                                " --camera 20,120,-3000,0,-10"};
+    json alone = json::array();
+    std::string all;
+    for (const std::string& camera : cameras) {
+        ASSERT_EQ(runWorldy(folder, audit + camera).exitCode, 0);
+        alone.push_back(reportIn(folder)["view"][0]);
+        all += camera;
+    }
+    ASSERT_EQ(runWorldy(folder, audit + all).exitCode, 0);
+    EXPECT_EQ(reportIn(folder)["view"], alone);
+    ASSERT_EQ(runWorldy(folder, audit + cameras[2] + cameras[0] + cameras[1]).exitCode, 0);
+    EXPECT_EQ(reportIn(folder)["view"][2], alone[1]);
+}
+
 std::string bytesAt(std::fstream& file, planet::BlockLocation location) {
     std::string bytes(location.size, 0);
     file.seekg(static_cast<std::streamoff>(location.offset));
