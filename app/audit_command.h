@@ -20,7 +20,7 @@ struct AuditOptions {
     double stepS = 1;                           // between the flight's views, seconds, > 0
     std::optional<planet::ErrorMetric> metric;  // instead of the settings'
     std::filesystem::path jsonOutput;           // empty: none
-    int worst = 10;                             // chunks that are listed, the worst over all views; >= 0
+    int worst = 20;                             // chunks that are listed, the worst over all views; >= 0
     PictureSize size;
     ui::ViewSettings view;
 };

@@ -147,6 +147,10 @@ void addViewOptions(CLI::App& command, ViewTexts& view) {
     command.add_flag("--no-culling", view.noCulling, "Also draw and load what is out of sight");
 }
 
+void addWorst(CLI::App& command, int& worst, const char* help) {
+    command.add_option("--worst", worst, help)->check(CLI::Range(0, 1000000));
+}
+
 void addShot(CLI::App& app, ShotOptions& options, ViewTexts& view) {
     CLI::App& command = *app.add_subcommand("shot", "Draw one picture of a chunk file, without a display");
     command.add_option("FILE", options.file, "Chunk file")->required();
@@ -257,6 +261,8 @@ void addCracks(CLI::App& app, CracksOptions& options, ViewTexts& view) {
         ->check(CLI::IsMember({"none", "skirts", "stitched"}));
     addViewOptions(command, view);
     command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
+    addWorst(command, options.worst,
+             "Crack clusters and gaps to list, the worst first; the report holds all (20)");
     command.add_flag(
         "--find-depth", options.findDepth,
         "Also find the smallest skirt depth and the smallest automatic factor that leak nothing");
@@ -288,6 +294,7 @@ void addPops(CLI::App& app, PopsOptions& options, ViewTexts& view) {
     command.add_option("--step-s", options.stepS, "Seconds of the flight between two frames (1/60)")
         ->check(number(1e-4, 1e4));
     addViewOptions(command, view);
+    addWorst(command, options.worst, "Switches to list, the worst first; the report holds all (20)");
     command.add_option("-o,--output", options.output, "Write a report there, JSON");
 }
 
@@ -353,8 +360,7 @@ void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts) {
     command.add_option("--metric", texts.metric, "Which bound chooses and predicts: additive or tight")
         ->check(oneOf(errorMetricNames));
     command.add_option("-o,--output", options.jsonOutput, "Write every chunk of every view there, as JSON");
-    command.add_option("--worst", options.worst, "Chunks that are listed, worst first (10)")
-        ->check(CLI::Range(0, 1000000));
+    addWorst(command, options.worst, "Chunks to list, the worst first; the report holds all (20)");
 }
 
 void addReplay(CLI::App& app, ReplayOptions& options) {

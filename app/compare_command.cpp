@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -53,7 +54,10 @@ Json jsonOf(const ComparedSide& side, const ui::ComparedFigures& figures) {
     for (const ui::CompareRow& row : ui::compareRows()) {
         if (!row.flight) continue;
         const std::optional<double>& value = figures.*row.value;
-        json[row.key] = value ? Json(*value) : Json(nullptr);
+        if (value && row.whole)
+            json[row.key] = std::llround(*value);
+        else
+            json[row.key] = value ? Json(*value) : Json(nullptr);
     }
     return json;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -23,19 +24,25 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planet::Result;
 
-constexpr std::size_t mostListed = 20;  // of a view's gaps and spots in the report
+// A cluster of crack pixels, and the chunks that it lies between where they are known.
+struct ReportedSpot {
+    planet::CrackSpot spot;
+    std::optional<planet::ChunkId> finer;
+    std::optional<planet::ChunkId> coarser;
+};
 
 struct MeasuredView {
     double timeS = 0;  // of the flight
     SettledView at;
-    std::size_t seams = 0;  // edges between two levels
-    planet::EdgeGap worst;  // of all edges
+    std::size_t seams = 0;              // edges between two levels
+    std::vector<planet::EdgeGap> gaps;  // those over 0, worst first
     std::size_t cracks = 0;
     int leaking = 0;
-    std::size_t spots = 0;
-    double requiredDepthM = 0;  // by the gaps
+    std::vector<ReportedSpot> spots;  // largest first
+    double requiredDepthM = 0;        // by the gaps
     double requiredFactor = 0;
-    Json details;
+
+    planet::EdgeGap worst() const { return gaps.empty() ? planet::EdgeGap{} : gaps.front(); }
 };
 
 struct Measured {
@@ -62,25 +69,29 @@ Json jsonOf(const planet::EdgeGap& gap) {
             {"coarser_skirt_m", gap.coarserSkirtM}};
 }
 
-Json jsonOf(const planet::CrackSpot& spot, const ui::CrackMeasurement& measured) {
+Json jsonOf(const ReportedSpot& reported) {
+    const planet::CrackSpot& spot = reported.spot;
     Json entry = {{"pixels", spot.pixels},
                   {"leaking", spot.leaking},
                   {"from_px", {spot.from.x, spot.from.y}},
                   {"to_px", {spot.to.x, spot.to.y}},
                   {"centre_px", {spot.centre.x, spot.centre.y}}};
-    if (spot.pair == planet::noPair) return entry;
-    entry["finer"] = planet::toString(measured.items[measured.pairs[spot.pair].finer]);
-    entry["coarser"] = planet::toString(measured.items[measured.pairs[spot.pair].coarser]);
+    if (reported.finer) entry["finer"] = planet::toString(*reported.finer);
+    if (reported.coarser) entry["coarser"] = planet::toString(*reported.coarser);
     return entry;
 }
 
-Json detailsOf(const ui::CrackMeasurement& measured) {
-    Json details = {{"gaps", Json::array()}, {"spots", Json::array()}};
-    for (std::size_t i = 0; i < std::min(mostListed, measured.gaps.size()); ++i)
-        details["gaps"].push_back(jsonOf(measured.gaps[i]));
-    for (std::size_t i = 0; i < std::min(mostListed, measured.spots.size()); ++i)
-        details["spots"].push_back(jsonOf(measured.spots[i], measured));
-    return details;
+std::vector<ReportedSpot> reportedSpots(const ui::CrackMeasurement& measured) {
+    std::vector<ReportedSpot> reported;
+    for (const planet::CrackSpot& spot : measured.spots) {
+        ReportedSpot one{spot, std::nullopt, std::nullopt};
+        if (spot.pair != planet::noPair) {
+            one.finer = measured.items[measured.pairs[spot.pair].finer];
+            one.coarser = measured.items[measured.pairs[spot.pair].coarser];
+        }
+        reported.push_back(one);
+    }
+    return reported;
 }
 
 // The worst picture so far, marked.
@@ -106,13 +117,12 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
     const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
     if (!measured) return tl::unexpected(measured.error());
     view.seams = measured->levelPairs;
-    if (!measured->gaps.empty()) view.worst = measured->gaps.front();
+    view.gaps = measured->gaps;
     view.cracks = measured->map.pixels.size();
     view.leaking = measured->map.leaking;
-    view.spots = measured->spots.size();
+    view.spots = reportedSpots(*measured);
     view.requiredDepthM = measured->required.depthM;
     view.requiredFactor = measured->required.factor;
-    view.details = detailsOf(*measured);
     if (options.findDepth) {
         const Result<ui::SmallestSkirts> smallest =
             smallestSkirts(offscreen.scene, view.at.view, *measured, all.smallest);
@@ -160,9 +170,9 @@ Totals totalsOf(const std::vector<MeasuredView>& views) {
     for (const MeasuredView& view : views) {
         totals.cracks += view.cracks;
         totals.leaking += static_cast<std::size_t>(view.leaking);
-        totals.spots += view.spots;
-        totals.worstGapM = std::max(totals.worstGapM, view.worst.gapM);
-        totals.worstGapPx = std::max(totals.worstGapPx, view.worst.facingPx);
+        totals.spots += view.spots.size();
+        totals.worstGapM = std::max(totals.worstGapM, view.worst().gapM);
+        totals.worstGapPx = std::max(totals.worstGapPx, view.worst().facingPx);
         totals.requiredDepthM = std::max(totals.requiredDepthM, view.requiredDepthM);
         totals.requiredFactor = std::max(totals.requiredFactor, view.requiredFactor);
     }
@@ -198,12 +208,14 @@ Json reportOf(const CracksOptions& options, const Measured& all) {
                       {"lifted", view.at.lifted},
                       {"settled", view.at.settled},
                       {"seams", view.seams},
-                      {"worst_gap_m", view.worst.gapM},
-                      {"worst_gap_px", view.worst.facingPx},
+                      {"worst_gap_m", view.worst().gapM},
+                      {"worst_gap_px", view.worst().facingPx},
                       {"crack_px", view.cracks},
-                      {"leaking_px", view.leaking},
-                      {"spots", view.spots}};
-        entry.update(view.details);
+                      {"leaking_px", view.leaking}};
+        entry["gaps"] = Json::array();
+        for (const planet::EdgeGap& gap : view.gaps) entry["gaps"].push_back(jsonOf(gap));
+        entry["spots"] = Json::array();
+        for (const ReportedSpot& spot : view.spots) entry["spots"].push_back(jsonOf(spot));
         report["view"].push_back(std::move(entry));
     }
     return report;
@@ -213,13 +225,58 @@ void printTable(const Measured& all) {
     fmt::print("{:>8}{:>8}{:>14}{:>14}{:>12}{:>12}{:>8}\n", "time s", "seams", "worst gap m", "worst gap px",
                "crack px", "leaking px", "spots");
     for (const MeasuredView& view : all.views) {
-        fmt::print("{:8.1f}{:8}{:14.3f}{:14.3f}{:12}{:12}{:8}{}\n", view.timeS, view.seams, view.worst.gapM,
-                   view.worst.facingPx, view.cracks, view.leaking, view.spots,
+        fmt::print("{:8.1f}{:8}{:14.3f}{:14.3f}{:12}{:12}{:8}{}\n", view.timeS, view.seams, view.worst().gapM,
+                   view.worst().facingPx, view.cracks, view.leaking, view.spots.size(),
                    view.at.settled ? "" : "  not all loaded");
     }
     const Totals totals = totalsOf(all.views);
     fmt::print("{:>16}{:14.3f}{:14.3f}{:12}{:12}{:8}\n", "all views", totals.worstGapM, totals.worstGapPx,
                totals.cracks, totals.leaking, totals.spots);
+}
+
+// The largest clusters and the widest gaps of all views.
+void printWorst(const std::vector<MeasuredView>& views, int worst) {
+    struct Spot {
+        double timeS;
+        const ReportedSpot* reported;
+    };
+    struct Gap {
+        double timeS;
+        const planet::EdgeGap* gap;
+    };
+    std::vector<Spot> spots;
+    std::vector<Gap> gaps;
+    for (const MeasuredView& view : views) {
+        for (const ReportedSpot& spot : view.spots) spots.push_back({view.timeS, &spot});
+        for (const planet::EdgeGap& gap : view.gaps) gaps.push_back({view.timeS, &gap});
+    }
+    std::stable_sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) {
+        return a.reported->spot.pixels > b.reported->spot.pixels;
+    });
+    std::stable_sort(gaps.begin(), gaps.end(),
+                     [](const Gap& a, const Gap& b) { return a.gap->gapM > b.gap->gapM; });
+    const auto listed = static_cast<std::size_t>(worst);
+    spots.resize(std::min(spots.size(), listed));
+    gaps.resize(std::min(gaps.size(), listed));
+    if (!spots.empty()) {
+        fmt::print("\nlargest crack clusters\n{:>8}{:>10}{:>12}{:>8}{:>8}  {:22}{}\n", "time s", "crack px",
+                   "leaking px", "x", "y", "finer", "coarser");
+    }
+    const auto nameOf = [](const std::optional<planet::ChunkId>& id) {
+        return id ? planet::toString(*id) : std::string("-");
+    };
+    for (const Spot& one : spots) {
+        const planet::CrackSpot& spot = one.reported->spot;
+        fmt::print("{:8.1f}{:10}{:12}{:8.0f}{:8.0f}  {:22}{}\n", one.timeS, spot.pixels, spot.leaking,
+                   spot.centre.x, spot.centre.y, nameOf(one.reported->finer), nameOf(one.reported->coarser));
+    }
+    if (!gaps.empty())
+        fmt::print("\nwidest gaps\n{:>8}{:>14}{:>14}  {:22}{}\n", "time s", "gap m", "gap px", "finer",
+                   "coarser");
+    for (const Gap& one : gaps) {
+        fmt::print("{:8.1f}{:14.3f}{:14.3f}  {:22}{}\n", one.timeS, one.gap->gapM, one.gap->facingPx,
+                   planet::toString(one.gap->finer), planet::toString(one.gap->coarser));
+    }
 }
 
 // Found, and proven by measuring the same views again with it.
@@ -277,6 +334,7 @@ Result<bool> runCracks(const CracksOptions& options) {
         return tl::unexpected(done.error());
     for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
     printTable(all);
+    printWorst(all.views, options.worst);
     bool tight = totalsOf(all.views).leaking == 0;
     if (options.findDepth) {
         const Result<bool> proven = proveAndPrint(*offscreen, options, all);

@@ -20,6 +20,7 @@ struct CracksOptions {
     planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
     double stepS = 1;                          // along the flight, seconds, > 0
     bool findDepth = false;
+    int worst = 20;  // clusters and gaps that are printed, of each so many, >= 0; the report holds all
     PictureSize size;
     ui::ViewSettings view;
 };

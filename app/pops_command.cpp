@@ -25,22 +25,18 @@ using planet::percentileOf;
 using planet::PopEvent;
 using planet::Result;
 
-constexpr std::size_t worstTold = 20;
 constexpr std::array shares = {0.5, 0.9, 0.99, 1.0};
 constexpr std::array<const char*, shares.size()> shareNames = {"p50", "p90", "p99", "maximum"};
 
-std::vector<const PopEvent*> worstOf(const PopsFlight& flown) {
-    std::vector<const PopEvent*> worst;
-    for (const PopEvent& event : flown.events) worst.push_back(&event);
-    const auto count = std::min(worst.size(), worstTold);
-    std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(count), worst.end(),
-                      [](const PopEvent* a, const PopEvent* b) {
-                          if (a->jump.largestPx != b->jump.largestPx)
-                              return a->jump.largestPx > b->jump.largestPx;
-                          return a->frame != b->frame ? a->frame < b->frame : a->chunk < b->chunk;
-                      });
-    worst.resize(count);
-    return worst;
+// All switches, the worst first.
+std::vector<const PopEvent*> rankedEvents(const PopsFlight& flown) {
+    std::vector<const PopEvent*> ranked;
+    for (const PopEvent& event : flown.events) ranked.push_back(&event);
+    std::sort(ranked.begin(), ranked.end(), [](const PopEvent* a, const PopEvent* b) {
+        if (a->jump.largestPx != b->jump.largestPx) return a->jump.largestPx > b->jump.largestPx;
+        return a->frame != b->frame ? a->frame < b->frame : a->chunk < b->chunk;
+    });
+    return ranked;
 }
 
 Json jsonOf(const PopEvent& event, double radiusM) {
@@ -76,7 +72,7 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight
     for (std::size_t i = 0; i < planet::popCauseCount; ++i)
         report["cause"][planet::popCauseName(static_cast<planet::PopCause>(i))] = flown.totals.byCause[i];
     report["worst"] = Json::array();
-    for (const PopEvent* event : worstOf(flown)) report["worst"].push_back(jsonOf(*event, radiusM));
+    for (const PopEvent* event : rankedEvents(flown)) report["worst"].push_back(jsonOf(*event, radiusM));
     return report;
 }
 
@@ -96,9 +92,12 @@ void printSummary(const FlightPath& path, const PopsOptions& options, const Pops
         "beside them {:.4f} px\n\n",
         percentileOf(jumps, 0.99), percentileOf(jumps, 0.5), percentileOf(jumps, 0.9), percentileOf(jumps, 1),
         flown.totals.worstBesidePx);
+    std::vector<const PopEvent*> worst = rankedEvents(flown);
+    worst.resize(std::min(worst.size(), static_cast<std::size_t>(options.worst)));
+    if (worst.empty()) return;
     fmt::print("{:>10}  {:22}{:>8}{:>14}{:>14}{:>14}  {}\n", "time", "chunk", "levels", "largest px",
                "mean px", "beside px", "cause");
-    for (const PopEvent* event : worstOf(flown)) {
+    for (const PopEvent* event : worst) {
         fmt::print("{:8.2f} s  {:22}{:>8}{:14.4f}{:14.4f}{:14.4f}  {}\n", event->timeS,
                    planet::toString(event->chunk), fmt::format("{} > {}", event->fromLevel, event->toLevel),
                    event->jump.largestPx, event->jump.meanPx, event->besidePx,

@@ -13,6 +13,7 @@ struct PopsOptions {
     std::filesystem::path file;
     std::filesystem::path flight;  // its keys
     std::filesystem::path output;  // of the report, JSON; empty: none
+    int worst = 20;                // switches that are printed, >= 0; the report holds all
     double stepS = 1.0 / 60;       // of the flight's time between two frames, > 0
     PictureSize size;
     ui::ViewSettings view;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <variant>
 
 #include "app/report.h"
 #include "app/settings.h"
@@ -21,24 +22,28 @@ using planet::Result;
 
 constexpr double knownTo = 1.02;  // a suggested tau, as a factor
 
+// Counts are whole numbers and on_front is a truth value, in both tables.
+using Cell = std::variant<double, std::uint64_t, bool>;
+
 struct Column {
     const char* name;
-    double (*of)(const SweepPoint&);
+    Cell (*of)(const SweepPoint&);
 };
 constexpr std::array<Column, 13> columns = {{
-    {"chunk_size", [](const SweepPoint& p) { return double{1} * p.chunkSize; }},
-    {"tau_px", [](const SweepPoint& p) { return p.tauPx; }},
-    {"mean_triangles", [](const SweepPoint& p) { return p.figures.meanTriangles; }},
-    {"most_triangles", [](const SweepPoint& p) { return p.figures.mostTriangles; }},
-    {"mean_chunks", [](const SweepPoint& p) { return p.figures.meanChunks; }},
-    {"most_resident_mib", [](const SweepPoint& p) { return p.figures.mostResidentMiB; }},
-    {"median_frame_ms", [](const SweepPoint& p) { return p.figures.medianFrameMs; }},
-    {"worst_predicted_px", [](const SweepPoint& p) { return p.figures.worstPredictedPx; }},
-    {"worst_measured_px", [](const SweepPoint& p) { return p.figures.worstMeasuredPx; }},
-    {"p99_measured_px", [](const SweepPoint& p) { return p.figures.p99MeasuredPx; }},
-    {"worst_screen_px", [](const SweepPoint& p) { return p.figures.worstScreenPx; }},
-    {"violations", [](const SweepPoint& p) { return static_cast<double>(p.figures.violations); }},
-    {"on_front", [](const SweepPoint& p) { return p.onFront ? 1.0 : 0.0; }},
+    {"chunk_size", [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.chunkSize); }},
+    {"tau_px", [](const SweepPoint& p) -> Cell { return p.tauPx; }},
+    {"mean_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanTriangles; }},
+    {"most_triangles",
+     [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.figures.mostTriangles); }},
+    {"mean_chunks", [](const SweepPoint& p) -> Cell { return p.figures.meanChunks; }},
+    {"most_resident_mib", [](const SweepPoint& p) -> Cell { return p.figures.mostResidentMiB; }},
+    {"median_frame_ms", [](const SweepPoint& p) -> Cell { return p.figures.medianFrameMs; }},
+    {"worst_predicted_px", [](const SweepPoint& p) -> Cell { return p.figures.worstPredictedPx; }},
+    {"worst_measured_px", [](const SweepPoint& p) -> Cell { return p.figures.worstMeasuredPx; }},
+    {"p99_measured_px", [](const SweepPoint& p) -> Cell { return p.figures.p99MeasuredPx; }},
+    {"worst_screen_px", [](const SweepPoint& p) -> Cell { return p.figures.worstScreenPx; }},
+    {"violations", [](const SweepPoint& p) -> Cell { return p.figures.violations; }},
+    {"on_front", [](const SweepPoint& p) -> Cell { return p.onFront; }},
 }};
 
 std::string_view metricName(planet::ErrorMetric metric) {
@@ -52,7 +57,8 @@ std::string sweepCsv(std::span<const SweepPoint> points) {
     for (const Column& column : columns) text += fmt::format(",{}", column.name);
     for (const SweepPoint& point : points) {
         text += fmt::format("\n{}", metricName(point.metric));
-        for (const Column& column : columns) text += fmt::format(",{:.6g}", column.of(point));
+        for (const Column& column : columns)
+            text += std::visit([](auto value) { return fmt::format(",{}", value); }, column.of(point));
     }
     return text + "\n";
 }
@@ -64,7 +70,8 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
     report["points"] = Json::array();
     for (const SweepPoint& point : points) {
         Json entry = {{"metric", metricName(point.metric)}};
-        for (const Column& column : columns) entry[column.name] = column.of(point);
+        for (const Column& column : columns)
+            std::visit([&](auto value) { entry[column.name] = value; }, column.of(point));
         report["points"].push_back(std::move(entry));
     }
     return jsonText(report);

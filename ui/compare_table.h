@@ -42,6 +42,7 @@ struct CompareRow {
     FigureUnit unit;
     bool live;    // in the table of the view as it is
     bool flight;  // in the table of a flight
+    bool whole;   // over a flight a whole number, which reports write as such; else a mean or a measure
 };
 std::span<const CompareRow> compareRows();
 

@@ -45,6 +45,22 @@ TEST(Sweep, theTablesHoldEveryPoint) {
     EXPECT_EQ(json["frames"], 3);
 }
 
+TEST(Sweep, countsAreWholeNumbersInBothTables) {
+    SweepPoint point = pointOf(0.5, 1234567.25, 0.5);
+    point.figures.mostTriangles = 12345678;
+    point.figures.violations = 3;
+    point.onFront = true;
+    const auto json =
+        nlohmann::json::parse(sweepJson({{point}}, "a.chk", "Down", SweepCost::FrameMs))["points"][0];
+    EXPECT_TRUE(json["chunk_size"].is_number_integer());
+    EXPECT_EQ(json["most_triangles"].dump(), "12345678");
+    EXPECT_EQ(json["violations"].dump(), "3");
+    EXPECT_EQ(json["on_front"], true);
+    EXPECT_TRUE(json["tau_px"].is_number_float());
+    EXPECT_THAT(sweepCsv({{point}}), HasSubstr("\nadditive,33,0.5,1234567.25,12345678,"));
+    EXPECT_THAT(sweepCsv({{point}}), testing::EndsWith(",3,true\n"));
+}
+
 TEST(Sweep, aGoalIsANameAndALimitOverZero) {
     const auto error = tauGoalFromText("error_px=1.5");
     ASSERT_TRUE(error);

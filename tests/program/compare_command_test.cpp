@@ -33,6 +33,9 @@ TEST(CompareCommand, SetsBothSidesBesideEachOtherAndTakesPictures) {
     EXPECT_LT(report["b"]["triangles"], report["a"]["triangles"]);
     EXPECT_GT(report["b"]["worst_error_px"], report["a"]["worst_error_px"]);
     EXPECT_EQ(report["b"]["crack_px"], 0);
+    for (const char* count :
+         {"resident_bytes", "bytes_read", "violations", "crack_px", "leaking_px", "switches", "late"})
+        EXPECT_TRUE(report["a"][count].is_number_integer()) << count;
     EXPECT_EQ(report["settings"].size(), 2u);
     EXPECT_GT(report["most_different"]["pixels"], 0);
     const auto beside = readPicture(folder.path() / "made" / "here" / "side_by_side.png");

@@ -47,6 +47,41 @@ TEST(CracksCommand, SkirtsHoldWhatWithoutThemLeaks) {
     EXPECT_EQ(nlohmann::json::parse(contentOf(folder.path() / "stitched.json"))["crack_px"], 0);
 }
 
+TEST(CracksCommand, TheReportHoldsAllGapsAndTheTableTheWorst) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran ran = runWorldy(folder, "cracks planet.chk " + view + "--seams none -o all.json --worst 2");
+    const auto measured = nlohmann::json::parse(contentOf(folder.path() / "all.json"))["view"][0];
+    EXPECT_GT(measured["gaps"].size(), 2u);
+    EXPECT_GT(measured["spots"].size(), 2u);
+    int pixels = 0;
+    for (const auto& spot : measured["spots"]) pixels += spot["pixels"].get<int>();
+    EXPECT_EQ(measured["crack_px"], pixels);
+    const std::string list = ran.output.substr(ran.output.find("largest crack clusters"));
+    EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 9) << list;
+}
+
+// Neither hysteresis nor what is resident carries over.
+TEST(CracksCommand, AViewOfAFlightIsTheSameAsAlone) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::ofstream(folder.path() / "up.toml")
+        << "name = \"Up\"\n[[key]]\ntime_s = 0\nlatitude_deg = 20\nlongitude_deg = 120\naltitude_m = 4000\n"
+           "heading_deg = 0\npitch_deg = -90\n[[key]]\ntime_s = 1\nlatitude_deg = 20\nlongitude_deg = 120\n"
+           "altitude_m = 60000\nheading_deg = 0\npitch_deg = -90\n";
+    const std::string cracks =
+        "cracks planet.chk --size 320x200 --tau 2 --set lod.hysteresis=0.5 -o report.json ";
+    const auto viewsOf = [&](const std::string& options) {
+        EXPECT_EQ(runWorldy(folder, cracks + options).exitCode, 0);
+        return nlohmann::json::parse(contentOf(folder.path() / "report.json"))["view"];
+    };
+    nlohmann::json flown = viewsOf("--flight up.toml").at(1),
+                   alone = viewsOf("--camera 20,120,60000,0,-90").at(0);
+    for (nlohmann::json* one : {&flown, &alone})
+        for (const char* key : {"time_s", "camera"}) one->erase(key);
+    EXPECT_EQ(flown, alone);
+}
+
 TEST(CracksCommand, BadInputEndsWithTwo) {
     const TemporaryFolder folder;
     bakePlanet(folder);

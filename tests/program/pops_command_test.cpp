@@ -45,6 +45,19 @@ TEST_F(PopsCommand, MorphingTakesThePopsAway) {
     EXPECT_EQ(hard["worst"][0]["largest_px"], hard["largest_px"]["maximum"]);
 }
 
+TEST_F(PopsCommand, TheReportHoldsAllSwitchesAndTheTableTheWorst) {
+    const nlohmann::json all = report("--tau 0.25 --step-s 0.01 --set lod.morph=false --worst 3");
+    EXPECT_GT(all["switches"], 20);
+    EXPECT_EQ(all["worst"].size(), all["switches"]);
+    for (std::size_t i = 1; i < all["worst"].size(); ++i)
+        EXPECT_GE(all["worst"][i - 1]["largest_px"], all["worst"][i]["largest_px"]);
+    const std::string table = contentOf(folder.path() / ".stdout");
+    EXPECT_THAT(table, HasSubstr(all["worst"][2]["chunk"]));
+    const std::string head = "largest px";
+    EXPECT_EQ(std::count(table.begin() + static_cast<std::ptrdiff_t>(table.find(head)), table.end(), '\n'),
+              4);
+}
+
 TEST_F(PopsCommand, SaysWhatIsWrongWithItsInput) {
     const Ran noFile = runWorldy(folder, "pops none.chk --flight down.toml");
     EXPECT_EQ(noFile.exitCode, 2);
