@@ -122,8 +122,8 @@ float squareOf(float x) {
 }
 
 // Steps, shortest where the ray is lowest, growing with the distance from there. They need not be whole: the last
-// one is then shorter, so that nothing jumps where their number changes. density: of the air, over its own.
-AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps, float density) {
+// one is then shorter, so that nothing jumps where their number changes.
+AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
     AirLight light = AirLight(vec3(0.0), vec3(1.0));
     if (span.far <= 0.0) return light;
     float cosine = dot(ray, sun.xyz);
@@ -151,9 +151,9 @@ AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps, float density) {
         float there = sqrt(max(radius * radius + square, 1.0));
         float height = max(span.height + square / (there + radius), 0.0);
         float sunRise = clamp((sunAlong + distance * cosine) / there, -1.0, 1.0);
-        vec3 molecules = airMolecules.rgb * (density * exp(-height * airMolecules.w));
-        float haze = density * exp(-height * airHaze.z);
-        float ozone = density * max(1.0 - abs(height - airShape.w) * airOzone.w, 0.0);
+        vec3 molecules = airMolecules.rgb * exp(-height * airMolecules.w);
+        float haze = exp(-height * airHaze.z);
+        float ozone = max(1.0 - abs(height - airShape.w) * airOzone.w, 0.0);
         vec3 even = textureLod(airGlow, vec3(glowPlace(height, sunRise), 0.0), 0.0).rgb;
         vec3 scatters = sunThroughAir(height, sunRise) * (molecules * rayleigh + airHaze.x * haze * forward) +
                         even * (molecules + airHaze.x * haze);
@@ -172,7 +172,7 @@ AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps, float density) {
 AirLight lightOfSky(vec3 ray, out bool meetsGround) {
     AirSpan span = airSpan(dot(airEye.xyz, ray), -1.0);
     meetsGround = span.meetsGround;
-    AirLight light = lightAlongSpan(span, ray, airSun.w, 1.0);
+    AirLight light = lightAlongSpan(span, ray, airSun.w);
     if (!meetsGround) return light;
     vec3 place = (airShape.x + airEye.w) * airEye.xyz + (span.before + span.far) * ray;
     float sunRise = clamp(dot(place, sun.xyz) * inversesqrt(max(dot(place, place), 1.0)), -1.0, 1.0);
@@ -191,7 +191,7 @@ float distanceToHeight(float rise, float height) {
 // Before a point of the ground, metres from the eye; its height, metres. share: of the full number of steps.
 // Seen from space the middles of large triangles lie deep below the sphere that their corners are on: there the
 // height says where the ray ends. The sea's bed is drawn as its surface, which is where light comes from.
-AirLight lightBefore(vec3 position, float heightM, float share, float density) {
+AirLight lightBefore(vec3 position, float heightM, float share) {
     float distance = length(position);
     vec3 ray = position / max(distance, 1e-6);
     float rise = dot(airEye.xyz, ray);
@@ -206,7 +206,7 @@ AirLight lightBefore(vec3 position, float heightM, float share, float density) {
     if (byHeight > 0.0) distance = mix(distance, max(distanceToHeight(rise, height), 0.0), byHeight);
     AirSpan span = airSpan(rise, distance);
     float steps = clamp(3.0 + 0.9 * sqrt(span.far), 4.0, max(share * airSun.w, 4.0));
-    return lightAlongSpan(span, ray, steps, density);
+    return lightAlongSpan(span, ray, steps);
 }
 
 // Before the tone mapping: the toe of a film, which keeps dark things dark under the veil of so much air.

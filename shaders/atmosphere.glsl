@@ -9,7 +9,6 @@
 const vec3 scattering = vec3(0.023, 0.054, 0.132);
 const float haze = 0.007;  // grey and mostly forward
 const vec3 sunLight = vec3(3.4, 3.3, 3.15);
-const float airUnderTint = 0.75;  // air taken away before a tint, which stays readable far away
 const vec3 sunExtinction = 1.6 * scattering + vec3(haze);  // a redder evening than so thin an air would make
 
 // Air from a height outwards, along a ray that rises with this cosine to the zenith, 0 or more.

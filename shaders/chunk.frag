@@ -184,21 +184,14 @@ float between(float pixels) {
     return smoothstep(2.0, 6.0, pixels);
 }
 
-// A tint is meant as seen, not as paint: darker in the sun, so that it does not bleach.
-Material tinted(Material material) {
-    if (!isOn(switchTint)) return material;
-    return Material(mix(material.albedo, decodeSrgb(tint.rgb) * 0.3, tint.a), material.water * (1.0 - tint.a));
-}
-
 // The air between the eye and the ground takes light away and scatters the sun's in.
 vec3 throughAir(vec3 light, vec3 ray, vec3 up) {
     if (!isOn(switchAir)) return light;
     if (isOn(switchPhysicalAir)) {
-        AirLight before = lightBefore(surface, facePlace.z, 0.5, isOn(switchTint) ? 1.0 - airUnderTint * tint.a : 1.0);
+        AirLight before = lightBefore(surface, facePlace.z, 0.5);
         return light * before.through + before.scattered;
     }
     float air = airBefore(ray, up, max(facePlace.z, 0.0) * atmosphere.y);
-    if (isOn(switchTint)) air *= 1.0 - airUnderTint * tint.a;
     vec3 amount = scatteringBeforeGround();
     return light * exp(-(amount + vec3(haze)) * air) + scattered(air, amount, airLit, dot(ray, sun.xyz));
 }
@@ -240,7 +233,6 @@ vec3 lightByPixel() {
         normal = normalize(normal - amount * tilt);
         glint = amount * layerGlint(normal, -ray, layered.roughness);
     }
-    material = tinted(material);
     vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
     vec3 sunlight = sunLit;
     if (isOn(switchShadows))
@@ -255,7 +247,7 @@ vec3 lightByPixel() {
 
 vec3 lightByVertex() {
     vec3 up = normalize(eye.xyz + surface);
-    Material material = tinted(materialAt(up, facePlace.z - heights.w, steep, noDetail(), 0.0));
+    Material material = materialAt(up, facePlace.z - heights.w, steep, noDetail(), 0.0);
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
     return groundArriving.rgb * reflected + airArriving.rgb;
 }
@@ -268,7 +260,6 @@ vec3 flatSurface() {
         Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - heights.w, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - material.water));
     }
-    if (isOn(switchTint)) albedo = mix(albedo, decodeSrgb(tint.rgb), tint.a);
     return encodeSrgb(clamp(albedo, 0.0, 1.0));
 }
 
@@ -285,6 +276,8 @@ void main() {
     if (isOn(switchLayerPreview))
         colour = layerPreview(colour, surface, normalize(eye.xyz + surface), groundNormal(),
                               facePlace.z - heights.w);
+    // A tint measures: it is laid over the finished picture, so that light, air and dither do not change its colour.
+    if (isOn(switchTint)) colour = mix(colour, tint.rgb, tint.a);
     if (isOn(switchWireframe)) {
         vec3 lineColour = isOn(switchTint) ? tint.rgb : vec3(0.92, 0.96, 1.0);
         colour = mix(colour * 0.35, lineColour, meshLine());

@@ -102,14 +102,12 @@ void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     airArriving = vec4(0.0, 0.0, 0.0, seaGlint(up, -ray) * sunLit.g / land.g);
     if (!isOn(switchAir)) return;
     if (isOn(switchPhysicalAir)) {
-        float density = isOn(switchTint) ? 1.0 - airUnderTint * chunkTint.a : 1.0;
-        AirLight before = lightBefore(position, height, 0.5, density);
+        AirLight before = lightBefore(position, height, 0.5);
         groundArriving.rgb *= before.through;
         airArriving.rgb = before.scattered;
         return;
     }
     float air = airBefore(ray, up, max(height, 0.0) * atmosphere.y);
-    if (isOn(switchTint)) air *= 1.0 - airUnderTint * chunkTint.a;
     vec3 amount = scatteringBeforeGround();
     groundArriving.rgb *= exp(-(amount + vec3(haze)) * air);
     airArriving.rgb = scattered(air, amount, airLit, dot(ray, sun.xyz));

@@ -5,10 +5,6 @@ vec3 encodeSrgb(vec3 colour) {
                lessThanEqual(colour, vec3(0.0031308)));
 }
 
-vec3 decodeSrgb(vec3 colour) {
-    return mix(pow((colour + 0.055) / 1.055, vec3(2.4)), colour / 12.92, lessThanEqual(colour, vec3(0.04045)));
-}
-
 // Rolls off softly, x (1 + 0.09 x) / (1 + x), and encodes as sRGB: both at once as a rational function of the
 // root, which errs by less than a step of the 8 bits.
 vec3 developed(vec3 light) {

@@ -25,9 +25,9 @@ glm::vec3 stateColour(planet::ChunkState state);
 double deltaShare(double deltaCM, double topM);  // logarithmic over the four decades below the top
 double ageShare(double ageS, double topS);       // 1 just loaded, 0 at the top and older
 
-// The tints of what a selection draws, in its order; none where chunks are not coloured. Without lighting
-// they hide what is below, so that colours are just those of the legend. measured: for ColourBy::Measured; a
-// chunk that it does not know is grey.
+// Returns the tints of what a selection draws, in its order; none where chunks are not coloured. Without
+// lighting they are opaque whatever the opacity is. measured: for ColourBy::Measured; a chunk that it does
+// not know is grey.
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
                                               const OverlaySettings& overlay, double tauPx, bool lighting,

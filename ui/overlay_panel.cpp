@@ -26,7 +26,8 @@ void colourKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
     ImGui::BeginDisabled(overlay.colourBy == ColourBy::None);
     slider("Opacity", overlay.opacity, defaults.opacity, 0, 1, "%.2f",
            "Opacity of the tint, [0, 1]. Smaller: more of the ground shows, but colours are harder to tell "
-           "apart. At 1 the colours are those of the legend.");
+           "apart. At 1, and without lighting, the colours are exactly those of the legend: neither light "
+           "nor the atmosphere changes them.");
     ImGui::EndDisabled();
     if (overlay.colourBy == ColourBy::Error || overlay.colourBy == ColourBy::Measured)
         slider("Midpoint", overlay.errorScale, defaults.errorScale, 0.01, 100,

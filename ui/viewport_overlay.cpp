@@ -206,7 +206,11 @@ void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const
 
 Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
     if (!planet) return {};
-    return legendOf(overlay, planet->lodSettings().tauPx, planet->selection().counters.deepestLevel);
+    // Of all views: an observer with a level of detail of its own may draw finer chunks.
+    std::uint32_t deepest = 0;
+    for (std::size_t view = 0; view < planet->viewCount(); ++view)
+        deepest = std::max(deepest, planet->selection(view).counters.deepestLevel);
+    return legendOf(overlay, planet->lodSettings().tauPx, deepest);
 }
 
 // While comparing that of A, or of B where only its chunks are coloured.

@@ -27,7 +27,8 @@
 
 namespace planet::gl {
 
-// Laid over a chunk: sRGB and strength, [0, 255]; strength 0 leaves it as it is.
+// A colour laid over a chunk's finished picture, unlit and in front of the air: sRGB and opacity, [0, 255].
+// At 255 the pixels are exactly this colour; at 0 they stay as they are.
 struct ChunkTint {
     std::array<std::uint8_t, 4> rgba{};
 };

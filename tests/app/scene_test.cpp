@@ -2,9 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <glm/vec3.hpp>
+
+#include "app/offscreen.h"
 #include "planet/gl/render_target.h"
 #include "tests/app/session_fixture.h"
 #include "tests/synthetic_colours.h"
+#include "ui/overlay_colours.h"
 
 namespace worldy {
 namespace {
@@ -194,6 +199,59 @@ TEST_F(SceneTest, whatASplitViewportDrawsIsCountedTogether) {
     picture(scene, view);
     EXPECT_EQ(statsOf(scene).render.chunks, once);
     EXPECT_GT(statsOf(scene).gpuMemory.total(), 0u);
+}
+
+glm::ivec3 bytesOfColour(const glm::vec3& colour) {
+    return {std::lround(colour.x * 255), std::lround(colour.y * 255), std::lround(colour.z * 255)};
+}
+
+// Levels have a colour each; amounts have all the colours of their scale, of which the legend names some.
+std::vector<glm::ivec3> coloursOfLegend(const ui::OverlaySettings& overlay, double tauPx,
+                                        std::uint32_t deepestLevel) {
+    std::vector<glm::ivec3> colours;
+    for (const ui::LegendEntry& entry : ui::legendOf(overlay, tauPx, deepestLevel).entries)
+        colours.push_back(bytesOfColour(entry.colour));
+    const bool isError =
+        overlay.colourBy == ui::ColourBy::Error || overlay.colourBy == ui::ColourBy::Measured;
+    for (int i = 0; i <= 1000 && overlay.colourBy != ui::ColourBy::Level; ++i)
+        colours.push_back(bytesOfColour(isError ? ui::errorColour(i / 500.0) : ui::rampColour(i / 1000.0)));
+    return colours;
+}
+
+TEST_F(SceneTest, aTintOfFullOpacityHasOnlyTheColoursOfItsLegend) {
+    const std::filesystem::path file = bakeTo("tinted.chk", {.faceSize = 257, .chunkSize = 17});
+    settings_.overlay.opacity = 1;
+    settings_.surface.light.air.use = planet::gl::FeatureUse::On;
+    settings_.surface.light.sea.use = planet::gl::FeatureUse::On;
+    settings_.surface.sunFollows = false;
+    auto offscreen = openOffscreen({.chunkFile = file}, settings_, {96, 64}, 1);
+    ASSERT_TRUE(offscreen) << offscreen.error().message;
+    // All of the picture is ground.
+    const SettledView settled =
+        settleAt(*offscreen, {.latitudeDeg = 20, .longitudeDeg = 30, .altitudeM = 4e5}, settings_);
+    ASSERT_TRUE(settled.settled);
+    const std::uint32_t deepest = offscreen->scene.planet->selection().counters.deepestLevel;
+    for (const double sunLongitudeDeg : {31.0, 120.0, 210.0}) {
+        settings_.surface.sunLongitudeDeg = sunLongitudeDeg;
+        for (const ui::ColourBy colourBy :
+             {ui::ColourBy::Level, ui::ColourBy::Error, ui::ColourBy::DeltaC, ui::ColourBy::Morph,
+              ui::ColourBy::Age, ui::ColourBy::LoadOrder, ui::ColourBy::Measured}) {
+            settings_.overlay.colourBy = colourBy;
+            ASSERT_TRUE(drawAndFinish(*offscreen, settled.view, settings_));
+            const Picture picture = readPicture(*offscreen);
+            const std::vector<glm::ivec3> legend =
+                coloursOfLegend(settings_.overlay, settings_.lod.tauPx, deepest);
+            std::size_t strangers = 0;
+            for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+                strangers += std::none_of(legend.begin(), legend.end(), [&](const glm::ivec3& colour) {
+                    const glm::ivec3 apart =
+                        colour - glm::ivec3(picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]);
+                    return std::abs(apart.x) <= 1 && std::abs(apart.y) <= 1 && std::abs(apart.z) <= 1;
+                });
+            }
+            EXPECT_EQ(strangers, 0u) << static_cast<int>(colourBy) << ", sun at " << sunLongitudeDeg;
+        }
+    }
 }
 
 // A planet whose file has colours, drawn from tiles and from a clipmap.

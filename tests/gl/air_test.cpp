@@ -32,7 +32,7 @@ void main() {
     vec3 ray = vec3(sqrt(1.0 - height * height) * vec2(cos(turn), sin(turn)), height);
     bool meetsGround;
     AirLight sky = lightOfSky(ray, meetsGround);
-    AirLight before = lightBefore(ray * distanceM, 0.0, 1.0, 1.0);
+    AirLight before = lightBefore(ray * distanceM, 0.0, 1.0);
     float high = at.x * at.x * 120.0 - 5.0;
     result = vec4(0.0);
     if (asked == 0) result.rgb = sky.scattered;

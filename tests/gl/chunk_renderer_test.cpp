@@ -16,6 +16,17 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> green = {40, 168, 66, 225};
 
+// One matt colour all over, so that brightness tells the light.
+RenderSettings mattSettings() {
+    RenderSettings settings;
+    settings.surface = SurfaceColour::HeightRamp;
+    settings.ramp = {{0, {0.4f, 0.5f, 0.4f}}};
+    settings.sea = false;
+    settings.detail = false;
+    settings.atmosphere = false;
+    return settings;
+}
+
 double wavyHills(const glm::dvec3& d) {
     return 3000 * std::sin(40 * d.x + 3 * d.z) * std::cos(37 * d.y) + 1500 * std::sin(90 * d.z + 20 * d.x);
 }
@@ -111,14 +122,12 @@ TEST_F(ChunkRendererTest, SkirtsFillACrackThatShowsWithoutThem) {
 TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
     TestPlanet planet({}, 96);
     planet.addLevel(2, flat);
-    RenderSettings settings;
-    settings.atmosphere = false;
-    const std::vector<ChunkTint> tints = oneTint(planet.items().size(), green);
+    RenderSettings settings = mattSettings();
     const View view = viewFrom({}, 0, 0, 2 * earthRadiusM, -90, 0, 401, 401);
     const double sunLatitude = glm::radians(20.0);
     const double sunLongitude = glm::radians(35.0);
     settings.sunDirection = 5.0 * directionFromGeographic({sunLatitude, sunLongitude});
-    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
+    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings);
 
     const auto planetBrightness = [&](int pixel) {
         const int x = pixel % 401;
@@ -143,24 +152,22 @@ TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
     EXPECT_NEAR(y / count, 200 - under.z * scale, 6);
 
     settings.sunDirection = {0, 1, 0};
-    const Picture half = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
+    const Picture half = drawPicture(planet.renderer(), view, planet.items(), settings);
     EXPECT_GT(half.brightness(260, 200), 8 * half.brightness(140, 200));
 }
 
 TEST_F(ChunkRendererTest, SlopesTowardsTheSunAreBrighter) {
     TestPlanet planet({}, 96);
-    // Ridges along meridians, all above the snow line: falling eastwards between longitude 0 and 5 degrees,
+    // Ridges along meridians: falling eastwards between longitude 0 and 5 degrees,
     // rising from 5 to 10.
     planet.addLevel(2, [](const glm::dvec3& d) {
         const double t = std::atan2(d.y, d.x) / glm::radians(10.0);
         return 8000 + 20000 * std::abs(2 * (t - std::floor(t)) - 1);
     });
-    RenderSettings settings;
-    settings.atmosphere = false;
+    RenderSettings settings = mattSettings();
     settings.sunDirection = {1, 0.7, 0};
     const View view = viewFrom({}, 0, 5, earthRadiusM, -90, 0, 400, 400);
-    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings, 1,
-                                        oneTint(planet.items().size(), green));
+    const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings);
     const auto at = [&](double longitudeDeg) {
         const double turn = glm::radians(longitudeDeg - 5);
         const double px = screenScalePx(view) * std::sin(turn) / (2 - std::cos(turn));
@@ -275,6 +282,43 @@ TEST_F(ChunkRendererTest, WithoutLightATintIsExactlyItsColour) {
         tints[i].rgba = {255, 0, 0, 255};
         const ChunkId under = chunkAt(facePointFromDirection(view.eyeM), 1);
         EXPECT_EQ(middle(tints).x > 200, planet.items()[i].id == under);
+    }
+}
+
+TEST_F(ChunkRendererTest, aTintOfFullStrengthIsItsColourInAnyLightAndAir) {
+    TestPlanet planet({}, 384);
+    planet.addLevel(3, wavyHills);
+    constexpr std::array<std::uint8_t, 4> measured = {247, 212, 38, 255};
+    const std::vector<ChunkTint> tints = oneTint(planet.items().size(), measured);
+    const auto pixelsOff = [&](const View& view, const RenderSettings& settings) {
+        const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
+        int ground = 0;
+        int off = 0;
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x < picture.width; ++x) {
+                if (!picture.isGround(x, y)) continue;
+                ++ground;
+                off += !areNear(picture.at(x, y), {measured[0], measured[1], measured[2]});
+            }
+        }
+        EXPECT_GT(ground, 1000);
+        return off;
+    };
+    const View near = viewFrom({}, 10, 10, 20000, -10, 0, 96, 64);
+    const View far = viewFrom({}, 10, 10, 2e7, -90, 0, 96, 64);
+    for (const View& view : {near, far}) {
+        for (const double sunLongitudeDeg : {10.0, 95.0, 190.0}) {
+            for (const FeatureUse use : {FeatureUse::Off, FeatureUse::On}) {
+                RenderSettings settings;
+                settings.sunDirection = directionFromGeographic({0.1, glm::radians(sunLongitudeDeg)});
+                settings.light.air.use = use;
+                settings.light.sea.use = use;
+                settings.light.shadows.use = use;
+                settings.layers.use = use;
+                EXPECT_EQ(pixelsOff(view, settings), 0)
+                    << "sun at " << sunLongitudeDeg << (use == FeatureUse::On ? ", all light" : ", plain");
+            }
+        }
     }
 }
 
