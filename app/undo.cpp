@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/settings.h"
+#include "ui/text.h"
 
 namespace worldy {
 
@@ -52,7 +53,8 @@ std::string nameOf(const ui::SettingDifference& difference) {
     if (difference.there == "false") return words + " off";
     // A ramp or a file's path would fill the menu.
     if (difference.here.size() > 24 || difference.there.size() > 24) return words;
-    return fmt::format("{} {} -> {}{}", words, difference.here, difference.there, unit);
+    const auto [here, there] = ui::shortNumberTexts(difference.here, difference.there);
+    return fmt::format("{} {} -> {}{}", words, here, there, unit);
 }
 
 std::string nameOf(const std::vector<ui::SettingDifference>& found) {

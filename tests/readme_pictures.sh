@@ -196,7 +196,7 @@ picture_flight() {
     start < <(above_india; window 1820 420; only flight 1000; echo 'lod.tau_px = 0.4'; slow_disk 100 0)
     settle; click flight/Record; sleep 1
     point viewport/picture 0.5 0.5; xdotool keydown w; sleep 6; xdotool keyup w; xdotool keydown s; sleep 4; xdotool keyup s
-    click "flight/Stop and keep"; click "flight/flight 1"; click flight/Replay; sleep 5; click flight/Play; aside
+    click "flight/Stop and save"; click "flight/flight 1"; click flight/Replay; sleep 5; click flight/Play; aside
     dock flight
 }
 picture_sweep() {
@@ -211,7 +211,7 @@ picture_sweep() {
 picture_compare() {
     start < <(himalaya; window 1440 900; echo 'lod.tau_px = 0.4'; echo 'panels.compare_shown = true'
         echo 'overlay.colour_by = "level"'; echo 'overlay.opacity = 0.4'; echo 'overlay.outlines = true'; echo 'panels.left_front = "compare"')
-    settle; click "compare/Keep settings as B"; slide "lod/Tolerance τ" 0.6; settle
+    settle; click "compare/Snapshot as B"; slide "lod/Tolerance τ" 0.6; settle
     choose compare/Show wipe; click "compare/Measure this view"; sleep 6; aside
     whole compare
 }

@@ -21,32 +21,32 @@ double asNumber(std::size_t value) {
 
 constexpr std::array<AllocationRow, 30> kindRows = {{
     {"Resident",
-     "What the whole program has in memory as the system sees it. It may stay high after a peak, since what "
-     "is "
-     "given back is kept for later.",
+     "Resident memory of the process reported by the system. It may stay high after a peak, because the "
+     "allocator keeps freed memory.",
      [](const Held& h) { return asNumber(h.residentBytes); }, true, "Process"},
-    {"Heap in use", "What the allocator has handed out and not got back. The figure to watch for a leak.",
+    {"Heap in use", "Memory allocated and not freed. Watch this value for leaks.",
      [](const Held& h) { return asNumber(h.heapBytes); }, true, nullptr},
-    {"Open files", "Handles: files, sockets and pipes. One a chunk file, whatever the loaders do.",
+    {"Open files",
+     "File descriptors: files, sockets and pipes. One per chunk file, regardless of the loaders.",
      [](const Held& h) { return asNumber(h.openFiles); }, false, nullptr},
-    {"Threads", "Loaders, bakes, measurements, and those of the graphics driver.",
+    {"Threads", "Threads of loaders, bakes, measurements and the graphics driver.",
      [](const Held& h) { return asNumber(h.threads); }, false, nullptr},
-    {"Jobs", "Bakes, estimates, previews and measurements under way in the background.",
+    {"Jobs", "Bakes, estimates, previews and measurements running in the background.",
      [](const Held& h) { return asNumber(h.jobs); }, false, nullptr},
-    {"Heights", "The pools of heights: what the budget pays for, whether it is filled or not.",
+    {"Heights", "Height pools reserved by the budget, including free slots.",
      [](const Held& h) { return asNumber(h.gpu.heightPool); }, true, "GPU memory"},
-    {"Meshes", "The grids and the instances.", [](const Held& h) { return asNumber(h.gpu.meshes); }, true,
+    {"Meshes", "Grid and instance buffers.", [](const Held& h) { return asNumber(h.gpu.meshes); }, true,
      nullptr},
-    {"Textures", "The colour image, tables of the air, layers and the like; without what follows.",
+    {"Textures", "Colour image, atmosphere tables, layers and similar; without the entries below.",
      [](const Held& h) { return asNumber(h.gpu.textures - h.gpu.colourTiles - h.gpu.colourClipmap); }, true,
      nullptr},
-    {"Colour tiles", "The pools of tiles and their page tables.",
+    {"Colour tiles", "Tile pools and their page tables.",
      [](const Held& h) { return asNumber(h.gpu.colourTiles); }, true, nullptr},
-    {"Colour clipmap", "Windows of colours around the viewer.",
+    {"Colour clipmap", "Clipmap levels around the camera.",
      [](const Held& h) { return asNumber(h.gpu.colourClipmap); }, true, nullptr},
-    {"Shadow maps", "One a cascade.", [](const Held& h) { return asNumber(h.gpu.shadowMaps); }, true,
-     nullptr},
-    {"Pictures", "What is drawn into.", [](const Held& h) { return asNumber(h.targetBytes); }, true, nullptr},
+    {"Shadow maps", "One shadow map per cascade.", [](const Held& h) { return asNumber(h.gpu.shadowMaps); },
+     true, nullptr},
+    {"Pictures", "Render targets.", [](const Held& h) { return asNumber(h.targetBytes); }, true, nullptr},
     {"Buffers", "GL buffer objects.", [](const Held& h) { return asNumber(h.objects.buffers); }, false,
      "GL objects"},
     {"Textures##objects", "GL texture objects.", [](const Held& h) { return asNumber(h.objects.textures); },
@@ -57,29 +57,31 @@ constexpr std::array<AllocationRow, 30> kindRows = {{
      [](const Held& h) { return asNumber(h.objects.framebuffers); }, false, nullptr},
     {"Renderbuffers", "GL renderbuffer objects.",
      [](const Held& h) { return asNumber(h.objects.renderbuffers); }, false, nullptr},
-    {"Queries", "GL query objects: timers and the like.",
-     [](const Held& h) { return asNumber(h.objects.queries); }, false, nullptr},
-    {"Shaders", "GL shader objects: gone once their programs are linked.",
+    {"Queries", "GL query objects, mostly timers.", [](const Held& h) { return asNumber(h.objects.queries); },
+     false, nullptr},
+    {"Shaders", "GL shader objects; deleted once their programs are linked.",
      [](const Held& h) { return asNumber(h.objects.shaders); }, false, nullptr},
     {"Programs", "GL program objects.", [](const Held& h) { return asNumber(h.objects.programs); }, false,
      nullptr},
-    {"Planets", "Open: the one that is shown, the bake before it, and B while two are compared.",
+    {"Planets", "Open planets: the one shown, the previous bake, and B during a comparison.",
      [](const Held& h) { return asNumber(h.planets); }, false, "Planets"},
-    {"Chunks", "Resident, of all planets.", [](const Held& h) { return asNumber(h.chunks); }, false, nullptr},
-    {"Chunk slots", "That the budgets pay for.", [](const Held& h) { return asNumber(h.chunkSlots); }, false,
+    {"Chunks", "Resident chunks of all planets.", [](const Held& h) { return asNumber(h.chunks); }, false,
      nullptr},
+    {"Chunk slots", "Chunk slots reserved by the budgets.",
+     [](const Held& h) { return asNumber(h.chunkSlots); }, false, nullptr},
     {"Colour tiles##resident", "Resident tiles of colour.",
      [](const Held& h) { return asNumber(h.colourTiles); }, false, nullptr},
     {"Normal tiles", "Resident tiles of normals.", [](const Held& h) { return asNumber(h.normalTiles); },
      false, nullptr},
     {"Requests", "Blocks queued or being read.", [](const Held& h) { return asNumber(h.requests); }, false,
      nullptr},
-    {"Ended requests", "Remembered for the Paging panel: 1000 a planet at most.",
-     [](const Held& h) { return asNumber(h.rememberedEnds); }, false, "Kept to look back at"},
-    {"Log lines", "In the Log panel.", [](const Held& h) { return asNumber(h.logLines); }, false, nullptr},
-    {"Frame samples", "Of the last 10 seconds, for the plots.",
+    {"Finished requests", "Finished requests kept for the Paging panel, at most 1000 per planet.",
+     [](const Held& h) { return asNumber(h.rememberedEnds); }, false, "History"},
+    {"Log lines", "Lines in the Log panel.", [](const Held& h) { return asNumber(h.logLines); }, false,
+     nullptr},
+    {"Frame samples", "Frame samples of the last 10 seconds, for the plots.",
      [](const Held& h) { return asNumber(h.frameSamples); }, false, nullptr},
-    {"Recording", "The flight that is being recorded: grows until it is stopped.",
+    {"Recording", "Size of the current flight recording; it grows until the recording stops.",
      [](const Held& h) { return asNumber(h.recordedBytes); }, true, nullptr},
 }};
 
@@ -174,20 +176,19 @@ std::string allocationsText(const AllocationsView& view) {
 
 void allocationTable(const AllocationsView& view, double timeS, Commands& commands) {
     if (!view.now) {
-        ImGui::TextDisabled("Counted once a planet is open.");
+        ImGui::TextDisabled("No planet is open.");
         return;
     }
     if (button("Mark",
-               "From now on the table tells what has changed since this moment. Do something, undo it, "
-               "and see whether all is given back."))
+               "Stores the current values as the reference for the change column. To find leaks, do "
+               "something, undo it, and check that the changes are 0."))
         commands.emplace_back(MarkAllocations{});
     ImGui::SameLine();
-    if (button("Copy##allocations",
-               "The table as text with tabs between, bytes unrounded, for a spreadsheet or a bug report."))
+    if (button("Copy##allocations", "Copies the table as tab-separated text with unrounded bytes."))
         commands.emplace_back(CopyText{allocationsText(view)});
     ImGui::SameLine();
     ImGui::TextDisabled("marked %s", agoText(timeS - view.mark.atS).c_str());
-    tooltip("At first the mark is when the first planet was there.");
+    tooltip("Time of the mark; initially the time when the first planet was opened.");
     drawTable(view);
 }
 

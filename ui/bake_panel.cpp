@@ -51,7 +51,9 @@ void parameterRow(const char* name, const std::string& value, bool live, const c
     ImGui::TextColored(palette().dim, "%s", name);
     tooltip(explanation);
     ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
     tooltip(explanation);
     ImGui::TableNextColumn();
     ImGui::TextColored(live ? palette().good : palette().dim, "%s", live ? "live" : "baked");
@@ -101,7 +103,10 @@ void liveRows(const ViewSettings& settings) {
 
 void openFileSection(const EditorView& view, const ViewSettings& settings) {
     if (!view.planet || !section("Open file")) return;
-    if (!ImGui::BeginTable("parameters", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    if (!ImGui::BeginTable("parameters", 3)) return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed);
     bakedRows(view);
     liveRows(settings);
     ImGui::EndTable();

@@ -109,9 +109,8 @@ std::string chunkIdProblem(const std::string& text, int leafLevel) {
     const auto id = planet::chunkIdFromString(text);
     if (!id) {
         return fmt::format(
-            "No chunk is called \"{}\". An id is a face (x_pos, x_neg, y_pos, y_neg, z_pos or z_neg), a "
-            "level "
-            "from 0 to {}, and x and y, each below 2 to the level's power: z_pos/3/5/2.",
+            "\"{}\" is not a chunk id; expected face/level/x/y, for example z_pos/3/5/2, with a face of "
+            "x_pos, x_neg, y_pos, y_neg, z_pos, z_neg, a level in [0, {}], and x and y in [0, 2^level - 1].",
             text, leafLevel);
     }
     if (id->level > leafLevel)

@@ -16,10 +16,10 @@ void link(const planet::ChunkId& chunk, const planet::ChunkId& square, bool lit,
     }
     if (ImGui::IsItemHovered()) commands.push_back(HoverChunk{chunk});
     if (ImGui::BeginPopupContextItem()) {
-        if (ImGui::MenuItem(chunk == square ? "Select" : "Select the chunk there"))
+        if (ImGui::MenuItem(chunk == square ? "Select" : "Select chunk here"))
             commands.push_back(SelectChunk{chunk});
         if (ImGui::MenuItem("Look at")) commands.push_back(LookAtChunk{square});
-        if (ImGui::MenuItem("Copy name")) commands.push_back(CopyText{name});
+        if (ImGui::MenuItem("Copy id")) commands.push_back(CopyText{name});
         ImGui::EndPopup();
     }
 }

@@ -41,8 +41,8 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     noteItem("Id");
     tooltip(
-        "A chunk by name: its face, its level (0 is the whole face), and its place x and y, each below 2 "
-        "to the level's power, from the face's south-west corner. Return selects it.");
+        "Chunk id: face, level (0 is the whole face), and x and y from the face's south-west corner, each in "
+        "[0, 2^level - 1]. Press Enter to select it.");
     if (entered) {
         state.problem = chunkIdProblem(state.idText.data(), leafLevel(view.planet->shape()));
         if (state.problem.empty())
@@ -75,15 +75,15 @@ void whyBox(const ChunkExplanation& explanation) {
 
 void buttons(const ChunkId& id, Commands& commands) {
     if (button("Look at",
-               "Moves the camera to where the whole chunk is in view. So does a double click on it "
-               "in the net or the list."))
+               "Moves the camera to where the whole chunk is in view. Double-clicking the chunk in the net "
+               "or the list does the same."))
         commands.emplace_back(LookAtChunk{id});
     ImGui::SameLine();
-    if (button("Copy id", "Puts the chunk's name on the clipboard."))
+    if (button("Copy id", "Copies the chunk id to the clipboard."))
         commands.emplace_back(CopyText{toString(id)});
     ImGui::SameLine();
     ImGui::BeginDisabled(id.level == 0);
-    const bool parent = button("Parent", "Selects the chunk one level up, which this one is a quarter of.");
+    const bool parent = button("Parent", "Selects the parent chunk.");
     ImGui::EndDisabled();
     if (parent) commands.emplace_back(SelectChunk{parentOf(id)});
 }
@@ -117,25 +117,25 @@ void placeRows(const EditorView& view, const ChunkExplanation& explanation, cons
     const ChunkId& id = explanation.id;
     if (!beginValues("place")) return;
     valueRow("Level", fmt::format("{} of {}", id.level, leafLevel(shape)),
-             "0 is the whole face; each level halves a chunk's side and doubles its density. The last holds "
-             "the finest samples.");
-    valueRow("Middle", middlePlaceText(id), "Latitude and longitude of the chunk's middle, degrees.");
+             "Level 0 is the whole face. Each level halves the chunk side and doubles the sample density. "
+             "The last level holds the finest samples.");
+    valueRow("Centre", middlePlaceText(id), "Latitude and longitude of the chunk's centre.");
     const double acrossM = groundSizeM(shape, id, ProfileWay::WestEast);
     const double upM = groundSizeM(shape, id, ProfileWay::SouthNorth);
-    valueRow("On the ground", sizesText({acrossM, upM}),
-             "Through its middle, from west to east and from south to north, at height 0.");
+    valueRow("Size on ground", sizesText({acrossM, upM}),
+             "Extent through the chunk's centre, west to east and south to north, at height 0.");
     valueRow("Spacing", distanceText(acrossM / chunkCells(shape)),
-             "Between two vertices: its width divided by its cells.");
+             "Distance between two vertices: chunk width divided by the number of cells.");
     if (node) {
         valueRow("Heights",
                  fmt::format("{} to {}", distanceText(static_cast<double>(node->minHeightM)),
                              distanceText(static_cast<double>(node->maxHeightM))),
-                 "Lowest and highest of all finest samples under this chunk, above the planet's radius, "
-                 "exaggeration counted in.");
+                 "Minimum and maximum height of the finest samples under this chunk above the planet's "
+                 "radius, including exaggeration.");
         const glm::dvec3 box = 2.0 * node->bounds.box.halfSizeM;
         valueRow("Bounds", sizesText({box.x, box.y, box.z}),
-                 "The box that holds all that it and the chunks below can draw: east, north, up. Distances "
-                 "and culling go by it.");
+                 "Bounding box of the chunk and its descendants (east, north, up), used for distance and "
+                 "culling.");
     }
     endValues();
 }
@@ -143,36 +143,33 @@ void placeRows(const EditorView& view, const ChunkExplanation& explanation, cons
 void errorRows(const ChunkExplanation& explanation) {
     if (!beginValues("errors")) return;
     const std::string bound = explanation.deltaGIsBound ? "at most " : "";
-    valueRow("delta_g", bound + distanceText(static_cast<double>(explanation.deltaGM)),
-             "Geometric error of the chunk's own simplification step: the largest distance from a vertex "
-             "that was left out to the triangle that replaces it. Exact while its children are resident.");
-    valueRow("delta_c", distanceText(static_cast<double>(explanation.deltaCM)),
-             "The chunk's error: delta_g + the largest delta_c of its four children; 0 at a leaf.");
+    valueRow("δg", bound + distanceText(static_cast<double>(explanation.deltaGM)),
+             "Geometric error of this chunk's simplification step: the largest distance between a removed "
+             "vertex and the triangle that replaces it. Exact while its children are resident.");
+    valueRow("δc", distanceText(static_cast<double>(explanation.deltaCM)),
+             "Geometric error bound of the chunk: δg + the largest δc of its four children; 0 at a leaf.");
     const double share = explanation.deltaCM > 0 ? static_cast<double>(explanation.deltaTightM) /
                                                        static_cast<double>(explanation.deltaCM)
                                                  : 1;
-    valueRow(
-        "tight",
-        fmt::format("{}, {:.0f}% of delta_c", distanceText(static_cast<double>(explanation.deltaTightM)),
-                    100 * share),
-        "The tight metric: the largest distance from the finest samples under the chunk to its own "
-        "surface at the same place, or a child's if that is more; 0 at a leaf. delta_c is never less: it "
-        "adds up what each level may lose, though seldom all lose it at one place.");
-    valueRow("Metric", explanation.metric == planet::ErrorMetric::Tight ? "tight" : "additive: delta_c",
-             "Which of the two eps, d_m and the skirts are reckoned from: lod.metric.");
+    valueRow("tight",
+             fmt::format("{}, {:.0f} % of {}", distanceText(static_cast<double>(explanation.deltaTightM)),
+                         100 * share, inFont("δc")),
+             "Tight metric: the largest distance between the finest samples under the chunk and its surface "
+             "at the same position, or a child's if larger; 0 at a leaf. It never exceeds δc, which sums the "
+             "largest errors of all levels.");
+    valueRow("Metric", explanation.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
+             "Metric used for ε, d_m and skirts (lod.metric).");
     valueRow("Distance", distanceText(explanation.distanceM),
-             "D, from the lod view's eye to the chunk's bounds.");
+             "D, the distance from the LOD view's camera to the chunk's bounds.");
     const bool over = explanation.epsPx > explanation.tauPx;
-    valueRow(
-        epsSymbol(), pixelsText(explanation.epsPx),
-        "Its error on screen: eps = delta_c K' / D, K' = W / (2 tan(Hfov / 2)), W the viewport's width in "
-        "pixels. Over tau it wants to be split.",
-        over ? &palette().warning : nullptr);
+    valueRow(epsSymbol(), pixelsText(explanation.epsPx),
+             "Screen-space error ε = δc K' / D, K' = W / (2 tan(Hfov / 2)), W: viewport width in pixels. "
+             "Above τ the chunk should be split.",
+             over ? &palette().warning : nullptr);
     valueRow(tauSymbol(), fmt::format("{:.3g} px", explanation.tauPx),
-             "The tolerance, of the LOD panel: a chunk is good enough while eps <= tau.");
+             "Tolerance from the LOD panel: a chunk is fine enough while ε <= τ.");
     valueRow("d_m", distanceText(explanation.switchDistanceM),
-             "d_m = delta_c K, K = W / (2 tau tan(Hfov / 2)): nearer than that it must be replaced by its "
-             "children.");
+             "Switch distance d_m = δc K, K = W / (2 τ tan(Hfov / 2)): a nearer chunk must be split.");
     endValues();
 }
 
@@ -185,34 +182,33 @@ const planet::DrawItem* drawItemOf(const planet::Selection& selection, const Chu
 void drawingRows(const EditorView& view, const ChunkExplanation& explanation, const ChunkNode* node) {
     if (!beginValues("drawing")) return;
     const ImVec4 colour = asVector(stateColour(explanation.state));
-    valueRow("State", stateText(explanation.state), "What became of it in the last selection.", &colour);
-    valueRow("Request",
-             explanation.queuePlace
-                 ? fmt::format("{} of {}", *explanation.queuePlace, explanation.queueLength)
-                 : std::string("none"),
-             "The place in the paging queue of the request that would bring it, or else its children: 1 is "
-             "read next.");
+    valueRow("State", stateText(explanation.state), "Result of the last selection for this chunk.", &colour);
+    valueRow(
+        "Request",
+        explanation.queuePlace ? fmt::format("{} of {}", *explanation.queuePlace, explanation.queueLength)
+                               : std::string("none"),
+        "Position in the paging queue of the request that loads this chunk or its children; 1 is read next.");
     if (const planet::DrawItem* item = drawItemOf(view.planet->selection(), explanation.id)) {
         valueRow("Morph", fmt::format("{:.2f}", item->morph),
-                 "0: its own surface; 1: lies wholly on its parent's.");
+                 "0: the chunk's own surface; 1: its parent's surface.");
         valueRow("Skirt", distanceText(static_cast<double>(item->skirtDepthM)),
-                 "How far the curtain at its border hangs down towards the planet's centre.");
+                 "Skirt depth towards the planet's centre.");
     }
     if (node) {
         const double ageS = view.planet->seconds() - node->loadedAtS;
         valueRow("Loaded",
                  node->loadOrder == 0 ? std::string("with the planet")
                                       : fmt::format("{} ago, block {}", durationText(ageS), node->loadOrder),
-                 "How long it has been resident, and the how manieth block it came with since the planet was "
-                 "opened.");
-        valueRow("Slot", fmt::format("{}", node->slot), "Its place in the GPU's pool of heights.");
+                 "Time since the chunk was loaded, and the number of its block in load order since the "
+                 "planet was opened.");
+        valueRow("Slot", fmt::format("{}", node->slot), "Slot in the GPU pool of heights.");
     }
     endValues();
 }
 
 void parents(const ChunkId& id, Commands& commands) {
     if (id.level == 0) {
-        ImGui::TextDisabled("None: it is a whole face.");
+        ImGui::TextDisabled("None: this chunk is a whole face.");
         return;
     }
     const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
@@ -244,10 +240,10 @@ void neighbours(const EditorView& view, const ChunkId& id, Commands& commands) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", names[edge]);
         tooltip(
-            "Of the chunk's square on its face: west is its least u, south its least v. On the four faces "
-            "about the equator these are the points of the compass.");
+            "Side of the chunk on its face: west is minimum u, south is minimum v. On the four equatorial "
+            "faces these are compass directions.");
         ImGui::TableNextColumn();
-        if (beside[edge].empty()) ImGui::TextDisabled("nothing drawn");
+        if (beside[edge].empty()) ImGui::TextDisabled("none drawn");
         constexpr std::size_t most = 8;
         for (std::size_t i = 0; i < std::min(beside[edge].size(), most); ++i) {
             const ChunkId& other = beside[edge][i];
@@ -274,8 +270,8 @@ void heightPicture(const EditorView& view, const ChunkNode& node, ChunkPanelStat
     ImGui::Dummy({room, room});
     noteItem("Heights");
     tooltip(
-        "The chunk's vertices from above, lit from the north-west. Dark blue is its lowest, light yellow "
-        "its highest; slopes are steepened until they show. The lines are where the profiles run.");
+        "Height map of the chunk with shading from the north-west and exaggerated slopes. Dark blue is the "
+        "lowest height, light yellow the highest. The lines mark the profiles.");
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
     drawList.PrimReserve(6 * side * side, 4 * side * side);
     for (int row = 0; row < side; ++row) {
@@ -355,8 +351,8 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
         static_cast<std::size_t>(std::lround(share * static_cast<float>(across.heightsM.size() - 1)));
     const float x = corner.x + share * size.x;
     drawList.AddLine({x, corner.y}, {x, end.y}, packed(palette().text, 0.6f));
-    tooltip(fmt::format("{:.0f} % of the way\nwest to east {}\nsouth to north {}",
-                        static_cast<double>(100 * share),
+    tooltip(fmt::format("at {:.0f} %\nwest to east {}\nsouth to north {}",
+                        static_cast<double>(100 * share, inFont("δc")),
                         distanceText(static_cast<double>(across.heightsM[at])),
                         distanceText(static_cast<double>(up.heightsM[at])))
                 .c_str());
@@ -365,13 +361,13 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
 }  // namespace
 
 void chunkPanel(const EditorView& view, ChunkPanelState& state, ViewSettings&, Commands& commands) {
-    if (!view.planet) return emptyState("No planet is open. A chunk of it will be explained here.");
+    if (!view.planet) return emptyState("No planet is open. Open one to inspect its chunks.");
     idField(view, state, commands);
     if (!view.focus.selected) {
         state.pictured.reset();
         return emptyState(
-            "No chunk is selected. Click one in the viewport, in the Quadtree panel, or type its "
-            "id above.");
+            "No chunk is selected. Click one in the viewport or in the Quadtree panel, or type its id "
+            "above.");
     }
     const ChunkExplanation explanation = explainChunk(*view.planet, *view.focus.selected);
     const planet::ChunkTree& tree = view.planet->tree();
@@ -381,7 +377,7 @@ void chunkPanel(const EditorView& view, ChunkPanelState& state, ViewSettings&, C
     buttons(explanation.id, commands);
     drawingRows(view, explanation, node);
     if (node && section("Error")) errorRows(explanation);
-    if (section("Place")) placeRows(view, explanation, node);
+    if (section("Position")) placeRows(view, explanation, node);
     if (section("Parents")) parents(explanation.id, commands);
     if (section("Drawn neighbours")) neighbours(view, explanation.id, commands);
     if (node && section("Heights")) {

@@ -21,11 +21,11 @@ using From = ColourEdit::From;
 std::string problemOf(const ColourEdit& edit, const fs::path& image) {
     if (edit.from == From::None) return {};
     if (edit.from == From::Own && image.empty())
-        return "There is no colour.jpg or colour.png beside the source: it is baked without colours.";
-    if (image.empty()) return "Name the image.";
+        return "There is no colour.jpg or colour.png beside the source; the file will have no colours.";
+    if (image.empty()) return "Enter the path of the image.";
     return planet::heightSourceExists(image)
                ? std::string()
-               : fmt::format("{}: there is no such image, and no such faces.", image.string());
+               : fmt::format("{}: no such image or cube faces.", image.string());
 }
 
 void setImageText(const fs::path& image, ColourEdit& edit) {
@@ -54,9 +54,9 @@ void apply(BakeRequest& request, ColourEdit& edit) {
 
 bool fromControl(const BakeRequest& current, const BakeRequest& request, ColourEdit& edit) {
     constexpr const char* explanation =
-        "Baked into the file as a second quadtree of tiles, and streamed beside the heights. The source's "
-        "own: colour.jpg or colour.png beside it. None: the ground is coloured by a picture laid over it, or "
-        "by height.";
+        "Colours baked into the file as a second quadtree of tiles and streamed with the heights. The "
+        "source's own: colour.jpg or colour.png beside the source. None: the ground is coloured by an "
+        "overlaid image or by height.";
     litLabel("Colours", request.colour != current.colour, explanation);
     int index = static_cast<int>(edit.from);
     const bool changed = combo("Colours", index, "none\0the source's own\0another image\0");
@@ -67,14 +67,13 @@ bool fromControl(const BakeRequest& current, const BakeRequest& request, ColourE
 
 bool imageControl(ColourEdit& edit, Commands& commands) {
     constexpr const char* explanation =
-        "Path of an equirectangular image of the whole planet, twice as wide as high, of one of six faces, "
-        "or "
-        "of their common stem: grey or RGB, of any size. A file dropped here is taken too.";
+        "Path of an equirectangular image of the whole planet (2:1), of one of six cube faces, or of their "
+        "common stem; grey or RGB, any size. You can also drop a file here.";
     labelledControl("Image", explanation);
     const char* choose = "Choose###choose colours";
     const float room = ImGui::CalcTextSize("Choose").x + 3 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetNextItemWidth(std::max(ImGui::GetFontSize() * 3, ImGui::GetContentRegionAvail().x - room));
-    const bool changed = ImGui::InputTextWithHint("##colour image", "path of an image or of faces",
+    const bool changed = ImGui::InputTextWithHint("##colour image", "Path of an image or cube faces",
                                                   edit.imageText.data(), edit.imageText.size());
     noteItem("Image");
     tooltip(edit.imageText[0] == 0 ? explanation
@@ -82,7 +81,7 @@ bool imageControl(ColourEdit& edit, Commands& commands) {
     ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
     if (ImGui::Button(choose)) commands.push_back(AskForColourImage{});
     noteItem("Choose");
-    tooltip("Shows folders to choose an image from.");
+    tooltip("Opens a file dialog.");
     return changed;
 }
 
@@ -92,9 +91,9 @@ std::string texelsText(int texels) {
 
 bool faceSizeControl(const BakeRequest& current, planet::ColourBakeSettings& colour) {
     constexpr const char* explanation =
-        "Texels of colour along a side of each of the six faces, 256 * 2^n + 1. Natural: the smallest that "
-        "loses nothing of the image. Smaller: blurred colours, a smaller file; larger: a bigger file and "
-        "nothing new to see.";
+        "Colour texels along a side of each of the six faces, 256 * 2^n + 1. Natural: the smallest size that "
+        "keeps all detail of the image. Smaller: blurred colours and a smaller file. Larger: a bigger file "
+        "without more detail.";
     litLabel("Colour face", colour.faceSize != current.settings.colour.faceSize, explanation);
     const bool open = ImGui::BeginCombo("##colour face",
                                         colour.faceSize ? texelsText(*colour.faceSize).c_str() : "natural");
@@ -118,8 +117,8 @@ bool faceSizeControl(const BakeRequest& current, planet::ColourBakeSettings& col
 
 bool formatControl(const BakeRequest& current, planet::ColourBakeSettings& colour) {
     constexpr const char* explanation =
-        "BC1: half a byte a texel in memory, which the GPU unpacks as it draws, and slight blocks in smooth "
-        "gradients. Lossless: the very colours, three bytes a texel; a sixth as many tiles fit the budget.";
+        "BC1: GPU-compressed, 0.5 bytes per texel, with slight block artefacts in smooth gradients. "
+        "Lossless: exact colours, 3 bytes per texel, so only a sixth as many tiles fit into the budget.";
     litLabel("Colour format", colour.format != current.settings.colour.format, explanation);
     int index = static_cast<int>(colour.format);
     const bool changed = combo("Colour format", index, "BC1\0lossless\0");
@@ -162,8 +161,8 @@ bool colourControls(const EditorView& view, ColourEdit& edit, BakeRequest& reque
     }
     if (!edit.problem.empty()) wrappedText(edit.problem, palette().warning);
     if (request.colour.empty() && !view.bake.lostColours.empty() && edit.from == From::None) {
-        wrappedText(fmt::format("The open file's colours are of {}, which is not known where it lies: name "
-                                "it as another image, or they are left out.",
+        wrappedText(fmt::format("The colours of the open file come from {}, whose path is unknown. Choose it "
+                                "as another image; otherwise the new file has no colours.",
                                 view.bake.lostColours),
                     palette().warning);
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/item_map.h"
+#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -78,7 +79,7 @@ std::string differenceText(const CompareView& compare, const CompareKnobs& knobs
         const PictureDifferenceNow& now = *compare.difference;
         const double share =
             100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
-        const std::string many = fmt::format("{:.2g}% differ", share);
+        const std::string many = fmt::format("{:.2g} % differ", share);
         if (now.pixels == 0)
             texts = {what + "   no pixel differs", "no pixel differs"};
         else
@@ -125,8 +126,9 @@ std::array<std::string, 2> sideNames(const CompareView& compare) {
     if (compare.different.size() == 1) {
         const SettingDifference& one = compare.different.front();
         const std::string setting = one.setting.substr(one.setting.find('.') + 1);
-        names[0] += fmt::format("  {} {}", setting, one.here);
-        names[1] += fmt::format("  {} {}", setting, one.there);
+        const auto [a, b] = shortNumberTexts(one.here, one.there);
+        names[0] += fmt::format("  {} {}", setting, a);
+        names[1] += fmt::format("  {} {}", setting, b);
     } else if (!compare.different.empty()) {
         names[1] += fmt::format("  {} settings differ", compare.different.size());
     }

@@ -32,26 +32,26 @@ int asked(const char* name, const char* question, const std::vector<std::string>
 }
 
 void chooseB(const EditorView& view, Commands& commands) {
-    if (button(view.compare.on ? "Keep settings as B again" : "Keep settings as B",
-               "B is a second planet from the same file with the settings as they are now. What you change "
-               "from then on changes A. Takes as much memory again."))
+    if (button(view.compare.on ? "Snapshot as B again" : "Snapshot as B",
+               "Takes a snapshot of the current settings as B, a second planet from the same file. Later "
+               "changes affect A. Doubles the memory."))
         commands.push_back(StartCompare{});
     if (view.data.hasPreviousBake) {
         sameLineIfRoom(ImGui::CalcTextSize("Other bake as B").x + ImGui::GetFontSize());
-        if (button("Other bake as B", "The bake that is not shown now, with the settings as they are."))
+        if (button("Other bake as B", "Uses the bake that is not shown, with the current settings."))
             commands.push_back(StartCompare{With::PreviousBake, {}, {}});
     }
     std::vector<std::string> presets, files;
     for (const PresetView& preset : view.presets) presets.push_back(preset.name);
     for (const std::filesystem::path& file : view.data.recent) files.push_back(file.filename().string());
     const int preset = asked("Preset as B", "A preset as B...", presets,
-                             "B has the settings as they are, but for those that the preset holds.");
+                             "B uses the current settings with the preset applied.");
     if (preset >= 0)
         commands.push_back(
             StartCompare{With::Preset, view.presets[static_cast<std::size_t>(preset)].name, {}});
     const int file = asked("File as B", "A file as B...", files,
-                           "Files opened last: a chunk file, or a source that is baked already. Of the same "
-                           "radius, since one camera looks at both.");
+                           "Recently opened chunk files or baked sources. The radius must match, because one "
+                           "camera shows both.");
     if (file >= 0)
         commands.push_back(StartCompare{With::File, {}, view.data.recent[static_cast<std::size_t>(file)]});
 }
@@ -82,49 +82,52 @@ void differencesTable(const CompareView& compare) {
     for (const SettingDifference& one : compare.different) {
         ImGui::TableNextRow();
         comparedCell(one.setting);
-        comparedCell(one.here);
-        comparedCell(one.there);
+        const auto [a, b] = shortNumberTexts(one.here, one.there);
+        comparedCell(a);
+        comparedCell(b);
     }
     ImGui::EndTable();
 }
 
 void sides(const CompareView& compare, Commands& commands) {
-    wrappedText(fmt::format("A is live. B: {}.", compare.origin), palette().dim);
+    wrappedText(fmt::format("A: live. B: {}.", compare.origin), palette().dim);
     if (compare.different.empty() && compare.fileA == compare.fileB)
-        wrappedText("Nothing differs yet. Change a setting: it changes A.", palette().warning);
+        wrappedText("A and B are equal. Change a setting to change A.", palette().warning);
     else
         differencesTable(compare);
-    if (button("Swap A and B",
-               "Exchanges settings and, where they differ, files. Undo takes back the settings alone."))
+    if (button(
+            "Swap A and B",
+            "Swaps the settings and, if they differ, the files of A and B. Undo reverts only the settings."))
         commands.push_back(SwapCompare{});
-    sameLineIfRoom(ImGui::CalcTextSize("End comparing").x + ImGui::GetFontSize());
-    if (button("End comparing", "Closes B, and gives back its memory.")) commands.push_back(StopCompare{});
+    sameLineIfRoom(ImGui::CalcTextSize("End comparison").x + ImGui::GetFontSize());
+    if (button("End comparison", "Closes B and frees its memory.")) commands.push_back(StopCompare{});
 }
 
 void pictureControls(const CompareView& compare, CompareKnobs& knobs) {
     const CompareKnobs defaults;
     choice("Show", knobs.mode, defaults.mode, "side by side\0wipe\0difference\0flip\0",
-           "Side by side: the middle half of each picture, its pixels as large as in the others, so that no "
-           "chunk is chosen otherwise. Wipe: a divider to drag. Difference: of the colours. Flip: one of "
-           "them, F9 changes.");
+           "Side by side: the middle half of each picture at the same pixel size. Wipe: a movable divider. "
+           "Difference: colour difference. Flip: one picture, F9 switches.");
     if (knobs.mode == CompareMode::Difference) {
         slider("Gain", knobs.gain, defaults.gain, 1.0, 255.0, "x %.0f",
-               "The difference of each channel times this. 255: any difference is full light.",
+               "Factor applied to the difference of each channel. 255: any difference is full brightness.",
                ImGuiSliderFlags_Logarithmic);
     }
     if (knobs.mode == CompareMode::Wipe) {
         slider("Divider", knobs.wipe, defaults.wipe, 0.0, 1.0, "%.2f",
-               "A on its left, B on its right; share of the width. It can be dragged in the viewport too.");
+               "Position of the divider as a fraction of the width, with A on the left and B on the right. "
+               "You can also drag it in the viewport.");
     }
     if (knobs.mode == CompareMode::Flip)
-        checkbox("Show B (F9)", knobs.showB, defaults.showB, "Else A is shown.");
+        checkbox("Show B (F9)", knobs.showB, defaults.showB, "Off: shows A.");
     if (!compare.difference || !beginValues("difference")) return;
     const PictureDifferenceNow& now = *compare.difference;
     const double share =
         100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
-    valueRow("Pixels that differ", fmt::format("{} ({:.2g}%)", now.pixels, share),
-             "By more than one 8-bit step in some channel, lines and tints included.");
-    valueRow("Largest difference", fmt::format("{} of 255", now.largestSteps), "Of any pixel and channel.");
+    valueRow("Pixels that differ", fmt::format("{} ({:.2g} %)", now.pixels, share),
+             "Pixels that differ by more than one 8-bit step in any channel, including lines and tints.");
+    valueRow("Largest difference", fmt::format("{} of 255", now.largestSteps),
+             "Largest difference of any pixel and channel.");
     endValues();
 }
 
@@ -149,13 +152,12 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
     if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("", 0, 1.6f);
     for (const char* title : {"A", "B"}) ImGui::TableSetupColumn(title, 0, 1);
-    ImGui::TableSetupColumn("B to A", 0, 1.15f);
+    ImGui::TableSetupColumn("B / A", 0, 1.15f);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    rightAligned("A", palette().accent, "What the window shows.");
-    rightAligned("B", palette().warning, "What it is compared with.");
-    rightAligned("B to A", palette().dim,
-                 "How many times A's it is, or the difference where one of them is 0.");
+    rightAligned("A", palette().accent, "The planet shown in the window.");
+    rightAligned("B", palette().warning, "The planet it is compared with.");
+    rightAligned("B / A", palette().dim, "Ratio B / A, or the difference B - A if one of them is 0.");
     for (const CompareRow& row : compareRows()) {
         if (!(live ? row.live : row.flight)) continue;
         const auto& a = figures[0].*row.value;
@@ -163,7 +165,7 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
         const ImVec4 colour = live && stale && isMeasured(row) ? palette().dim : palette().text;
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextColored(palette().dim, "%s", row.name);
+        ImGui::TextColored(palette().dim, "%s", inFont(row.name).c_str());
         tooltip(row.explanation);
         rightAligned(figureText(row, a), colour, row.explanation);
         rightAligned(figureText(row, b), colour, row.explanation);
@@ -177,13 +179,15 @@ void nowSection(const CompareView& compare, Commands& commands) {
     figuresTable("now", compare.now, true, compare.stale);
     ImGui::BeginDisabled(compare.measuring);
     if (button("Measure this view",
-               "True error, in the background, and cracks of both, of the view as it is. Takes moments."))
+               "Measures the true error (in the background) and cracks of both for the current view."))
         commands.push_back(MeasureCompare{});
     ImGui::EndDisabled();
     if (compare.measuring)
         usageBar(compare.measured, "measuring the true error");
     else if (compare.stale)
-        wrappedText("True error and cracks are of another view or other settings.", palette().dim);
+        wrappedText(
+            "Out of date: the view or the settings have changed since true error and cracks were measured.",
+            palette().dim);
 }
 
 void flightControls(const EditorView& view, ComparePanelState& state, Commands& commands) {
@@ -197,15 +201,15 @@ void flightControls(const EditorView& view, ComparePanelState& state, Commands& 
     names += '\0';
     ImGui::SetNextItemWidth(-1);
     if (combo("Flight", chosen, names.c_str())) state.flight = flights[static_cast<std::size_t>(chosen)];
-    tooltip("The flight that both fly.");
-    slider("Moments", state.moments, 12, 2, 100, "%d",
-           "Of the flight, evenly spread, at which all but pops is measured, each settled. More: surer and "
-           "slower.");
+    tooltip("Flight used for both.");
+    slider("Sample frames", state.moments, 12, 2, 100, "%d",
+           "Number of frames measured, evenly spread over the flight, with all chunks loaded; pops are "
+           "measured over the whole flight. More: more reliable and slower.");
     ImGui::BeginDisabled(!view.compare.on);
     if (button("Measure over the flight",
-               "Flies it twice with A's settings and twice with B's, in the background and without a window: "
-               "once for what is drawn and once, with all loads on time, for pops. worldy compare does the "
-               "same from a shell."))
+               "Flies twice with the settings of A and twice with those of B in the background: once to "
+               "measure frames, once with all loads on time to measure pops. worldy compare does the same "
+               "without a window."))
         commands.push_back(CompareOverFlight{flights[static_cast<std::size_t>(chosen)], state.moments});
     ImGui::EndDisabled();
 }
@@ -215,13 +219,16 @@ void flightSection(const EditorView& view, ComparePanelState& state, Commands& c
     const FlightComparisonView& flight = view.compare.flight;
     if (flight.running) {
         usageBar(flight.progress,
-                 flight.stopping ? "stopping" : fmt::format("{:.0f}%", 100 * flight.progress));
+                 flight.stopping ? "cancelling" : fmt::format("{:.0f} %", 100 * flight.progress));
         ImGui::BeginDisabled(flight.stopping);
-        if (button("Cancel", "Ends it; nothing of it is kept.")) commands.push_back(CancelCompareFlight{});
+        if (button("Cancel", "Cancels the measurement and discards its results."))
+            commands.push_back(CancelCompareFlight{});
         ImGui::EndDisabled();
     } else if (view.camera.flights.empty()) {
-        wrappedText("There is no flight: TOML files in a folder \"flights\", or one recorded.",
-                    palette().dim);
+        wrappedText(
+            "There are no flights. Record one in the Flight panel, or put TOML files into a folder "
+            "\"flights\".",
+            palette().dim);
     } else {
         flightControls(view, state, commands);
     }
@@ -234,13 +241,13 @@ void flightSection(const EditorView& view, ComparePanelState& state, Commands& c
 
 void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings& settings,
                   Commands& commands) {
-    if (!view.planet) return emptyState("No planet is open to be compared.");
+    if (!view.planet) return emptyState("No planet is open. Open one to compare settings or bakes.");
     const CompareView& compare = view.compare;
     if (!compare.problem.empty()) wrappedText(compare.problem, palette().bad);
     if (!compare.on) {
         wrappedText(
-            "What is shown, A, beside something else, B: keep the settings, then change some; or choose "
-            "a preset or a file.",
+            "Compare what is shown (A) with something else (B): take a snapshot of the settings and change "
+            "some, or choose a preset or a file.",
             palette().dim);
         chooseB(view, commands);
         if (compare.flight.running || compare.flight.last) flightSection(view, state, commands);

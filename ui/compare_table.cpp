@@ -13,51 +13,53 @@ namespace {
 using Figures = ComparedFigures;
 
 constexpr std::array<CompareRow, 17> comparedRows = {{
-    {"triangles", "Triangles", "Drawn, skirts counted in. Over a flight: the mean of its moments.",
-     &Figures::triangles, FigureUnit::Count, true, true, false},
-    {"chunks", "Chunks", "Drawn: one draw call each. Over a flight: the mean of its moments.",
-     &Figures::chunks, FigureUnit::Count, true, true, false},
-    {"resident_bytes", "Memory", "Resident chunks, CPU and GPU together. Over a flight: the most.",
-     &Figures::residentBytes, FigureUnit::Bytes, true, true, true},
-    {"bytes_read", "Read",
-     "Bytes read from the chunk file: since comparing began, or over the flight from an empty planet.",
+    {"triangles", "Triangles",
+     "Triangles drawn, including skirts. Over a flight: the mean of its sample frames.", &Figures::triangles,
+     FigureUnit::Count, true, true, false},
+    {"chunks", "Chunks", "Chunks drawn. Over a flight: the mean of its sample frames.", &Figures::chunks,
+     FigureUnit::Count, true, true, false},
+    {"resident_bytes", "Memory",
+     "Memory of resident chunks, CPU and GPU together. Over a flight: the maximum.", &Figures::residentBytes,
+     FigureUnit::Bytes, true, true, true},
+    {"bytes_read", "Bytes read",
+     "Bytes read from the chunk file: since the comparison began, or over the flight starting with the roots "
+     "only.",
      &Figures::bytesRead, FigureUnit::Bytes, true, true, true},
-    {"select_ms", "Selection", "Choosing chunks, ms a frame, flicker taken out.", &Figures::selectMs,
+    {"select_ms", "Selection", "LOD selection, in ms per frame, smoothed.", &Figures::selectMs,
      FigureUnit::Milliseconds, true, false, false},
-    {"draw_ms", "Drawing", "Drawing the planet on the GPU, by timer queries, ms a frame, flicker taken out.",
+    {"draw_ms", "Drawing", "GPU time for drawing the planet by timer queries, in ms per frame, smoothed.",
      &Figures::drawMs, FigureUnit::Milliseconds, true, false, false},
     {"frame_ms", "Frame time",
-     "Choosing and drawing one settled moment, the GPU waited for, ms: the best of five, A and B in turn, "
-     "and "
-     "of all moments the median. While the window goes on drawing small differences mean nothing.",
+     "Selecting and drawing one sample frame, including the GPU, in ms: best of five with A and B "
+     "alternating, median over all sample frames. Small differences are not significant while the window "
+     "draws too.",
      &Figures::frameMs, FigureUnit::Milliseconds, false, true, false},
-    {"worst_eps_px", "Worst eps",
-     "The largest predicted error of a drawn chunk, delta K' / D, pixels. Over a flight a chunk that morphs "
-     "has that share of its parent's.",
+    {"worst_eps_px", "Max ε",
+     "Largest predicted error of a drawn chunk, δ K' / D, in pixels. Over a flight, a morphing chunk "
+     "includes its parent's error by the morph weight.",
      &Figures::worstEpsPx, FigureUnit::Pixels, true, true, false},
-    {"worst_error_px", "Worst error",
-     "The largest true error: the distance between the finest data and what is drawn, pixels, as if the view "
-     "faced it.",
+    {"worst_error_px", "Max true error",
+     "Largest true error: distance between the finest data and the drawn surface, in facing pixels.",
      &Figures::worstErrorPx, FigureUnit::Pixels, true, true, false},
-    {"p99_error_px", "99% error", "99% of the drawn chunks have no larger true error than this, pixels.",
+    {"p99_error_px", "P99 true error", "99 % of the drawn chunks have no larger true error, in pixels.",
      &Figures::p99ErrorPx, FigureUnit::Pixels, true, true, false},
-    {"violations", "Over prediction",
-     "Chunks whose true error is over what was predicted. Must be 0: else the threshold lies.",
+    {"violations", "Violations", "Chunks whose true error exceeds the prediction. Must be 0.",
      &Figures::violations, FigureUnit::Count, true, true, true},
-    {"crack_px", "Crack pixels", "Pixels that would show a crack if there were no skirts.", &Figures::crackPx,
+    {"crack_px", "Crack pixels", "Pixels that would show a crack without skirts.", &Figures::crackPx,
      FigureUnit::Count, true, true, true},
-    {"leaking_px", "Leaking pixels", "Those of them that the skirts as set leave open.", &Figures::leakingPx,
-     FigureUnit::Count, true, true, true},
+    {"leaking_px", "Uncovered pixels", "Crack pixels that the current skirts do not cover.",
+     &Figures::leakingPx, FigureUnit::Count, true, true, true},
     {"switches", "Level changes",
-     "Chunks replaced by others of another level: since comparing began, or over the flight at 60 frames a "
-     "second.",
+     "Chunks replaced by chunks of another level: since the comparison began, or over the flight at 60 "
+     "frames per second.",
      &Figures::switches, FigureUnit::Count, true, true, true},
-    {"worst_pop_px", "Worst pop", "The farthest that the surface has jumped at such a change, pixels.",
+    {"worst_pop_px", "Max pop", "Largest jump of the surface at a level change, in pixels.",
      &Figures::worstPopPx, FigureUnit::Pixels, true, true, false},
-    {"p99_pop_px", "99% of pops", "99% of the changes of level in the picture jump no farther, pixels.",
+    {"p99_pop_px", "P99 pop", "99 % of the level changes in the picture have no larger jump, in pixels.",
      &Figures::p99PopPx, FigureUnit::Pixels, true, true, false},
     {"late", "Late arrivals",
-     "Chunks drawn too coarse since their children had not come. A flight has its loads on time: 0.",
+     "Chunks drawn too coarse because their children were not loaded. Over a flight all loads are on time, "
+     "so it is 0.",
      &Figures::late, FigureUnit::Count, true, true, true},
 }};
 

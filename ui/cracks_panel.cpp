@@ -21,28 +21,28 @@ void knobs(const EditorView& view, CrackKnobs& cracks, Commands& commands) {
     const CrackKnobs defaults;
     ImGui::BeginDisabled(!view.planet);
     if (button("Measure",
-               "Draws the chunks three times without colour, with skirts to below all terrain, without any, "
-               "and with those set, and compares the depths. Takes some frames' time."))
+               "Renders the depth of the chunks three times (with full-depth skirts, without skirts, with "
+               "the current skirts) and compares them. Takes as long as several frames."))
         commands.emplace_back(MeasureCracks{});
     sameLineIfRoom(ImGui::CalcTextSize("Find smallest skirts").x + ImGui::GetFontSize());
     ImGui::BeginDisabled(!view.cracks.current || view.cracks.measured->seams == planet::SeamMode::Stitched);
-    if (button("Find smallest skirts",
-               "The smallest fixed depth and the smallest automatic factor that leave no pixel of this view "
-               "open, found by trying. For a whole flight: worldy cracks FILE --flight F --find-depth."))
+    if (button(
+            "Find smallest skirts",
+            "Searches for the smallest fixed depth and the smallest automatic factor that leave no uncovered "
+            "pixel in this view. For a whole flight use worldy cracks FILE --flight F --find-depth."))
         commands.emplace_back(FindSmallestSkirts{});
     ImGui::EndDisabled();
     ImGui::EndDisabled();
     checkbox("Measure while flying", cracks.live, defaults.live,
-             "Measures again every so many frames. Each costs three frames' drawing and more: the picture "
-             "stutters.");
+             "Measures every few frames. Each measurement takes at least as long as drawing three frames, so "
+             "the picture stutters.");
     if (cracks.live) {
         slider("Every", cracks.everyFrames, defaults.everyFrames, 1, 1000, "%d frames",
-               "Frames from one measurement to the next. Fewer: slower frames. More: figures of long ago.");
+               "Number of frames between measurements. Fewer: lower frame rate. More: less current values.");
     }
-    checkbox(
-        "Mark in the viewport", cracks.mark, defaults.mark,
-        "Paints the crack pixels over the picture, each at least some pixels wide, while the view is the "
-        "one that was measured.");
+    checkbox("Highlight in viewport", cracks.mark, defaults.mark,
+             "Highlights crack pixels in the viewport, each several pixels wide, while the view is the "
+             "measured one.");
 }
 
 void values(const CracksView& cracks) {
@@ -51,28 +51,31 @@ void values(const CracksView& cracks) {
     const ImVec4 good = palette().good;
     const ImVec4 bad = palette().bad;
     valueRow("Crack pixels", fmt::format("{}", measured.map.pixels.size()),
-             "Pixels whose depth differs between drawing with skirts down to below all terrain and without.");
-    valueRow("Leaking pixels", fmt::format("{}", measured.map.leaking),
-             "Crack pixels that the skirts as set do not hide. Must be 0.",
+             "Pixels whose depth differs between rendering with full-depth skirts and without skirts.");
+    valueRow("Uncovered pixels", fmt::format("{}", measured.map.leaking),
+             "Crack pixels that the current skirts do not cover. Must be 0.",
              measured.map.leaking == 0 ? &good : &bad);
-    valueRow("Spots", fmt::format("{}", measured.spots.size()),
-             "Crack pixels that touch, between the same two chunks.");
-    valueRow("Pairs of two levels", fmt::format("{}", measured.levelPairs), "Drawn neighbours, this many.");
-    valueRow("Skirt depth by the gaps", distanceText(measured.required.depthM),
-             "The largest height by which an edge stands over the one beside it, metres.");
-    valueRow("Factor by the gaps", fmt::format("{:.3f}", measured.required.factor),
-             "The smallest automatic factor whose skirts reach down to every edge beside them.");
+    valueRow("Crack clusters", fmt::format("{}", measured.spots.size()),
+             "Connected crack pixels between the same two chunks.");
+    valueRow("LOD seams", fmt::format("{}", measured.levelPairs),
+             "Pairs of adjacent drawn chunks with different levels.");
+    valueRow("Required depth (max gap)", distanceText(measured.required.depthM),
+             "Largest height difference between two adjacent edges, in metres.");
+    valueRow("Required factor (max gap)", fmt::format("{:.3f}", measured.required.factor),
+             "Smallest automatic factor whose skirts reach every adjacent edge.");
     if (cracks.smallest) {
         valueRow("Smallest depth", distanceText(cracks.smallest->depthM),
-                 "Of a fixed skirt that leaves no pixel of this view open; within 0.5%.");
+                 "Smallest fixed skirt depth that leaves no uncovered pixel in this view; within 0.5 %.");
         valueRow("Smallest factor",
                  std::isfinite(cracks.smallest->factor) ? fmt::format("{:.3f}", cracks.smallest->factor)
                                                         : std::string("none"),
-                 "Of automatic skirts; within 0.5%. None: not even 1000 is enough.");
+                 "Smallest automatic factor that leaves no uncovered pixel in this view; within 0.5 %. None: "
+                 "a factor of 1000 is not enough.");
     }
     valueRow("Picture", fmt::format("{} x {}", measured.map.widthPx, measured.map.heightPx),
-             "That was measured, pixels.");
-    valueRow("Took", millisecondsText(measured.tookMs), "The measurement, edges and pixels.");
+             "Size of the measured picture, in pixels.");
+    valueRow("Duration", millisecondsText(measured.tookMs),
+             "Duration of the measurement, including edges and pixels.");
     endValues();
 }
 
@@ -87,7 +90,7 @@ void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& co
     const CrackMeasurement& measured = *view.cracks.measured;
     cell(fmt::format("{}", spot.pixels));
     cell(fmt::format("{}", spot.leaking), spot.leaking > 0 ? palette().bad : palette().dim);
-    if (spot.pair == planet::noPair) return cell("beside nothing drawn");
+    if (spot.pair == planet::noPair) return cell("no drawn neighbour");
     const planet::DrawnPair& pair = measured.pairs[spot.pair];
     chunkCell(measured.items[pair.finer], view, commands);
     chunkCell(measured.items[pair.coarser], view, commands);
@@ -96,25 +99,38 @@ void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& co
 
 void spotTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::CrackSpot>& spots = view.cracks.measured->spots;
-    if (spots.empty()) return wrappedText("No pixel of this view shows a crack.", palette().dim);
-    constexpr std::array columns = {TableColumn{"Pixels", 0.8f}, TableColumn{"Leak", 0.6f},
+    if (spots.empty()) return wrappedText("There are no crack pixels in this view.", palette().dim);
+    constexpr std::array columns = {TableColumn{"Pixels", 0.8f}, TableColumn{"Uncovered", 1.0f},
                                     TableColumn{"Finer", 1.6f}, TableColumn{"Coarser", 1.6f},
                                     TableColumn{"##go", 0.5f}};
     if (!beginListTable("spots", columns, spots.size())) return;
-    tableRows(spots.size(), [&](std::size_t row) { spotRow(view, spots[row], commands); });
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::CrackSpot& spot = spots[row];
+        if (column == 0) return static_cast<double>(spot.pixels);
+        if (column == 1) return static_cast<double>(spot.leaking);
+        if (spot.pair == planet::noPair) return std::string();
+        const CrackMeasurement& measured = *view.cracks.measured;
+        const planet::DrawnPair& pair = measured.pairs[spot.pair];
+        return sortKey(measured.items[column == 2 ? pair.finer : pair.coarser]);
+    };
+    tableRows(spots.size(), key, [&](std::size_t row) { spotRow(view, spots[row], commands); });
     ImGui::EndTable();
+}
+
+// The skirt of the higher edge, metres.
+float skirtOf(const planet::EdgeGap& gap) {
+    return gap.finerAboveM >= gap.coarserAboveM ? gap.finerSkirtM : gap.coarserSkirtM;
 }
 
 void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& commands) {
     cell(distanceText(gap.gapM));
-    tooltip("Largest distance between the two edges at the same place.");
+    tooltip("Largest distance between the two edges at the same position.");
     cell(pixelsText(gap.facingPx, ""));
-    tooltip("The same in pixels of the view, as if it were turned to face it.");
+    tooltip("The gap in pixels, facing the view.");
     const bool tooShort = gap.finerAboveM > static_cast<double>(gap.finerSkirtM) ||
                           gap.coarserAboveM > static_cast<double>(gap.coarserSkirtM);
-    const float skirtM = gap.finerAboveM >= gap.coarserAboveM ? gap.finerSkirtM : gap.coarserSkirtM;
-    cell(distanceText(static_cast<double>(skirtM)), tooShort ? palette().bad : palette().text);
-    tooltip("The skirt of the edge that stands higher. Red: it does not reach down to the other.");
+    cell(distanceText(static_cast<double>(skirtOf(gap))), tooShort ? palette().bad : palette().text);
+    tooltip("Skirt depth of the higher edge. Red: it does not reach the lower edge.");
     chunkCell(gap.finer, view, commands);
     chunkLink(gap.coarser, view, commands);
     goButton(view, gap.finer, gap.placeM, commands);
@@ -122,13 +138,19 @@ void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& comman
 
 void gapTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::EdgeGap>& gaps = view.cracks.measured->gaps;
-    if (gaps.empty())
-        return wrappedText("All edges that are drawn side by side are the same.", palette().dim);
-    constexpr std::array columns = {TableColumn{"Gap", 0.9f}, TableColumn{"px", 0.6f},
+    if (gaps.empty()) return wrappedText("All adjacent edges match.", palette().dim);
+    constexpr std::array columns = {TableColumn{"Gap", 0.9f}, TableColumn{"px", 0.7f},
                                     TableColumn{"Skirt", 0.9f}, TableColumn{"Finer, coarser", 1.7f},
                                     TableColumn{"##go", 0.5f}};
     if (!beginListTable("gaps", columns, 2 * gaps.size())) return;
-    tableRows(gaps.size(), [&](std::size_t row) { gapRow(view, gaps[row], commands); });
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::EdgeGap& gap = gaps[row];
+        if (column == 0) return gap.gapM;
+        if (column == 1) return gap.facingPx;
+        if (column == 2) return static_cast<double>(skirtOf(gap));
+        return sortKey(gap.finer);
+    };
+    tableRows(gaps.size(), key, [&](std::size_t row) { gapRow(view, gaps[row], commands); });
     ImGui::EndTable();
 }
 
@@ -136,17 +158,18 @@ void gapTable(const EditorView& view, Commands& commands) {
 
 void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settings, Commands& commands) {
     if (section("Cracks")) knobs(view, settings.cracks, commands);
-    if (!view.planet) return emptyState("Cracks are measured once a planet is open.");
+    if (!view.planet) return emptyState("No planet is open. Open one to measure cracks.");
     if (!view.cracks.measured)
-        return emptyState("Nothing measured yet: Measure counts the crack pixels of the view as it is now.");
+        return emptyState("Not measured yet. Press Measure to count the crack pixels of the current view.");
     if (!view.cracks.current) {
-        wrappedText("Of an earlier view: the camera or what is drawn has changed since.", palette().warning);
+        wrappedText("Out of date: the camera or the drawn chunks have changed since this measurement.",
+                    palette().warning);
     }
     const float alpha = ImGui::GetStyle().Alpha * (view.cracks.current ? 1.0f : 0.6f);
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
-    if (section("Found")) values(view.cracks);
-    if (section("Spots, largest first")) spotTable(view, commands);
-    if (section("Gaps between edges, worst first")) gapTable(view, commands);
+    if (section("Results")) values(view.cracks);
+    if (section("Crack clusters")) spotTable(view, commands);
+    if (section("Edge gaps")) gapTable(view, commands);
     ImGui::PopStyleVar();
 }
 

@@ -17,7 +17,7 @@ constexpr std::array<const char*, dockCount> dockNames = {"left dock", "right do
 constexpr std::array<const char*, dockCount> splitterNames = {"left splitter", "right splitter",
                                                               "bottom splitter"};
 constexpr std::array<const char*, dockCount> moveNames = {"Move to the left", "Move to the right",
-                                                          "Move below"};
+                                                          "Move to the bottom"};
 
 std::size_t indexOf(Dock dock) {
     return static_cast<std::size_t>(dock);

@@ -36,23 +36,23 @@ void errorsControls(const EditorView& view, ViewSettings& settings, Commands& co
     ImGui::BeginDisabled(errors.running);
     if (button(
             "Measure",
-            "Compares every finest sample under every drawn chunk with the surface that is drawn there, for "
-            "this frame's view. Runs in the background; what is not in memory is read from the chunk file."))
+            "Compares every finest sample under every drawn chunk with the drawn surface, for this frame's "
+            "view. Runs in the background and reads blocks that are not in memory from the chunk file."))
         commands.push_back(MeasureErrors{});
     ImGui::EndDisabled();
     sameLineIfRoom(checkboxWidth("Keep measuring"));
     bool keep = errors.keepMeasuring;
     if (ImGui::Checkbox("Keep measuring", &keep)) commands.push_back(KeepMeasuringErrors{keep});
     noteItem("Keep measuring");
-    tooltip("Starts over as soon as a measurement is done. Takes all cores but one, and the disk.");
+    tooltip("Repeats the measurement continuously. Uses all cores but one, and the disk.");
     sameLineIfRoom(checkboxWidth("Tint chunks"));
     bool tint = settings.overlay.colourBy == ColourBy::Measured;
     if (ImGui::Checkbox("Tint chunks", &tint))
         settings.overlay.colourBy = tint ? ColourBy::Measured : ColourBy::None;
     noteItem("Tint chunks");
     tooltip(
-        "Colours the chunks in the viewport by their measured error against tau, as Colour by in the "
-        "Overlay panel. What was not drawn when it was measured is grey.");
+        "Tints the chunks in the viewport by their measured error relative to τ, like Colour by in the "
+        "Overlay panel. Chunks not drawn in the measured frame are grey.");
     if (errors.running) {
         ImGui::ProgressBar(static_cast<float>(errors.progress), {-1, 0},
                            fmt::format("measuring, {:.0f} %", 100 * errors.progress).c_str());
@@ -64,12 +64,13 @@ void errorsControls(const EditorView& view, ViewSettings& settings, Commands& co
 void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
     const std::uint64_t since = view.errors.frame - std::min(view.errors.frame, last.frame);
     wrappedText(
-        fmt::format("Frame {}, {} ago. {} {}, {} metric. Took {}.", last.frame,
+        fmt::format("Frame {}, {} ago. {} {}, {} metric. Duration {}.", last.frame,
                     since == 1 ? "1 frame" : fmt::format("{} frames", since), tauSymbol(),
                     pixelsText(last.tauPx), last.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
                     durationText(last.tookS)),
         palette().dim);
-    tooltip("What is listed was drawn in that frame, from its lod view. The camera may have moved since.");
+    tooltip(
+        "The list shows the chunks drawn in that frame for its LOD view. The camera may have moved since.");
 }
 
 void figures(const ErrorMeasurement& last) {
@@ -77,33 +78,29 @@ void figures(const ErrorMeasurement& last) {
     if (!beginValues("errors")) return;
     const bool wrong = report.violations > 0;
     valueRow("Violations", fmt::format("{}", report.violations),
-             "Chunks whose measured error is over what was predicted: the prediction promised too much. Must "
-             "be 0. Judged by facing pixels.",
+             "Chunks whose measured error exceeds the prediction, in facing pixels. Must be 0.",
              wrong ? &palette().bad : &palette().good);
     if (report.violationsInSeams > 0)
-        valueRow(
-            "  beside seams", fmt::format("{}", report.violationsInSeams),
-            "Of them, those whose worst place lies in a cell beside an edge that is stitched to a coarser "
-            "chunk. Triangles there reach over several cells, which no delta_c looks at.",
-            &palette().bad);
+        valueRow("  beside seams", fmt::format("{}", report.violationsInSeams),
+                 "Violations whose largest error lies in a cell beside an edge stitched to a coarser chunk. "
+                 "Triangles there span several cells, which δc does not cover.",
+                 &palette().bad);
+    valueRow("Max error, facing", finePx(report.worstFacingPx),
+             "Largest error of any finest sample, in pixels, as if the view faced it: K' times the angle "
+             "between its true and its drawn position. ε bounds this error.");
     valueRow(
-        "Worst, facing", finePx(report.worstFacingPx),
-        "The largest error of any finest sample, pixels, as if the view were turned to face it: K' times "
-        "the angle between where it is and where it is drawn. What eps bounds.");
-    valueRow(
-        "Worst, in picture", finePx(report.worstScreenPx),
-        "The largest error in the flat picture, pixels, of the samples that lie in it, hidden ones too. A "
-        "flat picture stretches towards its corners, so this can be larger than facing.");
+        "Max error, screen space", finePx(report.worstScreenPx),
+        "Largest error in the projected picture, in pixels, of the samples inside the picture, including "
+        "hidden ones. The projection stretches towards the corners, so this can exceed the facing error.");
     valueRow("99th percentile", finePx(report.p99FacingPx),
-             "99 of 100 chunks have no larger error, facing pixels; each chunk counts once.");
-    valueRow("Worst predicted", finePx(report.worstPredictedPx),
-             "The largest eps of what was drawn, morphing counted in: eps + m (parent's eps - eps).");
+             "99 % of the chunks have no larger error, in facing pixels; each chunk counts once.");
+    valueRow("Max predicted", finePx(report.worstPredictedPx),
+             "Largest predicted error of the drawn chunks, including morphing: ε + m (parent's ε - ε).");
     valueRow(
         "Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
-        "The share of the prediction that was not needed, 1 - measured / predicted, mean over the chunks. "
-        "More: more triangles than the tolerance asks for.");
-    valueRow("Chunks", fmt::format("{}", report.chunks.size()), "Drawn in that frame.");
-    valueRow("Samples", countText(static_cast<double>(report.samples)), "Finest samples that were compared.");
+        "1 - measured / predicted, mean over the chunks. Larger: more triangles than the tolerance needs.");
+    valueRow("Chunks", fmt::format("{}", report.chunks.size()), "Chunks drawn in that frame.");
+    valueRow("Samples", countText(static_cast<double>(report.samples)), "Number of finest samples compared.");
     endValues();
 }
 
@@ -191,16 +188,16 @@ void pointerOnChunk(const ChunkError& chunk, Commands& commands) {
     ImGui::TextUnformatted(planet::toString(chunk.id).c_str());
     ImGui::Text("measured %s of %s predicted", finePx(chunk.facingPx).c_str(),
                 finePx(chunk.predictedPx).c_str());
-    ImGui::Text("%s off at the worst place", distanceText(chunk.errorM).c_str());
+    ImGui::Text("max error %s", distanceText(chunk.errorM).c_str());
     if (planet::isViolation(chunk)) ImGui::TextColored(palette().bad, "violation");
-    ImGui::TextDisabled("click: select   double click: look at");
+    ImGui::TextDisabled("click: select   double-click: look at");
     ImGui::EndTooltip();
 }
 
 void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands) {
     const ErrorMeasurement& last = *view.errors.last;
     checkbox("Logarithmic", state.logarithmic, true,
-             "Both axes over four decades. Off: from 0, where small errors lie on each other.");
+             "Shows both axes over four decades. Off: linear from 0, where small errors overlap.");
     const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
     const float height = std::round(std::min(width, 13 * ImGui::GetTextLineHeightWithSpacing()));
     const ImVec2 start = ImGui::GetCursorScreenPos();
@@ -224,8 +221,9 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
     if (const auto nearest = nearestToPointer(scale, last.report.chunks))
         return pointerOnChunk(last.report.chunks[*nearest], commands);
     tooltip(
-        "A dot a chunk: to the right what was predicted, up what was measured, facing pixels. On the "
-        "diagonal the prediction is exact, above it wrong; far below it wastes triangles.");
+        "One dot per chunk: predicted error on the horizontal axis, measured error on the vertical axis, in "
+        "facing pixels. On the diagonal the prediction is exact; above it, it is violated; far below it, "
+        "triangles are wasted.");
 }
 
 void goToWorst(const ChunkError& chunk, const EditorView& view, Commands& commands) {
@@ -250,20 +248,44 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
 }
 
 constexpr std::array worstColumns = {
-    TableColumn{"Chunk", 1.9f, "Click selects it, a double click looks at it."},
+    TableColumn{"Chunk", 1.9f, "Click to select the chunk; double-click to look at it."},
     TableColumn{"##go", 0.6f},
-    TableColumn{"Facing", 0.9f, "Measured, pixels, the view turned to face the sample."},
-    TableColumn{"Predicted", 1.1f, "Pixels, morphing counted in."},
+    TableColumn{"Facing", 0.9f, "Measured error in pixels, as if the view faced the sample."},
+    TableColumn{"Predicted", 1.1f, "Predicted error in pixels, including morphing."},
     TableColumn{"Slack", 0.8f, "1 - facing / predicted."},
-    TableColumn{"Picture", 0.9f, "Measured in the flat picture, pixels; 0 where nothing of it lies there."},
-    TableColumn{"Error", 0.9f, "Metres between the sample and what is drawn there, where facing is largest."},
-    TableColumn{"Mean", 0.9f, "Facing pixels, mean over all finest samples under the chunk."}};
+    TableColumn{"Screen space", 1.3f,
+                "Measured error in the projected picture, in pixels; 0 if no sample lies in it."},
+    TableColumn{
+        "Error", 0.9f,
+        "Distance in metres between the sample and the drawn surface, where the facing error is largest."},
+    TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
 
 void worstList(const EditorView& view, Commands& commands) {
     if (!beginWideTable("worst", worstColumns, 30, 1)) return;
     const ErrorMeasurement& last = *view.errors.last;
-    tableRows(last.worstFirst.size(),
-              [&](std::size_t row) { chunkRow(last.report.chunks[last.worstFirst[row]], view, commands); });
+    const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
+        return last.report.chunks[last.worstFirst[row]];
+    };
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const ChunkError& chunk = chunkOf(row);
+        switch (column) {
+            case 0:
+                return sortKey(chunk.id);
+            case 2:
+                return chunk.facingPx;
+            case 3:
+                return chunk.predictedPx;
+            case 4:
+                return planet::slackOf(chunk);
+            case 5:
+                return chunk.screenPx;
+            case 6:
+                return chunk.errorM;
+            default:
+                return chunk.meanPx;
+        }
+    };
+    tableRows(last.worstFirst.size(), key, [&](std::size_t row) { chunkRow(chunkOf(row), view, commands); });
     ImGui::EndTable();
 }
 
@@ -271,12 +293,13 @@ void worstList(const EditorView& view, Commands& commands) {
 
 void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& settings,
                  Commands& commands) {
-    if (!view.planet) return emptyState("The error of what is drawn is measured here once a planet is open.");
+    if (!view.planet)
+        return emptyState("No planet is open. Open one to measure the true error of drawn chunks.");
     errorsControls(view, settings, commands);
     if (!view.errors.last) {
         return emptyState(view.errors.running
-                              ? "The first measurement is on its way."
-                              : "Measure tells how far what is drawn lies from the finest data.");
+                              ? "The first measurement is running."
+                              : "Press Measure to compare the drawn surface with the finest data.");
     }
     constexpr float tableLines = 12;
     const std::array columns = {
@@ -286,7 +309,7 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
                    figures(*view.errors.last);
                }},
         Column{"Measured against predicted", 1, 0, [&] { scatter(view, state, commands); }},
-        Column{"Worst first", 1.6f, tableLines, [&] { worstList(view, commands); }}};
+        Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};
     drawColumns("errors", columns);
 }
 

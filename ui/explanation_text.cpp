@@ -44,22 +44,22 @@ std::string drawnText(const ChunkExplanation& chunk) {
     };
     switch (chunk.notSplit) {
         case WhyNotSplit::Leaf:
-            return fmt::format("Drawn: {}, but the file has nothing finer here.", comparison(chunk, ">"));
+            return fmt::format("Drawn: {}, but the file has no finer level here.", comparison(chunk, ">"));
         case WhyNotSplit::LevelLimit:
-            return fmt::format("Drawn: {}, but chunks of level {} are not to be split.",
-                               comparison(chunk, ">"), chunk.id.level);
+            return fmt::format("Drawn: {}, but level {} is the max LOD level.", comparison(chunk, ">"),
+                               chunk.id.level);
         case WhyNotSplit::WaitingForMorph:
-            return wanted("it slides back to its own surface first, so that the split is not seen");
+            return wanted("it first morphs back to its own surface");
         case WhyNotSplit::SeamLimit:
-            return wanted("a chunk beside it would then be too much coarser for stitched seams");
+            return wanted("a neighbour would then be too coarse for stitched seams");
         case WhyNotSplit::WaitingInQueue:
             return wanted("its children are " + gridPlaceText(chunk));
         case WhyNotSplit::WaitingForRead:
             return wanted("its children are being read");
         case WhyNotSplit::WaitingForBudget:
-            return wanted("the memory budget has no room for its children");
+            return wanted("its children do not fit into the memory budget");
         case WhyNotSplit::WaitingForRetry:
-            return wanted("its children could not be read, and are asked for again in a while");
+            return wanted("its children could not be read and will be retried");
         case WhyNotSplit::ChildrenFailed:
             return wanted("its children could not be read");
         case WhyNotSplit::IsSplit:
@@ -71,12 +71,11 @@ std::string drawnText(const ChunkExplanation& chunk) {
 }
 
 std::string splitText(const ChunkExplanation& chunk) {
-    if (chunk.mergeWaits) return "Split: to be drawn itself as soon as its children have slid onto it.";
+    if (chunk.mergeWaits) return "Split: it merges when its children have morphed onto it.";
     if (chunk.epsPx > chunk.tauPx) {
-        return fmt::format("Split: {}, so chunks below it are drawn in its place.", comparison(chunk, ">"));
+        return fmt::format("Split: {}, so its descendants are drawn instead.", comparison(chunk, ">"));
     }
-    return fmt::format("Split: {}, but hysteresis keeps it split until it is lower.",
-                       comparison(chunk, "is within"));
+    return fmt::format("Split: {}, but hysteresis keeps it split.", comparison(chunk, "is within"));
 }
 
 // Why the chunk above that is drawn instead is not split.
@@ -87,29 +86,28 @@ std::string insteadText(const ChunkExplanation& chunk) {
             return fmt::format("{} is good enough ({} {}).", above, epsSymbol(),
                                pixels(chunk.decidedByEpsPx, chunk.tauPx));
         case WhyNotSplit::LevelLimit:
-            return fmt::format("{} is drawn, and chunks of level {} are not to be split.", above,
+            return fmt::format("{} is drawn, and level {} is the max LOD level.", above,
                                chunk.decidedBy.level);
         case WhyNotSplit::WaitingForMorph:
-            return above + " is drawn until it has slid back to its own surface.";
+            return above + " is drawn until it has morphed back to its own surface.";
         case WhyNotSplit::SeamLimit:
-            return above + " is drawn, since a chunk beside it would be too much coarser for stitched seams.";
+            return above + " is drawn, because a neighbour would otherwise be too coarse for stitched seams.";
         case WhyNotSplit::WaitingInQueue:
             return fmt::format("{} comes first, {}.", above, gridPlaceText(chunk));
         case WhyNotSplit::WaitingForRead:
             return above + " comes first, and is being read.";
         case WhyNotSplit::WaitingForBudget:
-            return above + " is drawn, since the memory budget has no room for its children.";
+            return above + " is drawn, because its children do not fit into the memory budget.";
         case WhyNotSplit::WaitingForRetry:
-            return above +
-                   " is drawn, since its children could not be read; they are asked for again in a while.";
+            return above + " is drawn, because its children could not be read; they will be retried.";
         case WhyNotSplit::ChildrenFailed:
-            return above + " is drawn, since its children could not be read.";
+            return above + " is drawn, because its children could not be read.";
         case WhyNotSplit::IsSplit:
         case WhyNotSplit::NotDrawn:
         case WhyNotSplit::Leaf:
             break;
     }
-    return "nothing has asked for it.";
+    return "no view requests it.";
 }
 
 // "it" or, of one above it, its name.
@@ -138,10 +136,9 @@ std::string whyText(const ChunkExplanation& chunk) {
         case ChunkState::NotResident:
             return "Not loaded: " + insteadText(chunk);
         case ChunkState::Failed:
-            return fmt::format("Not loaded: {} could not be read{}.", decider(chunk),
-                               chunk.decidedByNotSplit == WhyNotSplit::WaitingForRetry
-                                   ? ", and is asked for again in a while"
-                                   : "");
+            return fmt::format(
+                "Not loaded: {} could not be read{}.", decider(chunk),
+                chunk.decidedByNotSplit == WhyNotSplit::WaitingForRetry ? " and will be retried" : "");
         case ChunkState::NotInFile:
             break;
     }

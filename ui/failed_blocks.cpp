@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <tuple>
 
 #include "ui/chunk_link.h"
@@ -67,7 +68,22 @@ void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>&
         TableColumn{"Kind", 4.4f, "Kind of block: heights of a chunk, colour tile or normal tile."},
         TableColumn{"Reason", 24, "The last error; its tooltip shows the full text."}};
     if (!beginWideTable("failed", columns, 49, 2)) return;
-    tableRows(blocks.size(), [&](std::size_t row) { failedRow(view, blocks[row], commands); });
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::FailedBlock& failed = blocks[row];
+        switch (column) {
+            case 1:
+                return sortKey(failed.block.parent);
+            case 2:
+                return failed.retryInS.value_or(std::numeric_limits<double>::infinity());
+            case 3:
+                return static_cast<double>(failed.attempts);
+            case 4:
+                return std::string(kindText(failed.block.kind));
+            default:
+                return failed.message;
+        }
+    };
+    tableRows(blocks.size(), key, [&](std::size_t row) { failedRow(view, blocks[row], commands); });
     ImGui::EndTable();
 }
 

@@ -4,9 +4,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ui/item_map.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -24,9 +26,9 @@ void runningRecording(const RecordingNow& recording, Commands& commands) {
     ImGui::TextWrapped("%.1f s, %zu frames, %s", recording.seconds, recording.frames,
                        bytesText(recording.bytes).c_str());
     tooltip(
-        "Simulated or real seconds, frames, and bytes before compression. It ends by itself after 216000 "
+        "Simulated or real seconds, frames, and size before compression. Recording stops after 216,000 "
         "frames or 64 MiB.");
-    if (button("Stop and keep", "Ends the recording and writes its file."))
+    if (button("Stop and save", "Stops the recording and writes its file."))
         commands.push_back(StopRecording{});
 }
 
@@ -35,15 +37,14 @@ void recordControl(FlightPanelState& state, Commands& commands) {
     const float room = ImGui::CalcTextSize("Record").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
     const float fontPx = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - room, 4 * fontPx, 24 * fontPx));
-    ImGui::InputTextWithHint("##name", "name, or none", state.name.data(), state.name.size());
+    ImGui::InputTextWithHint("##name", "Name (optional)", state.name.data(), state.name.size());
     noteItem("Name");
-    tooltip("A file's name too, up to 60 bytes. Empty: the next free \"flight 1\", \"flight 2\" ...");
+    tooltip("Used as the file name, up to 60 bytes. Empty: the next free \"flight 1\", \"flight 2\", ...");
     ImGui::SameLine();
-    if (!button(
-            "Record",
-            "Keeps, frame by frame, the camera, changed settings, what is drawn, and which blocks are asked "
-            "for and arrive. The planet drops all but its six root chunks first, so that a replay can "
-            "begin at the same place; it loads again within moments."))
+    if (!button("Record",
+                "Records the camera, changed settings, drawn chunks, and requested and loaded blocks for "
+                "each frame. All chunks except the six roots are evicted first, so that a replay starts from "
+                "the same state; they load again within moments."))
         return;
     commands.push_back(StartRecording{state.name.data()});
     state.name.fill(0);
@@ -53,18 +54,17 @@ void recordControl(FlightPanelState& state, Commands& commands) {
 
 void deletePopup(const RecordedFlight& flight, Commands& commands) {
     if (!ImGui::BeginPopup("delete")) return;
-    ImGui::Text("Delete \"%s\" for good?", flight.name.c_str());
-    if (button("Delete", "Removes the file.")) {
+    ImGui::Text("Delete \"%s\" permanently?", flight.name.c_str());
+    if (button("Delete", "Deletes the file.")) {
         commands.push_back(DeleteRecording{flight.file});
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();
-    if (button("Keep", "Leaves it.")) ImGui::CloseCurrentPopup();
+    if (button("Cancel", "Keeps the file.")) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
 void flightRow(const RecordedFlight& flight, FlightPanelState& state, Commands& commands) {
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(flight.file.c_str());
     if (ImGui::Selectable(flight.name.c_str(), flight.name == state.selected,
@@ -73,7 +73,7 @@ void flightRow(const RecordedFlight& flight, FlightPanelState& state, Commands& 
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) commands.push_back(StartReplay{flight.file});
     }
     noteItem(flight.name);
-    tooltip(fmt::format("{}\nA double click replays it. worldy replay does the same without a window.",
+    tooltip(fmt::format("{}\nDouble-click to replay it. worldy replay does the same without a window.",
                         flight.file.string())
                 .c_str());
     ImGui::TableNextColumn();
@@ -84,26 +84,27 @@ void flightRow(const RecordedFlight& flight, FlightPanelState& state, Commands& 
 void flightList(const EditorView& view, FlightPanelState& state, Commands& commands) {
     const auto& flights = view.recording.flights;
     if (flights.empty()) {
-        wrappedText("No flight is recorded yet. Press Record, fly, and stop.", palette().dim);
+        wrappedText("No recorded flights. Press Record, fly, then stop and save.", palette().dim);
         return;
     }
-    const float most = 6 * ImGui::GetTextLineHeightWithSpacing();
-    const float wanted = (static_cast<float>(flights.size()) + 0.5f) * ImGui::GetTextLineHeightWithSpacing();
-    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
-                                  ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersOuter;
-    if (ImGui::BeginTable("flights", 2, flags, {0, std::min(most, wanted)})) {
-        ImGui::TableSetupColumn("Name", 0, 3);
-        ImGui::TableSetupColumn("Size", 0, 1);
-        for (const RecordedFlight& flight : flights) flightRow(flight, state, commands);
+    constexpr std::array columns = {TableColumn{"Name", 3}, TableColumn{"Size", 1, nullptr, "12.3 MiB"}};
+    if (beginListTable("flights", columns, flights.size(), 7)) {
+        const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+            if (column == 0) return flights[row].name;
+            return flights[row].bytes;
+        };
+        tableRows(flights.size(), key, [&](std::size_t row) { flightRow(flights[row], state, commands); });
         ImGui::EndTable();
     }
     const auto chosen = std::find_if(flights.begin(), flights.end(),
                                      [&](const RecordedFlight& f) { return f.name == state.selected; });
     ImGui::BeginDisabled(chosen == flights.end());
-    if (button("Replay", "From its beginning. Camera and settings are the recording's until you stop it."))
+    if (button("Replay",
+               "Replays the flight from the start. Camera and settings come from the recording until you end "
+               "the replay."))
         commands.push_back(StartReplay{chosen->file});
     ImGui::SameLine();
-    if (button("Delete...", "Removes the file, once you have said so again.")) ImGui::OpenPopup("delete");
+    if (button("Delete...", "Deletes the file after confirmation.")) ImGui::OpenPopup("delete");
     ImGui::EndDisabled();
     if (chosen != flights.end()) deletePopup(*chosen, commands);
 }
@@ -132,7 +133,7 @@ std::string ticksText(const ReplayNow& replay, double timeS) {
                                           [&](const FlightTick& a, const FlightTick& b) {
                                               return std::abs(a.timeS - timeS) < std::abs(b.timeS - timeS);
                                           });
-    if (nearest == replay.ticks.end()) return "Nothing is split or merged.";
+    if (nearest == replay.ticks.end()) return "No chunk is split or merged.";
     return fmt::format("Nearest: {} splits and {} merges at {:.2f} s.", nearest->splits, nearest->merges,
                        nearest->timeS);
 }
@@ -156,8 +157,8 @@ void timeline(const ReplayNow& replay, Commands& commands) {
         std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - from.x) / size.x), 0.0, 1.0);
     const bool elsewhere = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0;
     if (ImGui::IsItemActive() && elsewhere) commands.push_back(MoveReplayTo{share * durationS});
-    tooltip(fmt::format("{:.2f} s. {}\nUpwards splits, downwards merges, by frame, as recorded. Drag to look "
-                        "at any moment; going back makes the flight again from its beginning.",
+    tooltip(fmt::format("{:.2f} s. {}\nRecorded splits (up) and merges (down) per frame. Drag to seek; going "
+                        "back replays the flight from the start.",
                         share * durationS, ticksText(replay, share * durationS))
                 .c_str());
 }
@@ -166,7 +167,7 @@ void transport(const ReplayNow& replay, Commands& commands) {
     ReplayControls controls = replay.controls;
     const bool pressed = ImGui::Button(controls.playing ? "Pause###play" : "Play###play");
     noteItem("Play");
-    tooltip("Lets the replay go on, or holds it. At its end: from the beginning.");
+    tooltip("Plays or pauses the replay. At its end it starts again.");
     if (pressed) {
         controls.playing = !controls.playing;
         commands.push_back(SetReplay{controls});
@@ -176,17 +177,17 @@ void transport(const ReplayNow& replay, Commands& commands) {
         commands.push_back(SetReplay{controls});
     };
     ImGui::SameLine();
-    if (button("< Step", "One frame back. Makes the flight again from its beginning up to there.")) {
+    if (button("< Step", "One frame back. Replays the flight from the start up to that frame.")) {
         hold();
         commands.push_back(MoveReplay{std::max<std::size_t>(replay.frame, 2) - 1});
     }
     ImGui::SameLine();
-    if (button("Step >", "One frame on.")) {
+    if (button("Step >", "One frame forward.")) {
         hold();
         commands.push_back(MoveReplay{replay.frame + 1});
     }
     sameLineIfRoom(ImGui::CalcTextSize("End replay").x + 2 * ImGui::GetStyle().FramePadding.x);
-    if (button("End replay", "Gives back the camera and the settings of before."))
+    if (button("End replay", "Ends the replay and restores the previous camera and settings."))
         commands.push_back(StopReplay{});
 }
 
@@ -202,40 +203,39 @@ void eventButtons(const ReplayNow& replay, Commands& commands) {
     sameLineIfRoom(ImGui::CalcTextSize("< ChangeChange >").x + 4 * style.FramePadding.x +
                    style.ItemSpacing.x);
     ImGui::BeginDisabled(replay.ticks.empty());
-    if (button("< Change", "Back to the frame of the last split or merge before this one.")) go(false);
+    if (button("< Change", "Goes to the previous frame with a split or merge.")) go(false);
     ImGui::SameLine();
-    if (button("Change >", "On to the frame of the next split or merge.")) go(true);
+    if (button("Change >", "Goes to the next frame with a split or merge.")) go(true);
     ImGui::EndDisabled();
 }
 
 void replayKnobs(const ReplayNow& replay, Commands& commands) {
     ReplayControls controls = replay.controls;
     const ReplayControls defaults;
-    bool changed =
-        slider("Speed", controls.speed, defaults.speed, 0.1, 10.0, "%.2f x",
-               "Recorded seconds a second. What does not fit into the time is made later; no frame "
-               "is left out.",
-               ImGuiSliderFlags_Logarithmic);
+    bool changed = slider(
+        "Speed", controls.speed, defaults.speed, 0.1, 10.0, "%.2f x",
+        "Playback speed in recorded seconds per second. No frame is skipped; slow frames delay the playback.",
+        ImGuiSliderFlags_Logarithmic);
     int arrivals = controls.simulated ? 1 : 0;
     if (choiceIndex(
             "Arrivals", arrivals, 0, "as recorded\0simulated\0",
-            "As recorded: each block arrives in the frame in which it did. Simulated: when the recorded "
-            "bad disk and seed say; exact only for a flight recorded with simulated paging. A change "
-            "begins anew and goes to the same frame.")) {
+            "As recorded: each block arrives in its recorded frame. Simulated: blocks arrive according to "
+            "the recorded fault-injection settings and seed; exact only for a flight recorded with simulated "
+            "paging. A change restarts the replay and seeks to the same frame.")) {
         controls.simulated = arrivals == 1;
         changed = true;
     }
-    changed |= checkbox("Loop", controls.loop, defaults.loop, "Begins anew at its end.");
+    changed |= checkbox("Loop", controls.loop, defaults.loop, "Starts again at the end.");
     if (changed) commands.push_back(SetReplay{controls});
 }
 
 void runningReplay(const ReplayNow& replay, Commands& commands) {
     ImGui::TextWrapped("\"%s\"  frame %zu of %zu, %.2f of %.2f s%s", replay.name.c_str(), replay.frame,
-                       replay.frames, replay.timeS, replay.durationS, replay.seeking ? ", on its way" : "");
+                       replay.frames, replay.timeS, replay.durationS, replay.seeking ? ", seeking" : "");
     wrappedText(replayStatus(replay), replay.framesDifferent > 0 ? palette().bad : palette().good);
     tooltip(
-        "Compares with the recording in each frame: chunks drawn with their order and morphs to the last "
-        "bit, blocks asked for, and blocks that arrived.");
+        "Compares each frame with the recording bit by bit: drawn chunks with their order and morph, "
+        "requested blocks, and loaded blocks.");
     timeline(replay, commands);
     transport(replay, commands);
     eventButtons(replay, commands);
@@ -245,13 +245,14 @@ void runningReplay(const ReplayNow& replay, Commands& commands) {
 }  // namespace
 
 std::string replayStatus(const ReplayNow& replay) {
-    if (replay.frame == 0) return "Nothing is replayed yet";
+    if (replay.frame == 0) return "No frame replayed yet";
     if (replay.framesDifferent > 0) {
         return fmt::format("{} of {} frames differ from the recording. The first: {}", replay.framesDifferent,
                            replay.frame, replay.difference);
     }
-    if (replay.frame == replay.frames) return fmt::format("Exact: all {} frames as recorded", replay.frames);
-    return fmt::format("Exact so far: {} frames as recorded", replay.frame);
+    if (replay.frame == replay.frames)
+        return fmt::format("Exact: all {} frames match the recording", replay.frames);
+    return fmt::format("Exact so far: {} frames match the recording", replay.frame);
 }
 
 double nextTickS(std::span<const FlightTick> ticks, double timeS, bool forward) {
@@ -267,7 +268,7 @@ double nextTickS(std::span<const FlightTick> ticks, double timeS, bool forward) 
 
 void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& settings,
                  Commands& commands) {
-    if (!view.planet) return emptyState("No planet is open to be flown over.");
+    if (!view.planet) return emptyState("No planet is open. Open one to record or replay flights.");
     if (view.recording.replay) {
         runningReplay(*view.recording.replay, commands);
         return;
@@ -276,11 +277,9 @@ void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& 
         runningRecording(*view.recording.recording, commands);
     else
         recordControl(state, commands);
-    checkbox(
-        "Simulated paging", settings.paging.simulated, PagingKnobs().simulated,
-        "Reads last as long as the bad disk's settings and seed say, in the time of frames instead of by "
-        "the clock. A flight recorded so is the same on any machine. Without a bad disk a read takes no "
-        "time.");
+    checkbox("Simulated paging", settings.paging.simulated, PagingKnobs().simulated,
+             "Read times follow the fault-injection settings and seed in frame time instead of real time, so "
+             "a recorded flight is the same on any machine. Without fault injection a read takes no time.");
     if (section("Recorded flights")) flightList(view, state, commands);
 }
 

@@ -27,25 +27,28 @@ struct Stage {
 };
 
 constexpr std::array<Stage, 7> cpuStages = {
-    {{"upload", "Making loaded chunks drawable; the upload limit of the Paging panel bounds it.",
+    {{"upload", "Uploading loaded chunks; bounded by the upload limit in the Paging panel.",
       [](const FrameStats& s) { return s.stages.uploadMs; }},
-     {"select", "Choosing what to draw: grows with the nodes visited.",
+     {"select", "LOD selection; grows with the number of visited nodes.",
       [](const FrameStats& s) { return s.stages.selectMs; }},
-     {"paging", "Dropping chunks and asking for new ones.",
+     {"paging", "Evicting chunks and requesting new ones.",
       [](const FrameStats& s) { return s.stages.pagingMs; }},
-     {"draw", "Making the planet's draw calls, on the CPU.", [](const FrameStats& s) { return s.drawCpuMs; }},
-     {"overlays", "Lines and labels over the planet.", [](const FrameStats& s) { return s.overlaysMs; }},
-     {"panels", "Making the panels.", [](const FrameStats& s) { return s.panelsMs; }},
-     {"present", "Handing the picture to the monitor; waiting for it is counted in.",
+     {"draw", "Issuing the planet's draw calls on the CPU.", [](const FrameStats& s) { return s.drawCpuMs; }},
+     {"overlays", "Drawing lines and labels over the planet.",
+      [](const FrameStats& s) { return s.overlaysMs; }},
+     {"panels", "Building the panels.", [](const FrameStats& s) { return s.panelsMs; }},
+     {"present", "Presenting the picture, including the wait for the monitor.",
       [](const FrameStats& s) { return s.presentMs; }}}};
 
 constexpr std::array<Stage, 4> gpuStages = {
-    {{"chunks", "The planet's ground, by a timer query.",
+    {{"chunks", "Drawing the ground, by a GPU timer query.",
       [](const FrameStats& s) { return s.render.chunksMs; }},
-     {"sky", "The sky and its air, by a timer query.", [](const FrameStats& s) { return s.render.skyMs; }},
-     {"shadows", "The ground as the sun sees it, once a cascade, by a timer query.",
+     {"sky", "Drawing the sky and the atmosphere, by a GPU timer query.",
+      [](const FrameStats& s) { return s.render.skyMs; }},
+     {"shadows", "Drawing the shadow maps, once per cascade, by a GPU timer query.",
       [](const FrameStats& s) { return s.render.shadowsMs; }},
-     {"panels", "The panels, by a timer query.", [](const FrameStats& s) { return s.panelsGpuMs; }}}};
+     {"panels", "Drawing the panels, by a GPU timer query.",
+      [](const FrameStats& s) { return s.panelsGpuMs; }}}};
 
 void stagePlot(const EditorView& view, const char* id, const char* unit, std::span<const Stage> stages,
                std::span<const float> times, float lines) {
@@ -60,11 +63,10 @@ void pauseControls(const EditorView& view, Commands& commands) {
     bool paused = view.framesPaused;
     if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PauseFrames{paused});
     noteItem("Pause");
-    tooltip("Nothing moves, is chosen or loaded any more; the panels go on.");
+    tooltip("Pauses movement, LOD selection and loading; the panels stay active.");
     ImGui::SameLine();
     ImGui::BeginDisabled(!view.framesPaused);
-    if (button("Step", "While paused: one frame, as if none had been missed."))
-        commands.push_back(StepFrame{});
+    if (button("Step", "While paused: runs one frame.")) commands.push_back(StepFrame{});
     ImGui::EndDisabled();
 }
 
@@ -73,10 +75,9 @@ void times(const EditorView& view, Commands& commands) {
     const FrameStats& stats = view.stats;
     if (!beginValues("times")) return;
     const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
-    valueRow("Frame rate", fmt::format("{:.0f}/s", perSecond),
-             "As many as the last would fit into a second.");
+    valueRow("Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time.");
     valueRow("Frame", millisecondsText(stats.frameMs),
-             "From one frame's start to the next one's, waiting for the monitor included.");
+             "Time from the start of one frame to the next, including the wait for the monitor.");
     for (const Stage& stage : cpuStages)
         valueRow(fmt::format("CPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
                  stage.explanation);
@@ -99,10 +100,12 @@ void plots(const EditorView& view, bool wide) {
 void counts(const EditorView& view) {
     const FrameStats& stats = view.stats;
     if (!beginValues("counts")) return;
-    valueRow("Chunks drawn", countText(stats.render.chunks), "Instances of the one instanced draw.");
-    valueRow("Triangles", countText(static_cast<double>(stats.render.triangles)), "Skirts included.");
-    valueRow("Uploads", countText(stats.render.uploads), "Chunks uploaded since the frame before.");
-    valueRow("Nodes visited", countText(stats.selection.visited), "By selection.");
+    valueRow("Chunks drawn", countText(stats.render.chunks), "Instances in the instanced draw call.");
+    valueRow("Triangles", countText(static_cast<double>(stats.render.triangles)),
+             "Triangles drawn, including skirts.");
+    valueRow("Uploads", countText(stats.render.uploads), "Chunks uploaded since the previous frame.");
+    valueRow("Nodes visited", countText(stats.selection.visited),
+             "Quadtree nodes visited by the LOD selection.");
     endValues();
 }
 
@@ -119,11 +122,11 @@ void memoryByKind(const EditorView& view) {
     const double chunksCpu = asBytes(stats.paging.residentBytesCpu);
     const double process = asBytes(stats.processBytes);
     const std::array cpu = {memoryBar("Resident chunks", chunksCpu, 0),
-                            memoryBar("All else", std::max(process - chunksCpu, 0.0), 5)};
+                            memoryBar("Other", std::max(process - chunksCpu, 0.0), 5)};
     ImGui::TextDisabled("CPU: %s", bytesText(process).c_str());
-    tooltip("The whole program's resident memory.");
+    tooltip("Resident memory of the whole program.");
     barList("cpu", cpu);
-    tooltip("Resident chunks: nodes and heights. All else: the program, its pictures, the driver.");
+    tooltip("Resident chunks: nodes and heights. Other: the program, its pictures and the driver.");
 
     const planet::gl::GpuMemory& gpu = stats.gpuMemory;
     const double heightsUsed = asBytes(stats.paging.residentBytesGpu);
@@ -137,23 +140,21 @@ void memoryByKind(const EditorView& view) {
         memoryBar("Shadow maps", asBytes(gpu.shadowMaps), 5),
         memoryBar("Pictures", asBytes(stats.targetBytes), 4)};
     ImGui::TextDisabled("GPU: %s", bytesText(asBytes(gpu.total() + stats.targetBytes)).c_str());
-    tooltip("What the program asked the driver for.");
+    tooltip("Memory the program allocated from the driver.");
     barList("gpu", kinds);
     tooltip(
-        "Heights in use: slots of the pool that hold a resident chunk. Heights free: slots that the budget "
-        "pays for, but nothing fills. Meshes: the grid and the instances. Textures: the colour image and its "
-        "like. Colour tiles and clipmap: what streamed colours are drawn from. Pictures: what is drawn "
-        "into.");
+        "Heights in use: pool slots with a resident chunk. Heights free: empty pool slots reserved by the "
+        "budget. Meshes: grid and instance buffers. Textures: the colour image and similar. Colour tiles and "
+        "clipmap: storage of streamed colours. Pictures: render targets.");
 }
 
 // Stages that one draw call does together cannot be timed in it: they are drawn with and without.
 void partCosts(const EditorView& view, Commands& commands) {
     const bool measuring = view.light.measured < 1;
     ImGui::BeginDisabled(measuring || !view.planet);
-    if (button(
-            "Measure parts",
-            "Draws this view with each part of light and surface and without it, in turn, each twice, five "
-            "times, and takes medians. The window is slow for as long."))
+    if (button("Measure features",
+               "Draws this view with and without each light and surface feature, each twice, five times, and "
+               "shows medians. The window is slow meanwhile."))
         commands.emplace_back(MeasureCosts{});
     ImGui::EndDisabled();
     if (measuring) usageBar(view.light.measured, fmt::format("{:.0f} %", 100 * view.light.measured));
@@ -163,7 +164,7 @@ void partCosts(const EditorView& view, Commands& commands) {
         valueRow(cost.part.c_str(),
                  fmt::format("{:+.1f} ms, x {:.2f}", cost.withMs - cost.withoutMs,
                              cost.withMs / std::max(cost.withoutMs, 1e-6)),
-                 "What the picture takes longer than nothing but the lit ground, which is 1.");
+                 "Additional frame time compared with the lit ground alone, which is 1.");
     endValues();
 }
 

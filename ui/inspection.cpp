@@ -63,12 +63,12 @@ void inspectionNotice(const EditorView& view, const Rect& viewport, Commands& co
                        view.recording.replay ? "Replay paused at the place" : "LOD frozen as measured");
     ImGui::SameLine();
     if (button("Back", view.recording.replay
-                           ? "Moves the camera to where it was, and plays on if the replay was playing."
-                           : "Moves the camera to where it was, and frees LOD if it was free."))
+                           ? "Moves the camera back, and resumes the replay if it was playing."
+                           : "Moves the camera back, and unfreezes LOD if it was not frozen before."))
         commands.push_back(EndInspection{});
     if (!view.recording.replay) {
         ImGui::SameLine();
-        if (button("Unfreeze here", "Keeps the camera here. LOD is chosen for it from now on (F2)."))
+        if (button("Unfreeze here", "Keeps the camera here. LOD follows it from now on (F2)."))
             commands.push_back(FreezeLod{false});
     }
     ImGui::End();

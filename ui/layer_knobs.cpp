@@ -73,33 +73,33 @@ void rangeKnob(const RangeKnob& knob, SoftRange& range) {
 void ranges(TextureLayer& layer) {
     const float heightSpeed =
         static_cast<float>(std::max(0.01 * std::max(std::abs(layer.heightM.lowest), 0.0), 5.0));
-    rangeKnob({"Height", "Height edge", planet::allHeightsM, 5000, "%.0f m", std::min(heightSpeed, 50.0f),
-               "Metres above the sea level between which the layer lies; both ends as far as they go: all "
-               "heights. An end is where it is half there. Drag, or Ctrl+click to type.",
-               "Metres over which it comes and goes, half to either side of an end. 0: a sharp border."},
+    rangeKnob({"Height", "Height falloff", planet::allHeightsM, 5000, "%.0f m", std::min(heightSpeed, 50.0f),
+               "Height range of the layer in metres above sea level; its weight is 0.5 at each end. With "
+               "both ends at their limits it covers all heights. Drag, or Ctrl+click to type.",
+               "Width of the transition at each end, in metres. 0: a sharp border."},
               layer.heightM);
-    rangeKnob({"Slope", "Slope edge", planet::allSlopesDeg, 60, "%.0f deg", 0.2f,
-               "Degrees of the ground's slope between which the layer lies; 0 level, 90 upright. From the "
-               "drawn heights: coarse data knows no cliffs.",
-               "Degrees over which it comes and goes, half to either side of an end. 0: a sharp border."},
+    rangeKnob({"Slope", "Slope falloff", planet::allSlopesDeg, 60, "%.0f deg", 0.2f,
+               "Slope range of the layer in degrees; 0 is level, 90 vertical. Computed from the drawn "
+               "heights, so coarse data has no cliffs.",
+               "Width of the transition at each end, in degrees. 0: a sharp border."},
               layer.slopeDeg);
-    rangeKnob({"Latitude", "Latitude edge", planet::allLatitudesDeg, 60, "%.0f deg", 0.3f,
-               "Degrees north between which the layer lies; -90 the south pole, 90 the north pole.",
-               "Degrees over which it comes and goes, half to either side of an end. 0: a sharp border."},
+    rangeKnob({"Latitude", "Latitude falloff", planet::allLatitudesDeg, 60, "%.0f deg", 0.3f,
+               "Latitude range of the layer in degrees, north positive.",
+               "Width of the transition at each end, in degrees. 0: a sharp border."},
               layer.latitudeDeg);
 }
 
 void textures(TextureLayer& layer, Commands& commands) {
     if (!ImGui::TreeNode("Textures")) return;
-    textField(
-        "Albedo", layer.albedo, "a PNG file",
-        "sRGB colours, and the relief in the alpha where there is one. Square, a power of two a side; "
-        "beside the set's file, or with its whole path. All layers are enlarged to the largest one's size.");
-    textField("Normal", layer.normal, "none: even",
-              "Normals: red along the columns, green up the rows, 128 even. None: the layer has no bumps.");
+    textField("Albedo", layer.albedo, "a PNG file",
+              "PNG file with sRGB colours and an optional relief in the alpha channel. Square, with a "
+              "power-of-two side; given relative to the set's file or as an absolute path. All layers are "
+              "scaled to the size of the largest.");
+    textField("Normal", layer.normal, "none: flat",
+              "Normal map: red along columns, green up rows, 128 is flat. None: a flat layer.");
     textField("Roughness", layer.roughness, "none: 0.9",
-              "Grey: black mirrors the sun, white not at all. None: 0.9.");
-    if (button("Read again", "Reads all layers' textures anew, as after a change in another program."))
+              "Roughness map: black is glossy, white is matte. None: 0.9.");
+    if (button("Reload", "Reloads the textures of all layers, for example after editing them."))
         commands.push_back(ReloadLayerTextures{});
     ImGui::TreePop();
 }
@@ -109,27 +109,25 @@ void textures(TextureLayer& layer, Commands& commands) {
 void layerKnobs(TextureLayer& layer, const std::string& problem, Commands& commands) {
     const TextureLayer defaults;
     if (!problem.empty())
-        wrappedText(fmt::format("{}; a checker pattern is drawn in its place.", problem), palette().bad);
-    textField("Name", layer.name, "a name", "Only for you to know it by.");
+        wrappedText(fmt::format("{}; a checkerboard is drawn instead.", problem), palette().bad);
+    textField("Name", layer.name, "Layer name", "Name of the layer, shown in the list.");
     slider("Scale", layer.scaleM, defaults.scaleM, 0.1, 1000, "%.2f m",
-           "Metres that the textures cover once. Larger: coarser near by, and less to be seen of repeats. "
-           "From far they are repeated in larger and larger steps by themselves.",
+           "Size in metres of one repeat of the textures. Larger: coarser near the camera, with less visible "
+           "repetition. Farther away the repeat grows automatically.",
            ImGuiSliderFlags_Logarithmic);
-    labelledControl("Tint", "Multiplies the albedo; white leaves it as it is.");
+    labelledControl("Tint", "Multiplies the albedo; white leaves it unchanged.");
     ImGui::ColorEdit3("##tint", &layer.tint.x, ImGuiColorEditFlags_NoInputs);
     noteItem("Tint");
-    tooltip("Multiplies the albedo; white leaves it as it is.");
-    slider("Cover", layer.opacity, defaults.opacity, 0, 1, "%.2f",
-           "How much of what lies below the layer it covers where its ranges are all met.");
+    tooltip("Multiplies the albedo; white leaves it unchanged.");
+    slider("Opacity", layer.opacity, defaults.opacity, 0, 1, "%.2f",
+           "Opacity of the layer over the layers below where all its ranges apply.");
     ranges(layer);
-    slider(
-        "Noise", layer.noiseAmount, defaults.noiseAmount, 0, 4, "%.2f edges",
-        "How far noise moves the layer's borders, in widths of their soft edges. 0: borders follow heights "
-        "and slopes as lines on a map do. Large: patches.");
-    slider(
-        "Noise size", layer.noiseSizeM, defaults.noiseSizeM, 1, 100000, "%.0f m",
-        "Metres that the noise's coarse lumps are wide; finer ones are on them. Small beside a pixel: grain.",
-        ImGuiSliderFlags_Logarithmic);
+    slider("Noise", layer.noiseAmount, defaults.noiseAmount, 0, 4, "%.2f x falloff",
+           "How far noise moves the layer's borders, relative to their falloff. 0: borders follow contour "
+           "lines. Large: patches.");
+    slider("Noise size", layer.noiseSizeM, defaults.noiseSizeM, 1, 100000, "%.0f m",
+           "Size of the coarsest noise features in metres. Smaller than a pixel: grain.",
+           ImGuiSliderFlags_Logarithmic);
     textures(layer, commands);
 }
 

@@ -25,46 +25,40 @@ constexpr const char* dragKind = "texture layer";
 void useKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {
     LayerSettings& layers = surface.layers;
     const LayerSettings defaults;
-    featureKnob("Layers", CostlyPart::Layers, view, surface, commands, "Materials painted on near ground.",
-                "layers cost");
+    featureKnob("Layers", CostlyPart::Layers, view, surface, commands,
+                "Draws material textures on near ground.", "layers");
     slider("Opacity", layers.opacity, defaults.opacity, 0, 1, "%.2f",
-           "Of all layers over the image or the ramp, 0 to 1.");
-    slider(
-        "Begin to fade", layers.beginM, defaults.beginM, 0, 1e6, "%.0f m",
-        "Metres from the eye where the layers begin to give way to the image or ramp. Nearer there are only "
-        "layers.",
-        ImGuiSliderFlags_Logarithmic);
-    slider(
-        "Gone at", layers.endM, defaults.endM, 1, 1e7, "%.0f m",
-        "Metres from the eye where nothing is left of the layers. Farther: they cost time over more pixels, "
-        "and replace what the image knows better.",
-        ImGuiSliderFlags_Logarithmic);
+           "Opacity of all layers over the image or the ramp, [0, 1].");
+    slider("Fade start", layers.beginM, defaults.beginM, 0, 1e6, "%.0f m",
+           "Distance from the camera, in metres, where layers begin to fade into the image or ramp.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Fade end", layers.endM, defaults.endM, 1, 1e7, "%.0f m",
+           "Distance from the camera, in metres, where layers have faded out. Larger: layers cost time on "
+           "more pixels and hide more of the image.",
+           ImGuiSliderFlags_Logarithmic);
     layers.beginM = std::min(layers.beginM, layers.endM);
-    slider(
-        "Colour below", layers.colourBelow, defaults.colourBelow, 0, 1, "%.2f",
-        "How much of the image's or ramp's colour goes through the layers: 0 their own colours, 1 only their "
-        "pattern. More: the change from far to near is less seen.");
+    slider("Base-colour blend", layers.colourBelow, defaults.colourBelow, 0, 1, "%.2f",
+           "How much of the image or ramp colour tints the layers: 0 uses the layers' own colours, 1 only "
+           "their pattern. Larger: a less visible transition from far to near.");
 }
 
 void blendKnobs(LayerSettings& layers) {
     const planet::LayerSet defaults;
-    choice(
-        "Blend by", layers.set.blend, defaults.blend, "weight\0height\0",
-        "How layers share a place. Weight: in shares. Height: the one whose own relief stands higher wins, "
-        "so that sand lies between stones.");
+    choice("Blend by", layers.set.blend, defaults.blend, "weight\0height\0",
+           "How overlapping layers are blended. Weight: by their weights. Height: the layer with the higher "
+           "relief wins, so sand lies between stones.");
     ImGui::BeginDisabled(layers.set.blend == planet::LayerBlend::Weight);
     slider("Blend depth", layers.set.blendDepth, defaults.blendDepth, 0.05, 2, "%.2f",
-           "Of height: what lies lower by so much keeps 2 % of its share; relief and weight are 0 to 1 each. "
-           "Smaller: sharper borders.");
+           "For blending by height: a layer lower by this depth keeps 2 % of its weight; relief and weight "
+           "are in [0, 1]. Smaller: sharper borders.");
     ImGui::EndDisabled();
 }
 
 void previewKnob(const LayersPanelState& state, LayerSettings& layers) {
     const LayerSettings defaults;
-    choice(
-        "Preview", layers.preview, defaults.preview, "off\0heat\0mask\0",
-        "The chosen layer's weight over the whole planet, near and far. Heat: violet 0, green a half, yellow "
-        "1. Mask: black 0, white 1, nothing else.");
+    choice("Preview", layers.preview, defaults.preview, "off\0heat\0mask\0",
+           "Shows the weight of the selected layer over the whole planet. Heat: violet 0, green 0.5, yellow "
+           "1. Mask: black 0, white 1, without the ground.");
     if (layers.preview != LayerPreview::Off) layers.previewed = static_cast<int>(state.chosen) + 1;
 }
 
@@ -103,7 +97,7 @@ void layerRow(const EditorView& view, std::size_t index, LayersPanelState& state
     const float side = ImGui::GetTextLineHeight();
     ImGui::ColorButton("##chip", {colour.r, colour.g, colour.b, 1},
                        ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
-    tooltip("The textures' colour on average, tinted; grey before they have been read.");
+    tooltip("Average colour of the textures including the tint; grey until they are loaded.");
     ImGui::TableNextColumn();
     const bool drawn = planet::isDrawn(layers.set, index);
     const bool wrong = index < view.layers.problems.size() && !view.layers.problems[index].empty();
@@ -114,25 +108,25 @@ void layerRow(const EditorView& view, std::size_t index, LayersPanelState& state
     noteItem(fmt::format("layer {}", layer.name));
     dragRow(layer, index, moved);
     tooltip(wrong ? view.layers.problems[index].c_str()
-                  : "Click to choose it, drag it onto another to move it there. It is painted over those "
+                  : "Click to select the layer; drag it onto another to move it. It is drawn over the layers "
                     "below it.");
     ImGui::TableNextColumn();
     if (view.layers.under)
         ImGui::TextColored(palette().dim, "%3.0f %%", 100 * view.layers.under->weights[index]);
-    tooltip("Its weight under the pointer, or where that was last over the ground.");
+    tooltip("Weight of the layer at the last ground position of the pointer.");
     ImGui::TableNextColumn();
     letterSwitch("M", fmt::format("mute {}", layer.name), layer.muted, palette().warning,
-                 "Mute: leaves the layer out.");
+                 "Mute: hides the layer.");
     ImGui::SameLine();
     letterSwitch("S", fmt::format("solo {}", layer.name), layer.solo, palette().accent,
-                 "Solo: while any layer is solo, only those are drawn.");
+                 "Solo: while any layer is solo, only solo layers are drawn.");
     ImGui::PopID();
 }
 
 // The highest layer first, as they lie.
 void layerList(const EditorView& view, LayersPanelState& state, LayerSettings& layers) {
     if (layers.set.layers.empty()) {
-        wrappedText("There are no layers. Add one, or load a set.", palette().dim);
+        wrappedText("There are no layers. Add one or load a set.", palette().dim);
         return;
     }
     std::optional<std::pair<std::size_t, std::size_t>> moved;
@@ -152,30 +146,30 @@ void listButtons(LayersPanelState& state, LayerList& list) {
     const bool full = list.size() >= planet::maxLayers;
     const std::size_t last = list.empty() ? 0 : list.size() - 1;
     ImGui::BeginDisabled(full);
-    if (button("Add", full ? "There are eight, and no more fit."
-                           : "A new layer above all others, without textures yet."))
+    if (button("Add", full ? "The maximum of eight layers is reached."
+                           : "Adds a layer without textures above all others."))
         state.chosen = addLayer(list);
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::BeginDisabled(full || list.empty());
-    if (button("Copy", "The chosen layer once more, above it."))
+    if (button("Copy", "Duplicates the selected layer above it."))
         state.chosen = duplicateLayer(list, state.chosen);
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::BeginDisabled(list.empty());
-    if (button("Remove", "Removes the chosen layer. Undo brings it back."))
+    if (button("Remove", "Removes the selected layer. Undo restores it."))
         state.chosen = removeLayer(list, state.chosen);
     ImGui::EndDisabled();
     sameLineIfRoom(4 * ImGui::GetFontSize());
     ImGui::BeginDisabled(list.empty() || state.chosen >= last);
-    if (button("Up", "Moves the chosen layer over the next one.")) {
+    if (button("Up", "Moves the selected layer up.")) {
         moveLayer(list, state.chosen, state.chosen + 1);
         ++state.chosen;
     }
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::BeginDisabled(list.empty() || state.chosen == 0);
-    if (button("Down", "Moves the chosen layer below the next one.")) {
+    if (button("Down", "Moves the selected layer down.")) {
         moveLayer(list, state.chosen, state.chosen - 1);
         --state.chosen;
     }
@@ -191,21 +185,21 @@ void readout(const EditorView& view, const LayerSettings& layers) {
     const LayerReadout& under = *view.layers.under;
     if (!beginValues("readout")) return;
     valueRow("Height", fmt::format("{:.0f} m", under.place.heightM),
-             "Above the sea level; true, not exaggerated.");
+             "Height above sea level, without exaggeration.");
     valueRow("Slope", fmt::format("{:.1f} deg", under.place.slopeDeg),
-             "Of the drawn heights around it, as the layers see it; true, not exaggerated.");
-    valueRow("Latitude", fmt::format("{:.2f} deg", under.place.latitudeDeg), "North of the equator.");
+             "Slope of the drawn heights used by the layers, without exaggeration.");
+    valueRow("Latitude", fmt::format("{:.2f} deg", under.place.latitudeDeg), "Latitude, north positive.");
     double rest = 1;
     for (std::size_t i = layers.set.layers.size(); i-- > 0;) {
         rest -= under.weights[i];
         const ImVec4& colour = under.weights[i] >= 0.005 ? palette().text : palette().dim;
-        valueRow(
-            layers.set.layers[i].name.c_str(), fmt::format("{:.1f} %", 100 * under.weights[i]),
-            "Opacity x height x slope x latitude, noise counted in, less what the layers above it cover. "
-            "Before the blend by height and before the fade with distance.",
-            &colour);
+        valueRow(layers.set.layers[i].name.c_str(), fmt::format("{:.1f} %", 100 * under.weights[i]),
+                 "Opacity x height x slope x latitude, including noise, minus the coverage of the layers "
+                 "above, before height blending and distance fading.",
+                 &colour);
     }
-    valueRow("Image or ramp", fmt::format("{:.1f} %", 100 * std::max(rest, 0.0)), "What no layer covers.");
+    valueRow("Image or ramp", fmt::format("{:.1f} %", 100 * std::max(rest, 0.0)),
+             "Weight not covered by any layer.");
     endValues();
 }
 
@@ -213,7 +207,7 @@ void loadControl(const EditorView& view, LayersPanelState& state, const LayerSet
                  Commands& commands) {
     const std::string now =
         layers.file.empty() ? "earth" : std::filesystem::path(layers.file).stem().string();
-    labelledControl("Load", "A set to take in place of the layers as they are. Undo brings these back.");
+    labelledControl("Load", "Replaces the layers by a saved set. Undo restores them.");
     if (!ImGui::BeginCombo("##sets", now.c_str())) {
         noteItem("Load set");
         return;
@@ -235,16 +229,14 @@ void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettin
     const float room = ImGui::CalcTextSize("Save").x + 2 * ImGui::GetStyle().FramePadding.x +
                        ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - room, ImGui::GetFontSize() * 4));
-    ImGui::InputTextWithHint("##newSet", "name of a set", state.newName.data(), state.newName.size());
+    ImGui::InputTextWithHint("##newSet", "Set name", state.newName.data(), state.newName.size());
     noteItem("Set name");
     tooltip(
-        "A file's name too: letters, digits, spaces, dots and dashes, up to 60 bytes. One of your own of "
-        "that name "
-        "is replaced.");
+        "Used as the file name: letters, digits, spaces, dots and dashes, up to 60 bytes. A set of your own "
+        "with this name is replaced.");
     ImGui::SameLine();
     ImGui::BeginDisabled(state.newName[0] == 0);
-    if (button("Save##set",
-               "Keeps the layers as they are as a TOML file, to be loaded again or sent to others.")) {
+    if (button("Save##set", "Saves the layers as a TOML file.")) {
         commands.push_back(SaveLayerSet{state.newName.data()});
         state.newName.fill(0);
     }

@@ -250,9 +250,9 @@ void changes(const EditorView& view, Commands& commands) {
     const planet::LodChanges& c = view.changes;
     const std::size_t thrashing = c.thrashRecent();
     if (beginValues("changes")) {
-        valueRow("Splits", fmt::format("{:.0f} /s", c.splitsPerS()),
+        valueRow("Splits", fmt::format("{:.0f}/s", c.splitsPerS()),
                  "Chunks replaced by their children in the last second.");
-        valueRow("Merges", fmt::format("{:.0f} /s", c.mergesPerS()),
+        valueRow("Merges", fmt::format("{:.0f}/s", c.mergesPerS()),
                  "Chunks that replaced their children in the last second.");
         valueRow("Thrash, last 10 s", countText(static_cast<double>(thrashing)),
                  "Chunks that switched back within a second, which wastes work and flickers. More hysteresis "

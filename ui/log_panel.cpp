@@ -54,7 +54,7 @@ void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& c
     ImGui::SetNextItemWidth(std::min(font * 16, ImGui::GetContentRegionAvail().x));
     ImGui::InputTextWithHint("##filter", "Filter", state.filter.data(), state.filter.size());
     noteItem("Filter");
-    tooltip("Shows only the lines that hold this text; case does not matter.");
+    tooltip("Shows only lines that contain this text; not case-sensitive.");
     for (std::size_t i = 0; i < state.levels.size(); ++i) {
         const auto level = static_cast<LogLevel>(i);
         sameLineIfRoom(checkboxWidth(levelName(level)));
@@ -62,15 +62,15 @@ void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& c
         ImGui::Checkbox(levelName(level), &state.levels[i]);
         noteItem(levelName(level));
         ImGui::PopStyleColor();
-        tooltip("Shows lines of this level.");
+        tooltip("Shows or hides lines of this level.");
     }
     sameLineIfRoom(checkboxWidth("Follow"));
     ImGui::Checkbox("Follow", &state.autoScroll);
-    tooltip("Keeps the newest line in view. Scrolling up turns it off.");
+    tooltip("Scrolls to new lines. Scrolling up turns this off.");
     sameLineIfRoom(font * 3.5f);
     ImGui::BeginDisabled(state.shown.lines.empty());
     const std::string explanation = fmt::format(
-        "Copies the {} lines shown. A right click on a line copies it alone.", state.shown.lines.size());
+        "Copies the {} lines shown. Right-click a line to copy only that line.", state.shown.lines.size());
     if (button("Copy", explanation.c_str()))
         commands.push_back(CopyText{linesText(lines, state.shown.lines)});
     ImGui::EndDisabled();
@@ -151,8 +151,7 @@ void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& 
     if (ImGui::IsWindowHovered() && ImGui::GetIO().MouseWheel > 0 && ImGui::GetScrollMaxY() > 0)
         state.autoScroll = false;
     const std::vector<std::size_t>& shown = state.shown.lines;
-    if (shown.empty())
-        emptyState(lines.empty() ? "Nothing has happened yet." : "No line passes the filters.");
+    if (shown.empty()) emptyState(lines.empty() ? "The log is empty." : "No line matches the filters.");
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(shown.size()));
     while (clipper.Step()) {

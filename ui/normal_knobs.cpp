@@ -30,16 +30,18 @@ void figures(const planet::Planet& planet) {
     const planet::TilePagingCounters& paging = planet.normalPaging();
     if (!beginValues("normals")) return;
     valueRow("Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
-             "Resident, of those that their share of the budget has room for.");
-    valueRow("Memory", bytesText(static_cast<double>(paging.tileCapacity * planet::normalTileBytes)),
-             "On the GPU, for that many tiles of 272 x 272 slopes, 4 bytes each. No room in the file.");
-    valueRow("Finest level", fmt::format("{} of {}", seen.deepestLevel, planet.normalLeafLevel()),
-             "Of the tiles in view, and of the heights: level l has 256 x 2^l cells along a face.");
+             "Resident tiles and the number that fits into their share of the budget.");
+    valueRow(
+        "Memory", bytesText(static_cast<double>(paging.tileCapacity * planet::normalTileBytes)),
+        "GPU memory for that many tiles of 272 x 272 slopes, 4 bytes each. Nothing is stored in the file.");
+    valueRow(
+        "Finest level", fmt::format("{} of {}", seen.deepestLevel, planet.normalLeafLevel()),
+        "Finest level of the tiles in view, and of the heights; level l has 256 x 2^l cells along a face.");
     const double perTileMs = msATile(planet);
-    valueRow("A tile takes", perTileMs > 0 ? millisecondsText(perTileMs) : "-",
-             "Of a loader thread, to read and decode the heights under it and derive its slopes: the mean "
-             "of those among the last 1000 requests.");
-    valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than wanted.");
+    valueRow("Time per tile", perTileMs > 0 ? millisecondsText(perTileMs) : "-",
+             "Loader thread time to read and decode heights and derive slopes: mean of the tiles among the "
+             "last 1000 requests.");
+    valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than requested.");
     endValues();
 }
 
@@ -47,10 +49,10 @@ void figures(const planet::Planet& planet) {
 void whyNone(const EditorView& view) {
     if (view.planet->normalLeafLevel() < 0) {
         ImGui::TextDisabled("None: this planet's faces have fewer");
-        ImGui::TextDisabled("than 256 cells. The mesh shows all.");
+        ImGui::TextDisabled("than 256 cells; the mesh is enough.");
     } else if (view.planet->pagingSettings().normals) {
-        ImGui::TextDisabled("None: too little room. Raise their");
-        ImGui::TextDisabled("share, or the budget in Paging.");
+        ImGui::TextDisabled("None: share too small. Increase the");
+        ImGui::TextDisabled("share, or the paging budget.");
     }
 }
 
@@ -61,20 +63,19 @@ void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& comma
     planet::gl::NormalDrawing& normals = settings.surface.light.normals;
     ImGui::BeginDisabled(!settings.surface.lighting);
     featureKnob("Fine normals", CostlyPart::Normals, view, settings.surface, commands,
-                "Chunks drawn with few vertices are lit by the slopes of the finest heights, as far as the "
-                "screen shows them, in tiles that are derived from the file's own heights. Off: by their "
-                "vertices' normals, smooth where the mesh is coarse; no memory is taken.",
-                "fine normals cost");
+                "Lights coarse chunks by slopes of the finest heights, up to the screen resolution, using "
+                "tiles derived from the file's heights. Off: lights by vertex normals, which are smooth "
+                "where the mesh is coarse; no memory is needed.",
+                "fine normals");
     ImGui::BeginDisabled(normals.use == planet::gl::FeatureUse::Off);
-    slider("Texels a pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
+    slider("Texels per pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
            "%.2f",
-           "A tile is derived in four finer ones while it has fewer texels than this for a pixel of the "
-           "picture. Larger: sharper, up to four times the tiles for twice as many, and it may shimmer. "
-           "Smaller: softer.",
+           "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
+           "doubling it needs up to four times the tiles, and it may shimmer. Smaller: softer.",
            ImGuiSliderFlags_Logarithmic);
     slider("Share", settings.paging.normalShare, defaults.paging.normalShare, 0.01, 0.9, "%.2f",
-           "Of what colours leave of the paging budget. Larger: finer light on coarse chunks; smaller: "
-           "finer ground when the budget is full.");
+           "Fraction of the paging budget that colours leave. Larger: finer shading of coarse chunks. "
+           "Smaller: finer ground when the budget is full.");
     ImGui::EndDisabled();
     ImGui::EndDisabled();
     if (!view.planet) return;

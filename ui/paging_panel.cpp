@@ -154,7 +154,9 @@ void kindRow(const char* name, const std::string& heights, const std::string& co
 void totalsByKind(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
     const planet::TilePagingCounters& c = view.stats.colourPaging;
-    constexpr std::array columns = {TableColumn{"By kind"}, TableColumn{"Heights"}, TableColumn{"Colours"}};
+    constexpr std::array columns = {TableColumn{"By kind", 1, nullptr, nullptr, false},
+                                    TableColumn{"Heights", 1, nullptr, nullptr, false},
+                                    TableColumn{"Colours", 1, nullptr, nullptr, false}};
     if (!beginListTable("kinds", columns, 7)) return;
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
     kindRow("Loaded", count(p.loaded - c.loaded), count(c.loaded), "Blocks read and made resident.");
@@ -349,6 +351,12 @@ std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableC
     return all;
 }
 
+// The column's place in a table without kinds; none: the kind itself.
+std::optional<std::size_t> withoutKind(const EditorView& view, std::size_t column, std::size_t name) {
+    if (!view.planet->colour() || column < name) return column;
+    return column == name ? std::nullopt : std::optional(column - 1);
+}
+
 void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = true) {
     if (!view.planet->colour()) return;
     const float width = ImGui::CalcTextSize("heights, colours").x + 2 * ImGui::GetFrameHeight();
@@ -413,10 +421,30 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
                                     TableColumn{"Reason", 2.4f}};
     const std::vector<TableColumn> shown = withKind(view, columns, 1);
     if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 31 : 27)) return;
-    tableRows(queue.size(), [&](std::size_t at) {
+    const auto ageOf = [&](const PagingRow& row) {
+        return std::max(view.planet->seconds() - row.askedAtS, 0.0);
+    };
+    const auto key = [&](std::size_t at, std::size_t column) -> SortKey {
         const PagingRow& row = queue[at];
-        const double ageS = std::max(view.planet->seconds() - row.askedAtS, 0.0);
-        cell(row.type == planet::PagingType::PageIn ? "in" : "out");
+        const std::optional<std::size_t> plain = withoutKind(view, column, 1);
+        if (!plain) return std::string(kindText(row.kind));
+        switch (*plain) {
+            case 0:
+                return row.type == planet::PagingType::PageIn ? 0.0 : 1.0;
+            case 1:
+                return sortKey(row.parent);
+            case 2:
+                return static_cast<double>(row.priority);
+            case 3:
+                return ageOf(row);
+            default:
+                return reason(*view.planet, row, state.shownView, ageOf(row));
+        }
+    };
+    tableRows(queue.size(), key, [&](std::size_t at) {
+        const PagingRow& row = queue[at];
+        const double ageS = ageOf(row);
+        cell(row.type == planet::PagingType::PageIn ? "load" : "evict");
         rowLink(row.parent, row.kind, view, commands);
         cell(axisText(row.priority));
         cell(latencyText(ageS));
@@ -437,7 +465,22 @@ void loadingTable(const EditorView& view, PagingPanelState& state, Commands& com
                                     TableColumn{"Elapsed"}};
     const std::vector<TableColumn> shown = withKind(view, columns, 0);
     if (!beginWideTable("loading", shown, shown.size() > columns.size() ? 24 : 20)) return;
-    tableRows(loading.size(), [&](std::size_t row) {
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::LoadInProgress& load = loading[row];
+        const std::optional<std::size_t> plain = withoutKind(view, column, 0);
+        if (!plain) return std::string(kindText(load.kind));
+        switch (*plain) {
+            case 0:
+                return sortKey(load.parent);
+            case 1:
+                return static_cast<double>(load.priority);
+            case 2:
+                return static_cast<double>(load.bytes);
+            default:
+                return load.seconds;
+        }
+    };
+    tableRows(loading.size(), key, [&](std::size_t row) {
         rowLink(loading[row].parent, loading[row].kind, view, commands);
         cell(axisText(loading[row].priority));
         cell(bytesText(loading[row].bytes));
@@ -525,7 +568,28 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
                                     TableColumn{"Finished", 1.2f}};
     const std::vector<TableColumn> all = withKind(view, columns, 1);
     if (!beginWideTable("history", all, all.size() > columns.size() ? 38 : 34)) return;
-    tableRows(shown.size(), [&](std::size_t row) { historyRow(view, *shown[row], commands); });
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::PagingEvent& event = *shown[row];
+        const std::optional<std::size_t> plain = withoutKind(view, column, 1);
+        if (!plain) return std::string(kindText(event.kind));
+        switch (*plain) {
+            case 0:
+                return std::string(lookOf(event.outcome).name);
+            case 1:
+                return sortKey(event.parent);
+            case 2:
+                return event.waitedS;
+            case 3:
+                return event.readS;
+            case 4:
+                return static_cast<double>(event.bytes);
+            case 5:
+                return static_cast<double>(event.timesAsked);
+            default:
+                return -event.atS;
+        }
+    };
+    tableRows(shown.size(), key, [&](std::size_t row) { historyRow(view, *shown[row], commands); });
     ImGui::EndTable();
 }
 

@@ -54,12 +54,12 @@ void popsControls(const EditorView& view, PopsPanelState& state, Commands& comma
     bool measuring = view.pops.measuring;
     if (ImGui::Checkbox("Measure", &measuring)) commands.push_back(MeasurePops{measuring});
     noteItem("Measure");
-    tooltip(fmt::format("Measures every change of level as it happens: {:.0f} us each so far, only in frames "
-                        "that have one. Off: nothing is seen, and nothing is spent.",
+    tooltip(fmt::format("Measures every level change as it happens; mean cost so far {:.0f} µs per change. "
+                        "Off: no changes are recorded and no time is spent.",
                         view.pops.meter->measuredUsPerSwitch())
                 .c_str());
     ImGui::SameLine();
-    if (button("Clear", "Forgets all that was measured.")) {
+    if (button("Clear", "Discards all measurements.")) {
         commands.push_back(ClearPops{});
         state.selected.reset();
     }
@@ -69,28 +69,28 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     popsControls(view, state, commands);
     const PopsPanelState::Sample& sample = state.sample;
     if (sample.seen == 0) {
-        wrappedText(view.pops.measuring ? "No change of level in the last minutes. Fly, or change a setting "
-                                          "of the LOD panel."
-                                        : "Not measuring.",
-                    palette().dim);
+        wrappedText(
+            view.pops.measuring
+                ? "No level changes in the last five minutes. Fly, or change a setting in the LOD panel."
+                : "Not measuring.",
+            palette().dim);
     } else {
         // A line of its own: else it may be broken at its decimal point.
-        ImGui::TextWrapped("99%% of switches move less than\n%s; %s measured.",
+        ImGui::TextWrapped("99 %% of switches move less than\n%s; %s measured.",
                            popPxText(std::max(sample.p99Px, leastPopPx)).c_str(),
                            countText(static_cast<double>(sample.seen)).c_str());
         tooltip(
-            "Of the changes of level in the picture in the last five minutes: the largest distance on "
-            "screen, "
-            "pixels, that a point of the surface jumps in the frame of the switch, morphing counted in. "
-            "Under 0.1 px nobody sees it.");
+            "Level changes in the picture in the last five minutes: the largest screen-space distance, in "
+            "pixels, that a surface point jumps in the frame of the switch, including morphing. Less than "
+            "0.1 px is invisible.");
     }
     const std::array marks = {
         HistogramMark{logarithmicPosition(std::max(sample.p99Px, leastPopPx), leastPopPx, mostPopPx),
-                      fmt::format("99%: {}", popPxText(sample.p99Px))}};
+                      fmt::format("99 %: {}", popPxText(sample.p99Px))}};
     histogram("jumps", sample.counts, fmt::format("{} px", leastPopPx), fmt::format("{} px", mostPopPx),
               sample.seen > 0 ? std::span<const HistogramMark>(marks) : std::span<const HistogramMark>(), 4,
               [](double position) { return popPxText(logarithmicValue(position, leastPopPx, mostPopPx)); });
-    tooltip("Switches by their largest jump, pixels, on a logarithmic axis.");
+    tooltip("Histogram of switches by largest jump in pixels, on a logarithmic axis.");
 }
 
 void totals(const EditorView& view, const PopsPanelState& state) {
@@ -99,40 +99,42 @@ void totals(const EditorView& view, const PopsPanelState& state) {
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
     if (!beginValues("totals")) return;
     constexpr std::array<const char*, planet::popCauseCount> meanings = {
-        "The chunk's error on screen crossed the tolerance since the camera moved.",
-        "A setting that chooses the level was changed: tolerance, hysteresis, metric, max level, culling, "
-        "stitched seams, field of view, picture size or exaggeration. A switch that fades keeps this cause.",
-        "The chunk was drawn too coarse, and its children came.",
-        "The chunk's children are gone though they are wanted: the memory budget is too small.",
-        "Stitched seams allow neighbours to differ by so many levels only, and a neighbour changed.",
-        "The same, since a neighbour came into view or went out."};
+        "The chunk's screen-space error crossed the tolerance because the camera moved.",
+        "A setting that affects LOD selection was changed: tolerance, hysteresis, metric, max LOD level, "
+        "culling, stitched seams, field of view, picture size or exaggeration. A switch that fades keeps "
+        "this cause.",
+        "The chunk was drawn too coarse until its children were loaded.",
+        "The chunk's children were evicted although they were needed: the memory budget is too small.",
+        "Stitched seams limit the level difference of neighbours, and a neighbour changed.",
+        "Stitched seams limit the level difference of neighbours, and a neighbour entered or left the view."};
     for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
         const auto cause = static_cast<planet::PopCause>(i);
         const ImVec4 colour = popColour(cause);
         valueRow(planet::popCauseName(cause), count(t.byCause[i]), meanings[i],
                  t.byCause[i] > 0 ? &colour : nullptr);
     }
-    valueRow("median jump", popPxText(state.sample.medianPx), "Of the switches in the histogram, pixels.");
-    valueRow("worst jump", popPxText(t.worstPx), "Since it was cleared, pixels.");
-    valueRow("worst beside", popPxText(t.worstBesidePx),
-             "The largest jump along an edge of an unchanged chunk beside a switch, pixels: its edge follows "
+    valueRow("median jump", popPxText(state.sample.medianPx),
+             "Median of the switches in the histogram, in pixels.");
+    valueRow("max jump", popPxText(t.worstPx), "Largest jump since the list was cleared, in pixels.");
+    valueRow("max adjacent jump", popPxText(t.worstBesidePx),
+             "Largest jump along an edge of an unchanged chunk beside a switch, in pixels; the edge follows "
              "its neighbour.");
-    valueRow("late now", count(meter.lateOpen()),
-             "Chunks drawn though their error is over the tolerance: their children have not come.",
-             meter.lateOpen() > 0 ? &palette().warning : nullptr);
-    valueRow("late in all", count(t.late), "Since it was cleared.");
     valueRow(
-        "outside picture", count(t.outsidePicture),
-        "Switches of which nothing lay in the picture; they are in no other figure here but their cause.");
+        "late now", count(meter.lateOpen()),
+        "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
+        meter.lateOpen() > 0 ? &palette().warning : nullptr);
+    valueRow("late, total", count(t.late), "Late chunks since the list was cleared.");
+    valueRow("outside the picture", count(t.outsidePicture),
+             "Switches outside the picture; they count only in the totals by cause.");
     endValues();
 }
 
 void flip(const EditorView& view, Commands& commands) {
     const PopsView& pops = view.pops;
     constexpr std::array<const char*, 3> names = {"Live", "Before", "After"};
-    constexpr std::array<const char*, 3> meanings = {
-        "Draws what is chosen now.", "Draws all chunks as they were in the frame before the switch.",
-        "Draws all chunks as they were in the frame of the switch."};
+    constexpr std::array<const char*, 3> meanings = {"Draws the current selection.",
+                                                     "Draws all chunks as in the frame before the switch.",
+                                                     "Draws all chunks as in the frame of the switch."};
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i > 0) ImGui::SameLine();
         const auto side = static_cast<PopSide>(i);
@@ -148,18 +150,19 @@ void flip(const EditorView& view, Commands& commands) {
 void selectedValues(const PopEvent& event) {
     if (!beginValues("selected")) return;
     valueRow("levels", fmt::format("{} to {}", event.fromLevel, event.toLevel),
-             "Of the finest chunk drawn there, before and after.");
+             "Level of the finest chunk drawn there, before and after.");
     const ImVec4 colour = popColour(event.cause);
-    valueRow("cause", planet::popCauseName(event.cause), "Why the level changed.", &colour);
+    valueRow("cause", planet::popCauseName(event.cause), "Cause of the level change.", &colour);
     valueRow("largest", popPxText(event.jump.largestPx),
-             "The largest distance on screen that a point jumps, pixels: between the projections before and "
-             "after, through the new view.");
-    valueRow(
-        "facing", popPxText(event.jump.largestFacingPx),
-        "The same as if the view were turned to face the place, pixels: without the stretching towards a "
-        "flat picture's corners.");
-    valueRow("mean", popPxText(event.jump.meanPx), "Over all grid points of it in the picture, pixels.");
-    valueRow("beside", popPxText(event.besidePx), "Along edges of unchanged chunks beside it, pixels.");
+             "Largest screen-space distance that a point jumps, in pixels, between the projections before "
+             "and after through the new view.");
+    valueRow("facing", popPxText(event.jump.largestFacingPx),
+             "Largest jump in pixels as if the view faced the place, without the stretching towards the "
+             "picture's corners.");
+    valueRow("mean", popPxText(event.jump.meanPx),
+             "Mean over all its grid points in the picture, in pixels.");
+    valueRow("adjacent", popPxText(event.besidePx),
+             "Largest jump along edges of unchanged adjacent chunks, in pixels.");
     endValues();
 }
 
@@ -169,11 +172,12 @@ void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& comm
         return state.selected && keyOf(event) == *state.selected;
     });
     if (found == events.end()) {
-        wrappedText("Click a tick or a row to select a switch. Drag the timeline, or turn the wheel.",
-                    palette().dim);
+        wrappedText(
+            "Click a tick or a row to select a switch. Drag the timeline to pan; use the wheel to zoom.",
+            palette().dim);
     } else {
         if (button(
-                "Go back",
+                "Go to view",
                 "Moves the camera to where the switch was seen, freezes LOD there, and selects its chunk."))
             commands.push_back(GoBackToPop{found->frame, found->chunk});
         ImGui::SameLine();
@@ -219,11 +223,14 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
 
 void worstFirst(const EditorView& view, PopsPanelState& state) {
     const auto& events = view.pops.meter->events();
-    if (events.empty()) return emptyState("Changes of level are listed here, worst first.");
-    constexpr std::array columns = {TableColumn{"Ago", 0.8f},   TableColumn{"Largest"},
-                                    TableColumn{"Chunk", 1.6f}, TableColumn{"Levels", 0.9f},
-                                    TableColumn{"Cause", 1.7f}, TableColumn{"Mean"},
-                                    TableColumn{"Beside"}};
+    if (events.empty()) return emptyState("No level changes recorded.");
+    constexpr std::array columns = {TableColumn{"Ago", 0.8f},
+                                    TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
+                                    TableColumn{"Chunk", 1.6f},
+                                    TableColumn{"Levels", 0.9f},
+                                    TableColumn{"Cause", 1.8f},
+                                    TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
+                                    TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
     if (!beginWideTable("worst", columns, 33)) return;
     std::vector<std::size_t> order(events.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -232,8 +239,33 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
         const double pxB = events[b].jump.largestPx;
         return pxA != pxB ? pxA > pxB : a > b;
     };
-    sortedTableRows(order, larger,
-                    [&](std::size_t event, std::size_t row) { eventRow(view, events[event], row, state); });
+    if (const std::optional<TableSort> sort = chosenSort()) {
+        const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+            const PopEvent& event = events[row];
+            switch (column) {
+                case 0:
+                    return -event.timeS;
+                case 1:
+                    return event.jump.largestPx;
+                case 2:
+                    return sortKey(event.chunk);
+                case 3:
+                    return static_cast<double>(event.fromLevel);
+                case 4:
+                    return std::string(planet::popCauseName(event.cause));
+                case 5:
+                    return event.jump.meanPx;
+                default:
+                    return event.besidePx;
+            }
+        };
+        order = tableOrder(events.size(), sort, key);
+        tableRows(order.size(), [&](std::size_t row) { eventRow(view, events[order[row]], row, state); });
+    } else {
+        sortedTableRows(order, larger, [&](std::size_t event, std::size_t row) {
+            eventRow(view, events[event], row, state);
+        });
+    }
     ImGui::EndTable();
 }
 
@@ -241,7 +273,7 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
 
 void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings&, Commands& commands) {
     if (!view.planet || !view.pops.meter)
-        return emptyState("Jumps at changes of level show here once a planet is open.");
+        return emptyState("No planet is open. Open one to measure jumps at level changes.");
     refresh(view, state);
     const bool wide = hasWideRoom();
     const auto rows =

@@ -128,7 +128,7 @@ void tellAt(const Plot& plot, const planet::PopMeter& meter, const planet::PopEv
         ImGui::TextColored(popColour(event->cause), "%s, jumps %s", planet::popCauseName(event->cause),
                            popPxText(event->jump.largestPx).c_str());
     }
-    if (late > 0) ImGui::Text("%zu chunks late, the worst %s off", late, pixelsText(worstPx).c_str());
+    if (late > 0) ImGui::Text("%zu late chunks, max error %s", late, pixelsText(worstPx).c_str());
     ImGui::EndTooltip();
 }
 

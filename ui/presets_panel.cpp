@@ -4,8 +4,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 
 #include "ui/item_map.h"
+#include "ui/tables.h"
+#include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -21,19 +24,18 @@ const PresetView* presetNamed(const EditorView& view, const std::string& name) {
 
 std::string explanationOf(const PresetView& preset) {
     if (!preset.problem.empty()) return preset.problem;
-    return fmt::format("{}\n{}\nA double click loads it. Undo takes that back.",
-                       preset.shipped ? "Comes with Worldy." : "One of your own.", preset.file.string());
+    return fmt::format("{}\n{}\nDouble-click to load it. Undo reverts that.",
+                       preset.shipped ? "Built-in." : "User preset.", preset.file.string());
 }
 
 // What stands at the right of a preset's name.
 std::string noteOf(const PresetView& preset) {
     if (!preset.problem.empty()) return "cannot be read";
-    if (preset.differences.empty()) return "as now";
-    return fmt::format("{} differ{}", preset.differences.size(), preset.differences.size() == 1 ? "s" : "");
+    if (preset.differences.empty()) return "current";
+    return fmt::format("{} change{}", preset.differences.size(), preset.differences.size() == 1 ? "" : "s");
 }
 
 void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& commands) {
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(preset.file.c_str());
     const ImGuiSelectableFlags flags =
@@ -46,7 +48,7 @@ void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& com
     noteItem(preset.name);
     tooltip(explanationOf(preset).c_str());
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", preset.shipped ? "shipped" : "own");
+    ImGui::TextDisabled("%s", preset.shipped ? "built-in" : "user");
     ImGui::TableNextColumn();
     ImGui::TextColored(preset.problem.empty() ? palette().dim : palette().bad, "%s", noteOf(preset).c_str());
     ImGui::PopID();
@@ -54,14 +56,20 @@ void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& com
 
 void presetList(const EditorView& view, PresetsPanelState& state, Commands& commands) {
     if (view.presets.empty()) {
-        wrappedText("There are no presets yet.", palette().dim);
+        wrappedText("There are no presets.", palette().dim);
         return;
     }
-    if (!ImGui::BeginTable("presets", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("whose");
-    ImGui::TableSetupColumn("note");
-    for (const PresetView& preset : view.presets) presetRow(preset, state, commands);
+    constexpr std::array columns = {TableColumn{"Name", 2}, TableColumn{"Origin", 0.9f, nullptr, "built-in"},
+                                    TableColumn{"Changes", 1.2f, nullptr, "cannot be read"}};
+    if (!beginListTable("presets", columns, view.presets.size(), 16)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const PresetView& preset = view.presets[row];
+        if (column == 0) return preset.name;
+        if (column == 1) return preset.shipped ? 0.0 : 1.0;
+        return preset.problem.empty() ? static_cast<double>(preset.differences.size()) : -1;
+    };
+    tableRows(view.presets.size(), key,
+              [&](std::size_t row) { presetRow(view.presets[row], state, commands); });
     ImGui::EndTable();
 }
 
@@ -71,15 +79,15 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
     const float room = ImGui::CalcTextSize("Replace").x + 2 * ImGui::GetStyle().FramePadding.x +
                        ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - room, ImGui::GetFontSize() * 4));
-    const bool entered = ImGui::InputTextWithHint("##name", "name of a new preset", state.name.data(),
+    const bool entered = ImGui::InputTextWithHint("##name", "Preset name", state.name.data(),
                                                   state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     noteItem("Name");
-    tooltip("A file's name too: letters, digits, spaces, dots and dashes, up to 60 bytes.");
+    tooltip("Used as the file name: letters, digits, spaces, dots and dashes, up to 60 bytes.");
     ImGui::SameLine();
     ImGui::BeginDisabled(state.name[0] == 0 || (same && same->shipped));
-    const bool pressed = button(
-        label, same && same->shipped ? "A preset of this name comes with Worldy and stays as it is."
-                                     : "Keeps all settings of the view, as they are now, under this name.");
+    const bool pressed =
+        button(label, same && same->shipped ? "A built-in preset has this name and cannot be replaced."
+                                            : "Saves all current view settings under this name.");
     ImGui::EndDisabled();
     // Enter replaces nothing: that wants the button's word for it.
     if (!pressed && !(entered && !same)) return;
@@ -91,12 +99,12 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
 
 void deleteControl(const PresetView& preset, Commands& commands) {
     ImGui::BeginDisabled(preset.shipped);
-    if (button("Delete...", preset.shipped ? "It comes with Worldy and cannot be deleted."
-                                           : "Removes the file, once you have said so again."))
+    if (button("Delete...", preset.shipped ? "Built-in presets cannot be deleted."
+                                           : "Deletes the file after confirmation."))
         ImGui::OpenPopup("delete");
     ImGui::EndDisabled();
     if (!ImGui::BeginPopup("delete")) return;
-    ImGui::Text("Delete \"%s\" for good?", preset.name.c_str());
+    ImGui::Text("Delete \"%s\" permanently?", preset.name.c_str());
     if (ImGui::Button("Delete")) {
         commands.push_back(DeletePreset{preset.name});
         ImGui::CloseCurrentPopup();
@@ -124,8 +132,9 @@ void differencesTable(const PresetView& preset) {
     for (const SettingDifference& difference : preset.differences) {
         ImGui::TableNextRow();
         textCell(difference.setting);
-        textCell(difference.here);
-        textCell(difference.there);
+        const auto [now, then] = shortNumberTexts(difference.here, difference.there);
+        textCell(now);
+        textCell(then);
     }
     ImGui::EndTable();
 }
@@ -133,12 +142,12 @@ void differencesTable(const PresetView& preset) {
 void selectedSection(const EditorView& view, const PresetsPanelState& state, Commands& commands) {
     const PresetView* preset = presetNamed(view, state.selected);
     if (!preset) {
-        wrappedText("Choose a preset to compare it with the settings as they are.", palette().dim);
+        wrappedText("Select a preset to compare it with the current settings.", palette().dim);
         return;
     }
     const bool readable = preset->problem.empty();
     ImGui::BeginDisabled(!readable || preset->differences.empty());
-    if (button("Load", "Changes the settings listed below, and no others. Undo takes it back."))
+    if (button("Load", "Applies the settings listed below. Undo reverts this."))
         commands.push_back(LoadPreset{preset->name});
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -146,7 +155,7 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
     if (!readable) {
         wrappedText(preset->problem, palette().bad);
     } else if (preset->differences.empty()) {
-        wrappedText("All that it holds is as it is now.", palette().dim);
+        wrappedText("All its settings have their current values.", palette().dim);
     } else {
         differencesTable(*preset);
     }
@@ -157,16 +166,16 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
 void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings&, Commands& commands) {
     ImGui::BeginDisabled(!view.planet);
     if (button("Copy as command line",
-               "The worldy shot line that draws this view with these settings, for a shell (Ctrl+Shift+C)."))
+               "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))
         commands.push_back(CopyCommandLine{});
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (button("Reset everything", "All settings of the view to their defaults. Undo takes it back."))
+    if (button("Reset all settings", "Resets all view settings to their defaults. Undo reverts this."))
         commands.push_back(LoadPreset{"default"});
     ImGui::Spacing();
     presetList(view, state, commands);
     saveControl(view, state, commands);
-    if (section("Compared with now")) selectedSection(view, state, commands);
+    if (section("Changes")) selectedSection(view, state, commands);
 }
 
 }  // namespace ui

@@ -31,36 +31,38 @@ std::string stepText(double metres) {
 
 void precisionRows(const planet::VertexPrecision& p) {
     valueRow("Vertex", fmt::format("{}, {}", p.vertex.x, p.vertex.y),
-             "Column and row on the chunk, from its south-west corner.");
-    valueRow("Distance", distanceText(p.distanceM), "From the eye.");
+             "Column and row in the chunk, from its south-west corner.");
+    valueRow("Distance", distanceText(p.distanceM), "Distance from the camera.");
     valueRow("x", fmt::format("{:.4f} m", p.positionM.x),
-             "The vertex in doubles, as it is drawn, morph and stitched edges counted in; metres from the "
-             "planet's centre. x: latitude 0, longitude 0.");
-    valueRow("y", fmt::format("{:.4f} m", p.positionM.y), "y: latitude 0, longitude 90 east.");
-    valueRow("z", fmt::format("{:.4f} m", p.positionM.z), "z: the north pole.");
-    valueRow("Shader's floats", errorText(p.shader.errorM),
-             "How far off the vertex shader's float position is, millimetres: the same maths worked out here "
-             "in floats, relative to the eye from a reference point near it.");
+             "Double-precision position of the drawn vertex, including morph and stitched edges, in metres "
+             "from the planet's centre. x points to latitude 0, longitude 0.");
+    valueRow("y", fmt::format("{:.4f} m", p.positionM.y), "y points to latitude 0, longitude 90° E.");
+    valueRow("z", fmt::format("{:.4f} m", p.positionM.z), "z points to the north pole.");
+    valueRow("Camera-relative float error", errorText(p.shader.errorM),
+             "Error of the vertex shader's single-precision position, in millimetres: the same computation "
+             "in floats, relative to the camera and a nearby reference point.");
     valueRow("", errorPxText(p.shader.errorPx),
-             "The same on screen: K' |a/|a| - b/|b||, a and b seen from the eye. Over about half a pixel "
-             "vertices tremble.",
+             "The error in screen space: K' |a/|a| - b/|b||, with a and b relative to the camera. Above "
+             "about 0.5 px vertices jitter.",
              p.shader.errorPx > 0.5 ? &palette().bad : nullptr);
-    valueRow("From the centre", errorText(p.fromCentre.errorM),
-             "For comparison: how far off it would be with float positions from the planet's centre, less a "
-             "float eye.");
-    valueRow("", errorPxText(p.fromCentre.errorPx), "The same on screen.",
+    valueRow("Planet-origin float error", errorText(p.fromCentre.errorM),
+             "For comparison: the error with float positions relative to the planet's centre minus a float "
+             "camera position.");
+    valueRow("", errorPxText(p.fromCentre.errorPx), "The error in screen space.",
              p.fromCentre.errorPx > 0.5 ? &palette().warning : nullptr);
 }
 
 void depthRows(const DepthSteps& depth) {
-    valueRow("Ahead", distanceText(depth.aheadM), "Along the view direction: what depth is made of.");
-    const char* inUse = depth.reversedInUse ? "Reversed depth, in use" : "Reversed depth";
+    valueRow("View depth", distanceText(depth.aheadM),
+             "Distance along the view direction, from which depth is computed.");
+    const char* inUse = depth.reversedInUse ? "Reversed Z, in use" : "Reversed Z";
     valueRow(inUse, stepText(depth.reversedFloatM),
-             "Metres between two neighbouring values of a float depth buffer, 1 at the near plane and 0 at "
-             "infinity. Surfaces nearer together may show through each other.");
-    valueRow(depth.reversedInUse ? "Fallback" : "Fallback, in use", stepText(depth.fallbackM),
-             "The same for depth as OpenGL always had it, for machines without clip control: the near plane "
-             "follows the height above the ground. None: beyond its planes.");
+             "Distance in metres between adjacent values of a float depth buffer, with 1 at the near plane "
+             "and 0 at infinity. Closer surfaces may z-fight.");
+    valueRow(
+        depth.reversedInUse ? "Non-reversed Z" : "Non-reversed Z, in use", stepText(depth.fallbackM),
+        "Distance in metres between adjacent depth values with conventional OpenGL depth, used without clip "
+        "control; the near plane follows the height above ground. None: outside the near and far planes.");
 }
 
 std::string textOf(const ProbedVertex& probed) {
@@ -81,7 +83,7 @@ void probed(const char* id, const ProbedVertex& vertex, const EditorView& view, 
         depthRows(vertex.depth);
         endValues();
     }
-    if (button("Copy", "All of it as a line of text, with more digits."))
+    if (button("Copy", "Copies all values as one line of text, with more digits."))
         commands.push_back(CopyText{textOf(vertex)});
     ImGui::PopID();
 }
@@ -89,7 +91,7 @@ void probed(const char* id, const ProbedVertex& vertex, const EditorView& view, 
 }  // namespace
 
 void probePanel(const EditorView& view, ProbePanelState&, ViewSettings&, Commands& commands) {
-    if (!view.planet) return emptyState("How exact floats and depth are shows here once a planet is open.");
+    if (!view.planet) return emptyState("No planet is open. Open one to measure float and depth precision.");
     const ProbeView& probe = view.probe;
     if (section(probe.overGround || !probe.vertex ? "Under the pointer###pointer"
                                                   : "Last under the pointer###pointer")) {
@@ -98,7 +100,7 @@ void probePanel(const EditorView& view, ProbePanelState&, ViewSettings&, Command
         else
             ImGui::TextWrapped("Point at the ground in the viewport.");
     }
-    if (!section("Selected chunk's worst vertex")) return;
+    if (!section("Selected chunk, max-error vertex")) return;
     if (probe.selected)
         probed("selected", *probe.selected, view, commands);
     else

@@ -76,24 +76,21 @@ void legendRows(const Legend& legend) {
 void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
     choiceIndex(
         "Colour by", state.colourBy, 0,
-        (std::string("State") + '\0' + "Level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "delta_c" +
+        (std::string("State") + '\0' + "Level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "δc" +
          '\0' + "Age" + '\0' + "tight" + '\0')
             .c_str(),
-        "What the squares' colours show: what became of each chunk, its level, its error on screen as "
-        "a share of the tolerance, its error in metres, how long ago it was loaded, or the tight metric on "
-        "delta_c's scale. All but the state are dim for chunks that are not drawn; their scales are those of "
-        "the Overlay panel.");
-    if (button("Fit", "Shows the whole net again. So does a double click beside the faces."))
+        "Quantity shown by the colours: selection state, level, screen-space error relative to the "
+        "tolerance, geometric error δc, time since loading, or the tight metric on the scale of δc. Except "
+        "for the state, chunks that are not drawn are dimmed. The Overlay panel sets the scales.");
+    if (button("Fit", "Shows the whole net. Double-clicking beside the faces does the same."))
         state.focus = {};
     ImGui::SameLine();
     ImGui::BeginDisabled(!view.focus.selected);
-    const bool toSelection =
-        button("Selected", "Brings the selected chunk into the net's middle, large enough to see.");
+    const bool toSelection = button("Selected", "Centres and enlarges the selected chunk in the net.");
     ImGui::EndDisabled();
     if (toSelection) state.focus = centredOn(state.focus, state.area, *view.focus.selected, 40);
     ImGui::SameLine();
-    checkbox("List", state.showTree, true,
-             "The same chunks as a list to open level by level. Costs little; takes room from the net.");
+    checkbox("List", state.showTree, true, "Shows the chunks as a tree beside the net.");
 }
 
 // In bulk, in pieces that 16-bit indices can reach.
@@ -183,8 +180,8 @@ std::string hitText(const NetData& data, const NetHit& hit) {
     std::string text = fmt::format("{}\nlevel {}, {}", toString(hit.id), hit.id.level, stateText(hit.state));
     if (hit.node == planet::noNode) return text;
     const planet::ChunkNode& node = data.tree.nodes[hit.node];
-    return text + fmt::format("\n{} {}, delta_c {}, tight {}", epsSymbol(), pixelsText(epsPxOf(data, node)),
-                              distanceText(static_cast<double>(node.deltaCM)),
+    return text + fmt::format("\n{} {}, {} {}, tight {}", epsSymbol(), pixelsText(epsPxOf(data, node)),
+                              inFont("δc"), distanceText(static_cast<double>(node.deltaCM)),
                               distanceText(static_cast<double>(node.deltaTightM)));
 }
 
@@ -351,7 +348,7 @@ void treeList(const EditorView& view, const NetData& data, ImVec2 size, Quadtree
 
 void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettings& settings,
                    Commands& commands) {
-    if (!view.planet) return emptyState("No planet is open. Its quadtrees will be shown here.");
+    if (!view.planet) return emptyState("No planet is open. Open one to see its quadtrees.");
     quadtreeControls(view, state);
     legendRows(legendOfNet(view, state, settings.overlay));
     const NetData data = netDataOf(*view.planet);

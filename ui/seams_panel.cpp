@@ -110,8 +110,9 @@ void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& co
 
 // Widest first, then by id. Only the rows that are seen are sorted.
 void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
-    constexpr std::array columns = {TableColumn{"Finer", 1.6f}, TableColumn{"Edge", 0.9f},
-                                    TableColumn{"Coarser", 1.6f}, TableColumn{"Level difference", 0.5f}};
+    constexpr std::array columns = {TableColumn{"Finer", 1.6f, nullptr, "z_pos/10/1023/1023"},
+                                    TableColumn{"Edge", 0.9f}, TableColumn{"Coarser", 1.6f},
+                                    TableColumn{"Difference", 1.0f, "Level difference."}};
     if (!beginListTable("pairs", columns, seams.size(), 14)) return;
     std::vector<const planet::LevelSeam*> order;
     order.reserve(seams.size());
@@ -120,8 +121,19 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
         return std::make_tuple(-difference(*a), a->finer, a->edge, a->coarser) <
                std::make_tuple(-difference(*b), b->finer, b->edge, b->coarser);
     };
-    sortedTableRows(order, wider,
-                    [&](const planet::LevelSeam* seam, std::size_t) { seamRow(*seam, view, commands); });
+    if (chosenSort()) {
+        const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+            const planet::LevelSeam& seam = seams[row];
+            if (column == 0) return sortKey(seam.finer);
+            if (column == 1) return std::string(edgeName(seam.edge));
+            if (column == 2) return sortKey(seam.coarser);
+            return static_cast<double>(difference(seam));
+        };
+        tableRows(seams.size(), key, [&](std::size_t row) { seamRow(seams[row], view, commands); });
+    } else {
+        sortedTableRows(order, wider,
+                        [&](const planet::LevelSeam* seam, std::size_t) { seamRow(*seam, view, commands); });
+    }
     ImGui::EndTable();
 }
 

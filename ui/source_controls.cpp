@@ -27,14 +27,14 @@ std::span<const TerrainKind> madeKinds() {
 }
 
 std::string problemOf(const fs::path& source) {
-    if (source.empty()) return "Name what to bake.";
+    if (source.empty()) return "Enter the source to bake.";
     if (planet::isTerrainText(source)) {
         const auto terrain = planet::terrainFromText(source);
         if (!terrain) return terrain.error().message;
         if (!terrain->of.empty()) return problemOf(terrain->of);
         return {};
     }
-    return planet::heightSourceExists(source) ? std::string() : "There is no such image, and no such faces.";
+    return planet::heightSourceExists(source) ? std::string() : "No such image or cube faces.";
 }
 
 void setFile(const fs::path& file, SourceEdit& edit) {
@@ -70,7 +70,7 @@ bool seedControl(const TerrainField& field, TerrainSettings& settings) {
     noteItem("Seed");
     tooltip(std::string(field.about).c_str());
     ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
-    if (button("New seed", "Another world of the same kind.")) {
+    if (button("New seed", "Picks another seed for the same kind of terrain.")) {
         seed = newSeed();
         changed = true;
     }
@@ -80,14 +80,14 @@ bool seedControl(const TerrainField& field, TerrainSettings& settings) {
 
 std::string formatOf(const TerrainField& field) {
     const std::string unit =
-        field.unit.empty() ? "" : " " + std::string(field.unit == "deg of arc" ? "deg" : field.unit);
+        field.unit.empty() ? "" : " " + std::string(field.unit == "degrees of arc" ? "deg" : field.unit);
     return (field.whole ? "%d" : "%.4g") + unit;
 }
 
 bool fieldControl(const TerrainField& field, const TerrainSettings& defaults, TerrainSettings& settings) {
     if (field.name == "seed") return seedControl(field, settings);
     const std::string label(field.label);
-    const std::string about = fmt::format("{} From {} to {}{}{}.", field.about, field.least, field.most,
+    const std::string about = fmt::format("{} Range [{}, {}]{}{}.", field.about, field.least, field.most,
                                           field.unit.empty() ? "" : " ", field.unit);
     const std::string format = formatOf(field);
     const ImGuiSliderFlags flags = field.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
@@ -117,8 +117,7 @@ bool fieldControls(const TerrainKind& kind, TerrainSettings& settings) {
 bool worldControl(const EditorView& view, SourceEdit& edit, BakeRequest& request) {
     if (view.bake.worlds.empty()) return false;
     constexpr const char* explanation =
-        "Sources that come with Worldy, each with its radius and face size. What is chosen can be changed "
-        "below.";
+        "Built-in sources with their radius and face size. You can change the settings below afterwards.";
     labelledControl("Preset", explanation);
     const auto is = [&](const World& world) {
         return world.request.source == request.source &&
@@ -151,7 +150,7 @@ bool worldControl(const EditorView& view, SourceEdit& edit, BakeRequest& request
 
 bool kindControl(bool lit, SourceEdit& edit) {
     constexpr const char* explanation =
-        "A file: an elevation image or cube faces. The others are made from nothing, with a seed.";
+        "A file: an elevation image or cube faces. The other kinds generate procedural terrain from a seed.";
     litLabel("Source", lit, explanation);
     std::string items("A file");
     items += '\0';
@@ -164,11 +163,10 @@ bool kindControl(bool lit, SourceEdit& edit) {
 
 bool fileControl(SourceEdit& edit) {
     constexpr const char* explanation =
-        "Path of an elevation image (equirectangular), of one of six cube faces, or of their common stem; or "
-        "a "
-        "terrain as text, such as noise:ridged,seed=7.";
+        "Path of an equirectangular elevation image, of one of six cube faces, or of their common stem; or a "
+        "terrain such as noise:ridged,seed=7.";
     labelledControl("File", explanation);
-    const bool changed = ImGui::InputTextWithHint("##source", "path of an image or of cube faces",
+    const bool changed = ImGui::InputTextWithHint("##source", "Path of an image or cube faces",
                                                   edit.fileText.data(), edit.fileText.size());
     noteItem("File");
     tooltip(explanation);
@@ -176,10 +174,10 @@ bool fileControl(SourceEdit& edit) {
 }
 
 bool detailControls(SourceEdit& edit) {
-    bool changed = checkbox("Detail below its resolution", edit.detail, false,
-                            "Noise is added below the source's own resolution, as rough as the source is at "
-                            "each place; flat ground and the sea stay as they are. It shows with a face size "
-                            "larger than the source's natural one.");
+    bool changed =
+        checkbox("Add fractal detail", edit.detail, false,
+                 "Adds noise below the source's resolution, matching its local roughness; flat ground and "
+                 "the sea stay unchanged. Visible only with a face size larger than the natural one.");
     if (!edit.detail) return changed;
     TerrainSettings settings = edit.detailSettings;
     ImGui::Indent(ImGui::GetFontSize() / 2);
@@ -231,9 +229,8 @@ bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& reque
     }
     if (!edit.problem.empty()) {
         const bool unknown = request.source.empty() && view.planet;
-        wrappedText(
-            unknown ? "The file does not say what it was baked from: name its source here." : edit.problem,
-            palette().warning);
+        wrappedText(unknown ? "The file does not record its source. Enter its path here." : edit.problem,
+                    palette().warning);
     }
     return changed || edited;
 }

@@ -47,7 +47,8 @@ void showAt(PreviewBoxState& state, double u, double v, int zoomLog2) {
 
 void faceControl(PreviewBoxState& state) {
     constexpr const char* explanation =
-        "Which of the six faces is shown. +x holds latitude 0 longitude 0, +y 90 east, +z is the north.";
+        "Cube face to preview. The centre of +x is latitude 0, longitude 0; +y is 90° E; +z is the north "
+        "pole.";
     int index = static_cast<int>(state.face);
     labelledControl("Face", explanation);
     const bool changed =
@@ -70,11 +71,11 @@ void pictureOf(const SourcePreview& preview, PreviewBoxState& state) {
     if (preview.texture) list.AddImage(preview.texture, from, to);
     const bool stale = !preview.shown || !state.wanted || !samePicture(*preview.shown, *state.wanted);
     const float margin = ImGui::GetFontSize() / 2;
-    if (stale) badge(list, {from.x + margin, from.y + margin}, "drawing ...", palette().text);
+    if (stale) badge(list, {from.x + margin, from.y + margin}, "Rendering...", palette().text);
     tooltip(
-        "Relief before it is baked, lit from the upper left; slopes are exaggerated until they show, below "
-        "0 m is blue. A click shows a quarter of the width around the pointer, a right click four times "
-        "as much. Detail finer than a pixel is left out, as it is in a bake.");
+        "Shaded relief of the source, lit from the upper left with exaggerated slopes; heights below 0 m are "
+        "blue. Click to zoom in four times around the pointer; right-click to zoom out four times. Detail "
+        "finer than a pixel is filtered out, as in a bake.");
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const double half = std::ldexp(1.0, -state.zoomLog2);
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
@@ -94,10 +95,9 @@ void captionOf(const SourcePreview& preview, PreviewBoxState& state) {
                                              distanceText(acrossM), durationText(preview.seconds));
         wrappedText(text, palette().dim);
         tooltip(
-            "Lowest and highest ground in the picture, its width along the middle, and what drawing it "
-            "took.");
+            "Minimum and maximum height in the picture, its width along the middle, and the rendering time.");
     }
-    if (state.zoomLog2 > 0 && button("Whole face", "Shows all of it again.")) showAt(state, 0, 0, 0);
+    if (state.zoomLog2 > 0 && button("Whole face", "Shows the whole face.")) showAt(state, 0, 0, 0);
 }
 
 }  // namespace
@@ -107,10 +107,10 @@ void sourcePreviewBox(const EditorView& view, const BakeRequest& request, bool g
     ImGui::SetNextItemOpen(state.open);
     state.open = ImGui::CollapsingHeader("Preview");
     noteItem("Preview of the source");
-    tooltip("A picture of what is to be baked, drawn anew when a knob is turned.");
+    tooltip("Preview of the terrain to be baked; it updates when a setting changes.");
     if (!state.open) return;
     if (!good) {
-        wrappedText("There is nothing to show yet.", palette().dim);
+        wrappedText("No source to preview.", palette().dim);
         return;
     }
     faceControl(state);

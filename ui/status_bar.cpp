@@ -54,7 +54,7 @@ void planetCells(const EditorView& view, Cells& cells) {
     cells.add(distanceText(view.camera.heightAboveGroundM) + " above ground",
               "Height of the camera over the surface that is loaded.", colours.text);
     const double perSecond = view.stats.frameMs > 0 ? 1000 / view.stats.frameMs : 0;
-    cells.add(fmt::format("{:.1f} ms  {:.0f}/s", view.stats.frameMs, perSecond),
+    cells.add(fmt::format("{:.1f} ms  {:.0f} FPS", view.stats.frameMs, perSecond),
               "Frame time and frame rate, including the wait for the monitor.", colours.text);
     cells.add(bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
               "Memory of resident chunks, CPU and GPU together.", colours.text);

@@ -50,19 +50,18 @@ void windowSizeKnob(SurfaceSettings& surface, int defaultPx) {
             "1024 px\0"
             "2048 px\0"
             "4096 px\0",
-            "Texels a side of each level's window, N. Farther from the point under the camera than a window "
-            "reaches, the next coarser one is drawn: towards the horizon there are about N / 2 K' texels a "
-            "pixel, K' = viewport width / (2 tan(field of view / 2)). Small: blurred. Large: four times the "
-            "memory for twice the size."))
+            "Texels along a side of each clipmap level, N. Beyond a level's window the next coarser level is "
+            "used: towards the horizon about N / (2 K') texels per pixel, K' = viewport width / (2 tan(field "
+            "of view / 2)). Smaller: blurred. Larger: memory grows with the square of the size."))
         surface.clipmapSizePx = planet::smallestClipmapPx << index;
 }
 
 void clipmapKnobs(SurfaceSettings& surface) {
     const SurfaceSettings defaults;
-    choice("Drawn from", surface.colourMode, defaults.colourMode, "tiles\0clipmap\0",
-           "Tiles: each pixel finds its tile through a page table; as sharp as what is loaded, everywhere. "
-           "Clipmap: a stack of windows centred on the viewer, filled from the same tiles; no page table to "
-           "look through, but sharp only near the point under the camera, and it wants memory of its own.");
+    choice("Sampling", surface.colourMode, defaults.colourMode, "tiles\0clipmap\0",
+           "Tiles: each pixel looks up its tile in a page table; as sharp everywhere as the loaded tiles. "
+           "Clipmap: a stack of textures centred on the camera, filled from the same tiles; no page table "
+           "lookup, but sharp only near the point under the camera, and it needs additional memory.");
     ImGui::BeginDisabled(surface.colourMode != ColourMode::Clipmap);
     windowSizeKnob(surface, defaults.clipmapSizePx);
     ImGui::EndDisabled();
@@ -73,42 +72,39 @@ void colourMemory(const EditorView& view, const SurfaceSettings& surface) {
     const planet::gl::GpuMemory& gpu = view.stats.gpuMemory;
     const ClipmapStats& clipmap = view.stats.clipmap;
     const auto bytes = [](std::size_t count) { return bytesText(static_cast<double>(count)); };
-    valueRow("Tiles' memory", bytes(gpu.colourTiles),
-             "On the GPU: the pool that the budget pays for, the page table and the roots' mipmaps. The "
-             "clipmap is filled from it, so that it stays.");
+    valueRow("Tile memory", bytes(gpu.colourTiles),
+             "GPU memory of the tile pool, the page table and the mipmaps of the root tiles. The clipmap is "
+             "filled from the pool, so it is needed in both modes.");
     const planet::ClipmapLayout layout =
         planet::clipmapLayout(surface.clipmapSizePx, view.planet->colour()->leafLevel);
     const std::size_t planned =
         planet::clipmapBaseBytes(layout) +
         static_cast<std::size_t>(layout.movingLevels()) * planet::clipmapWindowBytes(layout);
     const bool there = gpu.colourClipmap > 0;
-    valueRow(
-        "Clipmap's memory", there ? bytes(gpu.colourClipmap) : fmt::format("0, on: {}", bytes(planned)),
-        "On the GPU, beside the tiles': 4 bytes a texel; the coarse levels whole for all six faces, and a "
-        "window for each finer level, two or three where the camera is near a face's edge or corner. It "
-        "is freed when tiles are drawn from.");
+    valueRow("Clipmap memory",
+             there ? bytes(gpu.colourClipmap) : fmt::format("0 (enabled: {})", bytes(planned)),
+             "Additional GPU memory, 4 bytes per texel: the coarse levels of all six faces, and one window "
+             "per finer level, or two or three near a face's edge or corner. Freed when sampling tiles.");
     if (!there) return;
-    valueRow("Windows", fmt::format("{} over level {}", clipmap.windows, clipmap.wholeLevel),
-             "Of the levels finer than those that are kept whole, as far as the view wants them. The Overlay "
-             "panel's Clipmap shows them.");
-    valueRow("Texels filled", countText(static_cast<double>(clipmap.filledTexels)),
-             "In the last frame: the strips that came in by moving, and what tiles that arrived cover. The "
-             "whole of it after a jump.");
+    valueRow("Windows", fmt::format("{} above level {}", clipmap.windows, clipmap.wholeLevel),
+             "Number of clipmap windows of the levels finer than those stored completely. The Clipmap option "
+             "in the Overlay panel shows them.");
+    valueRow("Texels updated", countText(static_cast<double>(clipmap.filledTexels)),
+             "Texels updated in the last frame: strips that entered the windows by camera movement, and "
+             "areas of newly loaded tiles. After a jump of the camera, all of them.");
 }
 
 // Of colours that the file itself holds.
 void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     const SurfaceSettings defaults;
-    checkbox(
-        "Streamed", surface.streamed, defaults.streamed,
-        "The colours that were baked into the file, loaded tile by tile as they come near. Off: the image "
-        "beside the source, if there is one, else the ramp.");
+    checkbox("Streamed", surface.streamed, defaults.streamed,
+             "Draws the colours baked into the file, streamed as tiles. Off: the image beside the source, if "
+             "there is one, otherwise the ramp.");
     ImGui::BeginDisabled(!surface.streamed);
-    slider(
-        "Texels a pixel", surface.texelsPerPixel, defaults.texelsPerPixel, 0.1, 4, "%.2f",
-        "A tile is loaded in four finer ones while it has fewer texels than this for a pixel of the picture. "
-        "Larger: sharper, up to four times the tiles for twice as many, and it may shimmer. Smaller: softer.",
-        ImGuiSliderFlags_Logarithmic);
+    slider("Texels per pixel", surface.texelsPerPixel, defaults.texelsPerPixel, 0.1, 4, "%.2f",
+           "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
+           "doubling it needs up to four times the tiles, and it may shimmer. Smaller: softer.",
+           ImGuiSliderFlags_Logarithmic);
     clipmapKnobs(surface);
     ImGui::EndDisabled();
     const std::string& problem = view.stats.clipmap.problem;
@@ -116,12 +112,11 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     const planet::TileCounters& seen = view.planet->colourSelection().counters;
     const planet::TilePagingCounters& paging = view.planet->colourPaging();
     if (!beginValues("streamed")) return;
-    valueRow(
-        "Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
-        "Resident, of those that the colours' share of the budget has room for. The share is in Paging.");
+    valueRow("Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
+             "Resident tiles and the number that fits into the colour share of the budget (Paging panel).");
     valueRow("Finest level", fmt::format("{} of {}", seen.deepestLevel, view.planet->colour()->leafLevel),
-             "Of the tiles in view, and of the file.");
-    valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than wanted.");
+             "Finest level of the tiles in view, and of the file.");
+    valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than requested.");
     colourMemory(view, surface);
     endValues();
 }
@@ -131,14 +126,12 @@ void colourKnobs(const EditorView& view, SurfaceSettings& surface) {
     const bool hasOwn = view.planet && view.planet->colour();
     const bool hasAny = hasOwn || view.data.hasColourImage;
     choice("Colour", surface.surface, defaults.surface, "image\0height ramp\0",
-           hasAny ? "The colour image, or a ramp of colours by height."
-                  : "No colour image is loaded, so the ramp is drawn for both.");
+           hasAny ? "Source of the ground colour: the colour image or a ramp of colours by height."
+                  : "No colour image is loaded; the ramp is used for both.");
     const bool image = surface.surface == planet::gl::SurfaceColour::Image && hasAny;
     ImGui::BeginDisabled(!image);
     slider("Image opacity", surface.imageOpacity, defaults.imageOpacity, 0, 1, "%.2f",
-           hasAny ? "Of the colour image over the ramp, 0 to 1. Less: more of the ramp, less "
-                    "of the real colours."
-                  : "No colour image is loaded.");
+           hasAny ? "Opacity of the colour image over the ramp, [0, 1]." : "No colour image is loaded.");
     if (hasOwn) streamedKnobs(view, surface);
     ImGui::EndDisabled();
 }
@@ -174,23 +167,20 @@ std::optional<double> previewBar(std::span<const RampStop> ramp, int selected) {
     }
     const auto share = static_cast<double>((ImGui::GetIO().MousePos.x - start.x) / width);
     const double heightM = first + std::clamp(share, 0.0, 1.0) * span;
-    tooltip(fmt::format("{:.0f} m above the sea level. Click to add a stop here.", heightM).c_str());
+    tooltip(fmt::format("{:.0f} m above sea level. Click to add a stop here.", heightM).c_str());
     if (clicked) return heightM;
     return std::nullopt;
 }
 
 void presetButtons(const HeightRange& heights, Ramp& ramp) {
-    if (button("Built-in",
-               "The ramp that Worldy has of itself, which knows steep slopes, ice and dry belts too."))
-        ramp.clear();
+    if (button("Built-in", "Built-in ramp with rules for steep slopes, ice and dry belts.")) ramp.clear();
     ImGui::SameLine();
-    if (button("Grey", "Black at this planet's lowest height, white at its highest."))
+    if (button("Grey", "Grey ramp: black at this planet's minimum height, white at its maximum."))
         ramp = greyRamp(heights.lowestM, heights.highestM);
     ImGui::SameLine();
     if (button("Hypsometric",
-               "As in atlases: blue below the sea level; green, yellow, brown and white above it, stretched "
-               "over "
-               "this planet's heights."))
+               "Atlas colours scaled to this planet's heights: blue below sea level; green, yellow, brown "
+               "and white above."))
         ramp = hypsometricRamp(heights.lowestM, heights.highestM);
 }
 
@@ -201,11 +191,11 @@ StopAction stopRow(Ramp& ramp, std::size_t index, int& selected) {
     const bool isSelected = selected == static_cast<int>(index);
     const float height = ImGui::GetFrameHeight();
     if (ImGui::RadioButton("##select", isSelected)) selected = static_cast<int>(index);
-    tooltip("Stops are added after the one that is chosen.");
+    tooltip("Select a stop; new stops are added after it.");
     ImGui::SameLine();
     ImGui::ColorEdit3("##colour", &ramp[index].colour.x, ImGuiColorEditFlags_NoInputs);
     if (ImGui::IsItemActivated()) selected = static_cast<int>(index);
-    tooltip("sRGB. Click to choose another colour.");
+    tooltip("sRGB colour. Click to change it.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - height - ImGui::GetStyle().ItemSpacing.x);
     double heightM = ramp[index].heightM;
@@ -213,10 +203,10 @@ StopAction stopRow(Ramp& ramp, std::size_t index, int& selected) {
     if (ImGui::DragScalar("##height", ImGuiDataType_Double, &heightM, speed, nullptr, nullptr, "%.0f m"))
         moveStop(ramp, index, heightM);
     if (ImGui::IsItemActivated()) selected = static_cast<int>(index);
-    tooltip("Metres above the sea level; not past the stops beside it. Drag, or Ctrl+click to type.");
+    tooltip("Metres above sea level, between the neighbouring stops. Drag, or Ctrl+click to type.");
     ImGui::SameLine();
     const bool remove = ImGui::Button("x", {height, 0});
-    tooltip("Removes this stop. Without any the built-in ramp is drawn.");
+    tooltip("Removes this stop. Without stops the built-in ramp is used.");
     ImGui::PopID();
     return remove ? StopAction::Remove : StopAction::None;
 }
@@ -237,16 +227,15 @@ void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSetting
     state.selectedStop = std::min(state.selectedStop, static_cast<int>(ramp.size()) - 1);
     std::optional<double> addedM;
     if (ramp.empty()) {
-        ImGui::TextDisabled("The built-in ramp is drawn.");
+        ImGui::TextDisabled("The built-in ramp is used.");
     } else {
         addedM = previewBar(ramp, state.selectedStop);
         rampStops(ramp, state.selectedStop);
     }
     ImGui::BeginDisabled(ramp.size() >= maxRampStops);
     const std::string explanation = fmt::format(
-        "After the one that is chosen, or above the last; at most {}. It starts with the colour that the "
-        "ramp "
-        "has there.",
+        "Adds a stop after the selected one, or above the last, with the current ramp colour; at most {} "
+        "stops.",
         maxRampStops);
     if (button("Add a stop", explanation.c_str())) {
         const std::size_t after =
@@ -262,10 +251,10 @@ void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSetting
 void seaKnobs(SurfaceSettings& surface) {
     const SurfaceSettings defaults;
     checkbox("Sea", surface.sea, defaults.sea,
-             "What lies below the sea level is sea. Off: dry land, as on the Moon.");
+             "Draws ground below the sea level as sea. Off: dry land, as on the Moon.");
     slider("Sea level", surface.seaLevelM, defaults.seaLevelM, -20000, 20000, "%.0f m",
-           "Metres above the planet's radius; the ramp's heights count from it. Only colour and light: no "
-           "vertex moves.");
+           "Sea level in metres above the planet's radius; ramp heights are relative to it. Affects only "
+           "colour and light, not geometry.");
 }
 
 }  // namespace
@@ -279,8 +268,8 @@ void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings
     if (section("Sea")) seaKnobs(surface);
     if (section("Relief")) {
         slider("Exaggeration", surface.exaggeration, defaults.exaggeration, 0.1, 100, "x %.2f",
-               "Heights are drawn this many times as high; errors, bounds and skirts grow with them. Larger: "
-               "more chunks for the same tolerance, and shapes that no planet has.",
+               "Factor applied to heights; errors, bounds and skirts scale with it. Larger: more chunks for "
+               "the same tolerance.",
                ImGuiSliderFlags_Logarithmic);
     }
     layersSections(view, state.layers, surface, commands);

@@ -89,7 +89,7 @@ void drawAxes(const ChartScale& scale) {
         freeTo = y - half;
     }
     // Lines that fall to the right leave room there.
-    const char* name = "worst measured error, px";
+    const char* name = "max measured error, px";
     if (ImGui::CalcTextSize(name).x + 2 * gap > scale.end.x - scale.start.x) name = "error, px";
     list.AddText({scale.end.x - ImGui::CalcTextSize(name).x - gap, scale.start.y + gap / 2}, dim, name);
 }
@@ -221,9 +221,9 @@ std::optional<std::size_t> sweepChart(std::span<const SweepPoint> points, SweepC
         return ImGui::IsMouseClicked(ImGuiMouseButton_Left) ? nearest : std::nullopt;
     }
     tooltip(
-        "A point a setting: to the right the largest error measured over the flight, upwards what it costs, "
-        "both logarithmic; the small figures are tolerances. Ringed: no other point is both cheaper and "
-        "truer.");
+        "One point per setting: max measured error on the horizontal axis, cost on the vertical axis, both "
+        "logarithmic, labelled with the tolerance. Ringed: no other point is both cheaper and more "
+        "accurate.");
     return std::nullopt;
 }
 

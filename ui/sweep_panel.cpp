@@ -50,8 +50,7 @@ void flightControl(const Flights& flights, SweepPanelState& state) {
         if (flights[i] == state.flight) index = static_cast<int>(i);
     }
     const char* explanation =
-        "What is flown: keys of a shipped flight, or the way of a recorded one. Files of both kinds lie in "
-        "the folder \"flights\" beside the settings.";
+        "Flight to measure: a flight of keys or a recorded flight, from the folders \"flights\".";
     labelledControl("Flight", explanation);
     combo("Flight", index, names.c_str());
     tooltip(explanation);
@@ -60,7 +59,7 @@ void flightControl(const Flights& flights, SweepPanelState& state) {
 
 TauList tausControl(SweepPanelState& state) {
     const std::string explanation = fmt::format(
-        "Tolerances to fly with, pixels, {} to {}, with spaces or commas between them. Each is flown for "
+        "Tolerances to measure, in pixels, in [{}, {}], separated by spaces or commas. Each is combined with "
         "each metric and chunk size.",
         smallestTauPx, largestTauPx);
     labelledControl(fmt::format("{}, px", tauSymbol()).c_str(), explanation.c_str());
@@ -77,10 +76,11 @@ std::string sizeProblem(const EditorView& view, int size) {
     const planet::PlanetShape& shape = view.planet->shape();
     if (size == planet::chunkSize(shape)) return {};
     if (!view.bake.canBake)
-        return "What this file was baked from is not known or not there, so only its own chunks can be "
-               "swept. Open the source itself to sweep others.";
+        return "The source of this file is unknown or missing, so only its own chunk size can be swept. Open "
+               "the source itself to sweep other sizes.";
     if (size - 1 > planet::faceCells(shape))
-        return fmt::format("A face of this planet has only {} samples a side.", planet::faceCells(shape) + 1);
+        return fmt::format("A face of this planet has only {} samples per side.",
+                           planet::faceCells(shape) + 1);
     return {};
 }
 
@@ -100,7 +100,7 @@ std::vector<int> chunksControl(const EditorView& view, SweepPanelState& state) {
         for (std::size_t i = 0; i < planet::chunkSizes.size(); ++i)
             (*state.chunks)[i] = planet::chunkSizes[i] == own;
     }
-    beginBoxes("Chunks", "Vertices a side of a chunk.");
+    beginBoxes("Chunks", "Vertices along a side of a chunk.");
     std::vector<int> wanted;
     bool anyBarred = false;
     for (std::size_t i = 0; i < planet::chunkSizes.size(); ++i) {
@@ -114,31 +114,31 @@ std::vector<int> chunksControl(const EditorView& view, SweepPanelState& state) {
         if (ImGui::Checkbox(label.c_str(), &on)) (*state.chunks)[i] = on;
         noteItem(fmt::format("Chunk {}", size));
         ImGui::EndDisabled();
-        tooltip(problem.empty()
-                    ? fmt::format("Chunks of {} vertices a side{}", size,
-                                  size == own
-                                      ? ": the planet's own."
-                                      : ". Baked into the cache first, without colours, where they are "
-                                        "not there yet.")
-                          .c_str()
-                    : problem.c_str());
+        tooltip(
+            problem.empty()
+                ? fmt::format("Chunks of {0} x {0} vertices{1}", size,
+                              size == own
+                                  ? ", as in the open file."
+                                  : ". Baked into the cache first, without colours, unless already there.")
+                      .c_str()
+                : problem.c_str());
         if (on) wanted.push_back(size);
     }
     ImGui::PopStyleVar();
-    if (anyBarred) wrappedText("Its source is not known: its own chunk size only.", palette().dim);
+    if (anyBarred)
+        wrappedText("The source is unknown: only the file's own chunk size is available.", palette().dim);
     return wanted;
 }
 
 std::vector<planet::ErrorMetric> metricsControl(SweepPanelState& state) {
-    beginBoxes("Metrics", "What chunks are chosen by: how large a chunk's error is taken to be.");
+    beginBoxes("Metrics", "Geometric error metrics used for selection.");
     sameLineIfRoom(checkboxWidth("additive"));
     checkbox("additive", state.additive, true,
-             "Choose by the additive bound of a chunk's error, which adds up what each level may add.");
+             "Selects by the additive error bound, the sum of the errors of all levels.");
     sameLineIfRoom(checkboxWidth("tight"));
-    checkbox(
-        "tight", state.tight, true,
-        "Choose by the error measured against the finest data when it was baked: fewer triangles for the "
-        "same tolerance.");
+    checkbox("tight", state.tight, true,
+             "Selects by the error measured against the finest data during the bake: fewer triangles for the "
+             "same tolerance.");
     ImGui::PopStyleVar();
     std::vector<planet::ErrorMetric> metrics;
     if (state.additive) metrics.push_back(planet::ErrorMetric::Additive);
@@ -149,12 +149,12 @@ std::vector<planet::ErrorMetric> metricsControl(SweepPanelState& state) {
 constexpr std::array<std::pair<int, int>, 4> pictureSizes = {{{0, 0}, {640, 400}, {1280, 720}, {1920, 1080}}};
 
 void pictureControl(const EditorView& view, SweepPanelState& state, SweepRequest& request) {
-    slider("Moments", state.frames, 12, 1, 100, "%d",
-           "Of the flight, evenly spread. In each one all that it wants is loaded before it is drawn and "
-           "measured. More: surer figures, and as much longer.");
-    choiceIndex("Picture", state.pictureSize, 0,
-                "as the viewport\000640 x 400\0001280 x 720\0001920 x 1080\0",
-                "Its size, pixels. A tolerance is in pixels of it, so a larger one takes more triangles.");
+    slider("Sample frames", state.frames, 12, 1, 100, "%d",
+           "Number of frames measured, evenly spread over the flight. All chunks a frame needs are loaded "
+           "before it is measured. More: more reliable values, but proportionally longer.");
+    choiceIndex("Picture", state.pictureSize, 0, "viewport size\000640 x 400\0001280 x 720\0001920 x 1080\0",
+                "Picture size in pixels. Tolerances are in pixels of this picture, so a larger one needs "
+                "more triangles.");
     const auto [width, height] = pictureSizes[static_cast<std::size_t>(state.pictureSize)];
     request.frames = state.frames;
     request.widthPx = width > 0 ? width : std::max(view.renderView.widthPx, 1);
@@ -174,19 +174,17 @@ void progressLines(const EditorView& view, Commands& commands) {
                              static_cast<double>(std::max<std::uint64_t>(p.bake->samplesTotal, 1));
         now = fmt::format("Baking chunks of {}: {:.0f} %", p.chunkSize, 100 * share);
     } else if (p.tauPx > 0) {
-        now = fmt::format("{}, moment {} of {}", settingText(p.chunkSize, p.metric, p.tauPx, tauSymbol()),
+        now = fmt::format("{}, frame {} of {}", settingText(p.chunkSize, p.metric, p.tauPx, tauSymbol()),
                           p.frame + 1, p.frames);
     }
     if (view.sweep.cancelling)
-        now = "Ending";
+        now = "Cancelling";
     else if (p.leftS)
         now +=
             fmt::format("; {}{} left", view.sweep.suggesting ? "at most " : "about ", durationText(*p.leftS));
     // Over the text, whose lines come and go.
     ImGui::BeginDisabled(view.sweep.cancelling);
-    if (button("Cancel",
-               "Ends it within a moment. Points flown by then stay to be looked at, but are not "
-               "saved."))
+    if (button("Cancel", "Cancels the sweep. Points measured so far stay visible, but are not saved."))
         commands.push_back(CancelSweep{});
     ImGui::EndDisabled();
     wrappedText(now, palette().dim);
@@ -205,17 +203,17 @@ void runControl(const EditorView& view, const SweepRequest& request, const TauLi
     if (view.sweep.running && !view.sweep.suggesting) return progressLines(view, commands);
     const std::string problem = requestProblem(request, taus);
     ImGui::BeginDisabled(!problem.empty() || view.sweep.running);
-    if (button("Run",
-               "Flies each setting in the background, without a bad disk and without overlays, and "
-               "measures it at each moment. While it runs the window draws no more than 20 frames a "
-               "second unless there is input, since drawing disturbs the frame times that are measured. "
-               "For times to be reported use worldy sweep, without a window."))
+    if (button(
+            "Run",
+            "Measures each setting in the background, without I/O fault injection and overlays. Meanwhile "
+            "the window draws at most 20 frames per second unless there is input, because drawing disturbs "
+            "the measured frame times. For frame times to publish use worldy sweep, without a window."))
         commands.push_back(StartSweep{request});
     ImGui::EndDisabled();
     ImGui::SameLine();
     const std::size_t flights = request.tausPx.size() * request.chunkSizes.size() * request.metrics.size();
     wrappedText(problem.empty() ? fmt::format("{} of {}", countOf(flights, "flight"),
-                                              countOf(static_cast<std::size_t>(request.frames), "moment"))
+                                              countOf(static_cast<std::size_t>(request.frames), "frame"))
                                 : problem,
                 palette().dim);
 }
@@ -233,14 +231,14 @@ constexpr std::array<GoalKind, 4> goalKinds = {{{{true, SweepCost::Triangles, 0}
 
 void goalControl(SweepPanelState& state) {
     choiceIndex("Keep", state.goal, 0, "error\0triangles\0frame time\0memory\0",
-                "Error: the largest tolerance whose worst measured error over the flight stays under the "
-                "limit. Else the smallest whose mean triangles, median frame time or memory of resident "
-                "chunks do.");
+                "Error: finds the largest tolerance whose max measured error over the flight stays below the "
+                "limit. Otherwise: the smallest tolerance whose mean triangles, median frame time or "
+                "resident chunk memory does.");
     const auto goal = static_cast<std::size_t>(state.goal);
     const char* explanation =
-        "The limit, over 0. Worst measured error, pixels as if the view faced it; or mean triangles a "
-        "frame; or milliseconds of a frame, choosing and drawing; or MiB of resident chunks.";
-    labelledControl("under", explanation);
+        "Limit greater than 0: max measured error in facing pixels, mean triangles per frame, milliseconds "
+        "per frame for selection and drawing, or MiB of resident chunks.";
+    labelledControl("below", explanation);
     double limit = state.limits[goal];
     ImGui::InputDouble("##limit", &limit, 0, 0, goalKinds[goal].unit);
     noteItem("Limit");
@@ -257,13 +255,13 @@ void answer(const SweepSuggestion& suggestion, const EditorView& view, ViewSetti
     if (!suggestion.found.met) return;
     ImGui::PushID(tight ? 1 : 0);
     ImGui::BeginDisabled(view.recording.replay.has_value());
-    if (ImGui::Button("Use it")) {
+    if (ImGui::Button("Apply")) {
         settings.lod.tauPx = suggestion.found.tauPx;
         settings.lod.metric = suggestion.metric;
     }
-    noteItem(tight ? "Use it: tight" : "Use it: additive");
+    noteItem(tight ? "Apply: tight" : "Apply: additive");
     ImGui::EndDisabled();
-    tooltip("Sets tolerance and metric, as in the LOD panel. Undo takes it back.");
+    tooltip("Sets the tolerance and the metric of the LOD panel. Undo reverts this.");
     ImGui::PopID();
 }
 
@@ -276,9 +274,8 @@ void suggestControls(const EditorView& view, SweepPanelState& state, SweepReques
         ImGui::BeginDisabled(view.sweep.running || request.metrics.empty());
         const bool asked =
             button("Suggest",
-                   "Halves the range of tolerances, flying each, until the one wanted is known to 2 %: "
-                   "about ten flights a metric, over the planet's own chunks. Flight, metrics, moments "
-                   "and picture are those above.");
+                   "Bisects the tolerance range to 2 %: about ten flights per metric, with the open file's "
+                   "chunks. Uses the flight, metrics, sample frames and picture above.");
         ImGui::EndDisabled();
         if (asked) {
             const auto goal = static_cast<std::size_t>(state.goal);
@@ -303,7 +300,7 @@ struct Asked {
 std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& state) {
     const Flights flights = flightsOf(view);
     if (flights.empty()) {
-        wrappedText("There is no flight to sweep over. Record one in the Flight panel.", palette().dim);
+        wrappedText("There are no flights. Record one in the Flight panel.", palette().dim);
         return std::nullopt;
     }
     flightControl(flights, state);
@@ -320,10 +317,10 @@ std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& st
 // What came of it.
 
 void tableCaption(const SweepTable& table, const EditorView& view) {
-    const std::string state = table.whole ? "" : view.sweep.running ? ", so far" : ", not whole";
+    const std::string state = table.whole ? "" : view.sweep.running ? ", so far" : ", incomplete";
     wrappedText(fmt::format("{}, {}, {} x {} px, {}: {}{}", table.flight, table.source.filename().string(),
                             table.request.widthPx, table.request.heightPx,
-                            countOf(static_cast<std::size_t>(table.request.frames), "moment"),
+                            countOf(static_cast<std::size_t>(table.request.frames), "frame"),
                             countOf(table.points.size(), "point"), state),
                 table.whole || view.sweep.running ? palette().dim : palette().warning);
 }
@@ -342,9 +339,9 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
         meaning =
             fmt::format("Sets {} {:.3g} px and the metric, as in the LOD panel", tauSymbol(), point->tauPx);
         if (otherSize)
-            meaning += samePlanet ? fmt::format(", and shows the chunks of {} that were baked for the sweep",
-                                                point->chunkSize)
-                                  : ". The chunk size stays, since another planet is shown";
+            meaning += samePlanet
+                           ? fmt::format(", and opens the chunks of {} baked for the sweep", point->chunkSize)
+                           : ". The chunk size stays, because another planet is open";
         meaning += ".";
     }
     tooltip(meaning.c_str());
@@ -358,10 +355,9 @@ void saveButton(const SweepTable& table, const SweepPanelState& state, Commands&
     const char* label = "Save table and plot";
     sameLineIfRoom(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x);
     ImGui::BeginDisabled(!table.whole);
-    if (button(label, table.whole
-                          ? "As .csv and .json, and the plot as .png, beside the screenshots. The log "
-                            "says where."
-                          : "Only a sweep that has come to its end is saved."))
+    if (button(label, table.whole ? "Saves the table as .csv and .json and the plot as .png, beside the "
+                                    "screenshots. The log shows the paths."
+                                  : "Only a completed sweep can be saved."))
         commands.push_back(SaveSweep{state.cost});
     ImGui::EndDisabled();
 }
@@ -370,21 +366,21 @@ void saveButton(const SweepTable& table, const SweepPanelState& state, Commands&
 void costControl(SweepPanelState& state) {
     int cost = static_cast<int>(state.cost);
     ImGui::SetNextItemWidth(std::min(ImGui::GetContentRegionAvail().x, 11 * ImGui::GetFontSize()));
-    combo("Paid", cost, "mean triangles\0median frame, ms\0most resident, MiB\0");
-    tooltip("What is paid: the plot shows it upwards, and the Pareto front is about it.");
+    combo("Cost", cost, "mean triangles\0median frame, ms\0max resident, MiB\0");
+    tooltip("Cost on the vertical axis of the plot, used for the Pareto front.");
     state.cost = static_cast<SweepCost>(cost);
 }
 
 void emptyPlot(const EditorView& view) {
     const bool sweeps = view.sweep.running && !view.sweep.suggesting;
-    emptyState(sweeps ? "The first point is on its way."
-                      : "Run flies each setting, and shows here what it costs against its true error.");
+    emptyState(sweeps ? "Measuring the first point."
+                      : "Press Run to plot the cost of each setting against its true error.");
 }
 
 }  // namespace
 
 void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& settings, Commands& commands) {
-    if (!view.planet) return emptyState("Tolerances are swept over a flight here once a planet is open.");
+    if (!view.planet) return emptyState("No planet is open. Open one to sweep tolerances over a flight.");
     std::vector<SweepPoint> points = view.sweep.table ? view.sweep.table->points : std::vector<SweepPoint>();
     markFront(points, state.cost);
     if (state.selected && *state.selected >= points.size()) state.selected.reset();
@@ -394,7 +390,7 @@ void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& se
         if (const auto clicked = sweepChart(points, state.cost, state.selected)) state.selected = clicked;
     };
     const auto table = [&] {
-        if (points.empty()) return emptyState("Each setting is a row here.");
+        if (points.empty()) return emptyState("No points measured yet.");
         tableCaption(*view.sweep.table, view);
         useButton(*view.sweep.table, view, state, settings, commands);
         saveButton(*view.sweep.table, state, commands);
@@ -415,7 +411,7 @@ void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& se
     };
     constexpr float plotLines = 14, tableLines = 14;
     std::vector<Column> columns = {{"Settings", 1.15f, 0, controls},
-                                   {"Cost against error", 1.2f, points.empty() ? 4.0f : plotLines, plot},
+                                   {"Cost and error", 1.2f, points.empty() ? 4.0f : plotLines, plot},
                                    {"Points", 1.6f, points.empty() ? 3.0f : tableLines, table}};
     if (apart) columns.insert(columns.begin() + 1, Column{"Run", 0.9f, 0, run});
     drawColumns("sweep", columns);

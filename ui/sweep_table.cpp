@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
 #include "ui/item_map.h"
 #include "ui/sweep_chart.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -40,54 +40,30 @@ std::string predicted(double px) {
 
 constexpr std::array<SweepColumn, 10> sweepColumns = {{
     {"Chunk", 1.15f, [](const SweepPoint& p) { return double{1} * p.chunkSize; }, whole,
-     "Vertices a side. Ringed: on the Pareto front, no other point is both cheaper and truer."},
+     "Vertices along a chunk side. Ringed: on the Pareto front; no other point is both cheaper and more "
+     "accurate."},
     {"Metric", 1.2f, [](const SweepPoint& p) { return p.metric == planet::ErrorMetric::Tight ? 1.0 : 0.0; },
      [](double tight) { return std::string(tight > 0 ? "tight" : "additive"); },
-     "What chunks are chosen by."},
-    {"Tau", 0.7f, [](const SweepPoint& p) { return p.tauPx; }, fine, "The tolerance, pixels."},
+     "Geometric error metric used for selection."},
+    {"τ", 0.7f, [](const SweepPoint& p) { return p.tauPx; }, fine, "Tolerance in pixels."},
     {"Triangles", 1.2f, [](const SweepPoint& p) { return p.figures.meanTriangles; }, countText,
-     "Drawn, mean over the moments."},
+     "Triangles drawn, mean over the sample frames."},
     {"Measured", 1.2f, [](const SweepPoint& p) { return p.figures.worstMeasuredPx; }, fine,
-     "The largest true error of any finest sample in any moment, pixels as if the view faced it."},
+     "Largest true error of any finest sample in any sample frame, in facing pixels."},
     {"99 %", 0.8f, [](const SweepPoint& p) { return p.figures.p99MeasuredPx; }, fine,
-     "99 of 100 chunks of all moments have no larger true error, pixels."},
+     "99 % of the chunks of all sample frames have no larger true error, in pixels."},
     {"Predicted", 1.2f, [](const SweepPoint& p) { return p.figures.worstPredictedPx; }, predicted,
-     "The largest error that was predicted of what was drawn, pixels. Over the tolerance where the data has "
-     "no finer level. None: an eye stood within the bounds of a chunk, where nothing can be promised."},
+     "Largest predicted error of the drawn chunks, in pixels. It exceeds the tolerance where the data has no "
+     "finer level. None: the camera was inside the bounds of a chunk, where there is no prediction."},
     {"MiB", 0.8f, [](const SweepPoint& p) { return p.figures.mostResidentMiB; }, fine,
-     "The most that resident chunks took, CPU and GPU together."},
+     "Largest memory of resident chunks, CPU and GPU together, in MiB."},
     {"Frame", 0.9f, [](const SweepPoint& p) { return p.figures.medianFrameMs; },
      [](double ms) { return fmt::format("{:.3g} ms", ms); },
-     "Choosing and drawing, waited for, median. Measured while the window draws too, so longer than alone."},
+     "Median time of selection and drawing, including the GPU. It is longer than without a window, because "
+     "the window draws too."},
     {"Violations", 1.2f, [](const SweepPoint& p) { return static_cast<double>(p.figures.violations); }, whole,
-     "Chunks whose true error is over what was predicted. Must be 0."},
+     "Chunks whose true error exceeds the prediction. Must be 0."},
 }};
-
-void headers() {
-    ImGui::TableSetupScrollFreeze(1, 1);
-    for (const SweepColumn& column : sweepColumns) ImGui::TableSetupColumn(column.title, 0, column.share);
-    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-    for (const SweepColumn& column : sweepColumns) {
-        ImGui::TableNextColumn();
-        ImGui::TableHeader(column.title);
-        noteItem(fmt::format("Sort by {}", column.title));
-        tooltip(column.explanation);
-    }
-}
-
-// As they came where no column is chosen to sort by.
-std::vector<std::size_t> orderOf(std::span<const SweepPoint> points) {
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
-    if (!specs || specs->SpecsCount == 0) return order;
-    const auto value = sweepColumns[static_cast<std::size_t>(specs->Specs->ColumnIndex)].value;
-    const bool descending = specs->Specs->SortDirection == ImGuiSortDirection_Descending;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return descending ? value(points[a]) > value(points[b]) : value(points[a]) < value(points[b]);
-    });
-    return order;
-}
 
 void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
               std::optional<std::size_t>& selected) {
@@ -113,23 +89,21 @@ void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
 }  // namespace
 
 void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected) {
-    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
-                                      ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
-                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp |
-                                      ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate;
-    const float width = std::max(ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
-                                 48 * ImGui::GetFontSize());
-    const float height =
-        std::max(ImGui::GetContentRegionAvail().y, 5 * ImGui::GetTextLineHeightWithSpacing());
-    if (!ImGui::BeginTable("points", static_cast<int>(sweepColumns.size()), flags, {0, height}, width))
-        return;
-    headers();
+    std::array<TableColumn, sweepColumns.size()> columns{};
+    std::transform(sweepColumns.begin(), sweepColumns.end(), columns.begin(), [](const SweepColumn& column) {
+        return TableColumn{column.title, column.share, column.explanation};
+    });
+    if (!beginWideTable("points", columns, 48, 1)) return;
     const std::vector<SweepSeries> series = seriesOf(points);
     std::vector<std::size_t> seriesIndex(points.size());
     for (std::size_t s = 0; s < series.size(); ++s) {
         for (const std::size_t i : series[s].points) seriesIndex[i] = s;
     }
-    for (const std::size_t i : orderOf(points)) pointRow(points[i], i, sweepColour(seriesIndex[i]), selected);
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        return sweepColumns[column].value(points[row]);
+    };
+    for (const std::size_t i : tableOrder(points.size(), chosenSort(), key))
+        pointRow(points[i], i, sweepColour(seriesIndex[i]), selected);
     ImGui::EndTable();
 }
 

@@ -1,44 +1,86 @@
 #include "ui/tables.h"
 
+#include <fmt/format.h>
+
+#include "ui/item_map.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace ui {
 
 namespace {
 
-constexpr ImGuiTableFlags listFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-constexpr ImGuiTableFlags wideFlags = listFlags | ImGuiTableFlags_ScrollX | ImGuiTableFlags_Resizable;
+constexpr ImGuiTableFlags listFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
+                                      ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable |
+                                      ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp |
+                                      ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate;
+
+bool hasTitle(const TableColumn& column) {
+    return column.title[0] != '#';
+}
+
+// The width at which every column holds its title with the sort arrow and its widest text, pixels.
+float neededWidth(std::span<const TableColumn> columns) {
+    float shares = 0;
+    float perShare = 0;
+    for (const TableColumn& column : columns) {
+        const float title =
+            hasTitle(column) ? ImGui::CalcTextSize(inFont(column.title).c_str()).x + ImGui::GetFontSize() : 0;
+        const float text = column.widest ? ImGui::CalcTextSize(column.widest).x : 0;
+        const float padding = 2 * ImGui::GetStyle().CellPadding.x + 1;
+        perShare = std::max(perShare, (std::max(title, text) + padding) / column.share);
+        shares += column.share;
+    }
+    return shares * perShare;
+}
 
 void header(std::span<const TableColumn> columns, int frozenColumns) {
     ImGui::TableSetupScrollFreeze(frozenColumns, 1);
-    for (const TableColumn& column : columns) ImGui::TableSetupColumn(column.title, 0, column.share);
+    for (const TableColumn& column : columns)
+        ImGui::TableSetupColumn(inFont(column.title).c_str(),
+                                hasTitle(column) && column.sorts ? 0 : ImGuiTableColumnFlags_NoSort,
+                                column.share);
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (const TableColumn& column : columns) {
         ImGui::TableNextColumn();
-        ImGui::TableHeader(column.title);
+        ImGui::TableHeader(inFont(column.title).c_str());
+        if (hasTitle(column)) noteItem(fmt::format("Sort by {}", column.title));
         if (column.explanation) tooltip(column.explanation);
     }
+}
+
+bool beginTable(const char* id, std::span<const TableColumn> columns, float leastWidthPx, ImVec2 size,
+                int frozenColumns) {
+    const float width = std::max({ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
+                                  leastWidthPx, neededWidth(columns)});
+    if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), listFlags, size, width)) return false;
+    header(columns, frozenColumns);
+    return true;
 }
 
 }  // namespace
 
 bool beginWideTable(const char* id, std::span<const TableColumn> columns, float leastWidth,
                     int frozenColumns) {
-    const float width = std::max(ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
-                                 leastWidth * ImGui::GetFontSize());
-    if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), wideFlags, {0, 0}, width)) return false;
-    header(columns, frozenColumns);
-    return true;
+    const float height =
+        std::max(ImGui::GetContentRegionAvail().y, 5 * ImGui::GetTextLineHeightWithSpacing());
+    return beginTable(id, columns, leastWidth * ImGui::GetFontSize(), {0, height}, frozenColumns);
 }
 
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines) {
     const float lines = static_cast<float>(std::clamp<std::size_t>(rows + 1, 4, mostLines));
-    const ImVec2 size(0, lines * ImGui::GetTextLineHeightWithSpacing());
-    if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), listFlags, size)) return false;
-    header(columns, 0);
-    return true;
+    const bool scrolls = neededWidth(columns) > ImGui::GetContentRegionAvail().x;
+    const float height =
+        lines * ImGui::GetTextLineHeightWithSpacing() + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+    return beginTable(id, columns, 0, {0, height}, 0);
+}
+
+std::optional<TableSort> chosenSort() {
+    const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
+    if (!specs || specs->SpecsCount == 0) return std::nullopt;
+    return TableSort{static_cast<std::size_t>(specs->Specs->ColumnIndex),
+                     specs->Specs->SortDirection == ImGuiSortDirection_Descending};
 }
 
 void cell(const std::string& text) {

@@ -1,5 +1,6 @@
-// Tables that list many things: chunks, requests, switches of level. All have a header that stays in sight;
-// end with ImGui::EndTable() where they begin.
+// Tables that list many things: chunks, requests, level changes. The header stays in view, and clicking a
+// title sorts by that column: ascending, descending, then unsorted again. End a begun table with
+// ImGui::EndTable().
 #pragma once
 
 #include <imgui.h>
@@ -9,23 +10,29 @@
 #include <string>
 #include <vector>
 
+#include "ui/table_order.h"
 #include "ui/table_window.h"
 
 namespace ui {
 
 struct TableColumn {
-    const char* title;  // "##go": none
+    const char* title;  // "##go": no title, not sortable
     float share = 1;    // of the width, relative to the other columns'
     const char* explanation = nullptr;
+    const char* widest = nullptr;  // the widest text to expect in a cell, if wider than the title
+    bool sorts = true;
 };
 
-// Fills the room there is, but scrolls sideways rather than squeeze its columns below a width, in heights of
-// the font. The first columns so many stay in sight.
+// Fills the available space. Scrolls sideways if it is narrower than leastWidth font heights, or than the
+// titles and the widest texts need. The first frozenColumns do not scroll.
 bool beginWideTable(const char* id, std::span<const TableColumn> columns, float leastWidth,
                     int frozenColumns = 0);
-// As wide as the panel and as high as so many rows, within limits.
+// Is as wide as the panel and as high as its rows, within limits; scrolls sideways like a wide table.
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines = 12);
+
+// Returns the column the user sorts the begun table by; none: the given order.
+std::optional<TableSort> chosenSort();
 
 void cell(const std::string& text);
 void cell(const std::string& text, const ImVec4& colour);
@@ -60,7 +67,19 @@ void tableRows(std::size_t count, const Draw& draw) {
     });
 }
 
-// The same of what is sorted only where it is seen: draw(item, row).
+// Draws the visible rows in the order the user chose: key(row, column) is a cell's SortKey, draw(row) as
+// above.
+template <class Key, class Draw>
+void tableRows(std::size_t count, const Key& key, const Draw& draw) {
+    const std::optional<TableSort> sort = chosenSort();
+    if (!sort) return tableRows(count, draw);
+    const std::vector<std::size_t> order = tableOrder(count, sort, key);
+    detail::clipRows(count, [&](std::size_t first, std::size_t last) {
+        for (std::size_t at = first; at < last; ++at) detail::drawRow(order[at], [&] { draw(order[at]); });
+    });
+}
+
+// Sorts items by less, but only the visible rows: draw(item, row).
 template <class T, class Less, class Draw>
 void sortedTableRows(std::vector<T>& items, const Less& less, const Draw& draw) {
     detail::clipRows(items.size(), [&](std::size_t first, std::size_t last) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "planet/terrain.h"
@@ -75,6 +76,25 @@ std::string placeText(double latitudeDeg, double longitudeDeg, int decimals) {
     const double longitude = std::remainder(longitudeDeg, 360.0);
     return fmt::format("{:.{}f}° {}, {:.{}f}° {}", std::abs(latitudeDeg), decimals,
                        latitudeDeg < 0 ? "S" : "N", std::abs(longitude), decimals, longitude < 0 ? "W" : "E");
+}
+
+std::string shortNumberText(const std::string& value) {
+    double number = 0;
+    const char* end = value.data() + value.size();
+    const auto [last, error] = std::from_chars(value.data(), end, number);
+    if (error != std::errc() || last != end || !std::isfinite(number)) return value;
+    if (number == 0 || number == std::trunc(number)) return value;
+    const int decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(number)))), 0, 12);
+    std::string text = fmt::format("{:.{}f}", number, decimals);
+    if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text;
+}
+
+std::array<std::string, 2> shortNumberTexts(const std::string& a, const std::string& b) {
+    std::array<std::string, 2> texts = {shortNumberText(a), shortNumberText(b)};
+    if (texts[0] == texts[1]) texts = {a, b};
+    return texts;
 }
 
 std::string millisecondsText(double milliseconds) {

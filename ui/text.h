@@ -1,6 +1,7 @@
 // Numbers as people read them, with their units. Pure functions, any thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,7 +16,12 @@ std::string countText(double count);                        // "950", "12.3 k", 
 std::string durationText(double seconds);                   // "0.4 s", "12 s", "3 min 20 s", "2 h 5 min"
 std::string distanceText(double metres);                    // "4.2 m", "950 m", "12.3 km", "14000 km"
 std::string placeText(double latitudeDeg, double longitudeDeg,
-                      int decimals = 4);                          // "27.9880° N, 86.9250° E"
+                      int decimals = 4);  // "27.9880° N, 86.9250° E"
+// Rounds a number to four significant digits: "19.63" of "19.630435466766357"; other texts are returned
+// unchanged.
+std::string shortNumberText(const std::string& value);
+// Rounds both so, unless they would then read the same.
+std::array<std::string, 2> shortNumberTexts(const std::string& a, const std::string& b);
 std::string millisecondsText(double milliseconds);                // "0.42 ms"
 std::string pixelsText(double pixels, const char* unit = " px");  // "0.04 px", "1.3 px", "29 px"
 

@@ -16,6 +16,8 @@ namespace {
 
 // Share of the panel's width that labels take.
 constexpr float labelShare = 0.40f;
+// Share of a table's width that values may take.
+constexpr float valueShare = 0.65f;
 
 // After the control. True where the user asks for the default.
 bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
@@ -81,21 +83,31 @@ void tooltip(const char* text) {
 }
 
 bool beginValues(const char* id) {
-    return ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp);
+    if (!ImGui::BeginTable(id, 2)) return false;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed);
+    return true;
 }
 
 void valueRow(const char* name, const std::string& value, const char* explanation, const ImVec4* colour) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+    ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(inFont(name).c_str());
+    ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     tooltip(explanation);
     ImGui::TableNextColumn();
-    const float slack = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
+    // The column is as wide as its widest value, but leaves room for the names: longer values are wrapped.
+    const float most = valueShare * ImGui::GetCurrentTable()->WorkRect.GetWidth();
+    const float width = std::min(ImGui::CalcTextSize(value.c_str()).x, most);
+    const float slack = ImGui::GetContentRegionAvail().x - width;
     if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
     ImGui::PushStyleColor(ImGuiCol_Text, colour ? *colour : palette().text);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width + 1);
     ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     tooltip(explanation);
 }
@@ -107,10 +119,14 @@ void endValues() {
 void labelledControl(const char* label, const char* explanation) {
     const float start = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
+    const std::string text = inFont(label);
+    const float labelWidth = ImGui::CalcTextSize(text.c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(inFont(label).c_str());
+    ImGui::TextUnformatted(text.c_str());
     tooltip(explanation);
-    ImGui::SameLine(start + std::round(width * labelShare));
+    // A label that does not fit takes room from its control, or stands over it.
+    if (labelWidth < 0.6f * width)
+        ImGui::SameLine(start + std::round(std::max(width * labelShare, labelWidth)));
     ImGui::SetNextItemWidth(-1);
 }
 

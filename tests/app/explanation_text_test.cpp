@@ -53,24 +53,21 @@ TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {
     };
     EXPECT_EQ(drawn(WhyNotSplit::GoodEnough, 1.23), "Drawn: eps 1.2 px is within tau 2.0 px.");
     EXPECT_EQ(drawn(WhyNotSplit::Leaf, 3.1),
-              "Drawn: eps 3.1 px > tau 2.0 px, but the file has nothing finer here.");
+              "Drawn: eps 3.1 px > tau 2.0 px, but the file has no finer level here.");
     EXPECT_EQ(drawn(WhyNotSplit::LevelLimit, 3.1),
-              "Drawn: eps 3.1 px > tau 2.0 px, but chunks of level 5 are not to be split.");
+              "Drawn: eps 3.1 px > tau 2.0 px, but level 5 is the max LOD level.");
     EXPECT_EQ(
         drawn(WhyNotSplit::SeamLimit, 3.1),
-        "Wanted to split: eps 3.1 px > tau 2.0 px; a chunk beside it would then be too much coarser for "
-        "stitched seams.");
-    EXPECT_EQ(
-        drawn(WhyNotSplit::WaitingForMorph, 3.1),
-        "Wanted to split: eps 3.1 px > tau 2.0 px; it slides back to its own surface first, so that the "
-        "split is not seen.");
+        "Wanted to split: eps 3.1 px > tau 2.0 px; a neighbour would then be too coarse for stitched seams.");
+    EXPECT_EQ(drawn(WhyNotSplit::WaitingForMorph, 3.1),
+              "Wanted to split: eps 3.1 px > tau 2.0 px; it first morphs back to its own surface.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForRead, 3.1),
               "Wanted to split: eps 3.1 px > tau 2.0 px; its children are being read.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForBudget, 3.1),
-              "Wanted to split: eps 3.1 px > tau 2.0 px; the memory budget has no room for its children.");
-    EXPECT_EQ(drawn(WhyNotSplit::WaitingForRetry, 3.1),
-              "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read, and are asked for "
-              "again in a while.");
+              "Wanted to split: eps 3.1 px > tau 2.0 px; its children do not fit into the memory budget.");
+    EXPECT_EQ(
+        drawn(WhyNotSplit::WaitingForRetry, 3.1),
+        "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read and will be retried.");
     EXPECT_EQ(drawn(WhyNotSplit::ChildrenFailed, 3.1),
               "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read.");
 }
@@ -100,12 +97,12 @@ TEST(ExplanationText, NumbersThatAreCloseGetMoreDigits) {
 
 TEST(ExplanationText, OfSplitChunksSaysWhatKeepsThemSplit) {
     EXPECT_EQ(whySpelled(chunk(ChunkState::Split, WhyNotSplit::IsSplit, 5)),
-              "Split: eps 5.0 px > tau 2.0 px, so chunks below it are drawn in its place.");
+              "Split: eps 5.0 px > tau 2.0 px, so its descendants are drawn instead.");
     EXPECT_EQ(whySpelled(chunk(ChunkState::Split, WhyNotSplit::IsSplit, 1.9)),
-              "Split: eps 1.9 px is within tau 2.0 px, but hysteresis keeps it split until it is lower.");
+              "Split: eps 1.9 px is within tau 2.0 px, but hysteresis keeps it split.");
     ChunkExplanation waits = chunk(ChunkState::Split, WhyNotSplit::IsSplit, 1.1);
     waits.mergeWaits = true;
-    EXPECT_EQ(whySpelled(waits), "Split: to be drawn itself as soon as its children have slid onto it.");
+    EXPECT_EQ(whySpelled(waits), "Split: it merges when its children have morphed onto it.");
 }
 
 TEST(ExplanationText, OfCulledChunksNamesWhatIsCulled) {
@@ -126,14 +123,13 @@ TEST(ExplanationText, OfResidentChunksNamesWhatIsDrawnInstead) {
     EXPECT_EQ(resident(WhyNotSplit::GoodEnough, 0.8),
               "Not drawn: z_pos/4/3/2 above it is good enough (eps 0.8 px).");
     EXPECT_EQ(resident(WhyNotSplit::LevelLimit, 3),
-              "Not drawn: z_pos/4/3/2 above it is drawn, and chunks of level 4 are not to be split.");
-    EXPECT_EQ(
-        resident(WhyNotSplit::SeamLimit, 3),
-        "Not drawn: z_pos/4/3/2 above it is drawn, since a chunk beside it would be too much coarser for "
-        "stitched seams.");
+              "Not drawn: z_pos/4/3/2 above it is drawn, and level 4 is the max LOD level.");
+    EXPECT_EQ(resident(WhyNotSplit::SeamLimit, 3),
+              "Not drawn: z_pos/4/3/2 above it is drawn, because a neighbour would otherwise be too coarse "
+              "for stitched seams.");
     EXPECT_EQ(resident(WhyNotSplit::WaitingForMorph, 3),
-              "Not drawn: z_pos/4/3/2 above it is drawn until it has slid back to its own surface.");
-    EXPECT_EQ(resident(WhyNotSplit::NotDrawn, 3), "Not drawn: nothing has asked for it.");
+              "Not drawn: z_pos/4/3/2 above it is drawn until it has morphed back to its own surface.");
+    EXPECT_EQ(resident(WhyNotSplit::NotDrawn, 3), "Not drawn: no view requests it.");
 }
 
 TEST(ExplanationText, OfMissingChunksSaysWhatTheyWaitFor) {
@@ -148,15 +144,15 @@ TEST(ExplanationText, OfMissingChunksSaysWhatTheyWaitFor) {
               "Not loaded: z_pos/4/3/2 above it comes first, 3rd of 60 in the queue.");
     EXPECT_EQ(missing(WhyNotSplit::WaitingForRead),
               "Not loaded: z_pos/4/3/2 above it comes first, and is being read.");
-    EXPECT_EQ(missing(WhyNotSplit::WaitingForBudget),
-              "Not loaded: z_pos/4/3/2 above it is drawn, since the memory budget has no room for its "
-              "children.");
+    EXPECT_EQ(
+        missing(WhyNotSplit::WaitingForBudget),
+        "Not loaded: z_pos/4/3/2 above it is drawn, because its children do not fit into the memory budget.");
     EXPECT_EQ(missing(WhyNotSplit::WaitingForRetry),
-              "Not loaded: z_pos/4/3/2 above it is drawn, since its children could not be read; they are "
-              "asked for again in a while.");
+              "Not loaded: z_pos/4/3/2 above it is drawn, because its children could not be read; they will "
+              "be retried.");
     EXPECT_EQ(missing(WhyNotSplit::ChildrenFailed),
-              "Not loaded: z_pos/4/3/2 above it is drawn, since its children could not be read.");
-    EXPECT_EQ(missing(WhyNotSplit::NotDrawn), "Not loaded: nothing has asked for it.");
+              "Not loaded: z_pos/4/3/2 above it is drawn, because its children could not be read.");
+    EXPECT_EQ(missing(WhyNotSplit::NotDrawn), "Not loaded: no view requests it.");
 }
 
 TEST(ExplanationText, OfChunksOnTheirWaySaysHowFarTheyAre) {

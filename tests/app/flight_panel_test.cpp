@@ -13,11 +13,11 @@ using testing::HasSubstr;
 TEST(FlightPanel, StatusSaysHowFarItIsExact) {
     ReplayNow replay;
     replay.frames = 600;
-    EXPECT_EQ(replayStatus(replay), "Nothing is replayed yet");
+    EXPECT_EQ(replayStatus(replay), "No frame replayed yet");
     replay.frame = 120;
-    EXPECT_EQ(replayStatus(replay), "Exact so far: 120 frames as recorded");
+    EXPECT_EQ(replayStatus(replay), "Exact so far: 120 frames match the recording");
     replay.frame = 600;
-    EXPECT_EQ(replayStatus(replay), "Exact: all 600 frames as recorded");
+    EXPECT_EQ(replayStatus(replay), "Exact: all 600 frames match the recording");
 }
 
 TEST(FlightPanel, StatusNamesTheFirstFrameThatDiffers) {

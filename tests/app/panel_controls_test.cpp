@@ -400,8 +400,8 @@ TEST_F(SweepControls, anAnswerIsTakenOverIntoTheSettingsWhereItMeetsTheGoal) {
         {33, planet::ErrorMetric::Tight, {true, SweepCost::Triangles, 1}, {1.83, 0.98, true, 7}}};
     view_.sweep.suggestions = found;
     frame(PanelId::Sweep);
-    EXPECT_FALSE(window_.isShown("/Use it: additive"));
-    EXPECT_TRUE(click(PanelId::Sweep, "/Use it: tight").empty());
+    EXPECT_FALSE(window_.isShown("/Apply: additive"));
+    EXPECT_TRUE(click(PanelId::Sweep, "/Apply: tight").empty());
     EXPECT_EQ(settings_.lod.tauPx, 1.83);
     EXPECT_EQ(settings_.lod.metric, planet::ErrorMetric::Tight);
 }
@@ -453,9 +453,9 @@ TEST_F(SweepControls, withoutAFlightItSaysWhereOneComesFrom) {
 
 TEST_F(PanelControls, comparingBeginsWithKeptSettingsAndEnds) {
     frame(PanelId::Compare);
-    EXPECT_FALSE(window_.isShown("Keep settings as B"));
+    EXPECT_FALSE(window_.isShown("Snapshot as B"));
     openPlanet();
-    const Commands start = click(PanelId::Compare, "Keep settings as B");
+    const Commands start = click(PanelId::Compare, "Snapshot as B");
     ASSERT_TRUE(only<StartCompare>(start));
     EXPECT_EQ(only<StartCompare>(start)->with, StartCompare::With::SettingsKept);
     EXPECT_FALSE(window_.isShown("Swap A and B"));
@@ -465,7 +465,7 @@ TEST_F(PanelControls, comparingBeginsWithKeptSettingsAndEnds) {
     view_.compare.planetB = planet_.get();
     view_.compare.settingsB = &settingsOfB;
     EXPECT_TRUE(only<SwapCompare>(click(PanelId::Compare, "Swap A and B")));
-    EXPECT_TRUE(only<StopCompare>(click(PanelId::Compare, "End comparing")));
+    EXPECT_TRUE(only<StopCompare>(click(PanelId::Compare, "End comparison")));
     EXPECT_TRUE(only<MeasureCompare>(click(PanelId::Compare, "Measure this view")));
     settings_.compare.mode = CompareMode::Flip;
     click(PanelId::Compare, "Show B (F9)");

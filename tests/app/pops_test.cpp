@@ -95,7 +95,7 @@ TEST_F(PopsTest, TheFirstRowIsTheWorstAndGoesBackToItsView) {
     running_ = false;
     ASSERT_TRUE(states_.pops.selected);
     EXPECT_EQ(*states_.pops.selected, ui::keyOf(worst()));
-    const ui::Commands back = click("Go back");
+    const ui::Commands back = click("Go to view");
     ASSERT_EQ(back.size(), 1u);
     const auto* command = back.front().as<ui::GoBackToPop>();
     ASSERT_TRUE(command);

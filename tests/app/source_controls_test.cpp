@@ -120,7 +120,7 @@ TEST_F(BakePanelSource, AClickIntoThePictureShowsAQuarterOfIt) {
 
 TEST_F(BakePanelSource, DetailIsAddedToTheFileThatIsNamed) {
     view_.bake.current.source = worlds_[0].request.source;
-    click("Detail below its resolution", 0.05f);
+    click("Add fractal detail", 0.05f);
     const EstimateBake* estimate = askedFor<EstimateBake>();
     ASSERT_TRUE(estimate);
     EXPECT_EQ(estimate->request.source, "detail:seed=1,of=" + worlds_[0].request.source.string());

@@ -53,5 +53,22 @@ TEST(Text, PixelsHaveNoMoreDigitsThanCanBeSeen) {
     EXPECT_EQ(pixelsText(1.6e10), "> 1 M px");
 }
 
+TEST(Text, numbersAreRoundedToFourDigitsAndOtherTextsStay) {
+    EXPECT_EQ(shortNumberText("19.630435466766357"), "19.63");
+    EXPECT_EQ(shortNumberText("-0.30000001192092896"), "-0.3");
+    EXPECT_EQ(shortNumberText("0.00012345678"), "0.0001235");
+    EXPECT_EQ(shortNumberText("123456.789"), "123457");
+    EXPECT_EQ(shortNumberText("12"), "12");
+    EXPECT_EQ(shortNumberText("0"), "0");
+    EXPECT_EQ(shortNumberText("tight"), "tight");
+    EXPECT_EQ(shortNumberText("2.5 m"), "2.5 m");
+}
+
+TEST(Text, roundedNumbersThatDifferAreToldApart) {
+    using Texts = std::array<std::string, 2>;
+    EXPECT_EQ(shortNumberTexts("12", "19.630435466766357"), (Texts{"12", "19.63"}));
+    EXPECT_EQ(shortNumberTexts("2.00001", "2.00002"), (Texts{"2.00001", "2.00002"}));
+}
+
 }  // namespace
 }  // namespace ui

@@ -34,6 +34,12 @@ TEST(Undo, GoesBackAndForthThroughSteps) {
     EXPECT_EQ(history.redoName(), "");
 }
 
+TEST(Undo, NamesRoundNumbers) {
+    UndoHistory history;
+    history.record(withTau(2), withTau(19.630435466766357), false, 1);
+    EXPECT_EQ(history.undoName(), "tau 2 -> 19.63 px");
+}
+
 TEST(Undo, AllChangesWhileAControlIsHeldAreOneStep) {
     UndoHistory history;
     for (int i = 0; i < 100; ++i) history.record(withTau(2 + i), withTau(3 + i), true, 10.0 * i);

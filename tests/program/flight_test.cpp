@@ -45,12 +45,12 @@ protected:
 TEST_F(FlightTest, WhatTheWindowRecordsIsReplayedExactlyThereAndByTheCommandLine) {
     drive(R"sh(
 record() {
-    tab Flight; click flight/Record; expect shown "flight/Stop and keep"
+    tab Flight; click flight/Record; expect shown "flight/Stop and save"
     point viewport/picture 0.4 0.3
     for i in 1 2 3 4 5 6 7 8; do xdotool click 4; frames 2; done
     tab Paging; click "paging/Evict all"; tab LOD; slide "lod/Tolerance τ" 0.3; tab Flight
     expect counts recorded -gt 40
-    click "flight/Stop and keep"; expect hidden "flight/Stop and keep"
+    click "flight/Stop and save"; expect hidden "flight/Stop and save"
 }
 record; expect shown "flight/flight 1"; tau=$(counter triangles)
 camera=$(counter camera)

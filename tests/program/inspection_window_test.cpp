@@ -66,7 +66,7 @@ TEST_F(InspectionWindowTest, goBackToAPopFreezesLodWhereItWasSeen) {
 key ctrl+shift+3; slide "lod/Tolerance τ" 0; settle; drawn=$(counter drawn)
 slide "lod/Tolerance τ" 0.3; settle; drawn=$(counter drawn)
 point viewport/picture; for i in 1 2 3; do xdotool click 5; done; settle; start=$(counter camera)
-expect shown "pops/Row 0"; click "pops/Row 0" 0.03 0.5; click "pops/Go back"
+expect shown "pops/Row 0"; click "pops/Row 0" 0.03 0.5; click "pops/Go to view"
 expect counts lod_frozen -eq 1; expect shown inspection/Back; go_back pop
 )sh");
 }

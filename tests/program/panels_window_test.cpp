@@ -253,7 +253,7 @@ tab LOD; slide "lod/Tolerance τ" 1; expect counts triangles -lt 5000
 tab Presets; click "presets/My own"; click presets/Load; expect counts triangles -eq $fine
 key ctrl+z; expect counts triangles -lt 5000
 click presets/Load; expect counts triangles -eq $fine
-click "presets/Reset everything"; expect counts triangles -lt 10000
+click "presets/Reset all settings"; expect counts triangles -lt 10000
 )sh");
     EXPECT_THAT(contentOf(folder.path() / "config" / "worldy" / "presets" / "My own.toml"),
                 HasSubstr("tau_px = 0.1"));
@@ -320,7 +320,7 @@ key ctrl+shift+7; tab Sweep
 enter sweep/Tolerances "2 none"; click sweep/Run; frames; counts swept -eq 0 || echo "it runs on wrong tolerances"
 enter sweep/Tolerances "1 32"
 choose sweep/Picture "640 x 400"
-slide sweep/Moments 0.01
+slide "sweep/Sample frames" 0.01
 click sweep/Run; expect counts swept -eq 4; expect counts sweeping -eq 0
 fine=$(counter triangles)
 click "sweep/Row 3"; click "sweep/Use these settings"
@@ -329,13 +329,13 @@ key ctrl+z; expect counts triangles -eq $fine
 click "sweep/Save table and plot"; expect says "and its table beside it"
 # One that takes minutes is cancelled, and is no whole table.
 enter sweep/Tolerances "0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.6 1.8 2 2.2 2.4 2.6 2.8 3"; choose sweep/Picture "1920 x 1080"
-slide sweep/Moments 0.99; click sweep/Run; expect counts sweeping -eq 1
+slide "sweep/Sample frames" 0.99; click sweep/Run; expect counts sweeping -eq 1
 click sweep/Cancel; expect counts sweeping -eq 0; expect says "The sweep was cancelled"
-slide sweep/Moments 0.01; choose sweep/Picture "640 x 400"
+slide "sweep/Sample frames" 0.01; choose sweep/Picture "640 x 400"
 enter sweep/Limit 20
 click sweep/Suggest; expect counts suggested -eq 2; expect counts sweeping -eq 0
-reach sweep/Suggest "sweep/Use it: additive"
-click "sweep/Use it: additive"; expect counts triangles -lt $fine
+reach sweep/Suggest "sweep/Apply: additive"
+click "sweep/Apply: additive"; expect counts triangles -lt $fine
 )sh",
                                 {"1000x625"});
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
@@ -356,7 +356,7 @@ click "sweep/Use it: additive"; expect counts triangles -lt $fine
 TEST_F(PanelsWindowTest, ComparingShowsTwoSettingsAndEnds) {
     drive(R"sh(
 slide "lod/Tolerance τ" 0; settle; plain=$(viewport)
-key ctrl+shift+6; click "compare/Keep settings as B"; expect counts compared -eq 1; settle
+key ctrl+shift+6; click "compare/Snapshot as B"; expect counts compared -eq 1; settle
 expect counts pixels_differ -eq 0
 slide "lod/Tolerance τ" 1; settle
 expect counts pixels_differ -gt 1000
@@ -371,7 +371,7 @@ drag 0.999; xdotool mousemove 600 5; expect same "$alone"
 drag 0.001; xdotool mousemove 600 5; expect same "$plain"
 choose compare/Show difference; expect differs "$plain"
 click "compare/Swap A and B"; expect counts triangles -eq $fine; expect counts triangles_b -eq $coarse
-click "compare/End comparing"; expect counts compared -eq 0; expect hidden viewport/Wipe
+click "compare/End comparison"; expect counts compared -eq 0; expect hidden viewport/Wipe
 settle; expect same "$plain"
 )sh");
     EXPECT_THAT(settingsOf(folder), HasSubstr("mode = \"difference\""));
@@ -386,7 +386,7 @@ TEST_F(PanelsWindowTest, BothSidesAreMeasuredOverAFlightBesideTheWindow) {
     writeWindowSettings(folder, "[window]\nbottom_height = 60\n");
     drive(R"sh(
 slide "lod/Tolerance τ" 0
-key ctrl+shift+6; click "compare/Keep settings as B"; expect counts compared -eq 1
+key ctrl+shift+6; click "compare/Snapshot as B"; expect counts compared -eq 1
 slide "lod/Tolerance τ" 1
 reach "compare/Swap A and B" "compare/Measure over the flight"
 choose compare/Flight aaa
