@@ -43,7 +43,8 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
             open.settings = *loaded;
         else
             log->warn("{}; going on with the defaults, and the file stays as it is", loaded.error().message);
-        open.mayBeSaved = loaded.has_value();
+        // A screenshot brings settings and stays the picture that it is.
+        open.mayBeSaved = loaded.has_value() && !isPng(open.file);
     }
     open.textBefore = settingsText(open.settings);
     return open;

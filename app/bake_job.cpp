@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "app/write_check.h"
 #include "planet/colour_source.h"
 #include "planet/height_source.h"
 
@@ -81,10 +82,16 @@ void BakeJob::run(const std::filesystem::path& source, const planet::HeightSourc
         return !cancelled_.load();
     };
     std::string colourProblem;
+    CommandFiles files;
+    addSource(files, source);
+    addSource(files, colour.image);
+    files.outputs = {{output, OutputKind::ChunkFile}};
     planet::Result<planet::BakeReport> result =
-        planet::openHeightSource(source, sourceSettings).and_then([&](const planet::HeightSource& heights) {
-            return bakeWithColour(heights, settings, output, onProgress, colour, colourProblem);
-        });
+        checkNotInputs(files)
+            .and_then([&] { return planet::openHeightSource(source, sourceSettings); })
+            .and_then([&](const planet::HeightSource& heights) {
+                return bakeWithColour(heights, settings, output, onProgress, colour, colourProblem);
+            });
     const std::lock_guard lock(mutex_);
     result_ = std::move(result);
     colourProblem_ = std::move(colourProblem);

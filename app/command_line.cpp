@@ -30,6 +30,7 @@
 #include "app/replay_command.h"
 #include "app/shot_command.h"
 #include "app/sweep_command.h"
+#include "app/write_plan.h"
 
 namespace worldy {
 
@@ -524,6 +525,25 @@ Result<AuditOptions> understand(AuditOptions options, const AuditTexts& texts) {
     return options;
 }
 
+// What a command reads besides what its options name.
+void addInputs(CommandFiles& files, const SweepTexts& texts) {
+    addInputs(files, texts.view);
+}
+void addInputs(CommandFiles& files, const AuditTexts& texts) {
+    addInputs(files, texts.view);
+}
+void addInputs(CommandFiles& files, const CompareTexts& texts) {
+    for (const ViewTexts& side : texts) addInputs(files, side);
+}
+
+// Runs a command whose outputs leave its inputs, and files of other kinds, as they are.
+template <typename Options, typename Run>
+auto runIfSafe(const Options& options, CommandFiles files, bool overwrite, const Run& run)
+    -> decltype(run(options)) {
+    if (const Result<void> safe = checkOutputs(files, overwrite); !safe) return tl::unexpected(safe.error());
+    return run(options);
+}
+
 // Of a check: whether all is well.
 int exitCodeOf(const Result<bool>& result) {
     if (!result) return reportError(result.error());
@@ -563,6 +583,7 @@ struct CommandLine {
     CompareOptions compare;
     CompareTexts compareTexts;
     MakeLayersOptions makeLayers;
+    bool overwrite = false;  // outputs may replace files of other kinds
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
@@ -588,6 +609,11 @@ struct CommandLine {
         addReplay(app, replay);
         addCompare(app, compare, compareTexts);
         addMakeLayers(app, makeLayers);
+        for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+            const std::string name = command->get_name();
+            if (name == "info" || name == "verify" || name == "probe") continue;  // write no files
+            command->add_flag("--overwrite", overwrite, "Let outputs replace files of other kinds too");
+        }
         app.require_subcommand(0, 1);
     }
     CommandLine(const CommandLine&) = delete;
@@ -623,15 +649,29 @@ int runCommand(int argumentCount, const char* const* arguments) {
     } catch (const CLI::ParseError& error) {
         return error.get_exit_code() == 0 ? app.exit(error) : reportError(errorOf(error));
     }
-    const auto view = [](auto& options, const auto& texts, auto run) {
-        return [&options, &texts, run] { return exitCodeOf(understand(options, texts).and_then(run)); };
+    // Checks what would be written, and runs the command.
+    const auto safely = [&line](const auto& options, auto run) {
+        return runIfSafe(options, filesOf(options), line.overwrite, run);
+    };
+    const auto view = [&line](auto& options, const auto& texts, auto run) {
+        return [&line, &options, &texts, run] {
+            return exitCodeOf(understand(options, texts).and_then([&](const auto& understood) {
+                CommandFiles files = filesOf(understood);
+                addInputs(files, texts);
+                return runIfSafe(understood, std::move(files), line.overwrite, run);
+            }));
+        };
     };
     const std::vector<std::pair<const char*, std::function<int()>>> commands = {
-        {"bake", [&] { return exitCodeOf(understand(line.bake).and_then(runBake)); }},
+        {"bake",
+         [&] {
+             return exitCodeOf(understand(line.bake).and_then(
+                 [&](const BakeOptions& options) { return safely(options, runBake); }));
+         }},
         {"info", [&] { return exitCodeOf(runInfo(line.file)); }},
         {"verify", [&] { return exitCodeOf(runVerify(line.file)); }},
         {"probe", [&] { return exitCodeOf(runProbe(line.file)); }},
-        {"replay", [&] { return exitCodeOf(replayFlight(line.replay)); }},
+        {"replay", [&] { return exitCodeOf(safely(line.replay, replayFlight)); }},
         {"shot", view(line.shot, line.shotView, takeShot)},
         {"fly", view(line.fly, line.flyView, flyPath)},
         {"sweep", view(line.sweep, line.sweepTexts, runSweep)},
@@ -641,11 +681,14 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"pops", view(line.pops, line.popsView, runPops)},
         {"audit", view(line.audit, line.auditTexts, runAudit)},
         {"compare", view(line.compare, line.compareTexts, runCompare)},
-        {"make-layers", [&] { return exitCodeOf(makeLayers(line.makeLayers)); }},
+        {"make-layers", [&] { return exitCodeOf(safely(line.makeLayers, makeLayers)); }},
     };
     for (const auto& [name, run] : commands) {
         if (app.got_subcommand(name)) return run();
     }
+    const CommandFiles files = filesOf(line.window);
+    const Result<void> safe = checkNotInputs(files).and_then([&] { return checkKinds(files.outputs); });
+    if (!safe) return reportError(safe.error());
     return runApp(line.window);
 }
 

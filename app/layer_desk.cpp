@@ -9,6 +9,7 @@
 #include "app/presets.h"
 #include "app/scene.h"
 #include "app/toml_file.h"
+#include "app/write_check.h"
 #include "planet/layer_place.h"
 
 namespace worldy {
@@ -75,6 +76,8 @@ Result<void> saveAs(LayerDesk& desk, std::string_view name, ui::LayerSettings& l
                                                  name)));
     }
     const fs::path file = desk.folders.own / fmt::format("{}.toml", name);
+    if (Result<void> kind = checkKinds({{file, OutputKind::LayerSet}}); !kind)
+        return told(desk, std::move(kind));
     const fs::path folder = layerFolderOf(layers.file);
     if (Result<void> saved = saveLayerSet(layers.set, folder, file); !saved)
         return told(desk, std::move(saved));

@@ -8,6 +8,7 @@
 #include "app/output_file.h"
 #include "app/places.h"
 #include "app/toml_file.h"
+#include "app/write_check.h"
 
 namespace worldy {
 
@@ -136,6 +137,8 @@ Result<void> PresetShelf::save(std::string_view name, const ui::ViewSettings& se
     // One that differs in case alone is written over under the name that it has.
     const fs::path file =
         present ? present->file : folders_.own / (std::string(name) + std::string(presetEnding));
+    // Else a flight, say, that was put into the folder would be lost.
+    if (Result<void> kind = checkKinds({{file, OutputKind::Preset}}); !kind) return kind;
     Result<void> written = writeTextFile(file, viewSettingsText(settings));
     reload();
     return written;

@@ -11,6 +11,7 @@
 #include "app/message.h"
 #include "app/output_file.h"
 #include "app/report.h"
+#include "app/write_check.h"
 
 namespace worldy {
 
@@ -95,6 +96,10 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     if (!record) return tl::unexpected(record.error());
     Result<planet::ChunkFile> file = openData(options, record->data);
     if (!file) return tl::unexpected(file.error());
+    // The recording may have named it.
+    if (const Result<void> apart = checkNotInputs({{file->name()}, {{options.output, OutputKind::Json}}});
+        !apart)
+        return tl::unexpected(apart.error());
     const std::string fileName = file->name();
     Result<FlightReplay> replay = FlightReplay::create(
         std::make_shared<const FlightRecord>(std::move(*record)), options.paging, options.assignments);

@@ -10,6 +10,7 @@
 #include "app/output_file.h"
 #include "app/screenshot.h"
 #include "app/sweep_plot.h"
+#include "app/write_check.h"
 
 namespace worldy {
 
@@ -158,11 +159,14 @@ Result<fs::path> saveSweep(const SweepDesk& desk, SweepCost cost, const fs::path
     ::localtime_r(&now, &local);
     const Result<fs::path> picture = newScreenshotFile(folder, local);
     if (!picture) return picture;
-    fs::path table = *picture;
-    Result<void> written = writeTextFile(table.replace_extension(".csv"), sweepCsv(points));
+    fs::path table = *picture, report = *picture;
+    table.replace_extension(".csv");
+    report.replace_extension(".json");
+    Result<void> written = checkKinds({{table, OutputKind::Csv}, {report, OutputKind::Json}});
+    if (written) written = writeTextFile(table, sweepCsv(points));
     if (written) {
         const std::string json = sweepJson(points, desk.table->source.string(), desk.table->flight, cost);
-        written = writeTextFile(table.replace_extension(".json"), json);
+        written = writeTextFile(report, json);
     }
     if (written) {
         written = plotSweep(points, cost, desk.table->flight).and_then([&](const Picture& plot) {

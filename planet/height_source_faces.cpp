@@ -325,16 +325,28 @@ int squareSide(std::uint64_t samples) {
     return side * side == samples && side < (1u << 30) ? static_cast<int>(side) : 0;
 }
 
-Result<int> rawSideOf(const FaceFiles& files, const HeightSourceSettings& settings, std::uint64_t bytes) {
-    if (settings.rawSize) return *settings.rawSize;
-    if (files.sizeInName) return *files.sizeInName;
+Result<int> rawSideByLength(const FaceFiles& files, const HeightSourceSettings& settings,
+                            std::uint64_t bytes) {
     // 8 or 16 bits: the length and half of it are never squares both.
     if (settings.rawBits != 16 && squareSide(bytes) > 0) return squareSide(bytes);
     if (settings.rawBits != 8 && bytes % 2 == 0 && squareSide(bytes / 2) > 0) return squareSide(bytes / 2);
     return badInput(
         fmt::format("{} is {} bytes, which no square of 8 or 16 bit samples has; its name may end "
-                    "in the samples a side, as in earth4097_{}.raw, or rawSize may give them",
+                    "in the samples a side, as in earth4097_{}.raw, or --raw-size may give them",
                     files.paths[0].filename().string(), bytes, faceName(Face::PosX)));
+}
+
+Result<int> rawSideOf(const FaceFiles& files, const HeightSourceSettings& settings, std::uint64_t bytes) {
+    if (settings.rawSize) return *settings.rawSize;
+    if (files.sizeInName) return *files.sizeInName;
+    return rawSideByLength(files, settings, bytes);
+}
+
+// Says how to give the faces' size where the number that their name ends in is none. side: the samples a side
+// that they have; below 2: not known.
+std::string otherSizeHint(const FaceFiles& files, const HeightSourceSettings& settings, int side) {
+    if (settings.rawSize || !files.sizeInName || side < 2) return {};
+    return fmt::format("; if the {} in the name is not the size, use --raw-size {}", *files.sizeInName, side);
 }
 
 Result<FaceFormat> rawFormat(const FaceFiles& files, const HeightSourceSettings& settings) {
@@ -352,8 +364,9 @@ Result<FaceFormat> rawFormat(const FaceFiles& files, const HeightSourceSettings&
             settings.rawBits ? fmt::format("{} bits would be {}", *settings.rawBits,
                                            samples * static_cast<std::uint64_t>(*settings.rawBits / 8))
                              : fmt::format("8 or 16 bits would be {} or {}", samples, 2 * samples);
-        return badInput(
-            fmt::format("{} is {} bytes; {} x {} samples of {}", file, *bytes, *side, *side, expected));
+        const Result<int> fitting = rawSideByLength(files, settings, *bytes);
+        return badInput(fmt::format("{} is {} bytes; {} x {} samples of {}{}", file, *bytes, *side, *side,
+                                    expected, otherSizeHint(files, settings, fitting.value_or(0))));
     }
     for (const std::filesystem::path& path : files.paths) {
         const Result<std::uint64_t> other = lengthOf(path);
@@ -398,9 +411,10 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
                 first.typeName));
         }
         if (expected && layout.width != *expected) {
-            return badInput(
-                fmt::format("{} is {} x {} samples; {} {} x {}", name, layout.width, layout.height,
-                            settings.rawSize ? "rawSize asks for" : "its name says", *expected, *expected));
+            return badInput(fmt::format("{} is {} x {} samples; {} {} x {}{}", name, layout.width,
+                                        layout.height,
+                                        settings.rawSize ? "--raw-size asks for" : "its name says", *expected,
+                                        *expected, otherSizeHint(files, settings, layout.width)));
         }
     }
     if (Result<void> check = checkSize(firstName, first.width); !check) return tl::unexpected(check.error());

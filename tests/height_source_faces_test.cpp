@@ -10,6 +10,7 @@ namespace planet {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -158,11 +159,26 @@ TEST(HeightSourceFaces, RawSizeComesFromTheLengthWhereTheNameHasNone) {
 TEST(HeightSourceFaces, SettingsOverrideTheName) {
     const TemporaryFolder folder;
     writeRawFaces(folder, "apollo11", 17, disagreeing);
-    EXPECT_THAT(errorOf(folder / "apollo11"), HasSubstr("is 578 bytes; 11 x 11 samples"));
+    EXPECT_THAT(errorOf(folder / "apollo11"),
+                AllOf(HasSubstr("is 578 bytes; 11 x 11 samples"),
+                      EndsWith("; if the 11 in the name is not the size, use --raw-size 17")));
     HeightSourceSettings settings;
     settings.rawSize = 17;
     settings.rawBits = 16;
     expectExactCopies(mustOpen(folder / "apollo11", settings), 17);
+}
+
+TEST(HeightSourceFaces, nameThatEndsInANumberAndTheSizeSuggestsRawSize) {
+    const TemporaryFolder folder;
+    writeRawFaces(folder, "noise17129", 129, disagreeing, {.bits = 8});
+    EXPECT_THAT(errorOf(folder / "noise17129"),
+                EndsWith("the 17129 in the name is not the size, use --raw-size 129"));
+    writeFaceImages<std::uint8_t>(folder, "moon2024", ".png", 9, disagreeing);
+    EXPECT_THAT(errorOf(folder / "moon2024"),
+                EndsWith("the 2024 in the name is not the size, use --raw-size 9"));
+    HeightSourceSettings settings;
+    settings.rawSize = 9;
+    EXPECT_EQ(mustOpen(folder / "moon2024", settings).naturalFaceSize, 9);
 }
 
 TEST(HeightSourceFaces, SharedEdgesAndCornersAreBitIdenticalThoughFacesDisagree) {

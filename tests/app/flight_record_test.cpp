@@ -663,6 +663,19 @@ TEST_F(FlightRecordTest, AReportOfAFileWhoseNameIsNotUtf8IsWritten) {
     EXPECT_GT(std::filesystem::file_size(options.output), 100u);
 }
 
+TEST_F(FlightRecordTest, theFileThatARecordingNamesIsNotReplacedByTheReport) {
+    const std::filesystem::path copy = folder_ / "flown.chk";
+    std::filesystem::copy_file(folder_ / "hills.chk", copy);
+    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
+    ReplayOptions options;
+    options.flight = written(flyAbout(*planet, troubled(true), 5));
+    options.output = copy;
+    const planet::Result<bool> replayed = replayFlight(options);
+    ASSERT_FALSE(replayed);
+    EXPECT_THAT(replayed.error().message, testing::HasSubstr("flown.chk: is read here"));
+    EXPECT_TRUE(planet::ChunkFile::open(copy));
+}
+
 TEST_F(FlightRecordTest, WithoutAFrameNothingIsWritten) {
     const auto planet = openPlanet({});
     const Recorder recorder(*planet, "nothing");

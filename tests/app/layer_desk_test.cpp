@@ -62,6 +62,11 @@ TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     EXPECT_THAT(desk.setProblem, HasSubstr("comes with Worldy"));
     EXPECT_FALSE(saveAs(desk, "a/b", layers));
     EXPECT_EQ(layers, ui::LayerSettings{});
+    fs::create_directories(desk.folders.own);
+    std::ofstream(desk.folders.own / "flight.toml") << "[[key]]\ntime_s = 0\n";
+    EXPECT_FALSE(saveAs(desk, "flight", layers));
+    EXPECT_THAT(desk.setProblem, HasSubstr("flight.toml: is there and is not a layer set"));
+    EXPECT_EQ(tests::contentOf(desk.folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
     ASSERT_TRUE(saveAs(desk, "fine", layers));
     EXPECT_EQ(desk.setProblem, "");
 }

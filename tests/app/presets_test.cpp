@@ -119,6 +119,14 @@ TEST_F(Presets, OwnOnesAreWrittenOverAndDeleted) {
     EXPECT_FALSE(shelf.remove("mine"));
 }
 
+TEST_F(Presets, fileThatIsNoPresetIsNotWrittenOver) {
+    writeOwn("flight.toml", "[[key]]\ntime_s = 0\n");
+    PresetShelf shelf(folders);
+    EXPECT_THAT(shelf.save("flight", someView()).error().message,
+                HasSubstr("flight.toml: is there and is not a preset; expected another name"));
+    EXPECT_EQ(tests::contentOf(folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
+}
+
 TEST_F(Presets, AFileThatHidesBehindAShippedNameIsToldAsAProblem) {
     writeOwn("Default.toml", "[lod]\ntau_px = 9\n");
     PresetShelf shelf(folders);
