@@ -22,6 +22,7 @@
 #include "app/stopwatch.h"
 #include "planet/percentile.h"
 #include "planet/planet.h"
+#include "ui/glossary.h"
 #include "ui/text.h"
 
 namespace worldy {
@@ -69,8 +70,8 @@ AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const plane
         camera = keepInRange(camera, ground);
     }
     audited.pose = planet::poseFromView(view, radiusM);
-    const auto cells = static_cast<std::uint64_t>(planet::chunkCells(planet.shape()));
-    audited.triangles = planet.selection().draw.size() * 2 * cells * cells;
+    audited.groundTriangles = planet.selection().counters.groundTriangles;
+    audited.skirtTriangles = planet.selection().counters.skirtTriangles;
     return audited;
 }
 
@@ -115,9 +116,10 @@ Place groundPlaceOf(const glm::dvec3& pointM) {
 
 Json jsonOf(const ChunkError& chunk) {
     Json json = {{"chunk", planet::toString(chunk.id)},
-                 {"predicted_px", chunk.predictedPx},
-                 {"facing_px", chunk.facingPx},
-                 {"screen_px", chunk.screenPx},
+                 {ui::terms::epsPx.key, chunk.epsPx},
+                 {ui::terms::drawnBoundPx.key, chunk.drawnBoundPx},
+                 {ui::terms::measuredPx.key, chunk.facingPx},
+                 {ui::terms::screenPx.key, chunk.screenPx},
                  {"error_m", chunk.errorM},
                  {"mean_px", chunk.meanPx},
                  {"samples", chunk.samples},
@@ -133,10 +135,11 @@ Json jsonOf(const ChunkError& chunk) {
 
 // Of one view, or of all together.
 void addFigures(const TrueErrorReport& report, Json& json) {
-    json["worst_predicted_px"] = report.worstPredictedPx;
-    json["worst_facing_px"] = report.worstFacingPx;
+    json["worst_eps_px"] = report.worstEpsPx;
+    json["worst_drawn_bound_px"] = report.worstDrawnBoundPx;
+    json["worst_measured_px"] = report.worstFacingPx;
     json["worst_screen_px"] = report.worstScreenPx;
-    json["p99_facing_px"] = report.p99FacingPx;
+    json["p99_measured_px"] = report.p99FacingPx;
     json["p99_screen_px"] = report.p99ScreenPx;
     json["mean_slack"] = report.meanSlack;
     json["violations"] = report.violations;
@@ -149,7 +152,9 @@ Json jsonOf(const AuditedView& view) {
     Json json = {{"camera", poseJson(view.pose)},
                  {"settled", view.settled},
                  {"chunks", report.chunks.size()},
-                 {"triangles", view.triangles}};
+                 {ui::terms::groundTriangles.key, view.groundTriangles},
+                 {ui::terms::skirtTriangles.key, view.skirtTriangles},
+                 {ui::terms::triangles.key, view.groundTriangles + view.skirtTriangles}};
     addFigures(report, json);
     json["chunk"] = Json::array();
     for (const ChunkError& chunk : report.chunks) json["chunk"].push_back(jsonOf(chunk));
@@ -170,7 +175,8 @@ TrueErrorReport totalsOf(const Audit& audit) {
     double slack = 0;
     for (const AuditedView& view : audit.views) {
         const TrueErrorReport& report = view.report;
-        totals.worstPredictedPx = std::max(totals.worstPredictedPx, report.worstPredictedPx);
+        totals.worstEpsPx = std::max(totals.worstEpsPx, report.worstEpsPx);
+        totals.worstDrawnBoundPx = std::max(totals.worstDrawnBoundPx, report.worstDrawnBoundPx);
         totals.worstFacingPx = std::max(totals.worstFacingPx, report.worstFacingPx);
         totals.worstScreenPx = std::max(totals.worstScreenPx, report.worstScreenPx);
         totals.violations += report.violations;
@@ -188,30 +194,31 @@ TrueErrorReport totalsOf(const Audit& audit) {
     return totals;
 }
 
-// An eye within the bounds of a chunk that is not exact has no prediction that means much.
+// An eye within the bounds of a chunk that is not exact has no useful bound.
 std::string columnText(double px) {
     return px < 1e5 ? fmt::format("{:.3f}", px) : fmt::format("{:.1e}", px);
 }
 
 void printRow(const std::string& name, std::size_t chunks, std::uint64_t triangles,
               const TrueErrorReport& report) {
-    fmt::print("{:>5}{:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>8.1f}{:>12}\n", name, chunks,
-               ui::countText(static_cast<double>(triangles)), columnText(report.worstPredictedPx),
-               columnText(report.worstFacingPx), columnText(report.p99FacingPx),
-               columnText(report.worstScreenPx), 100 * report.meanSlack, report.violations);
+    fmt::print("{:>5}{:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>8.1f}{:>12}\n", name, chunks,
+               ui::countText(static_cast<double>(triangles)), columnText(report.worstEpsPx),
+               columnText(report.worstDrawnBoundPx), columnText(report.worstFacingPx),
+               columnText(report.p99FacingPx), columnText(report.worstScreenPx), 100 * report.meanSlack,
+               report.violations);
 }
 
 void printWorst(const Audit& audit, int count) {
     const std::vector<Listed> worst = worstChunks(audit, count);
     if (worst.empty() || worst.front().chunk->facingPx <= 0) return;
-    fmt::print("\n{:>5}  {:24}{:>11}{:>11}{:>11}{:>12}  {}\n", "view", "worst chunks", "predicted", "facing",
+    fmt::print("\n{:>5}  {:24}{:>11}{:>11}{:>11}{:>12}  {}\n", "view", "worst chunks", "bound", "measured",
                "screen", "error", "at");
     for (const Listed& one : worst) {
         const ChunkError& chunk = *one.chunk;
         if (chunk.facingPx <= 0) break;
         const Place place = groundPlaceOf(chunk.worstM);
         fmt::print("{:>5}  {:24}{:>11}{:>11}{:>11}{:>10.2f} m  {}{}\n", one.view + 1,
-                   planet::toString(chunk.id), columnText(chunk.predictedPx), columnText(chunk.facingPx),
+                   planet::toString(chunk.id), columnText(chunk.drawnBoundPx), columnText(chunk.facingPx),
                    columnText(chunk.screenPx), chunk.errorM,
                    ui::placeText(place.latitudeDeg, place.longitudeDeg),
                    planet::isViolation(chunk) ? "  VIOLATION" : "");
@@ -260,18 +267,20 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
                auditedLod(options).metric == planet::ErrorMetric::Tight ? "tight" : "additive",
                options.size.widthPx, options.size.heightPx);
     fmt::print(
-        "predicted: eps, morphing counted in; facing: measured, the view turned to face the sample; "
-        "screen: measured\nin the flat picture; all in pixels, the largest of any chunk. p99: of the "
-        "chunks' facing. Slack: in % of the prediction.\n\n");
-    fmt::print("{:>5}{:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>8}{:>12}\n", "view", "chunks", "triangles",
-               "predicted", "facing", "p99", "screen", "slack", "violations");
+        "eps: predicted error of the chunk's own surface; bound: bound of the error of what is drawn, morph "
+        "counted in;\nmeasured: true error, the view turned to face the sample; screen: true error in the "
+        "flat picture; all in pixels, the\nlargest of any chunk. p99: of the chunks' measured error. Slack: "
+        "in % of the bound.\n\n");
+    fmt::print("{:>5}{:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>8}{:>12}\n", "view", "chunks", "triangles",
+               "eps", "bound", "measured", "p99", "screen", "slack", "violations");
     std::size_t chunks = 0;
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < audit.views.size(); ++i) {
         const AuditedView& view = audit.views[i];
         chunks += view.report.chunks.size();
-        triangles += view.triangles;
-        printRow(fmt::format("{}", i + 1), view.report.chunks.size(), view.triangles, view.report);
+        const std::uint64_t ofView = view.groundTriangles + view.skirtTriangles;
+        triangles += ofView;
+        printRow(fmt::format("{}", i + 1), view.report.chunks.size(), ofView, view.report);
         if (!view.settled) printMessage("worldy: view {}: not everything was loaded in time\n", i + 1);
     }
     printRow("all", chunks, triangles, totalsOf(audit));

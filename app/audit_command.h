@@ -1,5 +1,6 @@
 // worldy audit: whether thresholds mean what they say. Settles at each view, measures the true error of every
-// drawn chunk (planet/true_error.h) beside what was predicted, and counts what is over it. Needs no GL.
+// drawn chunk (planet/true_error.h) beside the bound of what is drawn, and counts what is over it. Needs no
+// GL.
 #pragma once
 
 #include <filesystem>
@@ -26,9 +27,10 @@ struct AuditOptions {
 };
 
 struct AuditedView {
-    planet::CameraPose pose;      // lifted above the ground where it was below
-    bool settled = true;          // false: not everything was loaded in time
-    std::uint64_t triangles = 0;  // skirts left out
+    planet::CameraPose pose;  // lifted above the ground where it was below
+    bool settled = true;      // false: not everything was loaded in time
+    std::uint64_t groundTriangles = 0;
+    std::uint64_t skirtTriangles = 0;
     planet::TrueErrorReport report;
 };
 

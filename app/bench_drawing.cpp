@@ -257,8 +257,8 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
     for (const Contender& contender : contenders) subjects.push_back(contender.name);
     addTimes(subjects, timeInTurn(frames, options.rounds), "every leaf", rows);
     for (const Contender& contender : contenders) {
-        rows.push_back(
-            {contender.name, "triangles", "", exactly(static_cast<double>(contender.scene.drawn.triangles))});
+        rows.push_back({contender.name, "triangles", "",
+                        exactly(static_cast<double>(contender.scene.drawn.triangles()))});
         rows.push_back({contender.name, "resident", "MiB", exactly(residentMiB(contender.scene))});
     }
     return rows;

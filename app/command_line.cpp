@@ -340,7 +340,7 @@ struct AuditTexts {
 void addAudit(CLI::App& app, AuditOptions& options, AuditTexts& texts) {
     CLI::App& command = *app.add_subcommand(
         "audit",
-        "Measure the true error of what is drawn beside what was predicted; ends with 1 where that "
+        "Measure the true error of what is drawn beside its bound; ends with 1 where that "
         "was too little");
     command.add_option("FILE", options.file, "Chunk file")->required();
     CLI::Option& cameras =

@@ -139,7 +139,9 @@ void advanceFlight(CompareDesk& desk) {
 
 ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters& meters) {
     ui::ComparedFigures figures;
-    figures.triangles = static_cast<double>(stats.render.triangles);
+    figures.groundTriangles = static_cast<double>(stats.selection.groundTriangles);
+    figures.skirtTriangles = static_cast<double>(stats.selection.skirtTriangles);
+    figures.triangles = static_cast<double>(stats.selection.triangles());
     figures.chunks = stats.selection.drawn;
     figures.residentBytes =
         static_cast<double>(stats.paging.residentBytesCpu + stats.paging.residentBytesGpu);
@@ -148,6 +150,7 @@ ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters&
     figures.selectMs = stats.stages.selectMs;
     figures.drawMs = stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs;
     figures.worstEpsPx = static_cast<double>(stats.selection.worstEpsPx);
+    figures.worstDrawnBoundPx = static_cast<double>(stats.selection.worstDrawnBoundPx);
     const planet::PopTotals& pops = meters.pops.totals();
     figures.switches = static_cast<double>(pops.switches);
     figures.worstPopPx = pops.worstPx;

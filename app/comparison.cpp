@@ -38,11 +38,14 @@ struct PartWatch {
 
 ui::ComparedFigures figuresOf(const FlightFigures& flown) {
     ui::ComparedFigures figures;
+    figures.groundTriangles = flown.meanGroundTriangles;
+    figures.skirtTriangles = flown.meanSkirtTriangles;
     figures.triangles = flown.meanTriangles;
     figures.chunks = flown.meanChunks;
     figures.residentBytes = flown.mostResidentMiB * (1 << 20);
     figures.bytesRead = static_cast<double>(flown.bytesRead);
-    figures.worstEpsPx = flown.worstPredictedPx;
+    figures.worstEpsPx = flown.worstEpsPx;
+    figures.worstDrawnBoundPx = flown.worstDrawnBoundPx;
     figures.worstErrorPx = flown.worstMeasuredPx;
     figures.p99ErrorPx = flown.p99MeasuredPx;
     figures.violations = static_cast<double>(flown.violations);

@@ -16,7 +16,9 @@ using planet::Result;
 
 // What is gathered over the frames before it becomes figures.
 struct Gathered {
-    std::vector<double> triangles;
+    std::vector<double> groundTriangles;
+    std::vector<double> skirtTriangles;
+    std::vector<double> triangles;  // their sum
     std::vector<double> chunks;
     std::vector<double> frameMs;
     std::vector<double> measuredPx;  // of every chunk
@@ -35,7 +37,8 @@ Result<void> addError(const Offscreen& offscreen, const planet::View& view, cons
                                                     settings.seams.mode == planet::SeamMode::Stitched),
                                  heights, [&](std::uint64_t, std::uint64_t) { return goOn(); });
     if (!report) return tl::unexpected(report.error());
-    figures.worstPredictedPx = std::max(figures.worstPredictedPx, report->worstPredictedPx);
+    figures.worstEpsPx = std::max(figures.worstEpsPx, report->worstEpsPx);
+    figures.worstDrawnBoundPx = std::max(figures.worstDrawnBoundPx, report->worstDrawnBoundPx);
     figures.worstMeasuredPx = std::max(figures.worstMeasuredPx, report->worstFacingPx);
     figures.worstScreenPx = std::max(figures.worstScreenPx, report->worstScreenPx);
     figures.violations += report->violations;
@@ -52,7 +55,9 @@ Result<void> addCost(Offscreen& offscreen, const planet::View& view, const ui::V
     if (Result<void> drawn = drawAndFinish(offscreen, view, settings); !drawn) return drawn;
     gathered.frameMs.push_back(watch.elapsedMs());
     const ui::FrameStats stats = statsOf(offscreen.scene);
-    gathered.triangles.push_back(static_cast<double>(stats.render.triangles));
+    gathered.groundTriangles.push_back(static_cast<double>(stats.selection.groundTriangles));
+    gathered.skirtTriangles.push_back(static_cast<double>(stats.selection.skirtTriangles));
+    gathered.triangles.push_back(static_cast<double>(stats.selection.triangles()));
     gathered.chunks.push_back(stats.selection.drawn);
     const auto bytes = static_cast<double>(stats.paging.residentBytesCpu + stats.paging.residentBytesGpu);
     figures.mostResidentMiB = std::max(figures.mostResidentMiB, bytes / (1 << 20));
@@ -90,6 +95,8 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
     }
     figures.bytesRead = offscreen.scene.planet->paging().bytesRead - readBefore;
     figures.frames = frames;
+    figures.meanGroundTriangles = meanOf(gathered.groundTriangles);
+    figures.meanSkirtTriangles = meanOf(gathered.skirtTriangles);
     figures.meanTriangles = meanOf(gathered.triangles);
     figures.mostTriangles = *std::max_element(gathered.triangles.begin(), gathered.triangles.end());
     figures.meanChunks = meanOf(gathered.chunks);

@@ -15,6 +15,7 @@
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "planet/percentile.h"
+#include "ui/glossary.h"
 
 namespace worldy {
 
@@ -36,14 +37,20 @@ struct Quantity {
     double (*of)(const ui::FrameStats&);
 };
 using Stats = ui::FrameStats;
-constexpr std::array<Quantity, 21> quantities = {{
+constexpr std::array<Quantity, 24> quantities = {{
     {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
     {"culled",
      [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
-    {"drawn_chunks", [](const Stats& s) { return double{1} * s.render.chunks; }},
-    {"drawn_triangles", [](const Stats& s) { return static_cast<double>(s.render.triangles); }},
+    {"drawn_chunks", [](const Stats& s) { return double{1} * s.selection.drawn; }},
+    {ui::terms::groundTriangles.key,
+     [](const Stats& s) { return static_cast<double>(s.selection.groundTriangles); }},
+    {ui::terms::skirtTriangles.key,
+     [](const Stats& s) { return static_cast<double>(s.selection.skirtTriangles); }},
+    {ui::terms::triangles.key, [](const Stats& s) { return static_cast<double>(s.selection.triangles()); }},
     {"waiting", [](const Stats& s) { return double{1} * s.selection.waiting; }},
     {"worst_eps_px", [](const Stats& s) { return static_cast<double>(s.selection.worstEpsPx); }},
+    {"worst_drawn_bound_px",
+     [](const Stats& s) { return static_cast<double>(s.selection.worstDrawnBoundPx); }},
     {"queued", [](const Stats& s) { return double{1} * s.paging.queued; }},
     {"resident_bytes_cpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesCpu); }},
     {"resident_bytes_gpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesGpu); }},

@@ -18,7 +18,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     };
     add("frame", editor.frames);
     add("drawn", selection.drawn);
-    add("triangles", stats.render.triangles);
+    add("triangles", stats.selection.triangles());
     add("waiting", selection.waiting);
     add("deepest", selection.deepestLevel);
     add("widest_seam", selection.widestSeam);
@@ -45,7 +45,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("different", editor.desk.replay ? editor.desk.replay->replay.framesDifferent() : 0);
     const CompareDesk& compare = editor.compare;
     add("compared", compare.other ? 1 : 0);
-    add("triangles_b", compare.other ? compare.other->stats.render.triangles : 0);
+    add("triangles_b", compare.other ? compare.other->stats.selection.triangles() : 0);
     add("pixels_differ", compare.difference ? static_cast<long long>(compare.difference->pixels) : -1);
     add("compare_flown", compare.flown ? 1 : 0);
     add("baking", session.bake ? 1 : 0);

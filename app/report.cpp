@@ -2,10 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ui/glossary.h"
+
 namespace worldy {
 
 std::string jsonText(const nlohmann::ordered_json& report) {
-    return report.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    nlohmann::ordered_json versioned = {{"schema_version", schemaVersion}};
+    versioned.update(report);
+    return versioned.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 nlohmann::ordered_json poseJson(const planet::CameraPose& pose) {
@@ -20,11 +24,14 @@ nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
     return {{"visited", stats.selection.visited},
             {"culled_frustum", stats.selection.culledFrustum},
             {"culled_horizon", stats.selection.culledHorizon},
-            {"drawn_chunks", stats.render.chunks},
-            {"drawn_triangles", stats.render.triangles},
+            {"drawn_chunks", stats.selection.drawn},
+            {ui::terms::groundTriangles.key, stats.selection.groundTriangles},
+            {ui::terms::skirtTriangles.key, stats.selection.skirtTriangles},
+            {ui::terms::triangles.key, stats.selection.triangles()},
             {"waiting", stats.selection.waiting},
             {"deepest_level", stats.selection.deepestLevel},
             {"worst_eps_px", stats.selection.worstEpsPx},
+            {"worst_drawn_bound_px", stats.selection.worstDrawnBoundPx},
             {"widest_seam", stats.selection.widestSeam},
             {"requests", stats.paging.requested},
             {"queued", stats.paging.queued},

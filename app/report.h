@@ -8,8 +8,12 @@
 
 namespace worldy {
 
-// In lines, the last one ended too. A file's name may be any bytes, and JSON is UTF-8: what is not is
-// replaced by U+FFFD.
+// The version of the reports' keys and their meanings, the member "schema_version" of every JSON report and
+// the first column of every CSV table. It grows by one whenever a key is removed or changes its meaning.
+inline constexpr int schemaVersion = 1;
+
+// Returns the report, an object, with "schema_version" before its members, in lines, the last one ended too.
+// A file's name may be any bytes, and JSON is UTF-8: bytes that are not are replaced by U+FFFD.
 std::string jsonText(const nlohmann::ordered_json& report);
 
 nlohmann::ordered_json poseJson(const planet::CameraPose& pose);

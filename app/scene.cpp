@@ -357,7 +357,8 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
     scene.drawn.chunks += counters.chunks;
-    scene.drawn.triangles += counters.triangles;
+    scene.drawn.groundTriangles += counters.groundTriangles;
+    scene.drawn.skirtTriangles += counters.skirtTriangles;
     scene.drawn.uploads += counters.uploads;
     scene.drawn.chunksMs += counters.chunksMs;
     scene.drawn.skyMs += counters.skyMs;

@@ -24,7 +24,7 @@ struct Scene {
     std::unique_ptr<planet::Planet> planet;
     planet::gl::ChunkRenderer renderer;
     bool hasColourImage = false;
-    // Of all drawScene calls since the last stepScene: a split viewport draws twice a frame.
+    // Sums over all drawScene calls since the last stepScene: an observer beside draws a second picture.
     double drawCpuMs = 0;
     planet::gl::RenderCounters drawn{};
     double exaggeration = 1;  // last asked for

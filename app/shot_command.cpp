@@ -50,7 +50,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
         return;
     }
     fmt::print("{}: {} chunks, {} triangles, worst error {:.2f} px, {} read\n", options.output.string(),
-               stats.render.chunks, ui::countText(static_cast<double>(stats.render.triangles)),
+               stats.selection.drawn, ui::countText(static_cast<double>(stats.selection.triangles())),
                stats.selection.worstEpsPx, ui::bytesText(static_cast<double>(stats.paging.bytesRead)));
 }
 

@@ -29,16 +29,19 @@ struct Column {
     const char* name;
     Cell (*of)(const SweepPoint&);
 };
-constexpr std::array<Column, 13> columns = {{
+constexpr std::array<Column, 16> columns = {{
     {"chunk_size", [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.chunkSize); }},
     {"tau_px", [](const SweepPoint& p) -> Cell { return p.tauPx; }},
+    {"mean_ground_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanGroundTriangles; }},
+    {"mean_skirt_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanSkirtTriangles; }},
     {"mean_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanTriangles; }},
     {"most_triangles",
      [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.figures.mostTriangles); }},
     {"mean_chunks", [](const SweepPoint& p) -> Cell { return p.figures.meanChunks; }},
     {"most_resident_mib", [](const SweepPoint& p) -> Cell { return p.figures.mostResidentMiB; }},
     {"median_frame_ms", [](const SweepPoint& p) -> Cell { return p.figures.medianFrameMs; }},
-    {"worst_predicted_px", [](const SweepPoint& p) -> Cell { return p.figures.worstPredictedPx; }},
+    {"worst_eps_px", [](const SweepPoint& p) -> Cell { return p.figures.worstEpsPx; }},
+    {"worst_drawn_bound_px", [](const SweepPoint& p) -> Cell { return p.figures.worstDrawnBoundPx; }},
     {"worst_measured_px", [](const SweepPoint& p) -> Cell { return p.figures.worstMeasuredPx; }},
     {"p99_measured_px", [](const SweepPoint& p) -> Cell { return p.figures.p99MeasuredPx; }},
     {"worst_screen_px", [](const SweepPoint& p) -> Cell { return p.figures.worstScreenPx; }},
@@ -53,10 +56,10 @@ std::string_view metricName(planet::ErrorMetric metric) {
 }  // namespace
 
 std::string sweepCsv(std::span<const SweepPoint> points) {
-    std::string text = "metric";
+    std::string text = "schema_version,metric";
     for (const Column& column : columns) text += fmt::format(",{}", column.name);
     for (const SweepPoint& point : points) {
-        text += fmt::format("\n{}", metricName(point.metric));
+        text += fmt::format("\n{},{}", schemaVersion, metricName(point.metric));
         for (const Column& column : columns)
             text += std::visit([](auto value) { return fmt::format(",{}", value); }, column.of(point));
     }

@@ -81,11 +81,11 @@ Result<SweepPlan> planOf(const SweepOptions& options) {
 
 void printHead() {
     fmt::print("{:>6} {:<9}{:>7}{:>14}{:>9}{:>10}{:>10}{:>12}{:>11}{:>9}{:>11}\n", "chunk", "metric", "tau",
-               "triangles", "chunks", "MiB", "frame ms", "predicted", "measured", "p99", "violations");
+               "triangles", "chunks", "MiB", "frame ms", "bound", "measured", "p99", "violations");
 }
 
-// Where an eye stands in a chunk's bounds its prediction has next to no end.
-std::string predictedText(double px) {
+// Where an eye stands in a chunk's bounds there is no useful bound.
+std::string boundText(double px) {
     return px < 1e5 ? fmt::format("{:.3f}", px) : fmt::format("{:.2e}", px);
 }
 
@@ -94,7 +94,7 @@ void print(const SweepPoint& point) {
     fmt::print("{:>6} {:<9}{:>7g}{:>14.0f}{:>9.0f}{:>10.1f}{:>10.1f}{:>12}{:>11.3f}{:>9.3f}{:>11}\n",
                point.chunkSize, errorMetricNames[static_cast<std::size_t>(point.metric)], point.tauPx,
                f.meanTriangles, f.meanChunks, f.mostResidentMiB, f.medianFrameMs,
-               predictedText(f.worstPredictedPx), f.worstMeasuredPx, f.p99MeasuredPx, f.violations);
+               boundText(f.worstDrawnBoundPx), f.worstMeasuredPx, f.p99MeasuredPx, f.violations);
     std::fflush(stdout);
 }
 

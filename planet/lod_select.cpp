@@ -8,6 +8,7 @@
 
 #include "planet/chunk_table.h"
 #include "planet/culling.h"
+#include "planet/drawn_bound.h"
 #include "planet/skirt_depth.h"
 
 namespace planet {
@@ -111,6 +112,7 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     item.parentEpsPx = static_cast<float>(above.epsPx);
     item.distanceM = static_cast<float>(seen.distanceM);
     item.deltaCM = static_cast<float>(seen.deltaM);
+    item.parentDeltaM = static_cast<float>(above.deltaM);
     item.morph = fadedMorph(frame.before, node.id, above, target);
     item.splitWaits = splitWaits;
     item.mergeWaits = above.merging;
@@ -228,7 +230,7 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
 
 // What lies beyond an edge of a drawn chunk.
 struct Beyond {
-    static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+    static constexpr std::uint32_t nothing = noNeighbour;
     std::uint32_t item = nothing;  // the drawn chunk there, of the same level or coarser
     Edge back = Edge::West;        // of a coarser one: its edge that both share
     bool finer = false;            // finer chunks are drawn there
@@ -250,6 +252,7 @@ public:
         fillEdgeMorphs();
         if (settings_.seams == SeamMode::Stitched) takeCoarserEdges();
         if (settings_.seams == SeamMode::Skirts) fillSkirts();
+        fillBounds();
     }
 
 private:
@@ -397,6 +400,17 @@ private:
         }
     }
 
+    void fillBounds() {
+        std::vector<DrawnNeighbours> neighbours(beyond_.size());
+        for (std::size_t i = 0; i < beyond_.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) neighbours[i][e] = beyond_[i][e].item;
+        }
+        fillDrawnBounds(out_.draw, neighbours, frame_.scalePx, settings_.metric,
+                        settings_.seams == SeamMode::Stitched);
+        for (const DrawItem& item : out_.draw)
+            out_.counters.worstDrawnBoundPx = std::max(out_.counters.worstDrawnBoundPx, item.drawnBoundPx);
+    }
+
     const Frame& frame_;
     const LodSettings& settings_;
     const bool fades_;
@@ -433,6 +447,15 @@ void selectOnce(const Frame& frame, Selection& out) {
     for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, {}, out);
     // Before sorting, while neighbours lie close together in memory.
     EdgeJoiner(frame, out).join();
+}
+
+void countTriangles(const ChunkTree& tree, Selection& out) {
+    const auto cells = static_cast<std::uint64_t>(chunkCells(tree.shape));
+    const auto chunks = static_cast<std::uint64_t>(out.draw.size());
+    const bool skirts = std::any_of(out.draw.begin(), out.draw.end(),
+                                    [](const DrawItem& item) { return item.skirtDepthM > 0; });
+    out.counters.groundTriangles = chunks * 2 * cells * cells;
+    out.counters.skirtTriangles = skirts ? chunks * edgeCount * 2 * cells : 0;
 }
 
 Memory memoryOf(const Selection& before, const LodSettings& settings, double elapsedS) {
@@ -499,6 +522,7 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
                   return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;
               });
     out.counters.drawn = static_cast<std::uint32_t>(out.draw.size());
+    countTriangles(tree, out);
 }
 
 }  // namespace planet

@@ -83,8 +83,10 @@ struct DrawItem {
     std::uint32_t slot = 0;   // in the pool of heights
     float epsPx = 0;          // error on screen, pixels
     float parentEpsPx = 0;    // the parent's; 0 for a root
+    float drawnBoundPx = 0;   // bound of what is drawn, morph counted in (drawn_bound.h); epsPx without morph
     float distanceM = 0;      // from the eye to the bounding volume; nearestM inside it
     float deltaCM = 0;        // metres, by the metric that was asked for
+    float parentDeltaM = 0;   // the parent's; 0 for a root
     float skirtDepthM = 0;    // metres, towards the planet's centre; 0 unless seams are Skirts
     float morph = 0;          // [0, 1]: 0 own surface, 1 the parent's
     bool splitWaits = false;  // its children would be drawn, but it did not show just its own surface yet
@@ -137,13 +139,19 @@ struct SelectionCounters {
     std::uint32_t visited = 0;        // nodes looked at
     std::uint32_t culledFrustum = 0;  // subtrees cut off by each test
     std::uint32_t culledHorizon = 0;
-    std::uint32_t drawn = 0;         // chunks
+    std::uint32_t drawn = 0;  // chunks
+    // Of the drawn chunks. Skirts are drawn at all chunks as soon as one of them has a depth, else at none.
+    std::uint64_t groundTriangles = 0;
+    std::uint64_t skirtTriangles = 0;
     std::uint32_t waiting = 0;       // drawn though eps > tau, for lack of children
     std::uint32_t deepestLevel = 0;  // of what is drawn
     std::uint32_t fading = 0;        // drawn chunks, and edges of them, that are not yet as they would be
                                      // without a memory: morph not natural, or a split or merge waits
     float worstEpsPx = 0;            // of what is drawn
-    std::uint32_t widestSeam = 0;    // levels that two drawn neighbours differ at most
+    float worstDrawnBoundPx = 0;
+    std::uint32_t widestSeam = 0;  // levels that two drawn neighbours differ at most
+
+    std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
 };
 
 struct Selection {

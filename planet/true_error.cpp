@@ -11,7 +11,6 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
-#include <unordered_map>
 
 #include "planet/drawn_surface.h"
 #include "planet/parallel.h"
@@ -445,14 +444,15 @@ TrueErrorReport summaryOf(std::vector<ChunkError>&& chunks) {
     double slack = 0;
     std::size_t predicted = 0;
     for (const ChunkError& chunk : report.chunks) {
-        report.worstPredictedPx = std::max(report.worstPredictedPx, chunk.predictedPx);
+        report.worstEpsPx = std::max(report.worstEpsPx, chunk.epsPx);
+        report.worstDrawnBoundPx = std::max(report.worstDrawnBoundPx, chunk.drawnBoundPx);
         report.worstFacingPx = std::max(report.worstFacingPx, chunk.facingPx);
         report.worstScreenPx = std::max(report.worstScreenPx, chunk.screenPx);
         report.samples += chunk.samples;
         facing.push_back(chunk.facingPx);
         screen.push_back(chunk.screenPx);
         slack += slackOf(chunk);
-        predicted += chunk.predictedPx > 0;
+        predicted += chunk.drawnBoundPx > 0;
         report.violations += isViolation(chunk);
         report.violationsInSeams += isViolation(chunk) && chunk.worstInSeam;
     }
@@ -460,42 +460,6 @@ TrueErrorReport summaryOf(std::vector<ChunkError>&& chunks) {
     report.p99ScreenPx = percentileOf(screen, 0.99);
     report.meanSlack = predicted > 0 ? slack / static_cast<double>(predicted) : 0;
     return report;
-}
-
-// The chunk beyond an edge, of the same level or coarser; one that is not drawn may come out.
-ChunkId beyond(const DrawItem& item, std::size_t edge) {
-    return ancestorOf(neighbourOf(item.id, static_cast<Edge>(edge)), item.id.level - item.coarserBy[edge]);
-}
-
-using ItemIndex = std::unordered_map<ChunkId, std::size_t>;
-
-// Of a chunk by itself: its inside, and those of its edges that are its own.
-double ownPredictionPx(const DrawnSnapshot& snapshot, const ItemIndex& indexOf, std::size_t at) {
-    const DrawItem& item = snapshot.items[at];
-    const auto eps = static_cast<double>(item.epsPx);
-    const auto morph = static_cast<double>(item.morph);
-    double predicted = eps + morph * std::max(static_cast<double>(item.parentEpsPx) - eps, 0.0);
-    const double pxPerM = screenScalePx(snapshot.view) / static_cast<double>(item.distanceM);
-    for (std::size_t edge = 0; edge < edgeCount; ++edge) {
-        if (snapshot.stitched && item.coarserBy[edge] > 0) continue;
-        const bool gathers = snapshot.stitched && gathersVertices(item, static_cast<Edge>(edge));
-        if (item.edgeMorph[edge] <= item.morph && !gathers) continue;
-        double slideM = snapshot.parentDeltaM[at];
-        const auto other = indexOf.find(beyond(item, edge));
-        if (item.coarserBy[edge] == 0 && other != indexOf.end())
-            slideM = std::min(slideM, snapshot.parentDeltaM[other->second]);
-        const double slid = static_cast<double>(item.edgeMorph[edge]) + (gathers ? 1 : 0);
-        predicted = std::max(predicted, eps + slid * slideM * pxPerM);
-    }
-    return predicted;
-}
-
-// Of the metric that the item was chosen by, whichever that is: back from pixels.
-double parentDeltaM(const ChunkTree& tree, const DrawItem& item, const View& view) {
-    const NodeIndex parent = tree.nodes[item.node].parent;
-    if (parent == noNode) return 0;
-    return static_cast<double>(item.parentEpsPx) * distanceToM(tree.nodes[parent], view.eyeM) /
-           screenScalePx(view);
 }
 
 }  // namespace
@@ -511,45 +475,27 @@ DrawnSnapshot snapshotOf(const ChunkTree& tree, std::span<const DrawItem> items,
     for (const DrawItem& item : items) {
         const ChunkNode& node = tree.nodes[item.node];
         snapshot.chunks.push_back({node.id, node.heights, node.children});
-        snapshot.parentDeltaM.push_back(parentDeltaM(tree, item, view));
         addResidentBlocks(tree, item.node, snapshot.resident);
     }
     return snapshot;
 }
 
 bool isViolation(const ChunkError& error) {
-    return error.facingPx > error.predictedPx * (1 + 1e-4) + 1e-3;
+    return error.facingPx > error.drawnBoundPx * (1 + 1e-4) + 1e-3;
 }
 
 double slackOf(const ChunkError& error) {
-    return error.predictedPx > 0 ? 1 - error.facingPx / error.predictedPx : 0;
-}
-
-std::vector<double> predictedErrorsPx(const DrawnSnapshot& snapshot) {
-    const std::vector<DrawItem>& items = snapshot.items;
-    ItemIndex indexOf;
-    for (std::size_t i = 0; i < items.size(); ++i) indexOf[items[i].id] = i;
-    std::vector<double> own;
-    for (std::size_t i = 0; i < items.size(); ++i) own.push_back(ownPredictionPx(snapshot, indexOf, i));
-    std::vector<double> predicted = own;
-    for (std::size_t i = 0; snapshot.stitched && i < items.size(); ++i) {
-        for (std::size_t edge = 0; edge < edgeCount; ++edge) {
-            if (items[i].coarserBy[edge] == 0) continue;
-            const auto other = indexOf.find(beyond(items[i], edge));
-            if (other != indexOf.end()) predicted[i] = std::max(predicted[i], own[i] + own[other->second]);
-        }
-    }
-    return predicted;
+    return error.drawnBoundPx > 0 ? 1 - error.facingPx / error.drawnBoundPx : 0;
 }
 
 Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHeights& heights,
                                          const TrueErrorProgress& progress) {
     assert(snapshot.items.size() == snapshot.chunks.size());
-    const std::vector<double> predicted = predictedErrorsPx(snapshot);
     std::vector<ChunkError> chunks(snapshot.items.size());
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         chunks[i].id = snapshot.items[i].id;
-        chunks[i].predictedPx = predicted[i];
+        chunks[i].epsPx = static_cast<double>(snapshot.items[i].epsPx);
+        chunks[i].drawnBoundPx = static_cast<double>(snapshot.items[i].drawnBoundPx);
         if (isExact(snapshot.items[i], snapshot))
             chunks[i].samples = samplesUnder(snapshot.shape, chunks[i].id);
     }

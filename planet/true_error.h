@@ -1,4 +1,5 @@
-// True error: how far what is drawn lies from the finest data, chunk by chunk, beside what was predicted.
+// True error: how far what is drawn lies from the finest data, chunk by chunk, beside the bound of what is
+// drawn (drawn_bound.h).
 //
 // Every finest sample under a drawn chunk, at its true height a, is compared with the point b of the drawn
 // surface at the same place (drawn_surface.h: morph and stitched edges included, skirts left out). Two
@@ -6,20 +7,14 @@
 //
 //   facing  K' |a/|a| - b/|b||: as if the view were turned to face the sample. Never more than |a - b| K' /
 //   D,
-//           so this is what eps bounds and what a violation is judged by. Every sample counts, also those
-//           behind the camera, beside the picture or hidden by other ground.
+//           so this is what the bound is of and what a violation is judged by. Every sample counts, also
+//           those behind the camera, beside the picture or hidden by other ground.
 //   screen  between the projections of a and b into the flat picture, which stretches towards its corners by
 //           up to 1 / cos^2 of the angle there. Only samples that project into the picture, with b before the
 //           camera, count; hidden ones too.
 //
-// Predicted is, for the m that a chunk morphs by, eps + m (parentEps - eps), since each point is drawn so far
-// on the way from the chunk's surface to its parent's. Two chunks of one level share the larger m of theirs
-// along their edge; a vertex there, itself a finest sample, slides by at most m delta_parent, of either's
-// parent: (delta + m min of those) K' / D. Along an edge that is stitched to a coarser chunk a triangle has
-// two of that one's vertices and one of the chunk's own, so both errors are added up; while vertices are
-// gathered (drawn_surface.h), delta_parent is once more. In those cells this is no proven bound, since
-// triangles there reach over several cells of the chunk, which no delta_c looks at. Violations whose worst
-// place lies there are told apart.
+// The cells beside a stitched edge have no proven bound (drawn_bound.h): violations whose worst place lies
+// there are told apart.
 //
 // Heights are drawn as high as the shape says, so exaggeration is counted in. No reliance on a delta_c or an
 // extreme of the file: every sample is looked at. The result is the same whatever the number of threads.
@@ -40,19 +35,19 @@ namespace planet {
 // A selection with all that measuring it needs: holds while the planet goes on.
 struct DrawnSnapshot {
     PlanetShape shape;
-    View view;                         // for which they were selected; pixels are counted in it
-    std::vector<DrawItem> items;       // their nodes and slots mean nothing here
-    std::vector<HeldChunk> chunks;     // of the items, in the same order
-    std::vector<double> parentDeltaM;  // by the items' metric; 0 of a root
-    bool stitched = false;             // edges are drawn with RenderSettings::stitched
-    ResidentBlocks resident;           // under the chunks
+    View view;                      // for which they were selected; pixels are counted in it
+    std::vector<DrawItem> items;    // their nodes and slots mean nothing here
+    std::vector<HeldChunk> chunks;  // of the items, in the same order
+    bool stitched = false;          // edges are drawn with RenderSettings::stitched
+    ResidentBlocks resident;        // under the chunks
 };
 DrawnSnapshot snapshotOf(const ChunkTree& tree, std::span<const DrawItem> items, const View& view,
                          bool stitched);
 
 struct ChunkError {
     ChunkId id;
-    double predictedPx = 0;
+    double epsPx = 0;            // of the chunk's own surface
+    double drawnBoundPx = 0;     // of what is drawn
     double facingPx = 0;         // the largest
     double screenPx = 0;         // the largest; 0 where no sample lies in the picture
     double errorM = 0;           // |a - b| where facingPx is largest
@@ -66,30 +61,29 @@ struct ChunkError {
     bool operator==(const ChunkError&) const = default;
 };
 
-// Whether the prediction was wrong, beyond what floats round: facing > predicted (1 + 1e-4) + 1e-3 px.
+// Returns whether the error is over the bound of what is drawn by more than floats round: facing > bound
+// (1 + 1e-4) + 1e-3 px.
 bool isViolation(const ChunkError& error);
 
-// The share of the prediction that was not needed, 1 - facing / predicted; 0 where nothing is predicted.
+// The share of the bound that was not needed, 1 - facing / bound; 0 where the bound is 0.
 double slackOf(const ChunkError& error);
 
 struct TrueErrorReport {
     std::vector<ChunkError> chunks;  // in the snapshot's order
-    double worstPredictedPx = 0;
+    double worstEpsPx = 0;
+    double worstDrawnBoundPx = 0;
     double worstFacingPx = 0;
     double worstScreenPx = 0;
     // Of chunks, each counting once whatever its size: the nearest-rank 99th percentile of its largest.
     double p99FacingPx = 0;
     double p99ScreenPx = 0;
-    double meanSlack = 0;                 // over the chunks with a prediction over 0; at most 1
+    double meanSlack = 0;                 // over the chunks with a bound over 0; at most 1
     std::uint32_t violations = 0;         // chunks
     std::uint32_t violationsInSeams = 0;  // of them, those whose worst lies beside a stitched edge
     std::uint64_t samples = 0;
 
     bool operator==(const TrueErrorReport&) const = default;
 };
-
-// What is predicted of each item, pixels, in their order.
-std::vector<double> predictedErrorsPx(const DrawnSnapshot& snapshot);
 
 // Told from time to time, by one thread at a time, how many samples of how many are compared; false cancels.
 using TrueErrorProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;

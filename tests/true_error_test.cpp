@@ -199,9 +199,9 @@ TEST(TrueError, findsADeltaThatIsHalfOfWhatItShouldBe) {
     EXPECT_EQ(before.violations, 0u);
     const auto tightest = std::max_element(
         before.chunks.begin(), before.chunks.end(), [](const ChunkError& a, const ChunkError& b) {
-            return a.facingPx / (a.predictedPx + 1e-9) < b.facingPx / (b.predictedPx + 1e-9);
+            return a.facingPx / (a.drawnBoundPx + 1e-9) < b.facingPx / (b.drawnBoundPx + 1e-9);
         });
-    ASSERT_GT(tightest->facingPx, 0.6 * tightest->predictedPx);
+    ASSERT_GT(tightest->facingPx, 0.6 * tightest->drawnBoundPx);
 
     // As a file would have it that says so: its tree is made of what it was told.
     FakePyramid wrong = fakePyramid();
@@ -213,7 +213,7 @@ TEST(TrueError, findsADeltaThatIsHalfOfWhatItShouldBe) {
     for (const ChunkError& chunk : after.chunks) {
         if (chunk.id != tightest->id) continue;
         EXPECT_TRUE(isViolation(chunk));
-        EXPECT_NEAR(chunk.facingPx - chunk.predictedPx, tightest->facingPx - tightest->predictedPx / 2,
+        EXPECT_NEAR(chunk.facingPx - chunk.drawnBoundPx, tightest->facingPx - tightest->drawnBoundPx / 2,
                     1e-4 * tightest->facingPx);
         EXPECT_EQ(chunk.facingPx, tightest->facingPx);
     }
@@ -291,9 +291,9 @@ double worstShare(const ChunkTree& tree, ErrorMetric metric, SeamMode seams, boo
                 static_cast<int>(edgeCount - std::count(item.coarserBy.begin(), item.coarserBy.end(), 0));
         for (const ChunkError& chunk : report.chunks) {
             inexact += chunk.facingPx > 0.1;
-            if (chunk.predictedPx > 0.01) worst = std::max(worst, chunk.facingPx / chunk.predictedPx);
+            if (chunk.drawnBoundPx > 0.01) worst = std::max(worst, chunk.facingPx / chunk.drawnBoundPx);
             if (isViolation(chunk))
-                ADD_FAILURE() << toString(chunk.id) << " " << chunk.facingPx << " over " << chunk.predictedPx
+                ADD_FAILURE() << toString(chunk.id) << " " << chunk.facingPx << " over " << chunk.drawnBoundPx
                               << " in seam " << chunk.worstInSeam;
         }
     }

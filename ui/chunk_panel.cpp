@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/explanation_text.h"
+#include "ui/glossary.h"
 #include "ui/item_map.h"
 #include "ui/overlay_colours.h"
 #include "ui/text.h"
@@ -191,6 +192,8 @@ void drawingRows(const EditorView& view, const ChunkExplanation& explanation, co
     if (const planet::DrawItem* item = drawItemOf(view.planet->selection(), explanation.id)) {
         valueRow("Morph", fmt::format("{:.2f}", item->morph),
                  "0: the chunk's own surface; 1: its parent's surface.");
+        valueRow(terms::drawnBoundPx.name, pixelsText(static_cast<double>(item->drawnBoundPx)),
+                 terms::drawnBoundPx.meaning);
         valueRow("Skirt", distanceText(static_cast<double>(item->skirtDepthM)),
                  "Skirt depth towards the planet's centre.");
     }
@@ -351,8 +354,7 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
         static_cast<std::size_t>(std::lround(share * static_cast<float>(across.heightsM.size() - 1)));
     const float x = corner.x + share * size.x;
     drawList.AddLine({x, corner.y}, {x, end.y}, packed(palette().text, 0.6f));
-    tooltip(fmt::format("at {:.0f} %\nwest to east {}\nsouth to north {}",
-                        static_cast<double>(100 * share, inFont("δc")),
+    tooltip(fmt::format("at {:.0f} %\nwest to east {}\nsouth to north {}", static_cast<double>(100 * share),
                         distanceText(static_cast<double>(across.heightsM[at])),
                         distanceText(static_cast<double>(up.heightsM[at])))
                 .c_str());

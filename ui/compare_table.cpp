@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "ui/glossary.h"
 #include "ui/text.h"
 
 namespace ui {
@@ -12,11 +13,17 @@ namespace {
 
 using Figures = ComparedFigures;
 
-constexpr std::array<CompareRow, 17> comparedRows = {{
-    {"triangles", "Triangles",
-     "Triangles drawn, including skirts. Over a flight: the mean of its sample frames.", &Figures::triangles,
+constexpr std::array<CompareRow, 20> comparedRows = {{
+    {"mean_ground_triangles", terms::groundTriangles.name,
+     "Triangles of the drawn chunks without skirts. Over a flight: the mean of its sample frames.",
+     &Figures::groundTriangles, FigureUnit::Count, true, true, false},
+    {"mean_skirt_triangles", terms::skirtTriangles.name,
+     "Triangles of the skirts. Over a flight: the mean of its sample frames.", &Figures::skirtTriangles,
      FigureUnit::Count, true, true, false},
-    {"chunks", "Chunks", "Chunks drawn. Over a flight: the mean of its sample frames.", &Figures::chunks,
+    {"mean_triangles", terms::triangles.name,
+     "The sum of ground triangles and skirt triangles. Over a flight: the mean of its sample frames.",
+     &Figures::triangles, FigureUnit::Count, true, true, false},
+    {"mean_chunks", "Chunks", "Chunks drawn. Over a flight: the mean of its sample frames.", &Figures::chunks,
      FigureUnit::Count, true, true, false},
     {"resident_bytes", "Memory",
      "Memory of resident chunks, CPU and GPU together. Over a flight: the maximum.", &Figures::residentBytes,
@@ -35,15 +42,19 @@ constexpr std::array<CompareRow, 17> comparedRows = {{
      "draws too.",
      &Figures::frameMs, FigureUnit::Milliseconds, false, true, false},
     {"worst_eps_px", "Max ε",
-     "Largest predicted error of a drawn chunk, δ K' / D, in pixels. Over a flight, a morphing chunk "
-     "includes its parent's error by the morph weight.",
+     "Largest predicted error of a drawn chunk's own surface, δ K' / D, in pixels. Morph is not counted in.",
      &Figures::worstEpsPx, FigureUnit::Pixels, true, true, false},
-    {"worst_error_px", "Max true error",
+    {"worst_drawn_bound_px", "Max drawn bound",
+     "Largest bound of the error of what is drawn, in pixels: a morphing chunk includes its parent's error "
+     "by "
+     "the morph weight.",
+     &Figures::worstDrawnBoundPx, FigureUnit::Pixels, true, true, false},
+    {"worst_measured_px", "Max true error",
      "Largest true error: distance between the finest data and the drawn surface, in facing pixels.",
      &Figures::worstErrorPx, FigureUnit::Pixels, true, true, false},
-    {"p99_error_px", "P99 true error", "99 % of the drawn chunks have no larger true error, in pixels.",
+    {"p99_measured_px", "P99 true error", "99 % of the drawn chunks have no larger true error, in pixels.",
      &Figures::p99ErrorPx, FigureUnit::Pixels, true, true, false},
-    {"violations", "Violations", "Chunks whose true error exceeds the prediction. Must be 0.",
+    {"violations", "Violations", "Chunks whose true error exceeds the drawn bound. Must be 0.",
      &Figures::violations, FigureUnit::Count, true, true, true},
     {"crack_px", "Crack pixels", "Pixels that would show a crack without skirts.", &Figures::crackPx,
      FigureUnit::Count, true, true, true},

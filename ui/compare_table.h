@@ -11,17 +11,20 @@ namespace ui {
 
 // What is not known is none. Over a flight: of its moments, settled, unless said otherwise.
 struct ComparedFigures {
-    std::optional<double> triangles;      // drawn; over a flight the mean
-    std::optional<double> chunks;         // drawn; over a flight the mean
-    std::optional<double> residentBytes;  // of chunks, CPU and GPU; over a flight the most
-    std::optional<double> bytesRead;      // from the file
-    std::optional<double> selectMs;       // choosing chunks, smoothed; not over a flight
-    std::optional<double> drawMs;         // drawing on the GPU, smoothed; not over a flight
-    std::optional<double> frameMs;        // choosing and drawing, waited for: the median over a flight
-    std::optional<double> worstEpsPx;     // predicted error
-    std::optional<double> worstErrorPx;   // true error, as if the view faced it
-    std::optional<double> p99ErrorPx;     // of chunks
-    std::optional<double> violations;     // chunks whose true error is over what was predicted
+    std::optional<double> groundTriangles;    // over a flight the mean
+    std::optional<double> skirtTriangles;     // over a flight the mean
+    std::optional<double> triangles;          // their sum
+    std::optional<double> chunks;             // drawn; over a flight the mean
+    std::optional<double> residentBytes;      // of chunks, CPU and GPU; over a flight the most
+    std::optional<double> bytesRead;          // from the file
+    std::optional<double> selectMs;           // choosing chunks, smoothed; not over a flight
+    std::optional<double> drawMs;             // drawing on the GPU, smoothed; not over a flight
+    std::optional<double> frameMs;            // choosing and drawing, waited for: the median over a flight
+    std::optional<double> worstEpsPx;         // predicted error of a chunk's own surface
+    std::optional<double> worstDrawnBoundPx;  // of what is drawn: morph counted in
+    std::optional<double> worstErrorPx;       // true error, as if the view faced it
+    std::optional<double> p99ErrorPx;         // of chunks
+    std::optional<double> violations;         // chunks whose true error is over the drawn bound
     std::optional<double> crackPx;
     std::optional<double> leakingPx;  // of them
     std::optional<double> switches;   // changes of level
@@ -35,7 +38,7 @@ struct ComparedFigures {
 enum class FigureUnit { Count, Bytes, Milliseconds, Pixels };
 
 struct CompareRow {
-    const char* key;   // "triangles"
+    const char* key;   // "mean_triangles"
     const char* name;  // "Triangles"
     const char* explanation;
     std::optional<double> ComparedFigures::*value;

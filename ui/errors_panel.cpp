@@ -10,6 +10,7 @@
 
 #include "ui/chunk_link.h"
 #include "ui/columns.h"
+#include "ui/glossary.h"
 #include "ui/inspection.h"
 #include "ui/item_map.h"
 #include "ui/plot_scale.h"
@@ -78,7 +79,7 @@ void figures(const ErrorMeasurement& last) {
     if (!beginValues("errors")) return;
     const bool wrong = report.violations > 0;
     valueRow("Violations", fmt::format("{}", report.violations),
-             "Chunks whose measured error exceeds the prediction, in facing pixels. Must be 0.",
+             "Chunks whose measured error exceeds the drawn bound, in facing pixels. Must be 0.",
              wrong ? &palette().bad : &palette().good);
     if (report.violationsInSeams > 0)
         valueRow("  beside seams", fmt::format("{}", report.violationsInSeams),
@@ -87,18 +88,18 @@ void figures(const ErrorMeasurement& last) {
                  &palette().bad);
     valueRow("Max error, facing", finePx(report.worstFacingPx),
              "Largest error of any finest sample, in pixels, as if the view faced it: K' times the angle "
-             "between its true and its drawn position. ε bounds this error.");
+             "between its true and its drawn position. The drawn bound bounds this error.");
     valueRow(
         "Max error, screen space", finePx(report.worstScreenPx),
         "Largest error in the projected picture, in pixels, of the samples inside the picture, including "
         "hidden ones. The projection stretches towards the corners, so this can exceed the facing error.");
     valueRow("99th percentile", finePx(report.p99FacingPx),
              "99 % of the chunks have no larger error, in facing pixels; each chunk counts once.");
-    valueRow("Max predicted", finePx(report.worstPredictedPx),
-             "Largest predicted error of the drawn chunks, including morphing: ε + m (parent's ε - ε).");
-    valueRow(
-        "Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
-        "1 - measured / predicted, mean over the chunks. Larger: more triangles than the tolerance needs.");
+    valueRow(fmt::format("Max {}", epsSymbol()).c_str(), finePx(report.worstEpsPx),
+             "Largest predicted error of a drawn chunk's own surface, in pixels. Morph is not counted in.");
+    valueRow("Max drawn bound", finePx(report.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
+    valueRow("Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
+             "1 - measured / bound, mean over the chunks. Larger: more triangles than the tolerance needs.");
     valueRow("Chunks", fmt::format("{}", report.chunks.size()), "Chunks drawn in that frame.");
     valueRow("Samples", countText(static_cast<double>(report.samples)), "Number of finest samples compared.");
     endValues();
@@ -118,16 +119,16 @@ struct ScatterScale {
                                     : linearPosition(px, 0, top);
         return static_cast<float>(position);
     }
-    ImVec2 at(double predictedPx, double measuredPx) const {
-        return {start.x + share(predictedPx) * (end.x - start.x),
+    ImVec2 at(double drawnBoundPx, double measuredPx) const {
+        return {start.x + share(drawnBoundPx) * (end.x - start.x),
                 end.y - share(measuredPx) * (end.y - start.y)};
     }
-    ImVec2 at(const ChunkError& chunk) const { return at(chunk.predictedPx, chunk.facingPx); }
+    ImVec2 at(const ChunkError& chunk) const { return at(chunk.drawnBoundPx, chunk.facingPx); }
 };
 
 // Where an eye stands in a chunk's bounds its prediction has no end, so a few times tau is enough.
 double topOf(const ErrorMeasurement& last) {
-    const double most = std::min(last.report.worstPredictedPx, 4 * last.tauPx);
+    const double most = std::min(last.report.worstDrawnBoundPx, 4 * last.tauPx);
     return roundedTop(std::max({most, last.report.worstFacingPx, 1.2 * last.tauPx}));
 }
 
@@ -148,10 +149,10 @@ void drawAxes(const ScatterScale& scale, double tauPx) {
                      packed(palette().warning), name.c_str());
     drawList.AddText({scale.start.x + gap, scale.start.y + gap}, packed(palette().dim),
                      fmt::format("measured, to {} px", axisText(scale.top)).c_str());
-    const std::string predicted = "predicted";
-    drawList.AddText({scale.end.x - ImGui::CalcTextSize(predicted.c_str()).x - gap,
+    const std::string bound = "drawn bound";
+    drawList.AddText({scale.end.x - ImGui::CalcTextSize(bound.c_str()).x - gap,
                       scale.end.y - ImGui::GetTextLineHeight() - gap},
-                     packed(palette().dim), predicted.c_str());
+                     packed(palette().dim), bound.c_str());
 }
 
 std::optional<std::size_t> nearestToPointer(const ScatterScale& scale,
@@ -186,8 +187,8 @@ void pointerOnChunk(const ChunkError& chunk, Commands& commands) {
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) commands.push_back(LookAtChunk{chunk.id});
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(planet::toString(chunk.id).c_str());
-    ImGui::Text("measured %s of %s predicted", finePx(chunk.facingPx).c_str(),
-                finePx(chunk.predictedPx).c_str());
+    ImGui::Text("measured %s, drawn bound %s", finePx(chunk.facingPx).c_str(),
+                finePx(chunk.drawnBoundPx).c_str());
     ImGui::Text("max error %s", distanceText(chunk.errorM).c_str());
     if (planet::isViolation(chunk)) ImGui::TextColored(palette().bad, "violation");
     ImGui::TextDisabled("click: select   double-click: look at");
@@ -221,8 +222,8 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
     if (const auto nearest = nearestToPointer(scale, last.report.chunks))
         return pointerOnChunk(last.report.chunks[*nearest], commands);
     tooltip(
-        "One dot per chunk: predicted error on the horizontal axis, measured error on the vertical axis, in "
-        "facing pixels. On the diagonal the prediction is exact; above it, it is violated; far below it, "
+        "One dot per chunk: drawn bound on the horizontal axis, measured error on the vertical axis, in "
+        "facing pixels. On the diagonal the bound is exact; above it, it is violated; far below it, "
         "triangles are wasted.");
 }
 
@@ -239,7 +240,7 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
     ImGui::TableNextColumn();
     goToWorst(chunk, view, commands);
     cell(finePx(chunk.facingPx, ""));
-    cell(finePx(chunk.predictedPx, ""));
+    cell(finePx(chunk.drawnBoundPx, ""));
     cell(fmt::format("{:.0f} %", 100 * planet::slackOf(chunk)));
     cell(finePx(chunk.screenPx, ""));
     cell(distanceText(chunk.errorM));
@@ -250,14 +251,14 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
 constexpr std::array worstColumns = {
     TableColumn{"Chunk", 1.9f, "Click to select the chunk; double-click to look at it."},
     TableColumn{"##go", 0.6f},
-    TableColumn{"Facing", 0.9f, "Measured error in pixels, as if the view faced the sample."},
-    TableColumn{"Predicted", 1.1f, "Predicted error in pixels, including morphing."},
-    TableColumn{"Slack", 0.8f, "1 - facing / predicted."},
+    TableColumn{"Measured", 1.1f, terms::measuredPx.meaning},
+    TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning},
+    TableColumn{"Slack", 0.8f, "1 - measured / bound."},
     TableColumn{"Screen space", 1.3f,
                 "Measured error in the projected picture, in pixels; 0 if no sample lies in it."},
     TableColumn{
         "Error", 0.9f,
-        "Distance in metres between the sample and the drawn surface, where the facing error is largest."},
+        "Distance in metres between the sample and the drawn surface, where the measured error is largest."},
     TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
 
 void worstList(const EditorView& view, Commands& commands) {
@@ -274,7 +275,7 @@ void worstList(const EditorView& view, Commands& commands) {
             case 2:
                 return chunk.facingPx;
             case 3:
-                return chunk.predictedPx;
+                return chunk.drawnBoundPx;
             case 4:
                 return planet::slackOf(chunk);
             case 5:
@@ -308,7 +309,7 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
                    measuredWhen(view, *view.errors.last);
                    figures(*view.errors.last);
                }},
-        Column{"Measured against predicted", 1, 0, [&] { scatter(view, state, commands); }},
+        Column{"Measured against drawn bound", 1, 0, [&] { scatter(view, state, commands); }},
         Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};
     drawColumns("errors", columns);
 }

@@ -1,4 +1,4 @@
-// True error: the measured error of what is drawn, beside what was predicted.
+// True error: the measured error of what is drawn, beside the bound of what is drawn.
 #pragma once
 
 #include "ui/commands.h"

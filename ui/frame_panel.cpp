@@ -9,6 +9,7 @@
 
 #include "ui/allocation_table.h"
 #include "ui/columns.h"
+#include "ui/glossary.h"
 #include "ui/history.h"
 #include "ui/item_map.h"
 #include "ui/plots.h"
@@ -100,9 +101,11 @@ void plots(const EditorView& view, bool wide) {
 void counts(const EditorView& view) {
     const FrameStats& stats = view.stats;
     if (!beginValues("counts")) return;
-    valueRow("Chunks drawn", countText(stats.render.chunks), "Instances in the instanced draw call.");
-    valueRow("Triangles", countText(static_cast<double>(stats.render.triangles)),
-             "Triangles drawn, including skirts.");
+    valueRow("Chunks drawn", countText(stats.selection.drawn), "Chunks selected for the LOD view.");
+    valueRow(terms::triangles.name, countText(static_cast<double>(stats.selection.triangles())),
+             terms::triangles.meaning);
+    valueRow("All pictures", countText(static_cast<double>(stats.render.triangles())),
+             "Triangles drawn in this frame in all pictures of the planet, the observer's included.");
     valueRow("Uploads", countText(stats.render.uploads), "Chunks uploaded since the previous frame.");
     valueRow("Nodes visited", countText(stats.selection.visited),
              "Quadtree nodes visited by the LOD selection.");

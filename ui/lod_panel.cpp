@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ui/chunk_link.h"
+#include "ui/glossary.h"
 #include "ui/history.h"
 #include "ui/item_map.h"
 #include "ui/overlay_colours.h"
@@ -185,16 +186,22 @@ void drawnValues(const EditorView& view, double tauPx) {
              "Chunks and chunk edges still morphing after a level change, and splits or merges that wait for "
              "a morph. If this never drops to 0, the camera, the tolerance or loading changes faster than "
              "the fade.");
-    valueRow("Triangles", countText(static_cast<double>(view.stats.render.triangles)),
-             "Triangles drawn, including skirts.");
+    const auto triangleRow = [](const Term& term, std::uint64_t count) {
+        valueRow(term.name, countText(static_cast<double>(count)), term.meaning);
+    };
+    triangleRow(terms::groundTriangles, s.groundTriangles);
+    triangleRow(terms::skirtTriangles, s.skirtTriangles);
+    triangleRow(terms::triangles, s.triangles());
     valueRow("Deepest level", fmt::format("{}", s.deepestLevel),
              "Deepest level drawn; level 0 is a whole cube face.");
     const bool over = static_cast<double>(s.worstEpsPx) > tauPx;
     valueRow(fmt::format("Max {}", epsSymbol()).c_str(),
              s.worstEpsPx < 1000 ? fmt::format("{:.2f} px", s.worstEpsPx)
                                  : pixelsText(static_cast<double>(s.worstEpsPx)),
-             "Largest predicted screen-space error of the drawn chunks, in pixels.",
+             "Largest predicted error on screen of a drawn chunk's own surface, in pixels.",
              over ? &palette().warning : nullptr);
+    valueRow("Max drawn bound", pixelsText(static_cast<double>(s.worstDrawnBoundPx)),
+             terms::drawnBoundPx.meaning);
     endValues();
 }
 
@@ -213,7 +220,7 @@ void levelBars(const planet::Planet& planet) {
              fmt::format("{}   {} tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
     }
     barList("levels", bars);
-    tooltip("Chunks drawn per level and their triangles without skirts. Level 0 is a whole cube face.");
+    tooltip("Chunks drawn per level and their ground triangles. Level 0 is a whole cube face.");
 }
 
 void drawnPlots(const EditorView& view, double tauPx) {

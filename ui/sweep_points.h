@@ -17,16 +17,19 @@ namespace ui {
 // What a setting costs, and how true what it shows is, over a flight.
 struct FlightFigures {
     int frames = 0;
-    double meanTriangles = 0;
+    double meanGroundTriangles = 0;
+    double meanSkirtTriangles = 0;
+    double meanTriangles = 0;  // their sum
     double mostTriangles = 0;
     double meanChunks = 0;
     double mostResidentMiB = 0;    // chunks, CPU and GPU together
     double medianFrameMs = 0;      // choosing and drawing, waited for
-    double worstPredictedPx = 0;   // eps, morph counted in
+    double worstEpsPx = 0;         // of a chunk's own surface
+    double worstDrawnBoundPx = 0;  // of what is drawn: morph counted in
     double worstMeasuredPx = 0;    // true error, as if the view faced it (planet/true_error.h)
     double p99MeasuredPx = 0;      // of all chunks of all frames
     double worstScreenPx = 0;      // in the flat picture
-    std::uint64_t violations = 0;  // chunks whose true error is over what was predicted
+    std::uint64_t violations = 0;  // chunks whose true error is over the drawn bound
     std::uint64_t bytesRead = 0;   // from the file, beginning with the six root chunks
 
     bool operator==(const FlightFigures&) const = default;

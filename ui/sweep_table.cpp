@@ -33,12 +33,12 @@ std::string fine(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-// Where an eye stands in a chunk's bounds its prediction has next to no end.
-std::string predicted(double px) {
+// Where an eye stands in a chunk's bounds there is no useful bound.
+std::string bound(double px) {
     return px < 1e5 ? fine(px) : "none";
 }
 
-constexpr std::array<SweepColumn, 10> sweepColumns = {{
+constexpr std::array<SweepColumn, 11> sweepColumns = {{
     {"Chunk", 1.15f, [](const SweepPoint& p) { return double{1} * p.chunkSize; }, whole,
      "Vertices along a chunk side. Ringed: on the Pareto front; no other point is both cheaper and more "
      "accurate."},
@@ -47,14 +47,17 @@ constexpr std::array<SweepColumn, 10> sweepColumns = {{
      "Geometric error metric used for selection."},
     {"τ", 0.7f, [](const SweepPoint& p) { return p.tauPx; }, fine, "Tolerance in pixels."},
     {"Triangles", 1.2f, [](const SweepPoint& p) { return p.figures.meanTriangles; }, countText,
-     "Triangles drawn, mean over the sample frames."},
+     "Ground triangles and skirt triangles, mean over the sample frames."},
     {"Measured", 1.2f, [](const SweepPoint& p) { return p.figures.worstMeasuredPx; }, fine,
      "Largest true error of any finest sample in any sample frame, in facing pixels."},
     {"99 %", 0.8f, [](const SweepPoint& p) { return p.figures.p99MeasuredPx; }, fine,
      "99 % of the chunks of all sample frames have no larger true error, in pixels."},
-    {"Predicted", 1.2f, [](const SweepPoint& p) { return p.figures.worstPredictedPx; }, predicted,
-     "Largest predicted error of the drawn chunks, in pixels. It exceeds the tolerance where the data has no "
-     "finer level. None: the camera was inside the bounds of a chunk, where there is no prediction."},
+    {"ε", 0.9f, [](const SweepPoint& p) { return p.figures.worstEpsPx; }, bound,
+     "Largest predicted error of a drawn chunk's own surface, in pixels. It exceeds the tolerance where the "
+     "data has no finer level. None: the camera was inside the bounds of a chunk."},
+    {"Bound", 0.9f, [](const SweepPoint& p) { return p.figures.worstDrawnBoundPx; }, bound,
+     "Largest drawn bound, in pixels: the bound of the error of what is drawn, including morphing. None: the "
+     "camera was inside the bounds of a chunk, where there is no bound."},
     {"MiB", 0.8f, [](const SweepPoint& p) { return p.figures.mostResidentMiB; }, fine,
      "Largest memory of resident chunks, CPU and GPU together, in MiB."},
     {"Frame", 0.9f, [](const SweepPoint& p) { return p.figures.medianFrameMs; },
@@ -62,7 +65,7 @@ constexpr std::array<SweepColumn, 10> sweepColumns = {{
      "Median time of selection and drawing, including the GPU. It is longer than without a window, because "
      "the window draws too."},
     {"Violations", 1.2f, [](const SweepPoint& p) { return static_cast<double>(p.figures.violations); }, whole,
-     "Chunks whose true error exceeds the prediction. Must be 0."},
+     "Chunks whose true error exceeds the drawn bound. Must be 0."},
 }};
 
 void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,

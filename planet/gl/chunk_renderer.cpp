@@ -437,7 +437,9 @@ void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const Ren
     }
     glDisable(GL_CULL_FACE);
     counters.chunks = static_cast<std::uint32_t>(chunks);
-    counters.triangles = static_cast<std::uint64_t>(indexCount / 3) * static_cast<std::uint64_t>(chunks);
+    const auto ground = static_cast<std::uint64_t>((gridIndexCount - first) / 3);
+    counters.groundTriangles = ground * items.size();
+    counters.skirtTriangles = (static_cast<std::uint64_t>(indexCount / 3) - ground) * items.size();
 }
 
 // Behind everything, so that only pixels without a chunk are shaded.

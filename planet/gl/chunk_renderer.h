@@ -83,12 +83,15 @@ struct RenderSettings {
 
 struct RenderCounters {
     std::uint32_t chunks = 0;
-    std::uint64_t triangles = 0;  // skirts included where they are drawn
+    std::uint64_t groundTriangles = 0;
+    std::uint64_t skirtTriangles = 0;
     // GPU times of the last frame whose timer queries have come back.
     double chunksMs = 0;  // clearing included
     double skyMs = 0;
     double shadowsMs = 0;
     std::uint32_t uploads = 0;  // chunks uploaded since the draw before
+
+    std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
 };
 
 // What the context offers, and what was chosen.

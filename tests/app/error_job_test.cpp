@@ -119,9 +119,9 @@ TEST_F(Errors, TintChunksByWhatWasMeasuredAndGreyWhereNothingWas) {
 TEST(ErrorMeasurement, ListsViolationsFirstThenTheLargest) {
     planet::TrueErrorReport report;
     report.chunks.resize(3);
-    report.chunks[0] = {.id = {planet::Face::PosX, 1, 0, 0}, .predictedPx = 5, .facingPx = 1};
-    report.chunks[1] = {.id = {planet::Face::PosX, 1, 1, 0}, .predictedPx = 5, .facingPx = 2};
-    report.chunks[2] = {.id = {planet::Face::PosX, 1, 0, 1}, .predictedPx = 0.1, .facingPx = 0.5};
+    report.chunks[0] = {.id = {planet::Face::PosX, 1, 0, 0}, .drawnBoundPx = 5, .facingPx = 1};
+    report.chunks[1] = {.id = {planet::Face::PosX, 1, 1, 0}, .drawnBoundPx = 5, .facingPx = 2};
+    report.chunks[2] = {.id = {planet::Face::PosX, 1, 0, 1}, .drawnBoundPx = 0.1, .facingPx = 0.5};
     const ui::ErrorMeasurement measured = ui::measurementOf(std::move(report));
     EXPECT_EQ(measured.worstFirst, (std::vector<std::size_t>{2, 1, 0}));
     EXPECT_EQ(measured.indexOf.at({planet::Face::PosX, 1, 1, 0}), 1u);

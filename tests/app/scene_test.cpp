@@ -186,6 +186,31 @@ TEST_F(SceneTest, anObserverHasASelectionOfItsOwn) {
     EXPECT_EQ(scene.planet->viewCount(), 1u);
 }
 
+TEST_F(SceneTest, anObserversPictureAddsNoTrianglesToThoseOfTheLodView) {
+    Scene scene = openSlope();
+    const planet::View view = viewAt(1e6);
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    picture(scene, view);
+    const ui::FrameStats alone = statsOf(scene);
+    ASSERT_GT(alone.selection.skirtTriangles, 0u);
+    EXPECT_EQ(alone.render.groundTriangles, alone.selection.groundTriangles);
+    EXPECT_EQ(alone.render.skirtTriangles, alone.selection.skirtTriangles);
+    EXPECT_EQ(alone.selection.groundTriangles, alone.selection.drawn * 2u * 16 * 16);
+    picture(scene, view);
+    EXPECT_EQ(statsOf(scene).selection.triangles(), alone.selection.triangles());
+    EXPECT_EQ(statsOf(scene).render.triangles(), 2 * alone.selection.triangles());
+}
+
+TEST_F(SceneTest, skirtsThatAreNotDrawnHaveNoTriangles) {
+    Scene scene = openSlope();
+    settings_.seams.mode = planet::SeamMode::Stitched;
+    const planet::View view = viewAt(1e6);
+    ASSERT_TRUE(settleScene(scene, view, settings_, 60));
+    picture(scene, view);
+    EXPECT_EQ(statsOf(scene).selection.skirtTriangles, 0u);
+    EXPECT_EQ(statsOf(scene).selection.triangles(), statsOf(scene).render.triangles());
+}
+
 TEST_F(SceneTest, whatASplitViewportDrawsIsCountedTogether) {
     Scene scene = openSlope();
     const planet::View view = viewAt(1e6);

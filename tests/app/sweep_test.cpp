@@ -17,6 +17,8 @@ SweepPoint pointOf(double tauPx, double triangles, double errorPx) {
     SweepPoint point;
     point.tauPx = tauPx;
     point.figures.frames = 3;
+    point.figures.meanGroundTriangles = 0.6 * triangles;
+    point.figures.meanSkirtTriangles = 0.4 * triangles;
     point.figures.meanTriangles = triangles;
     point.figures.medianFrameMs = triangles / 1000;
     point.figures.mostResidentMiB = triangles / 5000;
@@ -37,8 +39,9 @@ TEST(Sweep, theTablesHoldEveryPoint) {
     const std::vector<SweepPoint> points = {pointOf(1, 100, 0.5), pointOf(2, 50, 1.5)};
     const std::string csv = sweepCsv(points);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
-    EXPECT_THAT(csv, testing::StartsWith("metric,chunk_size,tau_px,mean_triangles"));
-    EXPECT_THAT(csv, HasSubstr("\nadditive,33,2,50,"));
+    EXPECT_THAT(csv, testing::StartsWith("schema_version,metric,chunk_size,tau_px,mean_ground_triangles,mean_"
+                                         "skirt_triangles,mean_triangles"));
+    EXPECT_THAT(csv, HasSubstr("\n1,additive,33,2,30,20,50,"));
     const auto json = nlohmann::json::parse(sweepJson(points, "a.chk", "Down", SweepCost::FrameMs));
     EXPECT_EQ(json["cost"], "median frame, ms");
     EXPECT_EQ(json["points"][1]["worst_measured_px"], 1.5);
@@ -57,7 +60,8 @@ TEST(Sweep, countsAreWholeNumbersInBothTables) {
     EXPECT_EQ(json["violations"].dump(), "3");
     EXPECT_EQ(json["on_front"], true);
     EXPECT_TRUE(json["tau_px"].is_number_float());
-    EXPECT_THAT(sweepCsv({{point}}), HasSubstr("\nadditive,33,0.5,1234567.25,12345678,"));
+    EXPECT_THAT(sweepCsv({{point}}), HasSubstr("\n1,additive,33,0.5,"));
+    EXPECT_THAT(sweepCsv({{point}}), HasSubstr(",1234567.25,12345678,"));
     EXPECT_THAT(sweepCsv({{point}}), testing::EndsWith(",3,true\n"));
 }
 

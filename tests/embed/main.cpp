@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
             glfwPollEvents();
         }
         std::printf("%u chunks, %llu triangles, %zu resident\n", renderer->counters().chunks,
-                    static_cast<unsigned long long>(renderer->counters().triangles),
+                    static_cast<unsigned long long>(renderer->counters().triangles()),
                     (*planet)->paging().residentChunks);
     }
     glfwTerminate();

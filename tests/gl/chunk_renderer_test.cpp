@@ -110,11 +110,11 @@ TEST_F(ChunkRendererTest, SkirtsFillACrackThatShowsWithoutThem) {
     RenderSettings settings = plainSettings();
     EXPECT_EQ(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, earthRadiusM),
               0);
-    const std::uint64_t withSkirts = planet.renderer().counters().triangles;
+    const std::uint64_t withSkirts = planet.renderer().counters().triangles();
     for (DrawItem& item : planet.items()) item.skirtDepthM = 0;
     EXPECT_GT(holesInDisc(drawPicture(planet.renderer(), view, planet.items(), settings), view, earthRadiusM),
               50);
-    EXPECT_EQ(planet.renderer().counters().triangles, 96u * 2 * 32 * 32);
+    EXPECT_EQ(planet.renderer().counters().triangles(), 96u * 2 * 32 * 32);
     EXPECT_EQ(withSkirts, 96u * (2 * 32 * 32 + 2 * 4 * 32));
     EXPECT_EQ(planet.renderer().counters().chunks, 96u);
 }
@@ -550,7 +550,7 @@ TEST_F(ChunkRendererTest, SeveralSamplesSmoothTheRim) {
 TEST_F(ChunkRendererTest, NothingToDrawIsASkyAndNoError) {
     TestPlanet planet({}, 1);
     const Picture picture = drawPicture(planet.renderer(), viewFrom({}, 0, 0, 1e6), {}, RenderSettings{});
-    EXPECT_EQ(planet.renderer().counters().triangles, 0u);
+    EXPECT_EQ(planet.renderer().counters().triangles(), 0u);
     EXPECT_EQ(std::count(picture.depth.begin(), picture.depth.end(), picture.clearDepth),
               std::ssize(picture.depth));
 }

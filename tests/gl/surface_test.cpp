@@ -179,7 +179,7 @@ protected:
     }
     std::uint64_t triangles() {
         drawn(view_);
-        return planet_.renderer().counters().triangles;
+        return planet_.renderer().counters().triangles();
     }
     View view_ = viewFrom({}, 20, 20, 8e5, -45, 30, 300, 300);
 };

@@ -26,14 +26,17 @@ TEST(Audit, OfACleanPlanetFindsNoViolationAndEndsWell) {
     EXPECT_THAT(ran.output, HasSubstr("violations"));
     EXPECT_THAT(ran.output, HasSubstr("worst chunks"));
     const json report = reportIn(folder);
+    EXPECT_EQ(report["schema_version"], 1);
     EXPECT_EQ(report["violations"], 0);
     ASSERT_EQ(report["view"].size(), 9u);
-    EXPECT_GT(report["worst_facing_px"], 0.2);
-    EXPECT_LT(report["worst_facing_px"], report["worst_predicted_px"]);
+    EXPECT_GT(report["worst_measured_px"], 0.2);
+    EXPECT_LT(report["worst_measured_px"], report["worst_drawn_bound_px"]);
     EXPECT_GT(report["mean_slack"], 0);
     std::uint64_t samples = 0;
     for (const json& view : report["view"]) {
         EXPECT_EQ(view["chunk"].size(), view["chunks"]);
+        EXPECT_EQ(view["triangles"],
+                  view["ground_triangles"].get<int>() + view["skirt_triangles"].get<int>());
         samples += view["samples"].get<std::uint64_t>();
     }
     EXPECT_EQ(report["samples"], samples);

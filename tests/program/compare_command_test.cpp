@@ -30,8 +30,8 @@ TEST(CompareCommand, SetsBothSidesBesideEachOtherAndTakesPictures) {
     for (const char* text : {"lod.tau_px: A 1, B 8", "seams.mode: A skirts, B stitched", "Triangles", "x 0."})
         EXPECT_THAT(ran.output, HasSubstr(text));
     const nlohmann::json report = nlohmann::json::parse(contentOf(folder.path() / "out.json"));
-    EXPECT_LT(report["b"]["triangles"], report["a"]["triangles"]);
-    EXPECT_GT(report["b"]["worst_error_px"], report["a"]["worst_error_px"]);
+    EXPECT_LT(report["b"]["mean_triangles"], report["a"]["mean_triangles"]);
+    EXPECT_GT(report["b"]["worst_measured_px"], report["a"]["worst_measured_px"]);
     EXPECT_EQ(report["b"]["crack_px"], 0);
     for (const char* count :
          {"resident_bytes", "bytes_read", "violations", "crack_px", "leaking_px", "switches", "late"})

@@ -129,7 +129,11 @@ TEST(Program, AShotIsAPictureOfThePlanet) {
     EXPECT_LE(report["worst_eps_px"], 1.0);
     const std::vector<int> levels = report["levels"];
     EXPECT_EQ(std::accumulate(levels.begin(), levels.end(), 0), report["drawn_chunks"]);
-    EXPECT_GT(report["drawn_triangles"], 0);
+    EXPECT_EQ(report["schema_version"], 1);
+    EXPECT_GT(report["ground_triangles"], 0);
+    EXPECT_GT(report["skirt_triangles"], 0);
+    EXPECT_EQ(report["triangles"],
+              report["ground_triangles"].get<int>() + report["skirt_triangles"].get<int>());
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "config"));
 }
 
