@@ -123,7 +123,7 @@ TEST_F(Sweeping, DrawsBesideTheContextOfAnotherThread) {
     }
     ASSERT_TRUE(*result) << result->error().message;
     EXPECT_GT(frames, 0);
-    EXPECT_GT(shownScene(session)->drawn.triangles, 0u);
+    EXPECT_GT(shownScene(session)->drawn.triangles(), 0u);
 }
 
 TEST_F(Sweeping, SuggestsATauThatKeepsTheGoal) {
