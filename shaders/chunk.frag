@@ -21,6 +21,27 @@ uniform sampler3D detailNoise;       // a slope and a height, in [-1, 1]
 
 out vec4 fragment;
 
+// Returns the least 1 / distance that a triangle can have in this pixel. Where multisampling draws a pixel whose middle
+// the triangle does not cover, inputs are extrapolated to that middle; for a triangle seen on edge, as at the horizon,
+// that may lie infinitely far away or behind the eye, and gl_FragCoord.w is then less than this.
+float leastNearness() {
+    return 0.5 * fwidth(gl_FragCoord.w);
+}
+
+bool isExtrapolated() {
+    return gl_FragCoord.w < leastNearness();
+}
+
+// Returns the position relative to the eye, moved back along the pixel's ray where it was extrapolated too far.
+vec3 positionSeen() {
+    return isExtrapolated() ? surface * (gl_FragCoord.w / leastNearness()) : surface;
+}
+
+// Returns light from vertices, bounded where it was extrapolated.
+vec3 inRange(vec3 light) {
+    return isExtrapolated() ? clamp(light, 0.0, 1.0) : light;
+}
+
 // Between the samples that there are: INVENTED ground, purely for the eye. It moves no vertex. Noise fixed to the
 // planet, each octave gone where it would be finer than a pixel, all of it gone where the samples are.
 struct Detail {
@@ -136,9 +157,15 @@ Material imageMaterial(float height, float below, Detail detail, float strength)
     return Material(mix(image.rgb * 1.2, sea, water), water);
 }
 
+// Returns whether the sea's surface is drawn here: over ground below the sea level, as the mesh has it. Water that the
+// image shows on higher ground has no depth to draw, and keeps the image's colour.
+bool isUnderSea() {
+    return isOn(switchSeaSurface) && facePlace.z < heights.w;
+}
+
 // Height above the sea level.
 Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
-    float shore = (isOn(switchSeaSurface) ? 2.0 : 30.0) * planet.x / 6.371e6;
+    float shore = (isUnderSea() ? 2.0 : 30.0) * planet.x / 6.371e6;
     float below = 1.0 - smoothstep(-shore, 0.0, height);
     if (!isOn(switchSea)) below = 0.0;
     if (!isOn(switchImage)) return rampMaterial(up, height, steep, below);
@@ -185,15 +212,15 @@ float between(float pixels) {
 }
 
 // The air between the eye and the ground takes light away and scatters the sun's in.
-vec3 throughAir(vec3 light, vec3 ray, vec3 up) {
+vec3 throughAir(vec3 light, vec3 position, vec3 ray, vec3 up) {
     if (!isOn(switchAir)) return light;
     if (isOn(switchPhysicalAir)) {
-        AirLight before = lightBefore(surface, facePlace.z, 0.5);
+        AirLight before = lightBefore(position, facePlace.z, 0.5);
         return light * before.through + before.scattered;
     }
     float air = airBefore(ray, up, max(facePlace.z, 0.0) * atmosphere.y);
     vec3 amount = scatteringBeforeGround();
-    return light * exp(-(amount + vec3(haze)) * air) + scattered(air, amount, airLit, dot(ray, sun.xyz));
+    return light * exp(-(amount + vec3(haze)) * air) + scattered(air, amount, inRange(airLit), dot(ray, sun.xyz));
 }
 
 vec3 groundNormal() {
@@ -203,7 +230,7 @@ vec3 groundNormal() {
 }
 
 vec3 lightByPixel() {
-    vec3 position = surface;
+    vec3 position = positionSeen();
     float nearness = inversesqrt(dot(position, position));
     vec3 ray = position * nearness;
     vec3 up = normalize(eye.xyz + position);
@@ -234,22 +261,24 @@ vec3 lightByPixel() {
         glint = amount * layerGlint(normal, -ray, layered.roughness);
     }
     vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
-    vec3 sunlight = sunLit;
+    float sea = isUnderSea() ? material.water : 0.0;
+    vec3 sunlight = inRange(sunLit);
+    vec3 skylight = inRange(skyLit);
     if (isOn(switchShadows))
-        sunlight *= sunSeen(position, normalize(mix(surfaceNormal.xyz, up, isOn(switchSeaSurface) ? material.water : 0.0)));
-    float wet = isOn(switchSeaSurface) ? 0.0 : material.water;
-    vec3 light = material.albedo * (sunlight * max(dot(facing, sun.xyz), 0.0) + skyLit) +
+        sunlight *= sunSeen(position, normalize(mix(surfaceNormal.xyz, up, sea)));
+    float wet = material.water - sea;
+    vec3 light = material.albedo * (sunlight * max(dot(facing, sun.xyz), 0.0) + skylight) +
                  sunlight * (wet * seaGlint(facing, -ray) + glint);
-    if (isOn(switchSeaSurface) && material.water > 0.0)
-        light = mix(light, seaLight(position, ray, up, facePlace.z - heights.w, sunlight, skyLit), material.water);
-    return throughAir(light, ray, up);
+    if (sea > 0.0)
+        light = mix(light, seaLight(position, ray, up, facePlace.z - heights.w, sunlight, skylight), sea);
+    return throughAir(light, position, ray, up);
 }
 
 vec3 lightByVertex() {
     vec3 up = normalize(eye.xyz + surface);
     Material material = materialAt(up, facePlace.z - heights.w, steep, noDetail(), 0.0);
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
-    return groundArriving.rgb * reflected + airArriving.rgb;
+    return inRange(groundArriving.rgb) * max(reflected, 0.0) + inRange(airArriving.rgb);
 }
 
 vec3 flatSurface() {

@@ -55,6 +55,47 @@ TEST_F(SeaTest, LiesAtItsLevelWhateverTheBedDoes) {
     EXPECT_NEAR(bedM - middleM(), 0, 1);
 }
 
+TEST_F(SeaTest, aMultisampledHorizonHasNoDarkPixels) {
+    TestPlanet planet({}, 384);
+    planet.addLevel(3, [](const glm::dvec3&) { return -3000; });
+    settings_.atmosphere = true;
+    settings_.light.air.use = FeatureUse::On;
+    settings_.sunDirection = directionFromGeographic({0.5, 0.3});
+    int dark = 0;
+    for (int headingDeg = 0; headingDeg < 360; headingDeg += 45) {
+        const View view = viewFrom({}, 36.5, -5.2, 3000, -2, headingDeg, 640, 96);
+        const Picture picture = drawPicture(planet.renderer(), view, planet.items(), settings_, 4);
+        for (int x = 0; x < picture.width; ++x) {
+            for (int y = 1; y + 1 < picture.height; ++y) {
+                const int beside = std::min(picture.brightness(x, y - 1), picture.brightness(x, y + 1));
+                dark += picture.brightness(x, y) < beside - 15;
+            }
+        }
+    }
+    EXPECT_EQ(dark, 0);
+}
+
+// The detail between samples lowers ground in places, in colour alone: what the image shows as water there
+// has no depth.
+TEST_F(SeaTest, waterAboveTheSeaLevelKeepsTheImagesColour) {
+    TestPlanet planet({}, 384);
+    planet.addLevel(3, [](const glm::dvec3&) { return 4; });
+    std::vector<std::uint8_t> water;
+    for (int i = 0; i < 64 * 32; ++i) water.insert(water.end(), {10, 40, 80});
+    ASSERT_TRUE(planet.renderer().setColourImage(water, 64, 32));
+    settings_.surface = SurfaceColour::Image;
+    settings_.detail = true;
+    const View view = viewFrom({}, 10, 10, 3000, -20, 0, 96, 64);
+    const Picture with = drawPicture(planet.renderer(), view, planet.items(), settings_);
+    settings_.light.sea.use = FeatureUse::Off;
+    const Picture without = drawPicture(planet.renderer(), view, planet.items(), settings_);
+    int different = 0;
+    for (int y = 0; y < with.height; ++y) {
+        for (int x = 0; x < with.width; ++x) different += !areNear(with.at(x, y), without.at(x, y));
+    }
+    EXPECT_EQ(different, 0);
+}
+
 TEST_F(SeaTest, WhatIsMeasuredIsTheBed) {
     TestPlanet planet({}, 24);
     addDepth(planet, 4000);
