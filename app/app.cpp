@@ -42,7 +42,7 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
         if (loaded)
             open.settings = *loaded;
         else
-            log->warn("{}; going on with the defaults, and the file stays as it is", loaded.error().message);
+            log->warn("{}; using the defaults and leaving the file unchanged", loaded.error().message);
         // A screenshot brings settings and stays the picture that it is.
         open.mayBeSaved = loaded.has_value() && !isPng(open.file);
     }

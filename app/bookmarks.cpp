@@ -70,13 +70,12 @@ Result<ui::Bookmark> readBookmark(const fs::path& file, const toml::table& table
             return tl::unexpected(read.error());
     }
     if (bookmark.name.empty() || bookmark.name.size() > longestName) {
-        return planet::badInput(fmt::format("{}: name is {}; 1 to {} letters would be right",
-                                            placeOf(file, table),
+        return planet::badInput(fmt::format("{}: name is {}; expected 1 to {} letters", placeOf(file, table),
                                             bookmark.name.empty() ? "missing" : "too long", longestName));
     }
     for (const PoseField& field : poseFields) {
         if (!table.contains(field.name)) {
-            return planet::badInput(fmt::format("{}: {} is missing; a number of {} would be right",
+            return planet::badInput(fmt::format("{}: {} is missing; expected a number of {}",
                                                 placeOf(file, table), field.name, field.range.unit));
         }
     }
@@ -90,14 +89,14 @@ Result<std::vector<ui::Bookmark>> readBookmarks(const fs::path& file) {
     for (const auto& [key, node] : *document) {
         const toml::array* tables = node.as_array();
         if (key.str() != "bookmark" || !tables) {
-            return planet::badInput(fmt::format("{}: {} is not known; [[bookmark]] tables would be right",
+            return planet::badInput(fmt::format("{}: {} is not known; expected [[bookmark]] tables",
                                                 placeOf(file, node), key.str()));
         }
         for (const toml::node& entry : *tables) {
             const toml::table* table = entry.as_table();
             if (!table) {
                 return planet::badInput(
-                    fmt::format("{}: not a table; [[bookmark]] would be right", placeOf(file, entry)));
+                    fmt::format("{}: not a table; expected [[bookmark]]", placeOf(file, entry)));
             }
             Result<ui::Bookmark> bookmark = readBookmark(file, *table);
             if (!bookmark) return tl::unexpected(bookmark.error());
@@ -141,7 +140,7 @@ auto findByName(std::vector<ui::Bookmark>& list, std::string_view name) {
 // Changes a copy, writes it, and keeps it once it is written.
 Result<void> commit(Bookmarks& bookmarks, Bookmarks&& changed) {
     if (!bookmarks.problem.empty()) {
-        return planet::badInput(fmt::format("{}; mend the file, or move it away", bookmarks.problem));
+        return planet::badInput(fmt::format("{}; fix the file or move it away", bookmarks.problem));
     }
     if (Result<void> written = writeBookmarks(changed); !written) return written;
     bookmarks = std::move(changed);
@@ -176,8 +175,7 @@ Result<void> addBookmark(Bookmarks& bookmarks, std::string_view name, const Pose
     if (found == changed.list.end()) {
         changed.list.push_back({std::string(kept), pose, false});
     } else if (found->shipped) {
-        return planet::badInput(
-            fmt::format("the bookmark \"{}\" comes with Worldy; choose another name", kept));
+        return planet::badInput(fmt::format("the bookmark \"{}\" is built-in; choose another name", kept));
     } else {
         found->pose = pose;
     }

@@ -465,10 +465,8 @@ Result<BakeOptions> understand(BakeOptions options) {
     // A flag without a value reads "true".
     if (options.detail == "true") options.detail->clear();
     if (options.listPresets) return options;
-    if (options.source.empty())
-        return planet::badInput("SOURCE is required; worldy bake --help tells what would be right");
-    if (options.output.empty())
-        return planet::badInput("--output is required; worldy bake --help tells what would be right");
+    if (options.source.empty()) return planet::badInput("SOURCE is required; see worldy bake --help");
+    if (options.output.empty()) return planet::badInput("--output is required; see worldy bake --help");
     return options;
 }
 
@@ -621,8 +619,7 @@ struct CommandLine {
 };
 
 planet::Error errorOf(const CLI::ParseError& error) {
-    return {planet::ErrorKind::BadInput,
-            fmt::format("{}; worldy --help tells what would be right", error.what())};
+    return {planet::ErrorKind::BadInput, fmt::format("{}; see worldy --help", error.what())};
 }
 
 }  // namespace
@@ -635,7 +632,7 @@ Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments) {
         return tl::unexpected(errorOf(error));
     }
     if (!line.app.got_subcommand("shot"))
-        return planet::badInput("this is no `worldy shot`; worldy shot FILE -o PICTURE would be right");
+        return planet::badInput("not a worldy shot command; expected worldy shot FILE -o PICTURE");
     return understand(line.shot, line.shotView);
 }
 

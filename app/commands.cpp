@@ -92,11 +92,11 @@ struct CommandHandler {
     }
     // Settings of a replay are given back at its end.
     bool maySet() const {
-        if (editor.desk.replay) log->warn("While a flight is replayed its settings are the recording's");
+        if (editor.desk.replay) log->warn("Settings cannot be changed during a replay");
         return !editor.desk.replay;
     }
     bool mayTouchPaging() const {
-        if (editor.desk.replay) log->warn("While a flight is replayed its paging is the recording's");
+        if (editor.desk.replay) log->warn("Paging cannot be changed during a replay");
         return !editor.desk.replay;
     }
     void call(FlightCall which, void (planet::Planet::*function)()) const {
@@ -213,7 +213,7 @@ struct CommandHandler {
     void operator()(const ui::SaveSweep& command) const {
         const Result<std::filesystem::path> plot = saveSweep(editor.sweep, command.cost, picturesFolder());
         if (plot)
-            log->info("Sweep: {}, and its table beside it as .csv and .json", plot->string());
+            log->info("Sweep saved: {}, with its table as .csv and .json", plot->string());
         else
             log->error("{}", plot.error().message);
     }
@@ -270,7 +270,7 @@ void CommandHandler::operator()(const ui::StartRecording& command) const {
     if (!scene || !editor.rig) return;
     endReplay(editor, scene);
     if (succeeded(startRecording(editor.desk, *scene->planet, command.name)))
-        log->info("Recording {}: the planet starts with its six root chunks", editor.desk.recorder->name());
+        log->info("Recording {}: starting with the six root chunks", editor.desk.recorder->name());
     forgetChanges(editor);
     editor.stepOneFrame = true;  // nothing is chosen any more
 }
@@ -285,8 +285,7 @@ void CommandHandler::operator()(const ui::SwapCompare&) const {
 
 void CommandHandler::operator()(const ui::StartReplay& command) const {
     Scene* scene = shownScene(session);
-    if (!scene || !editor.rig)
-        return log->warn("{}: no planet is open to be flown over", command.file.string());
+    if (!scene || !editor.rig) return log->warn("{}: no planet is open", command.file.string());
     stopRecording(editor.desk, scene->planet.get(), log);
     endInspection(editor);
     endReplay(editor, scene);
@@ -300,7 +299,7 @@ void CommandHandler::operator()(const ui::StartReplay& command) const {
 void CommandHandler::operator()(const ui::KeepCameraAsStart&) const {
     if (!shownScene(session) || !editor.rig) return;
     editor.settings.camera = pose();
-    log->info("Sessions start here from now on");
+    log->info("Future sessions start here");
 }
 
 void CommandHandler::operator()(const ui::AddBookmark& command) const {

@@ -34,7 +34,7 @@ Result<ui::ViewSettings> settingsFor(const ui::StartCompare& wanted, const Prese
 std::string originOf(const ui::StartCompare& wanted) {
     switch (wanted.with) {
         case ui::StartCompare::With::SettingsKept:
-            return "settings kept";
+            return "snapshot";
         case ui::StartCompare::With::Preset:
             return "preset " + wanted.preset;
         case ui::StartCompare::With::PreviousBake:
@@ -49,8 +49,7 @@ Result<OpenPlanet> openFor(const ui::StartCompare& wanted, const Session& sessio
                            const ui::ViewSettings& settings) {
     if (wanted.with == ui::StartCompare::With::File) return openBeside(session, wanted.file, settings);
     if (wanted.with == ui::StartCompare::With::PreviousBake) {
-        if (!session.previous)
-            return planet::badInput("There is no previous bake; baking again would make one");
+        if (!session.previous) return planet::badInput("There is no previous bake; bake again to create one");
         return openBeside(session, session.showsPrevious ? session.open->data : session.previous->data,
                           settings);
     }
@@ -185,7 +184,7 @@ std::string sidesText(const CompareDesk& desk) {
         a += fmt::format("{}{} {}", a.empty() ? "" : ", ", one.setting, one.here);
         b += fmt::format("{}{} {}", b.empty() ? "" : ", ", one.setting, one.there);
     }
-    if (a.empty()) return "Equal settings.";
+    if (a.empty()) return "Settings are equal.";
     return fmt::format("A: {}. B: {}.", a, b);
 }
 
@@ -253,7 +252,7 @@ void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log) {
         const Result<void> same = checkSameRadius(radiusOf(now.a), radiusOf(b));
         if (!same) {
             desk.problem = same.error().message;
-            log->warn("Comparing has ended: {}", same.error().message);
+            log->warn("Comparison ended: {}", same.error().message);
             return stopCompare(desk);
         }
         beginMeters(desk, now.a);
@@ -338,7 +337,7 @@ Result<void> compareFlight(CompareDesk& desk, const Session& session, const ui::
     plan.moments = std::max(wanted.moments, 1);
     plan.size = {std::max(view.widthPx, 16), std::max(view.heightPx, 16)};
     findDifferences(desk, settings);
-    desk.flownName = fmt::format("{}, {} moments. {}", plan.path.name, plan.moments, sidesText(desk));
+    desk.flownName = fmt::format("{}, {} sample frames. {}", plan.path.name, plan.moments, sidesText(desk));
     desk.flownProblem.clear();
     desk.flown.reset();
     desk.job = std::make_unique<ComparisonJob>(std::move(plan));

@@ -217,8 +217,8 @@ ComparedSide flownSide(const ComparisonPlan& plan, std::size_t index) {
 Result<void> checkSameRadius(double radiusM, double radiusOfBM) {
     if (radiusM == radiusOfBM) return {};
     return planet::badInput(
-        fmt::format("A's radius is {:.10g} m and B's {:.10g} m; two planets of the same radius would be "
-                    "right, since one camera looks at both",
+        fmt::format("the radius of A is {:.10g} m and that of B {:.10g} m; expected equal radii, because one "
+                    "camera shows both",
                     radiusM, radiusOfBM));
 }
 

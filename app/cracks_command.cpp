@@ -322,10 +322,10 @@ Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Meas
 
 Result<bool> runCracks(const CracksOptions& options) {
     if (options.findDepth && options.view.seams.mode == planet::SeamMode::Stitched) {
-        return planet::badInput("--find-depth: stitched seams have no skirts; --seams skirts would be right");
+        return planet::badInput("--find-depth: stitched seams have no skirts; expected --seams skirts");
     }
     if (!options.flight.empty() && options.camera)
-        return planet::badInput("--camera and --flight: one of them would be right");
+        return planet::badInput("--camera and --flight: expected only one of them");
     const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());

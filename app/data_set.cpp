@@ -132,8 +132,8 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
             return tl::unexpected(good.error());
     } else if (planet::heightSourceFiles(source->source).files.empty()) {
         return planet::badInput(
-            fmt::format("{}: no such file; a chunk file (.chk), an elevation image, one of six cube faces, a "
-                        "terrain as noise:ridged or a preset as preset:moon would be right",
+            fmt::format("{}: no such file; expected a chunk file (.chk), an elevation image, one of six cube "
+                        "faces, a terrain as noise:ridged or a preset as preset:moon",
                         named.string()));
     } else if (named.extension() == ".chk") {
         DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageOf(named)};

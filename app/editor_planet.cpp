@@ -125,7 +125,7 @@ void record(planet::Planet& planet, Editor& editor, const Log& log) {
     constexpr std::array<double, 2> priorityFactors = {1, observerPriorityFactor};
     editor.desk.recorder->stepped(planet, priorityFactors);
     if (!editor.desk.recorder->encoded().full()) return;
-    log->warn("The recording has reached its limit of {} frames or {} MiB and ends here", maxFlightFrames,
+    log->warn("Recording stopped: the limit of {} frames or {} MiB is reached", maxFlightFrames,
               maxFlightBytes >> 20);
     stopRecording(editor.desk, &planet, log);
     editor.flights = availableFlights();
@@ -177,7 +177,7 @@ void giveSettings(Scene& scene, Editor& editor, const Log& log) {
     if (applied)
         return editor.desk.recorder->givenSettings(*scene.planet, editor.settings.view, editor.pagingPaused);
     // What the planet has kept of them nobody could repeat.
-    log->warn("The recording ends, since settings were refused");
+    log->warn("Recording stopped: settings were refused");
     stopRecording(editor.desk, scene.planet.get(), log);
 }
 
@@ -251,9 +251,8 @@ void watchCosts(Scene& scene, const Editor& editor, Log& log) {
     const planet::gl::RenderCounters& drawn = scene.drawn;
     const double gpuMs = drawn.chunksMs + drawn.skyMs + drawn.shadowsMs;
     if (ui::watchPicture(scene.turnedDown, editor.settings.view.surface, gpuMs, editor.timeS))
-        log->info(
-            "A picture took {:.0f} ms of the GPU; part of it is turned down. The Light panel says which.",
-            gpuMs);
+        log->info("A frame took {:.0f} ms on the GPU; a feature was turned off. The Light panel shows which.",
+                  gpuMs);
 }
 
 // A little in each frame, so that the window goes on.

@@ -132,14 +132,12 @@ Result<void> startRecording(FlightDesk& desk, planet::Planet& planet, std::strin
     if (name.empty()) name = freeName(desk);
     if (Result<void> good = checkPresetName(name); !good) return good;
     if (desk.unwritten) {
-        return planet::badInput(
-            fmt::format("The recording \"{}\" is not written yet; stopping it again, which tries it once "
-                        "more, would be right",
-                        desk.unwritten->name()));
+        return planet::badInput(fmt::format("The recording \"{}\" is not saved yet; stop it again to retry",
+                                            desk.unwritten->name()));
     }
     if (hasFlight(desk, name)) {
         return planet::badInput(
-            fmt::format("There is a recorded flight \"{}\" already; another name would be right", name));
+            fmt::format("A recorded flight \"{}\" already exists; expected another name", name));
     }
     desk.recorder.emplace(planet, std::move(name));
     return {};
@@ -159,12 +157,12 @@ void stopRecording(FlightDesk& desk, planet::Planet* planet, const Log& log) {
     const FlightEncoder& encoded = recorder.encoded();
     const Result<fs::path> file = writeUnderFreeName(desk.folder, recorder);
     if (file && recorder.name() != name)
-        log->warn("There is a recorded flight \"{}\" by now; this one is \"{}\"", name, recorder.name());
+        log->warn("A recorded flight \"{}\" now exists; this one is saved as \"{}\"", name, recorder.name());
     if (file)
         log->info("Recorded {}: {} frames over {:.1f} s", file->string(), encoded.frames(),
                   encoded.seconds());
     else if (encoded.frames() > 0)
-        log->error("{}; the recording is kept: make room, and stop it again", file.error().message);
+        log->error("{}; the recording is kept: free disk space and stop it again", file.error().message);
     else
         log->error("{}", file.error().message);
     if (file || encoded.frames() == 0) desk.unwritten.reset();

@@ -43,7 +43,7 @@ Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::
         const std::string name = fmt::format("key {}: {}", number, field.name);
         const toml::node* node = table.get(field.name);
         if (!node) {
-            return planet::badInput(fmt::format("{}: {} is missing; a number of {} would be right",
+            return planet::badInput(fmt::format("{}: {} is missing; expected a number of {}",
                                                 placeOf(file, table), name, field.range.unit));
         }
         const Result<double> value = readNumber(file, name, *node, field.range);
@@ -78,16 +78,16 @@ Result<void> checkOrder(const fs::path& file, const toml::table& table, const Fl
     const std::size_t number = path.keys.size() + 1;
     const FlightKey& last = path.keys.back();
     if (next.timeS <= last.timeS) {
-        return planet::badInput(
-            fmt::format("{}: key {}: time_s is {}; a time after key {}'s {} would be right",
-                        placeOf(file, table), number, next.timeS, number - 1, last.timeS));
+        return planet::badInput(fmt::format("{}: key {}: time_s is {}; expected a time after key {}'s {}",
+                                            placeOf(file, table), number, next.timeS, number - 1,
+                                            last.timeS));
     }
     const double cosine = glm::dot(directionOf(last), directionOf(next));
     const double stepDeg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
     if (stepDeg > maxStepDeg) {
         return planet::badInput(
-            fmt::format("{}: key {}: lies {:.0f} degrees from key {}; a key between them would "
-                        "be right, so that no step is over {}",
+            fmt::format("{}: key {}: lies {:.0f} degrees from key {}; expected a key between them, so that "
+                        "no step is over {}",
                         placeOf(file, table), number, stepDeg, number - 1, maxStepDeg));
     }
     return {};
@@ -98,8 +98,8 @@ Result<void> readKeys(const fs::path& file, const toml::array& keys, FlightPath&
         const std::size_t number = path.keys.size() + 1;
         const toml::table* table = node.as_table();
         if (!table) {
-            return planet::badInput(fmt::format("{}: key {} is not a table; [[key]] would be right",
-                                                placeOf(file, node), number));
+            return planet::badInput(
+                fmt::format("{}: key {} is not a table; expected [[key]]", placeOf(file, node), number));
         }
         const Result<FlightKey> key = readKey(file, number, *table);
         if (!key) return tl::unexpected(key.error());
@@ -189,14 +189,13 @@ Result<FlightPath> flightPathOf(const fs::path& file, const toml::table& documen
             if (Result<void> read = readKeys(file, *node.as_array(), path); !read)
                 return tl::unexpected(read.error());
         } else {
-            return planet::badInput(
-                fmt::format("{}: {:.40} is not known; name and [[key]] tables would be right",
-                            placeOf(file, node), key.str()));
+            return planet::badInput(fmt::format("{}: {:.40} is not known; expected name and [[key]] tables",
+                                                placeOf(file, node), key.str()));
         }
     }
     if (path.keys.size() < 2) {
-        return planet::badInput(fmt::format("{}: has {} [[key]] tables; two or more would be right",
-                                            file.string(), path.keys.size()));
+        return planet::badInput(
+            fmt::format("{}: has {} [[key]] tables; expected two or more", file.string(), path.keys.size()));
     }
     return path;
 }
@@ -225,9 +224,9 @@ double durationS(const FlightPath& path) {
 Result<int> flightViews(const FlightPath& path, double stepS, int most) {
     const double steps = std::floor(durationS(path) / stepS + 1e-9);
     if (!(steps < most)) {
-        return planet::badInput(fmt::format(
-            "--step-s: {} s over a flight of {} s are more than {} views; a longer step would be right",
-            stepS, durationS(path), most));
+        return planet::badInput(
+            fmt::format("--step-s: {} s over a flight of {} s are more than {} views; expected a longer step",
+                        stepS, durationS(path), most));
     }
     return static_cast<int>(steps) + 1;
 }

@@ -189,7 +189,7 @@ public:
     }
     std::size_t countUpTo(std::size_t most, const char* what, std::size_t bytesEach) {
         const std::size_t wanted = count(bytesEach);
-        if (wanted > most) fail(fmt::format("holds {} {}; {} at most would be right", wanted, what, most));
+        if (wanted > most) fail(fmt::format("holds {} {}; expected {} at most", wanted, what, most));
         return ok() ? wanted : 0;
     }
     std::string text() {
@@ -201,18 +201,18 @@ public:
     // As reports and messages need it.
     std::string utf8(const char* what) {
         std::string value = text();
-        if (!isUtf8(value)) fail(fmt::format("holds a {} that is not UTF-8; UTF-8 would be right", what));
+        if (!isUtf8(value)) fail(fmt::format("holds a {} that is not UTF-8; expected UTF-8", what));
         return ok() ? value : std::string();
     }
     double number(double low, double high) {
         const auto value = get<double>();
         if (ok() && !(value >= low && value <= high))
-            fail(fmt::format("holds {} where {} to {} would be right", value, low, high));
+            fail(fmt::format("holds {}; expected {} to {}", value, low, high));
         return ok() ? value : low;
     }
     ChunkId id() {
         const BlockId named = block();
-        if (named.kind != BlockKind::Heights) fail("names a tile where a chunk would be right");
+        if (named.kind != BlockKind::Heights) fail("names a tile; expected a chunk");
         return named.parent;
     }
     BlockId block() {
@@ -335,7 +335,7 @@ void putData(ByteWriter& out, const FlightData& data) {
 std::vector<FlownView> readViews(Reader& in) {
     const std::size_t count = in.get<std::uint8_t>();
     if (count == 0 || count > planet::maxViews) {
-        in.fail(fmt::format("holds a frame of {} views; 1 to {} would be right", count, planet::maxViews));
+        in.fail(fmt::format("holds a frame of {} views; expected 1 to {}", count, planet::maxViews));
         return {};
     }
     std::vector<FlownView> views(count);
@@ -377,8 +377,7 @@ void readCalls(Reader& in, FlightFrame& frame, FlightSoFar& soFar) {
         frame.calls.push_back(readCall(in, soFar));
         soFar.calls += 1 + frame.calls.back().settings.size();
         if (soFar.calls > maxFlightCalls) {
-            in.fail(fmt::format("holds more than {} calls and their settings in all; no more would be right",
-                                maxFlightCalls));
+            in.fail(fmt::format("holds more than {} calls and settings", maxFlightCalls));
         }
     }
 }
@@ -386,7 +385,7 @@ void readCalls(Reader& in, FlightFrame& frame, FlightSoFar& soFar) {
 void checkAscending(Reader& in, const std::vector<ChunkId>& ids, const char* what) {
     const auto wrong = std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>());
     if (wrong != ids.end()) {
-        in.fail(fmt::format("says twice or out of order that {} {}; each once, ascending, would be right",
+        in.fail(fmt::format("says twice or out of order that {} {}; expected each once, ascending",
                             toString(*(wrong + 1)), what));
     }
 }
@@ -399,18 +398,17 @@ void followDrawn(Reader& in, const FlownView& view, std::set<ChunkId>& drawn) {
         if (!in.ok()) return;
         if (drawn.count(id) > 0)
             in.fail(
-                fmt::format("says that {} appeared, which was drawn before; a chunk that was not would be "
-                            "right",
+                fmt::format("says that {} appeared, which was drawn before; expected a chunk that was not",
                             toString(id)));
     }
     for (const ChunkId& id : view.vanished) {
         if (!in.ok()) return;
         if (drawn.erase(id) == 0)
-            in.fail(fmt::format("says that {} vanished, which was not drawn; a chunk that was would be right",
+            in.fail(fmt::format("says that {} vanished, which was not drawn; expected a chunk that was",
                                 toString(id)));
     }
     if (drawn.size() + view.appeared.size() > maxFlightChunks)
-        in.fail(fmt::format("draws more than {} chunks in a view; fewer would be right", maxFlightChunks));
+        in.fail(fmt::format("draws more than {} chunks in a view", maxFlightChunks));
     if (in.ok()) drawn.insert(view.appeared.begin(), view.appeared.end());
 }
 
@@ -420,8 +418,7 @@ FlightFrame readFrame(Reader& in, const FlightFrame* before, FlightSoFar& soFar)
     const auto parts = in.get<std::uint8_t>();
     frame.elapsedS = in.number(0, maxFlightS);
     soFar.seconds += frame.elapsedS;
-    if (soFar.seconds > maxFlightS)
-        in.fail(fmt::format("comes after more than {} s; no more would be right", maxFlightS));
+    if (soFar.seconds > maxFlightS) in.fail(fmt::format("comes after more than {} s", maxFlightS));
     if (before) frame.selectionHash = before->selectionHash;
     if (parts & callsPart) readCalls(in, frame, soFar);
     if (parts & viewsPart) {
@@ -456,7 +453,7 @@ FlightRecord readContent(Reader& in) {
     in.setDeepest(std::min(planet::leafLevel(record.data.shape), planet::maxLevel));
     const auto frames = in.get<std::uint32_t>();
     if (frames == 0 || frames > maxFlightFrames)
-        in.fail(fmt::format("says that it holds {} frames; 1 to {} would be right", frames, maxFlightFrames));
+        in.fail(fmt::format("says that it holds {} frames; expected 1 to {}", frames, maxFlightFrames));
     FlightSoFar soFar;
     for (std::uint32_t i = 0; i < frames && in.ok(); ++i) {
         const FlightFrame* before = record.frames.empty() ? nullptr : &record.frames.back();
@@ -472,9 +469,8 @@ Result<std::vector<std::byte>> readWhole(const fs::path& file) {
     if (!fs::exists(file, status)) return planet::badInput(fmt::format("{}: no such file", file.string()));
     const std::uintmax_t size = fs::is_regular_file(file, status) ? fs::file_size(file, status) : 0;
     if (size < headerBytes || size > 2 * maxFlightBytes) {
-        return planet::badInput(
-            fmt::format("{}: is no recorded flight: it has {} bytes; {} to {} would be right", file.string(),
-                        size, headerBytes, 2 * maxFlightBytes));
+        return planet::badInput(fmt::format("{}: is no recorded flight: it has {} bytes; expected {} to {}",
+                                            file.string(), size, headerBytes, 2 * maxFlightBytes));
     }
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     std::ifstream stream(file, std::ios::binary);
@@ -488,7 +484,7 @@ Result<std::vector<std::byte>> contentBytes(std::span<const std::byte> all, cons
         return planet::badInput(fmt::format("{}: {}", file.string(), what));
     };
     if (all.size() < headerBytes || std::memcmp(all.data(), magic.data(), magic.size()) != 0)
-        return wrong("is no recorded flight; a .flight file by Worldy would be right");
+        return wrong("is no recorded flight; expected a .flight file by Worldy");
     ByteReader header(all.subspan(magic.size(), headerBytes - magic.size()));
     const auto version = header.get<std::uint32_t>();
     if (version != flightRecordVersion) {
@@ -517,8 +513,7 @@ FlightData flightDataOf(const planet::ChunkFile& file) {
 Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, const FlightData& present) {
     const auto differs = [&](const std::string& how) {
         return planet::badInput(
-            fmt::format("{}: was recorded over another file than {}: {}; {} or a copy of it "
-                        "would be right",
+            fmt::format("{}: was recorded over another file than {}: {}; expected {} or a copy of it",
                         flight.string(), present.chunkFile, how, recorded.chunkFile));
     };
     const planet::PlanetShape &a = recorded.shape, &b = present.shape;
@@ -629,8 +624,7 @@ Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
     // From here on no other may write it.
     std::error_code status;
     if (ifThere == IfThere::Fail && fs::exists(fs::symlink_status(file, status))) {
-        return planet::ioError(
-            fmt::format("{}: is there already; another name would be right", file.string()));
+        return planet::ioError(fmt::format("{}: is there already; expected another name", file.string()));
     }
     return target->append(*bytes).and_then([&] { return target->commit(); });
 }
@@ -671,7 +665,7 @@ Result<FlightRecord> withinMemory(const fs::path& file, const Read& read) {
         return read();
     } catch (const std::bad_alloc&) {
         return planet::badInput(fmt::format(
-            "{}: is too large for the memory there is; a shorter recording would be right", file.string()));
+            "{}: is too large for the available memory; expected a shorter recording", file.string()));
     }
 }
 
@@ -741,8 +735,8 @@ Result<FlightPath> pathOf(const FlightRecord& record, const fs::path& file) {
         jumped = false;
     }
     if (keys.size() >= 2) return path;
-    return planet::badInput(fmt::format(
-        "{}: is a single moment; a recording of two frames or more would be right", file.string()));
+    return planet::badInput(
+        fmt::format("{}: is a single moment; expected a recording of two frames or more", file.string()));
 }
 
 bool isFlightRecord(const fs::path& file) {

@@ -70,10 +70,10 @@ Result<void> saveAs(LayerDesk& desk, std::string_view name, ui::LayerSettings& l
         return set.shipped && set.name == name;
     });
     if (same != desk.sets.end()) {
-        return told(desk,
-                    planet::badInput(fmt::format("The layer set \"{}\" comes with Worldy and stays as it is; "
-                                                 "another name would be right",
-                                                 name)));
+        return told(
+            desk,
+            planet::badInput(fmt::format(
+                "The layer set \"{}\" is built-in and cannot be replaced; expected another name", name)));
     }
     const fs::path file = desk.folders.own / fmt::format("{}.toml", name);
     if (Result<void> kind = checkKinds({{file, OutputKind::LayerSet}}); !kind)

@@ -67,9 +67,9 @@ struct ReadKey {
         Result<std::string> read = readText(file, name, node);
         if (!read) return tl::unexpected(read.error());
         if (read->size() > mostNameBytes) {
-            return wrong(file, node,
-                         fmt::format("{} is {} bytes long; at most {} would be right", name, read->size(),
-                                     mostNameBytes));
+            return wrong(
+                file, node,
+                fmt::format("{} is {} bytes long; expected at most {}", name, read->size(), mostNameBytes));
         }
         *text = std::move(*read);
         return {};
@@ -85,7 +85,7 @@ struct ReadKey {
         if (!array || array->size() != 3) {
             return wrong(
                 file, node,
-                fmt::format("{} is {}; [lowest, highest, soft edge] would be right", name, shownValue(node)));
+                fmt::format("{} is {}; expected [lowest, highest, soft edge]", name, shownValue(node)));
         }
         std::array<double, 3> read{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -100,9 +100,9 @@ struct ReadKey {
     Result<void> operator()(glm::vec3* colour) const {
         const std::optional<glm::vec3> rgb = colourFromText(node.value_or(std::string()));
         if (!rgb) {
-            return wrong(file, node,
-                         fmt::format("{} is {}; red, green and blue as \"#rrggbb\" would be right", name,
-                                     shownValue(node)));
+            return wrong(
+                file, node,
+                fmt::format("{} is {}; expected red, green and blue as \"#rrggbb\"", name, shownValue(node)));
         }
         *colour = *rgb;
         return {};
@@ -132,8 +132,7 @@ std::string textOf(const LayerKey& key) {
 
 Result<TextureLayer> layerFromToml(const fs::path& file, const std::string& name, const toml::node& node) {
     const toml::table* table = node.as_table();
-    if (!table)
-        return wrong(file, node, fmt::format("{} is no layer; a table with a name would be right", name));
+    if (!table) return wrong(file, node, fmt::format("{} is no layer; expected a table with a name", name));
     TextureLayer layer;
     const std::vector<LayerKey> keys = keysOf(layer);
     for (const auto& [key, value] : *table) {
@@ -145,7 +144,7 @@ Result<TextureLayer> layerFromToml(const fs::path& file, const std::string& name
             std::string known;
             for (const LayerKey& one : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", one.key);
             return wrong(file, value,
-                         fmt::format("{} is no part of a layer; one of {} would be right", keyName, known));
+                         fmt::format("{} is no part of a layer; expected one of {}", keyName, known));
         }
         if (Result<void> read = std::visit(ReadKey{file, keyName, value, found->range}, found->value); !read)
             return tl::unexpected(read.error());
@@ -158,7 +157,7 @@ Result<void> readBlend(const fs::path& file, const toml::node& node, planet::Lay
     const auto found = std::find(layerBlendNames.begin(), layerBlendNames.end(), word);
     if (found == layerBlendNames.end()) {
         return wrong(file, node,
-                     fmt::format("blend is {}; \"weight\" or \"height\" would be right", shownValue(node)));
+                     fmt::format("blend is {}; expected \"weight\" or \"height\"", shownValue(node)));
     }
     set.blend = static_cast<planet::LayerBlend>(found - layerBlendNames.begin());
     return {};
@@ -177,7 +176,7 @@ Result<void> readSetKey(const fs::path& file, std::string_view key, const toml::
     }
     return wrong(
         file, node,
-        fmt::format("{:.40} is no part of a layer set; blend, blend_depth or [[layer]] would be right", key));
+        fmt::format("{:.40} is no part of a layer set; expected blend, blend_depth or [[layer]]", key));
 }
 
 template <class Move>
@@ -196,13 +195,13 @@ Result<std::vector<TextureLayer>> layersFromToml(const fs::path& file, std::stri
     const toml::array* array = node.as_array();
     if (!array) {
         return wrong(file, node,
-                     fmt::format("{} is {}; layers, as [[layer]] or an array of tables, would be right", name,
+                     fmt::format("{} is {}; expected layers, as [[layer]] or an array of tables", name,
                                  shownValue(node)));
     }
     if (array->size() > planet::maxLayers) {
-        return wrong(file, node,
-                     fmt::format("{} has {} layers; at most {} would be right", name, array->size(),
-                                 planet::maxLayers));
+        return wrong(
+            file, node,
+            fmt::format("{} has {} layers; expected at most {}", name, array->size(), planet::maxLayers));
     }
     std::vector<TextureLayer> layers;
     for (const toml::node& one : *array) {
@@ -235,7 +234,7 @@ Result<planet::LayerSet> layerSetOf(const fs::path& file, const toml::table& doc
     }
     if (set.layers.empty())
         return planet::badInput(
-            fmt::format("{}: has no layers; one [[layer]] or more would be right", file.string()));
+            fmt::format("{}: has no layers; expected one [[layer]] or more", file.string()));
     return set;
 }
 

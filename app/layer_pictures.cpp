@@ -37,13 +37,13 @@ Result<Texels> readTexels(const fs::path& file) {
     if (!input) {
         OIIO::geterror();  // kept for the next failure if nobody takes it
         return planet::badInput(
-            fmt::format("{}: cannot be read as an image; a PNG texture would be right", file.string()));
+            fmt::format("{}: cannot be read as an image; expected a PNG texture", file.string()));
     }
     const OIIO::ImageSpec& spec = input->spec();
     const bool powerOfTwo = spec.width > 0 && (spec.width & (spec.width - 1)) == 0;
     if (spec.width != spec.height || !powerOfTwo || spec.width < leastSize || spec.width > mostSize) {
         return planet::badInput(
-            fmt::format("{}: is {} x {} pixels; square and a power of two from {} to {} would be right",
+            fmt::format("{}: is {} x {} pixels; expected a square with a power-of-two side from {} to {}",
                         file.string(), spec.width, spec.height, leastSize, mostSize));
     }
     Texels texels{spec.width, spec.nchannels, {}};
@@ -147,8 +147,7 @@ void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, L
 }  // namespace
 
 Result<LayerTexels> readLayerTexels(const fs::path& folder, const LayerFiles& files) {
-    if (files[0].empty())
-        return planet::badInput("no albedo is named; the path of a PNG texture would be right");
+    if (files[0].empty()) return planet::badInput("no albedo is named; expected the path of a PNG texture");
     std::array<Texels, 3> read;
     read[1] = {1, 3, {128, 128, 255}};
     read[2] = {1, 1, {230}};
@@ -158,7 +157,7 @@ Result<LayerTexels> readLayerTexels(const fs::path& folder, const LayerFiles& fi
             Result<Texels> texels = readTexels(folder / files[i]);
             if (!texels) return tl::unexpected(texels.error());
             if (i == 1 && texels->channels < 3) {
-                return planet::badInput(fmt::format("{}: has {} channels; red, green and blue would be right",
+                return planet::badInput(fmt::format("{}: has {} channels; expected red, green and blue",
                                                     (folder / files[i]).string(), texels->channels));
             }
             read[i] = std::move(*texels);
@@ -201,8 +200,8 @@ void fitLayerPictures(const planet::LayerSet& set, const fs::path& folder,
         const bool before =
             std::find(pictures.told.begin(), pictures.told.end(), told[i]) != pictures.told.end();
         if (told[i].empty() || before) continue;
-        pictures.untold.push_back(fmt::format("Layer {} \"{}\": {}; a checker pattern is drawn in its place",
-                                              i + 1, set.layers[i].name, told[i]));
+        pictures.untold.push_back(fmt::format("Layer {} \"{}\": {}; a checkerboard is drawn instead", i + 1,
+                                              set.layers[i].name, told[i]));
     }
     pictures.told = std::move(told);
 }

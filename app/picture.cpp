@@ -16,8 +16,8 @@ constexpr int maxSidePx = 32768;
 
 tl::unexpected<planet::Error> notAnImage(const std::filesystem::path& file) {
     OIIO::geterror();  // kept for the next failure if nobody takes it
-    return planet::badInput(fmt::format(
-        "{}: cannot be read as an image; a JPEG, PNG or TIFF picture would be right", file.string()));
+    return planet::badInput(
+        fmt::format("{}: cannot be read as an image; expected a JPEG, PNG or TIFF picture", file.string()));
 }
 
 }  // namespace
@@ -27,8 +27,8 @@ planet::Result<Picture> readPicture(const std::filesystem::path& file) {
     if (!input) return notAnImage(file);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > maxSidePx || spec.height > maxSidePx) {
-        return planet::badInput(fmt::format("{}: is {} x {} pixels; 1 to {} a side would be right",
-                                            file.string(), spec.width, spec.height, maxSidePx));
+        return planet::badInput(fmt::format("{}: is {} x {} pixels; expected 1 to {} a side", file.string(),
+                                            spec.width, spec.height, maxSidePx));
     }
     const int channels = spec.nchannels >= 3 ? 3 : 1;
     const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
@@ -58,8 +58,8 @@ planet::Result<void> writePicture(const Picture& picture, const std::filesystem:
             !output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !output->close()) {
             const std::string why = output ? output->geterror() : OIIO::geterror();
             return planet::ioError(
-                fmt::format("{}: cannot be written; a writable folder that exists and a name ending in .png "
-                            "would be right ({})",
+                fmt::format("{}: cannot be written; expected a writable folder that exists and a name ending "
+                            "in .png ({})",
                             file.string(), why));
         }
         return {};

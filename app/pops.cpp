@@ -24,7 +24,8 @@ std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops
     const auto frame =
         pops.side == ui::PopSide::Before ? pops.shown->frameBefore.lock() : pops.shown->frameAfter.lock();
     if (!frame) {
-        pops.problem = "What was drawn then is no longer kept: only the last frames with a switch are.";
+        pops.problem =
+            "The chunks drawn then are no longer stored; only the latest frames with a switch are.";
         return std::nullopt;
     }
     KeptPicture picture{{}, frame->stitched};
@@ -40,9 +41,8 @@ std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops
     }
     if (missing == 0) return picture;
     pops.problem = fmt::format(
-        "{} of the {} chunks drawn then are not resident. Go back, and wait until they are loaded; those of "
-        "a "
-        "finer level may need a smaller tolerance.",
+        "{} of the {} chunks drawn then are not resident. Go to the view and wait until they are loaded; "
+        "finer levels may need a smaller tolerance.",
         missing, frame->items.size());
     return std::nullopt;
 }

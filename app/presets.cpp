@@ -34,7 +34,7 @@ bool isControl(char letter) {
 }
 
 tl::unexpected<planet::Error> wrongName(std::string_view name, std::string_view why) {
-    return planet::badInput(fmt::format("\"{:.80}\" cannot be a preset's name: {}", name, why));
+    return planet::badInput(fmt::format("\"{:.80}\" is not a valid preset name: {}", name, why));
 }
 
 }  // namespace
@@ -44,16 +44,16 @@ PresetFolders presetFolders() {
 }
 
 Result<void> checkPresetName(std::string_view name) {
-    if (name.empty()) return planet::badInput("A preset needs a name; letters, digits and spaces will do");
+    if (name.empty()) return planet::badInput("A preset needs a name; expected letters, digits and spaces");
     if (name.size() > maxNameBytes)
         return wrongName(name, fmt::format("it is longer than {} bytes", maxNameBytes));
     if (!isUtf8(name)) return wrongName("?", "it is not UTF-8");
     if (std::any_of(name.begin(), name.end(), isControl)) return wrongName("?", "it has control characters");
     if (name.find_first_of("/\\:*?\"<>|") != std::string_view::npos)
-        return wrongName(name, "it is a file's too, without / \\ : * ? \" < > or |");
+        return wrongName(name, "it must not contain / \\ : * ? \" < > or |");
     if (std::string_view(". ").find(name.front()) != std::string_view::npos ||
         std::string_view(". ").find(name.back()) != std::string_view::npos) {
-        return wrongName(name, "neither a dot nor a space may stand at an end");
+        return wrongName(name, "it must not begin or end with a dot or a space");
     }
     return {};
 }
@@ -82,8 +82,7 @@ void PresetShelf::readFolder(const fs::path& folder, bool shipped) {
         Result<ViewPart> part = loadViewPart(entry.path());
         if (const Preset* same = find(name); same && same->shipped) {
             part = planet::badInput(
-                fmt::format("{}: a preset of that name comes with Worldy; give the file another name",
-                            entry.path().string()));
+                fmt::format("{}: a built-in preset has that name; rename the file", entry.path().string()));
         }
         presets_.push_back({name, entry.path(), shipped, std::move(part)});
     }
@@ -131,7 +130,7 @@ Result<void> PresetShelf::save(std::string_view name, const ui::ViewSettings& se
     if (Result<void> good = checkPresetName(name); !good) return good;
     const Preset* present = find(name);
     if (present && present->shipped)
-        return wrongName(name, "a preset of that name comes with Worldy and stays as it is");
+        return wrongName(name, "a built-in preset has that name and cannot be replaced");
     std::error_code status;
     fs::create_directories(folders_.own, status);
     // One that differs in case alone is written over under the name that it has.
@@ -149,7 +148,7 @@ Result<void> PresetShelf::remove(std::string_view name) {
     if (!preset) return tl::unexpected(preset.error());
     if ((*preset)->shipped) {
         return planet::badInput(
-            fmt::format("The preset \"{}\" comes with Worldy and cannot be deleted", (*preset)->name));
+            fmt::format("The preset \"{}\" is built-in and cannot be deleted", (*preset)->name));
     }
     const fs::path file = (*preset)->file;
     std::error_code status;

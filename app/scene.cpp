@@ -100,8 +100,9 @@ void followColours(Scene& scene) {
     if (scene.colourPool != wanted) {
         const planet::Result<void> made = scene.renderer.setColours(wanted);
         if (!made) {
-            scene.problems.push_back(fmt::format(
-                "The file's colours are not drawn, but an image or the ramp: {}", made.error().message));
+            scene.problems.push_back(
+                fmt::format("The file's colours cannot be drawn, using an image or the ramp instead: {}",
+                            made.error().message));
             static_cast<void>(scene.renderer.setColours(std::nullopt));
         }
         scene.colourPool = wanted;
@@ -122,8 +123,8 @@ void followNormals(Scene& scene) {
     if (scene.normalPool != wanted) {
         const planet::Result<void> made = scene.renderer.setNormals(wanted);
         if (!made) {
-            scene.problems.push_back(
-                fmt::format("The light follows the meshes' normals: {}", made.error().message));
+            scene.problems.push_back(fmt::format(
+                "Fine normals cannot be drawn, using mesh normals instead: {}", made.error().message));
             static_cast<void>(scene.renderer.setNormals(std::nullopt));
         }
         scene.normalPool = wanted;
@@ -200,8 +201,8 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
         const planet::Result<void> made =
             scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
         if (!made)
-            scene.problems.push_back(
-                fmt::format("A ramp of colours is drawn instead of the image: {}", made.error().message));
+            scene.problems.push_back(fmt::format(
+                "The colour image cannot be drawn, using the height ramp instead: {}", made.error().message));
         scene.hasColourImage = made.has_value();
     }
     // Only now it is known who draws; what is refused is told of when settings are next applied.

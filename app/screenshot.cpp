@@ -75,9 +75,9 @@ Result<ScreenshotNote> readScreenshotNote(const fs::path& file) {
         *text = *read;
     }
     if (note.settings.empty() || camera.empty()) {
-        return planet::badInput(fmt::format(
-            "{}: holds no settings; a screenshot taken by Worldy, as it was written, would be right",
-            file.string()));
+        return planet::badInput(
+            fmt::format("{}: holds no settings; expected a screenshot taken by Worldy, as it was written",
+                        file.string()));
     }
     const Result<planet::CameraPose> pose = poseFromText(camera);
     if (!pose) {

@@ -70,8 +70,8 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::V
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
               ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
     log->debug("Depth buffer: {}", open.scene.renderer.capabilities().reversedZ
-                                       ? "float, reversed"
-                                       : "the near plane follows the ground");
+                                       ? "float, reversed Z"
+                                       : "non-reversed, near plane follows the ground");
     return open;
 }
 
@@ -200,17 +200,15 @@ planet::Error missingSource(const fs::path& source) {
     if (planet::isTerrainText(source)) {
         if (const auto good = planet::terrainFromText(source); !good) return good.error();
     }
-    return {planet::ErrorKind::BadInput,
-            fmt::format("{}: no such source; an elevation image, one of six cube faces or a terrain as "
-                        "noise:ridged would be right",
-                        source.string())};
+    return {planet::ErrorKind::BadInput, fmt::format("{}: no such source; expected an elevation image, one "
+                                                     "of six cube faces or a terrain as noise:ridged",
+                                                     source.string())};
 }
 
 planet::Error missingColour(const fs::path& image) {
     return {
         planet::ErrorKind::BadInput,
-        fmt::format("{}: no such colour image; an equirectangular image or one of six cube faces would be "
-                    "right",
+        fmt::format("{}: no such colour image; expected an equirectangular image or one of six cube faces",
                     image.string())};
 }
 
@@ -273,7 +271,7 @@ bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& se
 
 void startBake(Session& session, const ui::BakeRequest& request, const Log& log) {
     if (session.bake && !session.bake->stopping()) {
-        log->warn("A bake is running already; cancel it, or wait for its end");
+        log->warn("A bake is already running; cancel it or wait until it ends");
         return;
     }
     const Result<DataSet> found = dataSetOf(request);
@@ -306,7 +304,7 @@ void startBake(Session& session, const Log& log) {
 void openBake(Session& session, const ui::BakeRequest& request, const fs::path& chunkFile,
               const ui::ViewSettings& settings, const Log& log) {
     if (session.bake && !session.bake->stopping()) {
-        log->warn("A bake is running; cancel it, or wait for its end");
+        log->warn("A bake is running; cancel it or wait until it ends");
         return;
     }
     DataSet data = session.data;
@@ -360,8 +358,8 @@ void dismissPreviousBake(Session& session) {
 
 Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const ui::ViewSettings& settings) {
     if (data.needsBake) {
-        return planet::badInput(fmt::format(
-            "{}: has no bake yet; opening it once in the window would be right", data.source.string()));
+        return planet::badInput(
+            fmt::format("{}: is not baked yet; open it once in the window", data.source.string()));
     }
     std::optional<Picture> colour;
     // Without its picture it is coloured by height.

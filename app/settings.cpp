@@ -160,7 +160,7 @@ Result<void> setSetting(Settings& settings, std::string_view assignment) {
     if (!field) return unknownSetting(place, name, fields);
     if (equals == std::string_view::npos) {
         return planet::badInput(
-            fmt::format("{}: has no value; {}={} would be right", place, name, plainText(*field)));
+            fmt::format("{}: has no value; expected {}={}", place, name, plainText(*field)));
     }
     const toml::table value = valueFrom(*field, assignment.substr(equals + 1));
     return readField(place, *field, name, *value.get("value"));

@@ -38,184 +38,190 @@ void addData(Fields& fields, Settings& s) {
                   {{"data", "set", "Chunk file, elevation image or cube faces to open; empty: the Earth.",
                     Text{&s.dataSet}},
                    {"data", "colour_image",
-                    "Picture laid over it; empty: colour.jpg or colour.png beside the data set.",
+                    "Colour image of the planet; empty: colour.jpg or colour.png beside the data set.",
                     Text{&s.colourImage}}});
 }
 
 void addLod(Fields& fields, ui::LodKnobs& lod) {
     fields.insert(
         fields.end(),
-        {{"lod", "tau_px", "Tolerance on screen, pixels; larger: fewer triangles, more visible error.",
+        {{"lod", "tau_px",
+          "Screen-space error threshold tau, pixels; larger: fewer triangles, more visible error.",
           Number{&lod.tauPx, {0.1, 64, "pixels"}}},
-         {"lod", "hysteresis", "Share of tau by which chunks merge later than they split.",
+         {"lod", "hysteresis", "Fraction of tau by which a merge is delayed after a split.",
           Number{&lod.hysteresis, {0, 0.9, ""}}},
          {"lod", "max_level", "Deepest level drawn.", Integer{&lod.maxLevel, {0, 20, ""}}},
-         {"lod", "morph", "Slide chunks onto their parents before they merge; false: they pop.",
+         {"lod", "morph", "Morph chunks onto their parents before they merge; false: they pop.",
           Flag{&lod.morph}},
-         {"lod", "morph_range", "Share of tau over which they slide.",
+         {"lod", "morph_range", "Fraction of tau over which chunks morph.",
           Number{&lod.morphRange, {0.01, 4, ""}}},
-         {"lod", "frustum_culling", "Leave out what lies beside and behind the view.",
-          Flag{&lod.frustumCulling}},
-         {"lod", "horizon_culling", "Leave out what the planet itself hides.", Flag{&lod.horizonCulling}},
-         {"lod", "metric", "Bound of a chunk's error: additive (safe) or tight (fewer triangles).",
+         {"lod", "frustum_culling", "Skip chunks outside the view frustum.", Flag{&lod.frustumCulling}},
+         {"lod", "horizon_culling", "Skip chunks below the horizon.", Flag{&lod.horizonCulling}},
+         {"lod", "metric", "Geometric error metric: additive (safe) or tight (fewer triangles).",
           Choice{asByte(lod.metric), errorMetricNames}},
-         {"lod", "fade_s", "Seconds that a change of level takes at least; 0: it pops if it comes late.",
+         {"lod", "fade_s", "Minimum duration of a morph, seconds; 0: late level changes pop.",
           Number{&lod.fadeS, {0, 10, "seconds"}}}});
 }
 
 void addSeams(Fields& fields, ui::SeamKnobs& seams) {
-    fields.insert(fields.end(),
-                  {{"seams", "mode", "What hides cracks between chunks: none, skirts or stitched.",
-                    Choice{asByte(seams.mode), seamModeNames}},
-                   {"seams", "depth", "Depth of the skirts: automatic, or fixed.",
-                    Choice{asByte(seams.depth), skirtDepthNames}},
-                   {"seams", "skirt_factor", "Automatic depth in units of the errors it has to hide.",
-                    Number{&seams.skirtFactor, {0, 10, ""}}},
-                   {"seams", "skirt_depth_m", "Fixed depth, metres.",
-                    Number{&seams.skirtDepthM, {0, 100000, "metres"}}},
-                   {"seams", "show_pairs", "Mark the edges between chunks of different levels.",
-                    Flag{&seams.showPairs}}});
+    fields.insert(
+        fields.end(),
+        {{"seams", "mode", "What hides cracks between chunks: none, skirts or stitched.",
+          Choice{asByte(seams.mode), seamModeNames}},
+         {"seams", "depth", "Skirt depth: automatic or fixed.", Choice{asByte(seams.depth), skirtDepthNames}},
+         {"seams", "skirt_factor", "Automatic skirt depth relative to the errors it must hide.",
+          Number{&seams.skirtFactor, {0, 10, ""}}},
+         {"seams", "skirt_depth_m", "Fixed skirt depth, metres.",
+          Number{&seams.skirtDepthM, {0, 100000, "metres"}}},
+         {"seams", "show_pairs", "Highlight edges between chunks of different levels.",
+          Flag{&seams.showPairs}}});
 }
 
 void addPaging(Fields& fields, ui::PagingKnobs& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
     fields.insert(
         fields.end(),
-        {{"paging", "budget_mb", "Memory for resident chunks, CPU and GPU together, MiB.",
+        {{"paging", "budget_mb",
+          "Memory budget for resident chunks and colour tiles, CPU and GPU together, MiB.",
           Integer{&paging.budgetMB, {16, 65536, "MiB"}}},
-         {"paging", "loader_threads", "Threads that read chunks.",
+         {"paging", "loader_threads", "Number of loader threads.",
           Integer{&paging.loaderThreads, {1, 64, "threads"}}},
-         {"paging", "upload_limit_ms", "Time a frame spent on chunks that have been loaded, milliseconds.",
+         {"paging", "upload_limit_ms", "Time per frame for uploading loaded chunks, milliseconds.",
           Number{&paging.uploadLimitMs, {0.1, 100, "milliseconds"}}},
-         {"paging", "colour_share", "Of the budget, for streamed colours where there are any.",
+         {"paging", "colour_share", "Fraction of the budget for streamed colours.",
           Number{&paging.colourShare, {0.01, 0.9, ""}}},
-         {"paging", "normal_share", "Of what colours leave of the budget, for normals finer than the mesh.",
+         {"paging", "normal_share",
+          "Fraction of the budget that colours leave, for normals finer than the mesh.",
           Number{&paging.normalShare, {0.01, 0.9, ""}}},
-         {"paging", "retries", "How often a block that could not be read is asked for again by itself.",
+         {"paging", "retries", "Number of automatic retries of a failed read.",
           Integer{&paging.retries, {0, 10, "retries"}}},
-         {"paging", "retry_delay_s", "Until the first retry, seconds; twice as long until each further one.",
+         {"paging", "retry_delay_s",
+          "Delay before the first retry, seconds; it doubles with each further retry.",
           Number{&paging.retryDelayS, {0, 60, "seconds"}}},
          {"paging", "simulated",
-          "Reads end by the bad disk's settings and seed, in the time of frames, not by the clock.",
+          "Simulate read times by the fault-injection settings and seed, in frame time instead of real time.",
           Flag{&paging.simulated}},
-         {"bad_disk", "latency_ms", "A disk that is slow or fails, on purpose: added to each read.",
+         {"bad_disk", "latency_ms", "I/O fault injection: latency added to each read, milliseconds.",
           Number{&disk.latencyMs, {0, 10000, "milliseconds"}}},
-         {"bad_disk", "bandwidth_mb_s", "10^6 bytes a second and loader thread; 0: unlimited.",
+         {"bad_disk", "bandwidth_mb_s", "Bandwidth per loader thread, MB/s (10^6 bytes); 0: unlimited.",
           Number{&disk.bandwidthMBs, {0, 100000, "MB a second"}}},
-         {"bad_disk", "failure_rate", "Share of the reads that fail.", Number{&disk.failureRate, {0, 1, ""}}},
-         {"bad_disk", "shuffled_order", "Serve reads in an order of the seed's, not the most urgent first.",
+         {"bad_disk", "failure_rate", "Fraction of reads that fail.", Number{&disk.failureRate, {0, 1, ""}}},
+         {"bad_disk", "shuffled_order", "Serve reads in random order instead of by priority.",
           Flag{&disk.shuffledOrder}},
-         {"bad_disk", "seed", "The same seed gives the same trouble.", Seed{&disk.seed}}});
+         {"bad_disk", "seed", "Seed of the injected faults.", Seed{&disk.seed}}});
 }
 
 void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
     fields.insert(
         fields.end(),
         {{"overlay", "colour_by",
-          "What the tint of a chunk shows: none, level, error, delta_c, morph, age, load_order or measured.",
+          "Quantity that tints chunks: none, level, error, delta_c, morph, age, load_order or measured.",
           Choice{asByte(overlay.colourBy), colourByNames}},
-         {"overlay", "opacity", "Of the tint.", Number{&overlay.opacity, {0, 1, ""}}},
-         {"overlay", "error_scale", "Error on screen in units of tau that is tinted yellow.",
+         {"overlay", "opacity", "Opacity of the tint.", Number{&overlay.opacity, {0, 1, ""}}},
+         {"overlay", "error_scale", "Screen-space error relative to tau that is tinted yellow.",
           Number{&overlay.errorScale, {0.01, 100, ""}}},
-         {"overlay", "delta_top_m", "The scale's top for delta_c, metres.",
+         {"overlay", "delta_top_m", "Upper end of the delta_c scale, metres.",
           Number{&overlay.deltaTopM, {0.01, 100000, "metres"}}},
-         {"overlay", "age_top_s", "The scale's top for the age, seconds.",
+         {"overlay", "age_top_s", "Upper end of the age scale, seconds.",
           Number{&overlay.ageTopS, {0.1, 3600, "seconds"}}},
-         {"overlay", "outlines", "Draw the chunks' borders.", Flag{&overlay.outlines}},
+         {"overlay", "outlines", "Draw chunk borders.", Flag{&overlay.outlines}},
          {"overlay", "bounds", "Draw bounding volumes.", Flag{&overlay.bounds}},
-         {"overlay", "wireframe", "Draw the triangles' edges.", Flag{&overlay.wireframe}},
-         {"overlay", "skirt_paint", "Skirts look as_ground, loud, or loud_alone with nothing else drawn.",
+         {"overlay", "wireframe", "Draw triangle edges.", Flag{&overlay.wireframe}},
+         {"overlay", "skirt_paint",
+          "Skirt colour: as_ground, loud (highlighted), or loud_alone (only skirts are drawn).",
           Choice{asByte(overlay.skirtPaint), skirtPaintNames}},
-         {"overlay", "labels", "On chunks: none, level, error or level_and_error.",
+         {"overlay", "labels", "Labels on chunks: none, level, error or level_and_error.",
           Choice{asByte(overlay.labels), chunkLabelsNames}},
-         {"overlay", "cube", "Draw the cube before it is blown up to the sphere.", Flag{&overlay.cube}},
-         {"overlay", "clipmap", "Windows of the clipmap of colours, and what was filled lately.",
-          Flag{&overlay.clipmap}}});
+         {"overlay", "cube", "Draw the unprojected cube.", Flag{&overlay.cube}},
+         {"overlay", "clipmap", "Tint clipmap levels and recently updated texels.", Flag{&overlay.clipmap}}});
 }
 
 void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
     fields.insert(
         fields.end(),
-        {{"surface", "colour", "Colour of the ground: image, or ramp by height.",
+        {{"surface", "colour", "Ground colour: image or height ramp.",
           Choice{asByte(surface.surface), surfaceNames}},
-         {"surface", "image_opacity", "Of the image over the ramp.",
+         {"surface", "image_opacity", "Opacity of the image over the ramp.",
           Number{&surface.imageOpacity, {0, 1, ""}}},
-         {"surface", "streamed", "The file's own colours instead of an image, where it has them.",
+         {"surface", "streamed", "Draw the colours baked into the file, if any, instead of an image.",
           Flag{&surface.streamed}},
-         {"surface", "texels_per_pixel", "Of streamed colours; larger: sharper, and more memory.",
+         {"surface", "texels_per_pixel",
+          "Texels per pixel of streamed colours; larger: sharper, but more memory.",
           Number{&surface.texelsPerPixel, {0.1, 4, ""}}},
-         {"surface", "colour_mode", "Streamed colours are drawn from their tiles, or from a clipmap of them,",
+         {"surface", "colour_mode", "Sampling of streamed colours: tiles or clipmap.",
           Choice{asByte(surface.colourMode), colourModeNames}},
-         {"surface", "clipmap_size_px", "whose windows have so many texels a side; a power of two.",
+         {"surface", "clipmap_size_px", "Texels along a side of a clipmap level; a power of two.",
           Integer{&surface.clipmapSizePx, {256, 4096, "texels"}}},
-         {"surface", "ramp", "Colours by height above the sea, lowest first; empty: the built-in ramp.",
+         {"surface", "ramp", "Colours by height above sea level, lowest first; empty: the built-in ramp.",
           Ramp{&surface.ramp}},
-         {"surface", "sea", "What lies below the sea level is sea; false: dry land.", Flag{&surface.sea}},
-         {"surface", "sea_level_m", "Metres above the planet's radius.",
+         {"surface", "sea", "Draw ground below the sea level as sea; false: dry land.", Flag{&surface.sea}},
+         {"surface", "sea_level_m", "Sea level, metres above the planet's radius.",
           Number{&surface.seaLevelM, {-20000, 20000, "metres"}}},
-         {"surface", "exaggeration", "Heights are drawn this many times as high.",
+         {"surface", "exaggeration", "Factor applied to heights when drawing.",
           Number{&surface.exaggeration, {0.1, 100, ""}}},
-         {"surface", "lighting", "Light the ground by the sun; false: flat colour.", Flag{&surface.lighting}},
+         {"surface", "lighting", "Shade the ground by the sun; false: flat colour.", Flag{&surface.lighting}},
          {"surface", "atmosphere", "Draw the atmosphere.", Flag{&surface.atmosphere}},
-         {"surface", "detail", "Roughen the ground between the samples: invented, only for the eye.",
+         {"surface", "detail", "Add procedural roughness between the samples; only visual.",
           Flag{&surface.detail}},
-         {"surface", "sun_follows", "Keep the sun to the camera's east, so that it is always day there.",
+         {"surface", "sun_follows", "Keep the sun east of the camera, so it is always day there.",
           Flag{&surface.sunFollows}},
-         {"surface", "sun_by_date", "Else: the sun stands as at a moment over the Earth, universal time,",
+         {"surface", "sun_by_date",
+          "Otherwise: place the sun by date and time over the Earth, universal time:",
           Flag{&surface.sunByDate}},
-         {"surface", "sun_year", "in this year,", Integer{&surface.sunDate.year, {1950, 2050, ""}}},
-         {"surface", "sun_month", "this month,", Integer{&surface.sunDate.month, {1, 12, ""}}},
-         {"surface", "sun_day", "on this day, or the month's last,",
+         {"surface", "sun_year", "Year.", Integer{&surface.sunDate.year, {1950, 2050, ""}}},
+         {"surface", "sun_month", "Month.", Integer{&surface.sunDate.month, {1, 12, ""}}},
+         {"surface", "sun_day", "Day, at most the last of the month.",
           Integer{&surface.sunDate.day, {1, 31, ""}}},
-         {"surface", "sun_hour", "at this hour, with a fraction.",
-          Number{&surface.sunDate.hour, {0, 24, "hours"}}},
-         {"surface", "sun_latitude_deg", "Else: where the sun stands in the zenith, degrees north.",
+         {"surface", "sun_hour", "Hour, with a fraction.", Number{&surface.sunDate.hour, {0, 24, "hours"}}},
+         {"surface", "sun_latitude_deg", "Otherwise: latitude of the subsolar point, degrees north.",
           Number{&surface.sunLatitudeDeg, {-90, 90, "degrees"}}},
-         {"surface", "sun_longitude_deg", "Where the sun stands in the zenith, degrees east.",
+         {"surface", "sun_longitude_deg", "Longitude of the subsolar point, degrees east.",
           Number{&surface.sunLongitudeDeg, {-180, 180, "degrees"}}}});
 }
 
 void addAir(Fields& fields, planet::gl::AirDrawing& air) {
     fields.insert(
         fields.end(),
-        {{"light", "air_rayleigh", "Molecules of the physical atmosphere, in units of the Earth's.",
+        {{"light", "air_rayleigh", "Rayleigh scattering of the physical atmosphere, relative to the Earth.",
           Number{&air.settings.rayleigh, {0, 5, ""}}},
-         {"light", "air_haze", "Its dust and droplets, likewise.", Number{&air.settings.haze, {0, 20, ""}}},
-         {"light", "air_ozone", "Its ozone, likewise.", Number{&air.settings.ozone, {0, 5, ""}}},
-         {"light", "air_forward", "How far forward haze scatters: Mie's asymmetry g.",
+         {"light", "air_haze", "Mie scattering (haze), relative to a clear day.",
+          Number{&air.settings.haze, {0, 20, ""}}},
+         {"light", "air_ozone", "Ozone absorption, relative to the Earth.",
+          Number{&air.settings.ozone, {0, 5, ""}}},
+         {"light", "air_forward", "Mie asymmetry g: how strongly haze scatters forward.",
           Number{&air.settings.forward, {0, 0.95, ""}}},
-         {"light", "air_thickness", "Heights over which it thins out, in units of the Earth's.",
+         {"light", "air_thickness", "Scale heights, relative to the Earth.",
           Number{&air.settings.thickness, {0.25, 4, ""}}},
-         {"light", "air_exposure", "Of all light; 1: ground by day as bright as in thin air.",
+         {"light", "air_exposure", "Exposure; 1: ground by day as bright as with the analytic atmosphere.",
           Number{&air.exposure, {0.1, 10, ""}}},
-         {"light", "air_steps", "Along a ray through all of it; fewer: cheaper and rougher.",
+         {"light", "air_steps", "Ray-march steps through the whole atmosphere; fewer: cheaper and rougher.",
           Integer{&air.steps, {8, 64, ""}}}});
 }
 
 void addLight(Fields& fields, planet::gl::LightDrawing& light) {
     fields.insert(
         fields.end(),
-        {{"light", "air", "The physical atmosphere: automatic (off where the CPU draws), on or off.",
+        {{"light", "air", "Physical atmosphere: automatic (off with software rendering), on or off.",
           Choice{asByte(light.air.use), featureUseNames}},
-         {"light", "sea", "Waves, mirrored sky and depth of the sea: automatic, on or off.",
+         {"light", "sea", "Sea surface with waves, reflections and depth: automatic, on or off.",
           Choice{asByte(light.sea.use), featureUseNames}},
-         {"light", "sea_wind_mps", "Wind over the sea: more spreads the sun's glint.",
+         {"light", "sea_wind_mps", "Wind speed over the sea; larger: a wider glint of the sun.",
           Number{&light.sea.windMps, {0, 30, "metres a second"}}},
-         {"light", "sea_clarity_m", "Depth of water that takes away all but 1 / e of green light.",
+         {"light", "sea_clarity_m", "Depth of water that reduces green light to 1/e.",
           Number{&light.sea.clarityM, {0.5, 100, "metres"}}},
-         {"light", "sea_waves", "Strength of the waves that are seen one by one.",
-          Number{&light.sea.waves, {0, 2, ""}}},
-         {"light", "shadows", "The ground's shadows on itself: automatic, on or off.",
+         {"light", "sea_waves", "Strength of the resolved waves.", Number{&light.sea.waves, {0, 2, ""}}},
+         {"light", "shadows", "Terrain shadows: automatic, on or off.",
           Choice{asByte(light.shadows.use), featureUseNames}},
-         {"light", "shadow_map_px", "Side of each cascade's map, pixels; larger: sharper.",
+         {"light", "shadow_map_px", "Side of each shadow map, pixels; larger: sharper.",
           Integer{&light.shadows.mapSizePx, {256, 8192, "pixels"}}},
-         {"light", "shadow_reach_m", "Shadows reach so far from the eye; larger: coarser everywhere.",
+         {"light", "shadow_reach_m", "Shadow distance from the camera, metres; larger: coarser everywhere.",
           Number{&light.shadows.reachM, {1000, 1e7, "metres"}}},
-         {"light", "shadow_softness", "Radius of the shadows' filter, texels of the map.",
+         {"light", "shadow_softness", "Radius of the shadow filter, texels of the map.",
           Number{&light.shadows.softness, {0, 4, "texels"}}},
          {"light", "normals", "Normals finer than the mesh: automatic, on or off.",
           Choice{asByte(light.normals.use), featureUseNames}},
-         {"light", "normal_texels_per_pixel", "Of them; larger: sharper, and more memory.",
+         {"light", "normal_texels_per_pixel",
+          "Texels per pixel of fine normals; larger: sharper, but more memory.",
           Number{&light.normals.texelsPerPixel, {0.1, 4, ""}}}});
     addAir(fields, light.air);
 }
@@ -224,27 +230,29 @@ void addLayers(Fields& fields, ui::LayerSettings& layers) {
     fields.insert(
         fields.end(),
         {{"surface", "layer_use",
-          "Texture layers on near ground: automatic (off where the CPU draws), on or off.",
+          "Texture layers on near ground: automatic (off with software rendering), on or off.",
           Choice{asByte(layers.use), featureUseNames}},
-         {"surface", "layer_opacity", "Of the layers over the image or ramp.",
+         {"surface", "layer_opacity", "Opacity of the layers over the image or ramp.",
           Number{&layers.opacity, {0, 1, ""}}},
-         {"surface", "layer_begin_m", "Metres from the eye where they begin to give way to it,",
+         {"surface", "layer_begin_m", "Distance from the camera where layers begin to fade, metres.",
           Number{&layers.beginM, {0, 1e7, "metres"}}},
-         {"surface", "layer_end_m", "and where nothing is left of them.",
+         {"surface", "layer_end_m", "Distance from the camera where layers have faded out, metres.",
           Number{&layers.endM, {1, 1e7, "metres"}}},
-         {"surface", "layer_colour_below", "How much of its colour goes through them.",
+         {"surface", "layer_colour_below",
+          "Base-colour blend: how much of the image or ramp colour tints the layers.",
           Number{&layers.colourBelow, {0, 1, ""}}},
-         {"surface", "layer_preview", "A layer's weight over the planet: off, heat, or mask alone.",
+         {"surface", "layer_preview", "Preview of a layer's weight over the planet: off, heat or mask.",
           Choice{asByte(layers.preview), layerPreviewNames}},
-         {"surface", "layer_previewed", "Which layer's, counted from the lowest.",
+         {"surface", "layer_previewed", "Index of the previewed layer, from the lowest.",
           Integer{&layers.previewed, {1, static_cast<double>(planet::maxLayers), ""}}},
-         {"surface", "layer_blend", "Layers share a place by weight, or by height: the higher relief wins,",
+         {"surface", "layer_blend", "Blend layers by weight, or by height: the higher relief wins.",
           Choice{asByte(layers.set.blend), layerBlendNames}},
-         {"surface", "layer_blend_depth", "within this depth.",
+         {"surface", "layer_blend_depth", "Depth for blending by height.",
           Number{&layers.set.blendDepth, {0.05, 2, ""}}},
-         {"surface", "layer_set", "File beside which the layers' textures lie; empty: those of Worldy.",
+         {"surface", "layer_set",
+          "Layer set file that texture paths are relative to; empty: the built-in textures.",
           Text{&layers.file}},
-         {"surface", "layers", "The layers, lowest first; data/layers/earth.toml says what they are made of.",
+         {"surface", "layers", "Layers, lowest first; data/layers/earth.toml describes their fields.",
           LayerStack{&layers.set.layers}}});
 }
 
@@ -255,44 +263,47 @@ void addView(Fields& fields, ui::CameraSettings& camera) {
           Number{&camera.fovDeg, {5, 150, "degrees"}}},
          {"view", "mode", "How the camera moves: fly, orbit or follow_flight.",
           Choice{asByte(camera.mode), cameraModeNames}},
-         {"view", "observer", "A second camera that looks at the view from outside: off, split or alone.",
+         {"view", "observer", "Second camera that shows the view from outside: off, split or alone.",
           Choice{asByte(camera.observer), observerModeNames}},
-         {"view", "observer_own_lod", "The observer draws what it would choose itself.",
+         {"view", "observer_own_lod", "The observer uses its own LOD selection.",
           Flag{&camera.observerOwnLod}},
-         {"view", "show_frustum", "In the observer's picture: the view's frustum,",
+         {"view", "show_frustum", "Draw the view's frustum in the observer's picture.",
           Flag{&camera.showFrustum}},
-         {"view", "show_horizon", "its horizon,", Flag{&camera.showHorizon}},
-         {"view", "show_switch_distances", "and how far the selected chunk's distance d_m reaches.",
+         {"view", "show_horizon", "Draw the view's horizon in the observer's picture.",
+          Flag{&camera.showHorizon}},
+         {"view", "show_switch_distances", "Draw the switch distance d_m of the selected chunk.",
           Flag{&camera.showSwitchDistances}},
-         {"view", "flight", "The flight's file that is followed.", Text{&camera.flight}}});
+         {"view", "flight", "File of the flight to follow.", Text{&camera.flight}}});
 }
 
 void addCamera(Fields& fields, planet::CameraPose& pose) {
-    fields.insert(
-        fields.end(),
-        {{"camera", "latitude_deg", "Where a session starts, degrees north.",
-          Number{&pose.latitudeDeg, {-90, 90, "degrees"}}},
-         {"camera", "longitude_deg", "Degrees east.", Number{&pose.longitudeDeg, {-360, 360, "degrees"}}},
-         {"camera", "altitude_m", "Metres above the planet's radius; 0: the whole planet in view.",
-          Number{&pose.altitudeM, {-1e6, 2e10, "metres"}}},
-         {"camera", "heading_deg", "0 north, 90 east.", Number{&pose.headingDeg, {-360, 360, "degrees"}}},
-         {"camera", "pitch_deg", "-90 straight down, 0 level.",
-          Number{&pose.pitchDeg, {-90, 90, "degrees"}}}});
+    fields.insert(fields.end(),
+                  {{"camera", "latitude_deg", "Start latitude, degrees north.",
+                    Number{&pose.latitudeDeg, {-90, 90, "degrees"}}},
+                   {"camera", "longitude_deg", "Start longitude, degrees east.",
+                    Number{&pose.longitudeDeg, {-360, 360, "degrees"}}},
+                   {"camera", "altitude_m",
+                    "Start altitude, metres above the planet's radius; 0: the whole planet in view.",
+                    Number{&pose.altitudeM, {-1e6, 2e10, "metres"}}},
+                   {"camera", "heading_deg", "Start heading, degrees: 0 north, 90 east.",
+                    Number{&pose.headingDeg, {-360, 360, "degrees"}}},
+                   {"camera", "pitch_deg", "Start pitch, degrees: -90 straight down, 0 level.",
+                    Number{&pose.pitchDeg, {-90, 90, "degrees"}}}});
 }
 
 void addWindow(Fields& fields, Settings& s) {
     ui::Workspace& workspace = s.workspace;
-    fields.insert(fields.end(),
-                  {{"window", "width_px", "Size of the window, pixels.",
-                    Integer{&s.windowWidthPx, {640, 16384, "pixels"}}},
-                   {"window", "height_px", "", Integer{&s.windowHeightPx, {400, 16384, "pixels"}}},
-                   {"window", "left_width", "Sizes of the docks, in units that follow the font.",
-                    Number{&workspace.leftWidth, {160, 1000, ""}}},
-                   {"window", "right_width", "", Number{&workspace.rightWidth, {160, 1000, ""}}},
-                   {"window", "bottom_height", "", Number{&workspace.bottomHeight, {60, 1000, ""}}},
-                   {"window", "theme", "dark or light.", Choice{asByte(workspace.theme), themeNames}},
-                   {"window", "scale", "Size of text and controls, of the monitor's own.",
-                    Number{&workspace.scale, {0.5, 3, ""}}}});
+    fields.insert(
+        fields.end(),
+        {{"window", "width_px", "Window size, pixels.", Integer{&s.windowWidthPx, {640, 16384, "pixels"}}},
+         {"window", "height_px", "", Integer{&s.windowHeightPx, {400, 16384, "pixels"}}},
+         {"window", "left_width", "Dock sizes, in units that follow the font.",
+          Number{&workspace.leftWidth, {160, 1000, ""}}},
+         {"window", "right_width", "", Number{&workspace.rightWidth, {160, 1000, ""}}},
+         {"window", "bottom_height", "", Number{&workspace.bottomHeight, {60, 1000, ""}}},
+         {"window", "theme", "Theme: dark or light.", Choice{asByte(workspace.theme), themeNames}},
+         {"window", "scale", "Scale of text and controls, relative to the monitor's scale.",
+          Number{&workspace.scale, {0.5, 3, ""}}}});
 }
 
 // In the order of ui::PanelId, as ui::panelInfos is.
@@ -306,7 +317,7 @@ void addPanels(Fields& fields, ui::Workspace& workspace) {
     std::string_view meaning = "The dock of each panel, left, right or bottom, and whether it is shown.";
     for (std::size_t dock = 0; dock < ui::dockCount; ++dock) {
         fields.push_back({"panels", fmt::format("{}_front", dockNames[dock]),
-                          dock == 0 ? "The panel in front in each dock." : "",
+                          dock == 0 ? "Front panel of each dock." : "",
                           Choice{asByte(workspace.inFront[dock]), panelKeys}});
     }
     for (const ui::PanelInfo& info : ui::panelInfos) {
@@ -319,21 +330,20 @@ void addPanels(Fields& fields, ui::Workspace& workspace) {
 
 void addCracks(Fields& fields, ui::CrackKnobs& cracks) {
     fields.insert(fields.end(),
-                  {{"cracks", "live", "Measure cracks again and again.", Flag{&cracks.live}},
-                   {"cracks", "every_frames", "Then: frames from one measurement to the next.",
+                  {{"cracks", "live", "Measure cracks continuously.", Flag{&cracks.live}},
+                   {"cracks", "every_frames", "Frames between crack measurements.",
                     Integer{&cracks.everyFrames, {1, 1000, "frames"}}},
-                   {"cracks", "mark", "Show the crack pixels in the viewport.", Flag{&cracks.mark}}});
+                   {"cracks", "mark", "Highlight crack pixels in the viewport.", Flag{&cracks.mark}}});
 }
 
 void addCompare(Fields& fields, ui::CompareKnobs& compare) {
-    fields.insert(
-        fields.end(),
-        {{"compare", "mode", "Two pictures as side_by_side, wipe, difference or flip.",
-          Choice{asByte(compare.mode), compareModeNames}},
-         {"compare", "gain", "By which the difference is multiplied.", Number{&compare.gain, {1, 255, ""}}},
-         {"compare", "wipe", "Where the divider stands, as a share of the width.",
-          Number{&compare.wipe, {0, 1, ""}}},
-         {"compare", "show_b", "Flip shows B.", Flag{&compare.showB}}});
+    fields.insert(fields.end(),
+                  {{"compare", "mode", "Comparison view: side_by_side, wipe, difference or flip.",
+                    Choice{asByte(compare.mode), compareModeNames}},
+                   {"compare", "gain", "Gain of the difference.", Number{&compare.gain, {1, 255, ""}}},
+                   {"compare", "wipe", "Position of the divider as a fraction of the width.",
+                    Number{&compare.wipe, {0, 1, ""}}},
+                   {"compare", "show_b", "Show B in flip mode.", Flag{&compare.showB}}});
 }
 
 // What a setting was called before version 0.2. Files that hold these names go on to be read, without a
@@ -403,8 +413,8 @@ struct ReadField {
         const std::string text = node.value_or(std::string());
         const auto found = std::find(choice.names.begin(), choice.names.end(), text);
         if (found == choice.names.end()) {
-            return wrong(node, fmt::format("{} is {}, not one of its words; one of {} would be right", name,
-                                           shownValue(node), joined(choice.names)));
+            return wrong(node, fmt::format("{} is {}; expected one of {}", name, shownValue(node),
+                                           joined(choice.names)));
         }
         *choice.value = static_cast<std::uint8_t>(found - choice.names.begin());
         return {};
@@ -412,13 +422,15 @@ struct ReadField {
     Result<void> operator()(const Ramp& ramp) const {
         const toml::array* array = node.as_array();
         if (!array) {
-            return wrong(node, fmt::format("{} is {}; an array of stops would be right, as "
-                                           "[{{ height_m = 0, colour = \"#40a060\" }}]",
-                                           name, shownValue(node)));
+            return wrong(
+                node,
+                fmt::format(
+                    "{} is {}; expected an array of stops, as [{{ height_m = 0, colour = \"#40a060\" }}]",
+                    name, shownValue(node)));
         }
         if (array->size() > maxRampStops) {
-            return wrong(node, fmt::format("{} has {} stops; at most {} would be right", name, array->size(),
-                                           maxRampStops));
+            return wrong(
+                node, fmt::format("{} has {} stops; expected at most {}", name, array->size(), maxRampStops));
         }
         std::vector<planet::gl::RampStop> stops;
         for (const toml::node& stop : *array) {
@@ -440,22 +452,22 @@ struct ReadField {
         const toml::node* height = table ? table->get("height_m") : nullptr;
         const toml::node* colour = table ? table->get("colour") : nullptr;
         if (!height || !colour || table->size() != 2) {
-            return wrong(stop, fmt::format("{} is no stop; {{ height_m = 0, colour = \"#40a060\" }} "
-                                           "would be right, with these two and no others",
+            return wrong(stop, fmt::format("{} is not a stop; expected {{ height_m = 0, colour = \"#40a060\" "
+                                           "}} with exactly these two keys",
                                            stopName));
         }
         const Result<double> heightM =
             readNumber(file, stopName + ": height_m", *height, {-100000, 100000, "metres"});
         if (!heightM) return tl::unexpected(heightM.error());
         if (!stops.empty() && *heightM <= stops.back().heightM) {
-            return wrong(*height, fmt::format("{}: height_m is {}; more than the {} of the stop before would "
-                                              "be right: lowest first",
-                                              stopName, *heightM, stops.back().heightM));
+            return wrong(
+                *height,
+                fmt::format("{}: height_m is {}; expected more than the {} of the stop before: lowest first",
+                            stopName, *heightM, stops.back().heightM));
         }
         const std::optional<glm::vec3> rgb = colourFromText(colour->value_or(std::string()));
         if (!rgb) {
-            return wrong(*colour, fmt::format("{}: colour is {}; red, green and blue as \"#rrggbb\" would be "
-                                              "right",
+            return wrong(*colour, fmt::format("{}: colour is {}; expected red, green and blue as \"#rrggbb\"",
                                               stopName, shownValue(*colour)));
         }
         stops.push_back({*heightM, *rgb});

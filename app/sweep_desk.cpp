@@ -34,8 +34,8 @@ Result<SweptFile> sweptFileOf(const OpenPlanet& open, int chunkSize) {
     if (!planet::heightSourceExists(open.baked.source)) {
         if (chunkSize == own) return SweptFile{own, open.data.chunkFile, false, open.baked.settings};
         return planet::badInput(
-            fmt::format("{}: what it was baked from is not there, so only its own chunks of {} a side can be "
-                        "swept; opening the source would be right",
+            fmt::format("{}: its source is missing, so only its own chunk size of {} can be swept; open the "
+                        "source instead",
                         open.data.chunkFile.string(), own));
     }
     planet::BakeSettings settings = bakeSettingsOf(open);
@@ -112,7 +112,7 @@ void startSweep(SweepDesk& desk, const OpenPlanet* open, const ui::SweepRequest&
         desk.bakeSource = plan->source;
         desk.sourceSettings = plan->sourceSettings;
     }
-    log->info("{} over {}", desk.suggesting ? "Looking for a tau" : "Sweeping", path->name);
+    log->info("{} over {}", desk.suggesting ? "Searching for a tolerance" : "Sweeping", path->name);
     desk.job = std::make_unique<SweepJob>(std::move(*plan));
 }
 
@@ -128,8 +128,8 @@ void advanceSweep(SweepDesk& desk, const Log& log) {
     desk.job.reset();
     if (!desk.suggesting) desk.table->whole = result->has_value();
     if (*result) {
-        log->info("{}", desk.suggesting ? std::string("Found a tau")
-                                        : fmt::format("Swept {} settings", desk.table->points.size()));
+        log->info("{}", desk.suggesting ? std::string("Found a tolerance")
+                                        : fmt::format("Measured {} settings", desk.table->points.size()));
         return;
     }
     desk.problem = messageOf(result->error(), desk);
@@ -150,8 +150,7 @@ void openSweptChunks(const SweepDesk& desk, int chunkSize, Session& session, con
 }
 
 Result<fs::path> saveSweep(const SweepDesk& desk, SweepCost cost, const fs::path& folder) {
-    if (!desk.table || !desk.table->whole)
-        return planet::badInput("There is no whole sweep to be saved; a sweep that has come to its end is");
+    if (!desk.table || !desk.table->whole) return planet::badInput("There is no completed sweep to save");
     std::vector<SweepPoint> points = desk.table->points;
     markFront(points, cost);
     const std::time_t now = std::time(nullptr);

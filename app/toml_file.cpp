@@ -14,7 +14,7 @@ constexpr std::uintmax_t mostTomlBytes = 16u << 20;
 
 std::string wanted(std::string_view kind, const NumberRange& range) {
     const std::string unit = range.unit.empty() ? std::string() : fmt::format(" of {}", range.unit);
-    return fmt::format("{}{} from {} to {} would be right", kind, unit, range.min, range.max);
+    return fmt::format("expected {}{} from {} to {}", kind, unit, range.min, range.max);
 }
 
 tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, std::string_view name,
@@ -92,9 +92,8 @@ planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
     }
     if (const std::uintmax_t bytes = std::filesystem::file_size(path, status);
         !status && bytes > mostTomlBytes) {
-        return planet::badInput(
-            fmt::format("{}: is {} bytes large; at most {} would be right for a TOML file", path.string(),
-                        bytes, mostTomlBytes));
+        return planet::badInput(fmt::format("{}: is {} bytes large; expected at most {} for a TOML file",
+                                            path.string(), bytes, mostTomlBytes));
     }
     std::ifstream stream(path, std::ios::binary);
     std::stringstream text;
@@ -106,9 +105,8 @@ planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
 
 planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place) {
     if (const std::size_t line = lineOfEndlessKey(text); line > 0) {
-        return planet::badInput(
-            fmt::format("{}: line {}: has more than {} dots; several lines would be right", place.string(),
-                        line, mostDotsALine));
+        return planet::badInput(fmt::format("{}: line {}: has more than {} dots; expected several lines",
+                                            place.string(), line, mostDotsALine));
     }
     try {
         return toml::parse(text, place.string());
@@ -139,14 +137,14 @@ planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std:
 planet::Result<bool> readBool(const std::filesystem::path& file, std::string_view name,
                               const toml::node& node) {
     const std::optional<bool> value = node.value_exact<bool>();
-    if (!value) return wrong(file, name, node, "true or false would be right");
+    if (!value) return wrong(file, name, node, "expected true or false");
     return *value;
 }
 
 planet::Result<std::string> readText(const std::filesystem::path& file, std::string_view name,
                                      const toml::node& node) {
     const std::optional<std::string> value = node.value_exact<std::string>();
-    if (!value) return wrong(file, name, node, "a text in quotes would be right");
+    if (!value) return wrong(file, name, node, "expected a text in quotes");
     return *value;
 }
 

@@ -53,7 +53,7 @@ planet::Result<PictureSize> pictureSizeFromText(const std::string& text) {
     const auto good = [](double side) { return side >= 16 && side <= 16384 && side == std::floor(side); };
     if (!sides || sides->size() != 2 || !good((*sides)[0]) || !good((*sides)[1])) {
         return planet::badInput(fmt::format(
-            "--size: {} is no size; WIDTHxHEIGHT with 16 to 16384 pixels a side would be right, as 1280x720",
+            "--size: {} is no size; expected WIDTHxHEIGHT with 16 to 16384 pixels a side, as 1280x720",
             text));
     }
     return PictureSize{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
@@ -63,15 +63,15 @@ planet::Result<Pose> poseFromText(const std::string& text) {
     const std::optional<std::vector<double>> numbers = numbersIn(text, ',');
     if (!numbers || numbers->size() < 3 || numbers->size() > poseNumbers.size()) {
         return planet::badInput(
-            fmt::format("--camera: {} is no camera; LAT,LON,ALT,HEADING,PITCH in degrees and metres would be "
-                        "right, as 28,86,20000,0,-20",
+            fmt::format("--camera: {} is no camera; expected LAT,LON,ALT,HEADING,PITCH in degrees and "
+                        "metres, as 28,86,20000,0,-20",
                         text));
     }
     Pose pose;
     for (std::size_t i = 0; i < numbers->size(); ++i) {
         const PoseNumber& field = poseNumbers[i];
         if ((*numbers)[i] < field.min || (*numbers)[i] > field.max) {
-            return planet::badInput(fmt::format("--camera: {} is {}; {} to {} would be right", field.name,
+            return planet::badInput(fmt::format("--camera: {} is {}; expected {} to {}", field.name,
                                                 (*numbers)[i], field.min, field.max));
         }
         pose.*field.value = (*numbers)[i];

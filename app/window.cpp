@@ -80,9 +80,8 @@ tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
     if (!window.glfw_->window) {
         return tl::unexpected(WindowFailure{
             WindowProblem::NoOpenGl,
-            fmt::format(
-                "this display has no OpenGL 3.3 core profile ({}); a newer graphics driver would be right",
-                glfwProblem())});
+            fmt::format("this display has no OpenGL 3.3 core profile ({}); a newer graphics driver is needed",
+                        glfwProblem())});
     }
     glfwSetWindowUserPointer(window.glfw_->window, window.glfw_.get());
     glfwSetKeyCallback(window.glfw_->window, [](GLFWwindow* handle, int key, int, int action, int modifiers) {

@@ -60,8 +60,8 @@ planet::Result<ui::World> worldNamed(const std::filesystem::path& name) {
         if (world.name == wanted) return std::move(world);
         names.push_back(world.name);
     }
-    return planet::badInput(fmt::format("{}: there is no such preset; {}{} would be right", name.string(),
-                                        prefix, fmt::join(names, fmt::format(", {}", prefix))));
+    return planet::badInput(fmt::format("{}: no such preset; expected {}{}", name.string(), prefix,
+                                        fmt::join(names, fmt::format(", {}", prefix))));
 }
 
 planet::Result<NamedSource> sourceNamed(const std::filesystem::path& named,

@@ -116,25 +116,22 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
     }
     const std::optional<SampleType> type = sampleTypeOf(spec.format);
     if (!type) {
-        return badInput(
-            fmt::format("{}: has samples of type {}; 8, 16 or 32 bit integers, half, float or "
-                        "double would be right",
-                        file, spec.format.c_str()));
+        return badInput(fmt::format(
+            "{}: has samples of type {}; expected 8, 16 or 32 bit integers, half, float or double", file,
+            spec.format.c_str()));
     }
     const bool unsignedOrFloat =
         *type != SampleType::Int8 && *type != SampleType::Int16 && *type != SampleType::Int32;
     if (colour && !unsignedOrFloat) {
         return badInput(
-            fmt::format("{}: has colours of type {}; 8 or 16 bits without a sign, or floats, "
-                        "would be right",
-                        file, spec.format.c_str()));
+            fmt::format("{}: has colours of type {}; expected 8 or 16 bits without a sign, or floats", file,
+                        spec.format.c_str()));
     }
     const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", pngBits(path));
     const int readBits = static_cast<int>(spec.format.size()) * 8;
     if (storedBits != 0 && storedBits != readBits) {
         // They come scaled to the next whole type, so the file's own values are lost.
-        return badInput(
-            fmt::format("{}: has {} bits a sample; 8, 16 or 32 would be right", file, storedBits));
+        return badInput(fmt::format("{}: has {} bits a sample; expected 8, 16 or 32", file, storedBits));
     }
     if (spec.tile_width > 0 && spec.tile_pixels() > maxTileSamples) {
         return badInput(fmt::format("{}: has tiles of {} x {} samples; {} samples a tile are the most", file,

@@ -29,7 +29,7 @@ Result<void> checkSettings(const HeightSourceSettings& settings) {
         return badInput(fmt::format("fillM is {}; it must be within +-{}", settings.fillM, mostM));
     }
     if (settings.rawBits && *settings.rawBits != 8 && *settings.rawBits != 16) {
-        return badInput(fmt::format("rawBits is {}; 8 or 16 would be right", *settings.rawBits));
+        return badInput(fmt::format("rawBits is {}; expected 8 or 16", *settings.rawBits));
     }
     if (settings.rawSize && *settings.rawSize < 2) {
         return badInput(
@@ -51,10 +51,10 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     const auto* const detail = std::get_if<DetailTerrain>(&terrain->settings);
     if (!detail) {
         if (asRead(settings)) return makeTerrain(terrain->settings);
-        return badInput(fmt::format(
-            "{}: is made, not read, so units, offset, no-data value, fill and raw formats say nothing of it; "
-            "settings in its own text, such as offset_m=100, would be right",
-            text.string()));
+        return badInput(
+            fmt::format("{}: is procedural terrain, so units, offset, no-data value, fill and raw formats do "
+                        "not apply; expected settings in its own text, such as offset_m=100",
+                        text.string()));
     }
     Result<HeightSource> source = openHeightSource(terrain->of, settings);
     if (!source) return source;

@@ -308,8 +308,7 @@ Result<void> checkNoneMissing(const FaceFiles& files) {
 Result<void> checkSize(const std::string& file, int size) {
     constexpr int mostSize = (1 << maxFaceCellsLog2) + 1;
     if (size >= 2 && size <= mostSize) return {};
-    return badInput(
-        fmt::format("{}: a face of {} samples a side; 2 to {} would be right", file, size, mostSize));
+    return badInput(fmt::format("{}: a face of {} samples a side; expected 2 to {}", file, size, mostSize));
 }
 
 Result<std::uint64_t> lengthOf(const std::filesystem::path& path) {

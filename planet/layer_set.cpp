@@ -41,20 +41,19 @@ std::string rangeProblem(std::string_view what, std::string_view unit, const Sof
                            range.lowest, range.highest, unit);
     }
     if (!(range.lowest >= all.lowest && range.highest <= all.highest)) {
-        return fmt::format("{} from {} to {} {}: within {} to {} would be right", what, range.lowest,
+        return fmt::format("{} from {} to {} {}; expected values from {} to {}", what, range.lowest,
                            range.highest, unit, all.lowest, all.highest);
     }
     const double widest = all.highest - all.lowest;
     if (!(range.softEdge >= 0 && range.softEdge <= widest)) {
-        return fmt::format("{}: a soft edge of {} {}: 0 to {} would be right", what, range.softEdge, unit,
-                           widest);
+        return fmt::format("{}: a falloff of {} {}; expected 0 to {}", what, range.softEdge, unit, widest);
     }
     return {};
 }
 
 std::string numberProblem(std::string_view what, double value, double least, double most) {
     if (value >= least && value <= most) return {};
-    return fmt::format("{} of {}: {} to {} would be right", what, value, least, most);
+    return fmt::format("{} of {}; expected {} to {}", what, value, least, most);
 }
 
 }  // namespace

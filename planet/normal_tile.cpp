@@ -90,9 +90,9 @@ private:
             return none;
         }
         if (held->heights->size() != static_cast<std::size_t>(chunkVertexCount(shape_))) {
-            problem_ = Error{ErrorKind::BadInput,
-                             fmt::format("chunk {} has {} heights; {} would be right", toString(id),
-                                         held->heights->size(), chunkVertexCount(shape_))};
+            problem_ =
+                Error{ErrorKind::BadInput, fmt::format("chunk {} has {} heights; expected {}", toString(id),
+                                                       held->heights->size(), chunkVertexCount(shape_))};
             return none;
         }
         return chunks_.emplace(id, held->heights).first->second;

@@ -66,7 +66,7 @@ Result<HeightSource> makeTerrain(const TerrainSettings& settings) {
         Result<HeightSource> operator()(const MidpointTerrain& t) const { return midpointSource(t); }
         Result<HeightSource> operator()(const CraterTerrain& t) const { return craterSource(t); }
         Result<HeightSource> operator()(const DetailTerrain&) const {
-            return badInput("detail is added to a source; detail:of=PATH would be right");
+            return badInput("detail is added to a source; expected detail:of=PATH");
         }
     };
     return std::visit(Make{}, settings);

@@ -73,7 +73,7 @@ Result<void> setField(const TerrainKind& kind, std::string_view key, std::string
     const bool good = problem == std::errc{} && end == value.data() + value.size();
     const bool inRange = good && number >= setting->least && number <= setting->most;
     if (!inRange || (setting->whole && number != std::floor(number))) {
-        return badInput(fmt::format("{}: {} is {}; {} from {} to {}{}{} would be right", kind.name, key,
+        return badInput(fmt::format("{}: {} is {}; expected {} from {} to {}{}{}", kind.name, key,
                                     value.empty() ? "empty" : value,
                                     setting->whole ? "a whole number" : "a number", setting->least,
                                     setting->most, setting->unit.empty() ? "" : " ", setting->unit));
@@ -93,7 +93,7 @@ Result<void> setFields(const TerrainKind& kind, std::string_view rest, TerrainSo
             return {};
         }
         if (std::find(seen.begin(), seen.end(), key) != seen.end())
-            return badInput(fmt::format("{}: {} is given twice; once would be right", kind.name, key));
+            return badInput(fmt::format("{}: {} is given twice; expected once", kind.name, key));
         seen.push_back(key);
         if (Result<void> set = setField(kind, key, value, source); !set) return set;
     }
@@ -118,7 +118,7 @@ Result<TerrainSource> terrainFromText(const std::filesystem::path& path) {
     if (Result<void> set = setFields(**kind, rest, source); !set) return tl::unexpected(set.error());
     if (Result<void> good = checkTerrain(source.settings); !good) return tl::unexpected(good.error());
     if (isDetail && source.of.empty())
-        return badInput("detail: says not of what; detail:strength=1,of=PATH would be right");
+        return badInput("detail: has no source; expected detail:strength=1,of=PATH");
     return source;
 }
 

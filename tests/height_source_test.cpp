@@ -510,7 +510,7 @@ TEST(HeightSource, SettingsOutOfRangeAreRefused) {
     EXPECT_THAT(errorOf(earthElevation, settings), HasSubstr("fillM is"));
     settings = {};
     settings.rawBits = 12;
-    EXPECT_THAT(errorOf(earthElevation, settings), HasSubstr("rawBits is 12; 8 or 16 would be right"));
+    EXPECT_THAT(errorOf(earthElevation, settings), HasSubstr("rawBits is 12; expected 8 or 16"));
     settings = {};
     settings.rawSize = 1;
     EXPECT_THAT(errorOf(earthElevation, settings), HasSubstr("rawSize is 1"));

@@ -164,10 +164,10 @@ TEST(LayerSet, ContradictoryRangesAreNamed) {
     EXPECT_THAT(layerProblem(layer), HasSubstr("heights from 900 to 300 m"));
     layer = {};
     layer.slopeDeg = {-5, 40, 0};
-    EXPECT_THAT(layerProblem(layer), HasSubstr("within 0 to 90"));
+    EXPECT_THAT(layerProblem(layer), HasSubstr("expected values from 0 to 90"));
     layer = {};
     layer.latitudeDeg.softEdge = -1;
-    EXPECT_THAT(layerProblem(layer), HasSubstr("a soft edge of -1 degrees"));
+    EXPECT_THAT(layerProblem(layer), HasSubstr("a falloff of -1 degrees"));
     layer = {};
     layer.scaleM = 0;
     EXPECT_THAT(layerProblem(layer), HasSubstr("scale"));

@@ -548,12 +548,12 @@ TEST(TerrainText, ErrorsTellWhatWouldBeRight) {
     EXPECT_THAT(errorOf("noise:fbm,gain="), HasSubstr("gain is empty"));
     EXPECT_THAT(errorOf("noise:fbm,gain=0.1,gain=0.2"), HasSubstr("gain is given twice"));
     EXPECT_THAT(errorOf("noise:faults,max_delta_m=5,min_delta_m=6"), HasSubstr("at most max_delta_m, 5 m"));
-    EXPECT_THAT(errorOf("detail:strength=1"), HasSubstr("says not of what"));
+    EXPECT_THAT(errorOf("detail:strength=1"), HasSubstr("detail: has no source"));
     EXPECT_THAT(errorOf("detail:of=nothing.tif"), HasSubstr("nothing.tif: there is no such file"));
     EXPECT_THAT(errorOf("detail:strenght=1,of=x.tif"), HasSubstr("nearest one is strength"));
     HeightSourceSettings shifted;
     shifted.offsetM = 10;
-    EXPECT_THAT(errorOf("noise:fbm", shifted), HasSubstr("is made, not read"));
+    EXPECT_THAT(errorOf("noise:fbm", shifted), HasSubstr("is procedural terrain"));
 }
 
 TEST(Terrain, SettingsOutOfRangeAreToldByName) {

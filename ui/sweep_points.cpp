@@ -55,7 +55,7 @@ std::string limitedText(const TauGoal& goal, double value) {
 
 TauList wrongTaus(const std::string& what) {
     return {{},
-            fmt::format("{}; numbers from {} to {} as \"0.5 1 2 4 8\" would be right", what, smallestTauPx,
+            fmt::format("{}; expected numbers from {} to {} as \"0.5 1 2 4 8\"", what, smallestTauPx,
                         largestTauPx)};
 }
 

@@ -204,7 +204,7 @@ TEST_F(CompareDeskTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
     ASSERT_TRUE(desk_.flown) << desk_.flownProblem;
     EXPECT_LT(*(*desk_.flown)[0].triangles, *(*desk_.flown)[1].triangles);
     EXPECT_THAT(shown(session).flight.lastName,
-                HasSubstr("Down, 2 moments. A: lod.tau_px 16. B: lod.tau_px 2"));
+                HasSubstr("Down, 2 sample frames. A: lod.tau_px 16. B: lod.tau_px 2"));
 
     ASSERT_TRUE(
         compareFlight(desk_, session, settings_, viewport_.main.view, {folder_ / "down.toml", 100'000}));

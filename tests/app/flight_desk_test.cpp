@@ -113,7 +113,7 @@ TEST_F(FlightDeskTest, WhatCannotBeWrittenIsKeptUntilItCan) {
     EXPECT_EQ(recordingViewOf(desk_, settings_).recording->frames, 3u);  // to be stopped again
     const auto other = startRecording(desk_, *scene_->planet, "b");
     ASSERT_FALSE(other);
-    EXPECT_THAT(other.error().message, HasSubstr("\"a\" is not written yet"));
+    EXPECT_THAT(other.error().message, HasSubstr("\"a\" is not saved yet"));
     stopRecording(desk_, scene_->planet.get(), log_);
     EXPECT_TRUE(desk_.unwritten);
 

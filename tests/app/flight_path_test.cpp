@@ -118,7 +118,7 @@ TEST(FlightPath, ErrorsNameFileKeyAndWhatWouldBeRight) {
     const std::string good = keyText(0, 1, 2);
     EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)),
                 HasSubstr("path.toml: line 10: key 2: latitude_deg is 91"));
-    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)), HasSubstr("from -90 to 90 would be right"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)), HasSubstr("expected from -90 to 90"));
     EXPECT_THAT(pathErrorOf(good + keyText(0, 0, 0)),
                 HasSubstr("key 2: time_s is 0; a time after key 1's 0"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));
@@ -126,7 +126,7 @@ TEST(FlightPath, ErrorsNameFileKeyAndWhatWouldBeRight) {
     EXPECT_THAT(pathErrorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: lies"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0) + "roll_deg = 3\n"),
                 HasSubstr("key 2: roll_deg is not known"));
-    EXPECT_THAT(pathErrorOf(good), HasSubstr("has 1 [[key]] tables; two or more would be right"));
+    EXPECT_THAT(pathErrorOf(good), HasSubstr("has 1 [[key]] tables; expected two or more"));
     EXPECT_THAT(pathErrorOf(""), HasSubstr("has 0 [[key]] tables"));
     EXPECT_THAT(pathErrorOf("key = 3\n"), HasSubstr("key is not known"));
     EXPECT_THAT(pathErrorOf("speed = 3\n"), HasSubstr("speed is not known"));

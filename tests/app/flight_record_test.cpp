@@ -434,7 +434,7 @@ TEST_F(FlightRecordTest, NumbersThatAreNoneAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     FlightFrame bad = good;
     bad.elapsedS = nan;
-    EXPECT_THAT(errorWith(bad), HasSubstr("frame 1: it holds nan where 0 to 1000000 would be right"));
+    EXPECT_THAT(errorWith(bad), HasSubstr("frame 1: it holds nan; expected 0 to 1000000"));
     bad = good;
     bad.views[0].view.eyeM.y = nan;
     EXPECT_THAT(errorWith(bad), HasSubstr("nan"));
@@ -463,8 +463,8 @@ TEST_F(FlightRecordTest, MoreCallsThanARecorderWritesAreRefused) {
     EXPECT_EQ(errorOfFrames({most}), "no error");
     FlightFrame more = most;
     more.calls.emplace_back();
-    EXPECT_THAT(errorOfFrames({more}), HasSubstr("made.flight: frame 1: it holds 1001 calls in a frame; "
-                                                 "1000 at most would be right"));
+    EXPECT_THAT(errorOfFrames({more}),
+                HasSubstr("made.flight: frame 1: it holds 1001 calls in a frame; expected 1000 at most"));
     EXPECT_THAT(errorOfFrames(std::vector<FlightFrame>(maxFlightCalls / maxCallsAFrame + 1, most)),
                 HasSubstr("holds more than 432000 calls"));
     FlightFrame settings;
@@ -501,12 +501,12 @@ TEST_F(FlightRecordTest, MoreThanAMillionSecondsAreRefused) {
     EXPECT_EQ(errorOfFrames({half, half}), "no error");
     EXPECT_THAT(errorOfFrames({half, half, half}), HasSubstr("comes after more than 1000000 s"));
     half.elapsedS = -1;
-    EXPECT_THAT(errorOfFrames({half}), HasSubstr("holds -1 where 0 to 1000000 would be right"));
+    EXPECT_THAT(errorOfFrames({half}), HasSubstr("holds -1; expected 0 to 1000000"));
 }
 
 TEST_F(FlightRecordTest, TextsThatAreNotUtf8AreRefused) {
     EXPECT_THAT(errorOfFrames(std::vector<FlightFrame>(1), "caf\xE9"),
-                HasSubstr("a name that is not UTF-8; UTF-8 would be right"));
+                HasSubstr("a name that is not UTF-8; expected UTF-8"));
     FlightFrame frame;
     frame.calls.push_back({.call = FlightCall::Settings, .settings = {"lod.tau_px=\xFF"}});
     EXPECT_THAT(errorOfFrames({frame}), HasSubstr("a setting that is not UTF-8"));

@@ -59,7 +59,7 @@ TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     EXPECT_THAT(desk.setProblem, HasSubstr("broken.toml: line 1"));
     EXPECT_EQ(layers, ui::LayerSettings{});
     EXPECT_FALSE(saveAs(desk, "earth", layers));
-    EXPECT_THAT(desk.setProblem, HasSubstr("comes with Worldy"));
+    EXPECT_THAT(desk.setProblem, HasSubstr("is built-in"));
     EXPECT_FALSE(saveAs(desk, "a/b", layers));
     EXPECT_EQ(layers, ui::LayerSettings{});
     fs::create_directories(desk.folders.own);
@@ -120,7 +120,7 @@ TEST(LayerPictures, WhatIsMissingOrOfAWrongSizeIsNamed) {
     EXPECT_THAT(problemOf({"none.png", "", ""}), HasSubstr("none.png: cannot be read"));
     EXPECT_THAT(problemOf({"good.png", "wide.png", ""}), HasSubstr("wide.png: is 32 x 16 pixels; square"));
     EXPECT_THAT(problemOf({"odd.png", "", ""}),
-                HasSubstr("odd.png: is 24 x 24 pixels; square and a power of two"));
+                HasSubstr("odd.png: is 24 x 24 pixels; expected a square with a power-of-two side"));
     EXPECT_THAT(problemOf({"good.png", "", "junk.png"}), HasSubstr("junk.png"));
     EXPECT_THAT(problemOf({"", "", ""}), HasSubstr("no albedo"));
 }

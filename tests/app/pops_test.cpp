@@ -179,7 +179,7 @@ TEST_F(PopsTest, WhatHasBeenDroppedIsSaid) {
     EXPECT_NE(pops_.problem.find("not resident"), std::string::npos);
     pops_.meter.clear();
     EXPECT_FALSE(keptPicture(planet_->tree(), pops_));
-    EXPECT_NE(pops_.problem.find("no longer kept"), std::string::npos);
+    EXPECT_NE(pops_.problem.find("no longer stored"), std::string::npos);
 }
 
 }  // namespace

@@ -102,8 +102,10 @@ TEST_F(Presets, BadFilesAreListedWithTheirProblemAndCannotBeLoaded) {
 TEST_F(Presets, ShippedOnesCanNeitherBeDeletedNorWrittenOver) {
     PresetShelf shelf(folders);
     EXPECT_THAT(shelf.remove("default").error().message, HasSubstr("cannot be deleted"));
-    EXPECT_THAT(shelf.save("default", someView()).error().message, HasSubstr("comes with Worldy"));
-    EXPECT_THAT(shelf.save("Default", someView()).error().message, HasSubstr("comes with Worldy"));
+    EXPECT_THAT(shelf.save("default", someView()).error().message,
+                HasSubstr("built-in preset has that name"));
+    EXPECT_THAT(shelf.save("Default", someView()).error().message,
+                HasSubstr("built-in preset has that name"));
     EXPECT_TRUE(std::filesystem::exists(folders.shipped / "default.toml"));
     EXPECT_FALSE(std::filesystem::exists(folders.own / "default.toml"));
 }
@@ -131,7 +133,7 @@ TEST_F(Presets, AFileThatHidesBehindAShippedNameIsToldAsAProblem) {
     writeOwn("Default.toml", "[lod]\ntau_px = 9\n");
     PresetShelf shelf(folders);
     EXPECT_EQ(shelf.load("default", someView()), ui::ViewSettings{});
-    EXPECT_THAT(shelf.views({})[2].problem, HasSubstr("give the file another name"));
+    EXPECT_THAT(shelf.views({})[2].problem, HasSubstr("rename the file"));
 }
 
 TEST_F(Presets, NamesThatAreNoFileNamesAreRefusedAndWriteNothing) {
@@ -146,7 +148,7 @@ TEST_F(Presets, NamesThatAreNoFileNamesAreRefusedAndWriteNothing) {
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "config"));
     EXPECT_FALSE(std::filesystem::exists(folder / "evil.toml"));
-    EXPECT_THAT(shelf.save("a/b", {}).error().message, HasSubstr("\"a/b\" cannot be a preset's name"));
+    EXPECT_THAT(shelf.save("a/b", {}).error().message, HasSubstr("\"a/b\" is not a valid preset name"));
     for (const char* name : {"a", "crack hunting 2", "tau 0.5 (fine)", "Erde ä"})
         EXPECT_TRUE(checkPresetName(name)) << name;
 }

@@ -180,7 +180,7 @@ TEST(Settings, WhereAFileHasBothNamesThePresentOneCounts) {
 TEST(Settings, ErrorsNameFileLineKeyAndWhatWouldBeRight) {
     const std::string range = settingsErrorOf("[lod]\n\ntau_px = -1\n");
     EXPECT_THAT(range, HasSubstr("settings.toml: line 3: lod.tau_px is -1"));
-    EXPECT_THAT(range, HasSubstr("; a number of pixels from 0.1 to 64 would be right"));
+    EXPECT_THAT(range, HasSubstr("; expected a number of pixels from 0.1 to 64"));
 }
 
 TEST(Settings, EveryKindOfWrongValueIsRefused) {
@@ -208,21 +208,22 @@ TEST(Settings, AWrongRampIsRefusedWithTheStopThatIsWrong) {
     };
     const std::string good = "{ height_m = 0, colour = \"#102030\" }";
     EXPECT_EQ(ramp("[" + good + ", { height_m = 0.5, colour = \"#FFaa00\" }]"), "no error");
-    EXPECT_THAT(ramp("3"), HasSubstr("surface.ramp is 3; an array of stops would be right"));
-    EXPECT_THAT(ramp("[1]"), HasSubstr("surface.ramp: stop 1 is no stop"));
-    EXPECT_THAT(ramp("[" + good + ", { height_m = 1 }]"), HasSubstr("stop 2 is no stop"));
-    EXPECT_THAT(ramp("[{ height_m = 1, colour = \"#102030\", more = 1 }]"), HasSubstr("stop 1 is no stop"));
+    EXPECT_THAT(ramp("3"), HasSubstr("surface.ramp is 3; expected an array of stops"));
+    EXPECT_THAT(ramp("[1]"), HasSubstr("surface.ramp: stop 1 is not a stop"));
+    EXPECT_THAT(ramp("[" + good + ", { height_m = 1 }]"), HasSubstr("stop 2 is not a stop"));
+    EXPECT_THAT(ramp("[{ height_m = 1, colour = \"#102030\", more = 1 }]"),
+                HasSubstr("stop 1 is not a stop"));
     EXPECT_THAT(ramp("[" + good + "," + good + "]"),
                 HasSubstr("stop 2: height_m is 0; more than the 0 of the stop before"));
     EXPECT_THAT(ramp("[{ height_m = nan, colour = \"#102030\" }]"), HasSubstr("stop 1: height_m is nan"));
     for (const char* colour : {"", "102030", "#10203", "#1020300", "#10203g", "#-10203", "#+10203", "red"}) {
         EXPECT_THAT(ramp(std::string("[{ height_m = 1, colour = \"") + colour + "\" }]"),
-                    HasSubstr("\"#rrggbb\" would be right"))
+                    HasSubstr("\"#rrggbb\""))
             << colour;
     }
     std::string many;
     for (int i = 0; i < 33; ++i) many += "{ height_m = " + std::to_string(i) + ", colour = \"#000000\" },";
-    EXPECT_THAT(ramp("[" + many + "]"), HasSubstr("has 33 stops; at most 32 would be right"));
+    EXPECT_THAT(ramp("[" + many + "]"), HasSubstr("has 33 stops; expected at most 32"));
 }
 
 TEST(Settings, UnknownKeysAreRefusedWithTheNearestKnownOne) {
@@ -276,16 +277,16 @@ TEST(SetSetting, TakesWordsTextsNumbersAndRampsAsTheyAreWritten) {
 
 TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
     EXPECT_EQ(setErrorOf("lod.tau_px=0"),
-              "lod.tau_px=0: lod.tau_px is 0; a number of pixels from 0.1 to 64 would be right");
+              "lod.tau_px=0: lod.tau_px is 0; expected a number of pixels from 0.1 to 64");
     EXPECT_THAT(setErrorOf("lod.tua_px=3"),
                 HasSubstr("lod.tua_px is not a setting; the nearest one is lod.tau_px"));
-    EXPECT_THAT(setErrorOf("lod.tau_px"), HasSubstr("has no value; lod.tau_px=2 would be right"));
+    EXPECT_THAT(setErrorOf("lod.tau_px"), HasSubstr("has no value; expected lod.tau_px=2"));
     EXPECT_THAT(setErrorOf("overlay.colour_by=mood"), HasSubstr("overlay.colour_by is 'mood'"));
     for (const char* nameless : {"", "=", "=3", "tau=3"})
         EXPECT_THAT(setErrorOf(nameless), HasSubstr("is not a setting; the nearest one is ")) << nameless;
     for (const char* wrong : {"lod.tau_px=", "lod.tau_px=two", "lod.tau_px=3 4", "lod.tau_px=3\nmore=4",
                               "lod.tau_px=[3]", "lod.morph=yes"}) {
-        EXPECT_THAT(setErrorOf(wrong), HasSubstr(" would be right")) << wrong;
+        EXPECT_THAT(setErrorOf(wrong), HasSubstr("; expected ")) << wrong;
     }
 }
 

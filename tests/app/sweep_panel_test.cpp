@@ -34,7 +34,7 @@ TEST(SweepPanel, SaysWhatIsWrongWithTolerancesAndWhatWouldBeRight) {
     for (const auto& [text, problem] : wrong) {
         const TauList taus = tausFromText(text);
         EXPECT_THAT(taus.problem, HasSubstr(problem)) << text;
-        EXPECT_THAT(taus.problem, HasSubstr("would be right")) << text;
+        EXPECT_THAT(taus.problem, HasSubstr("; expected ")) << text;
         EXPECT_TRUE(taus.tausPx.empty()) << text;
     }
     std::string many;

@@ -40,8 +40,7 @@ TEST(ViewOptions, OtherCamerasAreRefusedWithWhatWouldBeRight) {
         ASSERT_FALSE(pose) << text;
         EXPECT_THAT(pose.error().message, HasSubstr("LAT,LON,ALT,HEADING,PITCH")) << text;
     }
-    EXPECT_THAT(poseFromText("91,0,0").error().message,
-                HasSubstr("latitude is 91; -90 to 90 would be right"));
+    EXPECT_THAT(poseFromText("91,0,0").error().message, HasSubstr("latitude is 91; expected -90 to 90"));
     EXPECT_THAT(poseFromText("0,0,0,0,-91").error().message, HasSubstr("pitch is -91"));
 }
 

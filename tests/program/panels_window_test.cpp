@@ -326,7 +326,7 @@ fine=$(counter triangles)
 click "sweep/Row 3"; click "sweep/Use these settings"
 expect counts triangles -lt $fine
 key ctrl+z; expect counts triangles -eq $fine
-click "sweep/Save table and plot"; expect says "and its table beside it"
+click "sweep/Save table and plot"; expect says "with its table"
 # One that takes minutes is cancelled, and is no whole table.
 enter sweep/Tolerances "0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.6 1.8 2 2.2 2.4 2.6 2.8 3"; choose sweep/Picture "1920 x 1080"
 slide "sweep/Sample frames" 0.99; click sweep/Run; expect counts sweeping -eq 1

@@ -74,7 +74,7 @@ TEST_F(PopsCommand, TooManyFramesEndWithTwo) {
     writeLongFlight(folder);
     const Ran ran = runWorldy(folder, "pops planet.chk --flight long.toml --step-s 1e-4");
     EXPECT_EQ(ran.exitCode, 2);
-    EXPECT_THAT(ran.errors, HasSubstr("more than 10000000 views; a longer step would be right"));
+    EXPECT_THAT(ran.errors, HasSubstr("more than 10000000 views; expected a longer step"));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST_F(TerrainTest, BadInputIsToldWithWhatWouldBeRight) {
     };
     expectBad("bake noise:rigded -o o.chk", "nearest one is noise:ridged");
     expectBad("bake noise:fbm,octaves=99 -o o.chk", "octaves is 99");
-    expectBad("bake noise:fbm --offset 3 -o o.chk", "is made, not read");
+    expectBad("bake noise:fbm --offset 3 -o o.chk", "is procedural terrain");
     expectBad("bake preset:mon -o o.chk", "preset:moon");
     expectBad("bake nothing.tif --detail -o o.chk", "nothing.tif");
     expectBad("bake noise:fbm --detail=strength=99 -o o.chk", "strength is 99");
