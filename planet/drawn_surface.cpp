@@ -102,19 +102,9 @@ DrawnVertex blended(glm::ivec2 itself, const VertexBlend& blend, const OwnPositi
     return drawn;
 }
 
-struct Triangle {
-    std::array<std::size_t, 3> vertices;
-};
-
-// The two triangles of a cell, its diagonal from south-west to north-east.
-std::array<Triangle, 2> trianglesOf(int column, int row, int cells) {
-    const auto southWest = static_cast<std::size_t>(row * (cells + 1) + column);
-    const std::size_t northWest = southWest + static_cast<std::size_t>(cells + 1);
-    return {{{{southWest, southWest + 1, northWest + 1}}, {{southWest, northWest + 1, northWest}}}};
-}
-
 // The point of a triangle over a place, or nothing where the triangle does not cover it.
-std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const Triangle& triangle, glm::dvec2 place) {
+std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const CellTriangle& triangle,
+                                          glm::dvec2 place) {
     const std::array<std::size_t, 3>& vertex = triangle.vertices;
     const glm::dvec2 a = grid.place[vertex[0]];
     const glm::dvec2 ab = grid.place[vertex[1]] - a;
@@ -131,7 +121,7 @@ std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const Triangle&
 }
 
 std::optional<glm::dvec3> pointInCell(const DrawnGrid& grid, int column, int row, glm::dvec2 place) {
-    for (const Triangle& triangle : trianglesOf(column, row, grid.cells)) {
+    for (const CellTriangle& triangle : cellTriangles(column, row, grid.cells)) {
         if (const std::optional<glm::dvec3> point = pointOnTriangle(grid, triangle, place)) return point;
     }
     return std::nullopt;
@@ -210,6 +200,12 @@ DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<co
         }
     }
     return grid;
+}
+
+std::array<CellTriangle, 2> cellTriangles(int column, int row, int cells) {
+    const auto southWest = static_cast<std::size_t>(row * (cells + 1) + column);
+    const std::size_t northWest = southWest + static_cast<std::size_t>(cells + 1);
+    return {{{{southWest, southWest + 1, northWest + 1}}, {{southWest, northWest + 1, northWest}}}};
 }
 
 glm::dvec3 pointOn(const DrawnGrid& grid, double x, double y) {

@@ -31,6 +31,13 @@ struct DrawnGrid {
 DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
                     bool stitched);
 
+// The two triangles of a cell, its diagonal from south-west to north-east.
+struct CellTriangle {
+    std::array<std::size_t, 3>
+        vertices;  // their places in DrawnGrid::positionM, counterclockwise from outside
+};
+std::array<CellTriangle, 2> cellTriangles(int column, int row, int cells);
+
 // The point drawn at (x, y) cells from the chunk's west and south edges, both in [0, cells]: on the triangle
 // that covers the place, metres from the planet's centre.
 glm::dvec3 pointOn(const DrawnGrid& grid, double x, double y);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
 
 #include "planet/drawn_surface.h"
 
@@ -13,16 +15,32 @@ namespace planet {
 
 namespace {
 
-// A view as points are projected into it.
+// A view as points are projected into it, and the sea that is drawn in it.
 struct Screen {
     const View& view;
-    double scalePx;  // K'
+    double scalePx;                      // K'
+    std::optional<double> seaRadiusM{};  // from the planet's centre
 };
+
+Screen screenOf(const PlanetShape& shape, const View& view, std::optional<double> seaM) {
+    Screen screen{view, screenScalePx(view)};
+    if (seaM) screen.seaRadiusM = shape.radiusM + *seaM;
+    return screen;
+}
 
 struct ScreenPoint {
     glm::dvec2 px{0, 0};  // from the picture's middle, right and up
     bool inFront = false;
     bool inPicture = false;
+};
+
+// One place as it was and as it is now.
+struct ComparedPlace {
+    glm::dvec2 px{0, 0};  // on screen, after
+    double jumpPx = 0;
+    bool inFront = false;  // before and after; else there is no jump
+    bool counts = false;
+    bool underSea = false;  // before and after
 };
 
 ScreenPoint onScreen(const Screen& screen, const glm::dvec3& fromEyeM) {
@@ -34,38 +52,123 @@ ScreenPoint onScreen(const Screen& screen, const glm::dvec3& fromEyeM) {
     return {px, true, 2 * std::abs(px.x) <= view.widthPx && 2 * std::abs(px.y) <= view.heightPx};
 }
 
-// Adds places up, one by one.
+// Triangles between the sea's vertices dip below it by less than this at the levels that are drawn beside
+// each other; ground so little above it is not told from it.
+bool isUnderSea(const Screen& screen, const glm::dvec3& pointM) {
+    constexpr double roundingM = 1e-3;
+    return screen.seaRadiusM && glm::length(pointM) <= *screen.seaRadiusM + roundingM;
+}
+
+// Of a triangle, a corner of what the picture's border leaves.
+struct JumpCorner {
+    glm::dvec2 px{0, 0};
+    double jumpPx = 0;
+};
+
+// What lies on the near side of one border of the picture: side * px[axis] <= limit.
+std::vector<JumpCorner> clippedAt(const std::vector<JumpCorner>& polygon, int axis, double side,
+                                  double limit) {
+    std::vector<JumpCorner> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const JumpCorner& from = polygon[i];
+        const JumpCorner& to = polygon[(i + 1) % polygon.size()];
+        const double fromBeyond = side * from.px[axis] - limit;
+        const double toBeyond = side * to.px[axis] - limit;
+        if (fromBeyond <= 0) kept.push_back(from);
+        if ((fromBeyond <= 0) == (toBeyond <= 0)) continue;
+        const double share = fromBeyond / (fromBeyond - toBeyond);
+        kept.push_back({from.px + share * (to.px - from.px), std::lerp(from.jumpPx, to.jumpPx, share)});
+    }
+    return kept;
+}
+
+// Adds places up, one by one, and the triangles between them.
 struct Sum {
     const Screen& screen;
     SurfaceJump jump{};
     double totalPx = 0;
+    bool anyUnderSea = false;
+    double areaPx = 0;      // pixels squared
+    double areaJumpPx = 0;  // jump times area
 
-    void add(const ChunkId& chunk, const glm::dvec3& beforeM, const glm::dvec3& afterM) {
+    ComparedPlace add(const ChunkId& chunk, const glm::dvec3& beforeM, const glm::dvec3& afterM) {
         const glm::dvec3 before = beforeM - screen.view.eyeM;
         const glm::dvec3 after = afterM - screen.view.eyeM;
         const ScreenPoint from = onScreen(screen, before);
         const ScreenPoint to = onScreen(screen, after);
-        if (!from.inFront || !to.inFront || (!from.inPicture && !to.inPicture)) return;
-        const double px = glm::length(to.px - from.px);
+        ComparedPlace place;
+        place.px = to.px;
+        place.inFront = from.inFront && to.inFront;
+        if (!place.inFront) return place;
+        place.jumpPx = glm::length(to.px - from.px);
+        place.underSea = isUnderSea(screen, beforeM) && isUnderSea(screen, afterM);
+        if (!from.inPicture && !to.inPicture) return place;
+        anyUnderSea |= place.underSea;
+        place.counts = !place.underSea;
+        if (!place.counts) return place;
         const double facingPx = screen.scalePx * glm::length(glm::normalize(after) - glm::normalize(before));
-        if (px > jump.largestPx || jump.places == 0) {
-            jump.largestPx = px;
+        if (place.jumpPx > jump.largestPx || jump.places == 0) {
+            jump.largestPx = place.jumpPx;
             jump.worstPlaceM = afterM;
             jump.worstChunk = chunk;
         }
         jump.largestFacingPx = std::max(jump.largestFacingPx, facingPx);
-        totalPx += px;
+        totalPx += place.jumpPx;
         ++jump.places;
+        return place;
+    }
+
+    void addTriangle(const std::array<const ComparedPlace*, 3>& places) {
+        const auto all = [&](bool ComparedPlace::*flag) {
+            return std::all_of(places.begin(), places.end(),
+                               [&](const ComparedPlace* place) { return place->*flag; });
+        };
+        if (!all(&ComparedPlace::inFront) || all(&ComparedPlace::underSea)) return;
+        std::array<JumpCorner, 3> corners;
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = {places[i]->px, places[i]->jumpPx};
+        const glm::dvec2 half(0.5 * screen.view.widthPx, 0.5 * screen.view.heightPx);
+        const bool inside = std::all_of(corners.begin(), corners.end(), [&](const JumpCorner& corner) {
+            return std::abs(corner.px.x) <= half.x && std::abs(corner.px.y) <= half.y;
+        });
+        if (inside) return addArea(corners[0], corners[1], corners[2]);
+        std::vector<JumpCorner> polygon(corners.begin(), corners.end());
+        for (int axis = 0; axis < 2; ++axis) {
+            for (const double side : {-1.0, 1.0}) polygon = clippedAt(polygon, axis, side, half[axis]);
+        }
+        for (std::size_t i = 2; i < polygon.size(); ++i) addArea(polygon[0], polygon[i - 1], polygon[i]);
+    }
+
+    void addArea(const JumpCorner& a, const JumpCorner& b, const JumpCorner& c) {
+        const glm::dvec2 ab = b.px - a.px;
+        const glm::dvec2 ac = c.px - a.px;
+        const double area = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);
+        areaPx += area;
+        areaJumpPx += area * (a.jumpPx + b.jumpPx + c.jumpPx) / 3;
     }
 
     SurfaceJump done() {
-        if (jump.places > 0) jump.meanPx = totalPx / jump.places;
+        // A surface that is seen edge-on has no area.
+        if (areaPx > 0)
+            jump.meanPx = areaJumpPx / areaPx;
+        else if (jump.places > 0)
+            jump.meanPx = totalPx / jump.places;
+        if (jump.places == 0) jump.meanPx = 0;
+        jump.underSea = jump.places == 0 && anyUnderSea;
         return jump;
     }
 };
 
-DrawnGrid gridOf(const PlanetShape& shape, const DrawnChunk& chunk) {
-    return drawnGrid(shape, chunk.item, *chunk.heights, chunk.stitched);
+// Where a vertex is drawn: at the sea's level where it lies below.
+glm::dvec3 aboveSea(const Screen& screen, const glm::dvec3& positionM) {
+    const double radiusM = glm::length(positionM);
+    if (!screen.seaRadiusM || radiusM >= *screen.seaRadiusM) return positionM;
+    return *screen.seaRadiusM / radiusM * positionM;
+}
+
+DrawnGrid gridOf(const PlanetShape& shape, const DrawnChunk& chunk, const Screen& screen) {
+    DrawnGrid grid = drawnGrid(shape, chunk.item, *chunk.heights, chunk.stitched);
+    for (glm::dvec3& positionM : grid.positionM) positionM = aboveSea(screen, positionM);
+    return grid;
 }
 
 // What is drawn at a grid point of the chunk, whether or not its own vertex is still there.
@@ -85,10 +188,21 @@ void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAf
     const double firstRow = (finer.id.y - (coarser.id.y << levels)) * scale * finer.cells;
     const auto add = [&](glm::dvec2 place, const glm::dvec3& fine) {
         const glm::dvec3 coarse = pointOn(coarser, firstColumn + place.x * scale, firstRow + place.y * scale);
-        sum.add(finer.id, coarserIsAfter ? fine : coarse, coarserIsAfter ? coarse : fine);
+        return sum.add(finer.id, coarserIsAfter ? fine : coarse, coarserIsAfter ? coarse : fine);
     };
+    std::vector<ComparedPlace> places;
+    places.reserve(finer.positionM.size());
     for (int row = 0; row <= finer.cells; ++row) {
-        for (int column = 0; column <= finer.cells; ++column) add({column, row}, drawnAt(finer, column, row));
+        for (int column = 0; column <= finer.cells; ++column)
+            places.push_back(add({column, row}, drawnAt(finer, column, row)));
+    }
+    for (int row = 0; row < finer.cells; ++row) {
+        for (int column = 0; column < finer.cells; ++column) {
+            for (const CellTriangle& triangle : cellTriangles(column, row, finer.cells)) {
+                const auto& [a, b, c] = triangle.vertices;
+                sum.addTriangle({&places[a], &places[b], &places[c]});
+            }
+        }
     }
     if (!coarser.stitched && !finer.stitched) return;
     for (int row = 0; row < finer.cells; ++row) {
@@ -104,18 +218,19 @@ void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAf
 }  // namespace
 
 SurfaceJump surfaceJump(const PlanetShape& shape, const DrawnChunk& coarser,
-                        std::span<const DrawnChunk> finer, bool coarserIsAfter, const View& view) {
-    const Screen screen{view, screenScalePx(view)};
-    const DrawnGrid coarse = gridOf(shape, coarser);
+                        std::span<const DrawnChunk> finer, bool coarserIsAfter, const View& view,
+                        std::optional<double> seaM) {
+    const Screen screen = screenOf(shape, view, seaM);
+    const DrawnGrid coarse = gridOf(shape, coarser, screen);
     Sum sum{screen};
-    for (const DrawnChunk& chunk : finer) addFiner(coarse, gridOf(shape, chunk), coarserIsAfter, sum);
+    for (const DrawnChunk& chunk : finer) addFiner(coarse, gridOf(shape, chunk, screen), coarserIsAfter, sum);
     return sum.done();
 }
 
 SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const DrawnChunk& after, Edge edge,
-                     const View& view) {
+                     const View& view, std::optional<double> seaM) {
     assert(before.item.id == after.item.id);
-    const Screen screen{view, screenScalePx(view)};
+    const Screen screen = screenOf(shape, view, seaM);
     const bool upright = edge == Edge::West || edge == Edge::East;
     const bool isFar = edge == Edge::East || edge == Edge::North;
     const int cells = chunkCells(shape);
@@ -127,8 +242,8 @@ SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const D
         edgeAfter.stitched = after.stitched;
         edgeAfter.item.coarserBy[index] = after.item.coarserBy[index];
         edgeAfter.item.edgeMorph[index] = after.item.edgeMorph[index];
-        const DrawnGrid from = gridOf(shape, before);
-        const DrawnGrid to = gridOf(shape, edgeAfter);
+        const DrawnGrid from = gridOf(shape, before, screen);
+        const DrawnGrid to = gridOf(shape, edgeAfter, screen);
         for (int inward = 0; inward <= 2 * stitchedRingCells; ++inward) {
             const double across = isFar ? cells - 0.5 * inward : 0.5 * inward;
             for (int i = 0; i <= 2 * cells; ++i) {
@@ -140,7 +255,8 @@ SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const D
     } else {
         const int across = isFar ? cells : 0;
         const auto vertexOf = [&](const DrawnChunk& chunk, glm::ivec2 at) {
-            return drawnVertex(shape, chunk.item, *chunk.heights, false, at.x, at.y).positionM;
+            return aboveSea(screen,
+                            drawnVertex(shape, chunk.item, *chunk.heights, false, at.x, at.y).positionM);
         };
         for (int along = 0; along <= cells; ++along) {
             const glm::ivec2 at = upright ? glm::ivec2(across, along) : glm::ivec2(along, across);

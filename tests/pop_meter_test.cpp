@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <random>
 
+#include "planet/cube_sphere.h"
 #include "planet/drawn_surface.h"
 #include "tests/planet_fixture.h"
 
@@ -564,6 +566,73 @@ TEST(PopMeter, AChunkFreedByANeighbourOutOfViewIsCulling) {
     meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, settings, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].cause, PopCause::Culling);
+}
+
+// The mean over the screen, by many small squares of the finer chunk, each with its area on screen. It shares
+// no more with the meter than where the surfaces lie.
+double meanBySquares(const DrawnChunk& coarser, const DrawnChunk& finer, int quadrant, const View& view) {
+    const PlanetShape& shape = fakePyramid().shape;
+    const DrawnGrid coarse = drawnGrid(shape, coarser.item, *coarser.heights, false);
+    const DrawnGrid fine = drawnGrid(shape, finer.item, *finer.heights, false);
+    const auto project = [&](const glm::dvec3& pointM) {
+        const glm::dvec3 fromEye = pointM - view.eyeM;
+        const double ahead = -glm::dot(fromEye, view.back);
+        return glm::dvec3(glm::dot(fromEye, view.right) / ahead, glm::dot(fromEye, view.up) / ahead, ahead);
+    };
+    constexpr int squares = 320;
+    constexpr double side = 16.0 / squares;
+    const double scalePx = view.widthPx / (2 * std::tan(view.horizontalFovRad / 2));
+    double area = 0;
+    double total = 0;
+    for (int i = 0; i < squares * squares; ++i) {
+        const double x = side * (i % squares);
+        const double y = side * (i / squares);
+        const glm::dvec3 corner = project(pointOn(fine, x, y));
+        const glm::dvec3 east = project(pointOn(fine, x + side, y)) - corner;
+        const glm::dvec3 north = project(pointOn(fine, x, y + side)) - corner;
+        const double middleX = x + side / 2;
+        const double middleY = y + side / 2;
+        const glm::dvec3 now = project(pointOn(fine, middleX, middleY));
+        const glm::dvec3 was = project(
+            pointOn(coarse, (middleX + 16 * (quadrant % 2)) / 2, (middleY + 16 * (quadrant / 2)) / 2));
+        if (now.z <= 0 || was.z <= 0) continue;
+        if (2 * scalePx * std::abs(now.x) > view.widthPx || 2 * scalePx * std::abs(now.y) > view.heightPx)
+            continue;
+        const double squareArea = std::abs(east.x * north.y - east.y * north.x);
+        area += squareArea;
+        total += squareArea * scalePx * std::hypot(now.x - was.x, now.y - was.y);
+    }
+    return total / area;
+}
+
+// Near, so that the foreground has most of the picture, and partly outside of it.
+TEST(PopMeter, TheMeanIsOverTheScreen) {
+    const auto chunkOf = [](const ChunkId& id, float morph) {
+        const DrawItem item = itemOf(wholeTree(), id, morph);
+        return DrawnChunk{item, wholeTree().nodes[item.node].heights};
+    };
+    const glm::dvec3 middle = glm::normalize(vertexM(fakePyramid().shape, fakePyramid().at(mountain), 8, 8));
+    const Geographic place = geographicFromDirection(middle);
+    const double latitudeDeg = glm::degrees(place.latitudeRad);
+    const double longitudeDeg = glm::degrees(place.longitudeRad);
+    int checked = 0;
+    for (const double altitudeM : {12'000.0, 30'000.0, 200'000.0}) {
+        for (const double pitchDeg : {-25.0, -60.0, -90.0}) {
+            const View view =
+                viewFromPose({latitudeDeg, longitudeDeg, altitudeM, 30, pitchDeg}, 1e5, 1.0, 800, 500);
+            for (int q = 0; q < quadrantCount; ++q) {
+                const DrawnChunk coarse = chunkOf(mountain, 0);
+                const DrawnChunk fine = chunkOf(childOf(mountain, q), 0.3f);
+                const SurfaceJump jump = surfaceJump(fakePyramid().shape, coarse, {&fine, 1}, false, view);
+                if (jump.places < 30) continue;
+                ++checked;
+                const double expectedPx = meanBySquares(coarse, fine, q, view);
+                EXPECT_NEAR(jump.meanPx, expectedPx, 0.02 * expectedPx)
+                    << altitudeM << " " << pitchDeg << " " << q;
+            }
+        }
+    }
+    EXPECT_GT(checked, 10);
 }
 
 // Down from high up in small steps over several places, all loaded: what the morph is for. With a fade each

@@ -159,8 +159,7 @@ void selectedValues(const PopEvent& event) {
     valueRow("facing", popPxText(event.jump.largestFacingPx),
              "Largest jump in pixels as if the view faced the place, without the stretching towards the "
              "picture's corners.");
-    valueRow("mean", popPxText(event.jump.meanPx),
-             "Mean over all its grid points in the picture, in pixels.");
+    valueRow("mean", popPxText(event.jump.meanPx), "Mean over its screen area in the picture, in pixels.");
     valueRow("adjacent", popPxText(event.besidePx),
              "Largest jump along edges of unchanged adjacent chunks, in pixels.");
     endValues();
