@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "app/flight_record.h"
 #include "app/places.h"
@@ -104,12 +105,18 @@ void followFrame(CameraRig& rig, const Surroundings& around, double seconds) {
     FollowedFlight& flight = *rig.flight;
     const double radiusM = around.groundBelow(rig.camera.eyeM).radiusM;
     if (flight.from) {
+        rig.jumped = true;
         flight.joinedShare = std::min(flight.joinedShare + seconds / joinFlightS, 1.0);
         if (flight.joinedShare >= 1) flight.from.reset();
     } else if (!flight.paused) {
         const double lengthS = durationS(flight.path);
+        const double startS = flight.path.keys.front().timeS + flight.timeS;
+        rig.jumped |= jumpsBetween(flight.path, startS, startS + seconds);
         flight.timeS += seconds;
-        if (flight.timeS > lengthS) flight.timeS = std::fmod(flight.timeS, lengthS);
+        if (flight.timeS > lengthS) {
+            flight.timeS = std::fmod(flight.timeS, lengthS);
+            rig.jumped = true;
+        }
     }
     const double start = flight.path.keys.front().timeS;
     Camera camera = cameraFromPose(poseAt(flight.path, start + flight.timeS), radiusM);
@@ -226,6 +233,7 @@ planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, cons
 
 void placeRig(CameraRig& rig, const Camera& camera, ui::CameraSettings& settings) {
     rig.camera = camera;
+    rig.jumped = true;
     rig.pivotM.reset();
     if (settings.mode == ui::CameraMode::FollowFlight) settings.mode = ui::CameraMode::Fly;
 }
@@ -245,6 +253,11 @@ void moveFlight(CameraRig& rig, double timeS) {
     if (!rig.flight) return;
     rig.flight->timeS = std::clamp(timeS, 0.0, durationS(rig.flight->path));
     rig.flight->from.reset();
+    rig.jumped = true;
+}
+
+bool takeJump(CameraRig& rig) {
+    return std::exchange(rig.jumped, false);
 }
 
 void pauseFlight(CameraRig& rig, bool paused) {

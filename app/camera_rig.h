@@ -39,6 +39,8 @@ struct CameraRig {
     ui::CameraMode mode = ui::CameraMode::Fly;  // of the last frame
     std::optional<glm::dvec3> pivotM{};  // of Orbit: on the ground; none: what is in the middle next frame
     std::optional<FollowedFlight> flight{};  // also while another mode has left it
+    // Whether it was put elsewhere at once since takeJump(), or is on its way to a flight.
+    bool jumped = false;
 };
 
 // One frame, by the mode that the settings ask for. A touch of the controls leaves a flight: then the
@@ -49,6 +51,8 @@ planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, cons
 
 // Puts the camera somewhere at once. Leaves a flight; an orbit goes on about what is then in the middle.
 void placeRig(CameraRig& rig, const Camera& camera, ui::CameraSettings& settings);
+
+bool takeJump(CameraRig& rig);
 
 // Follows a flight from its beginning.
 planet::Result<void> startFlight(CameraRig& rig, const std::filesystem::path& file,

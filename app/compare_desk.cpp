@@ -70,9 +70,10 @@ void beginMeters(CompareDesk& desk, const Scene& a) {
     desk.lastScene = a.identity;
 }
 
-void keepPops(const Scene& scene, const planet::View& view, double timeS, planet::PopMeter& pops) {
+void keepPops(const Scene& scene, const CompareFrame& now, planet::PopMeter& pops) {
     const planet::Planet& planet = *scene.planet;
-    pops.add(planet.tree(), planet.selection(), view, planet.lodSettings(), timeS);
+    pops.add(planet.tree(), planet.selection(), now.view, planet.lodSettings(), now.timeS,
+             {.cameraJumped = now.cameraJumped, .seaM = scene.seaSurfaceM});
 }
 
 planet::gl::PictureMix mixOf(const ui::CompareKnobs& knobs, int widthPx) {
@@ -262,8 +263,8 @@ void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log) {
         log->error("B: {}", applied.error().message);
     if (now.goesOn) {
         stepScene(b, now.lodView, desk.other->settings);
-        keepPops(now.a, now.view, now.timeS, desk.meters[0].pops);
-        keepPops(b, now.view, now.timeS, desk.meters[1].pops);
+        keepPops(now.a, now, desk.meters[0].pops);
+        keepPops(b, now, desk.meters[1].pops);
     } else {
         b.drawCpuMs = 0;
         b.drawn = {};

@@ -88,7 +88,8 @@ struct CompareFrame {
     const planet::View& view;
     double timeS = 0;
     std::uint64_t frame = 0;
-    bool goesOn = true;  // false: frames are paused
+    bool cameraJumped = false;  // as of planet::PopConditions
+    bool goesOn = true;         // false: frames are paused
     bool pagingPaused = false;
 };
 void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log);

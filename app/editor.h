@@ -45,7 +45,8 @@ struct Editor {
     std::optional<CameraRig> rig;       // once a planet is open
     std::optional<CameraRig> observer;  // once it was looked through
     ui::CameraSettings observerControls;
-    planet::View lodView;  // follows the camera but while frozen
+    planet::View lodView;       // follows the camera but while frozen
+    bool cameraJumped = false;  // in the last frame, for what measures pops
     bool lodFrozen = false;
     std::optional<BeforeInspection> beforeInspection;
     bool framesPaused = false;

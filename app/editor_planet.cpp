@@ -111,13 +111,19 @@ std::size_t observerSelection(const Scene& scene, const Editor& editor) {
 
 // elapsedS: in place of the clock's, for single steps.
 void chooseChunks(Scene& scene, float pixelRatio, Editor& editor, std::optional<double> elapsedS) {
+    const glm::dvec3 fromM = editor.lodView.eyeM;
+    const bool placed = takeJump(*editor.rig);
     if (!editor.lodFrozen) editor.lodView = mainView(editor, pixelRatio);
+    const double passedS = std::max(editor.timeS - editor.pops.meter.lastTimeS(), 0.0);
+    editor.cameraJumped =
+        editor.lodView.eyeM != fromM &&
+        (placed || isCameraJump(fromM, editor.lodView.eyeM, scene.planet->shape().radiusM, passedS));
     if (observerChooses(editor))
         stepScene(scene, editor.lodView, observerView(editor, pixelRatio), editor.settings.view, elapsedS);
     else
         stepScene(scene, editor.lodView, editor.settings.view, elapsedS);
     editor.changes.add(scene.planet->selection(), editor.timeS);
-    measurePops(scene, mainView(editor, pixelRatio), editor.timeS, editor.pops);
+    measurePops(scene, mainView(editor, pixelRatio), editor.timeS, editor.cameraJumped, editor.pops);
 }
 
 void record(planet::Planet& planet, Editor& editor, const Log& log) {
@@ -145,19 +151,25 @@ void holdRecordedSettings(const ui::ViewSettings& recorded, ui::ViewSettings& se
 void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
     const FlightReplay& replayed = editor.desk.replay->replay;
     const std::size_t frameBefore = replayed.next();
-    const ReplayWatcher watcher{[&](const planet::Selection& selection) {
-                                    if (replayed.next() == 1) forgetChanges(editor);
-                                    editor.changes.add(selection, editor.timeS);
-                                    measurePops(scene, replayed.view(), replayed.timeS(), editor.pops);
-                                },
-                                [&](const ui::ViewSettings& recorded, bool pagingPaused) {
-                                    const ui::CameraSettings camera = editor.settings.view.camera;
-                                    const ui::CompareKnobs compare = editor.settings.view.compare;
-                                    editor.settings.view = recorded;
-                                    editor.settings.view.camera = camera;
-                                    editor.settings.view.compare = compare;
-                                    editor.pagingPaused = pagingPaused;
-                                }};
+    glm::dvec3 fromM = editor.lodView.eyeM;
+    const ReplayWatcher watcher{
+        [&](const planet::Selection& selection) {
+            if (replayed.next() == 1) forgetChanges(editor);
+            editor.changes.add(selection, editor.timeS);
+            const glm::dvec3& toM = replayed.view().eyeM;
+            const double passedS = std::max(replayed.timeS() - editor.pops.meter.lastTimeS(), 0.0);
+            editor.cameraJumped =
+                isCameraJump(std::exchange(fromM, toM), toM, scene.planet->shape().radiusM, passedS);
+            measurePops(scene, replayed.view(), replayed.timeS(), editor.cameraJumped, editor.pops);
+        },
+        [&](const ui::ViewSettings& recorded, bool pagingPaused) {
+            const ui::CameraSettings camera = editor.settings.view.camera;
+            const ui::CompareKnobs compare = editor.settings.view.compare;
+            editor.settings.view = recorded;
+            editor.settings.view.camera = camera;
+            editor.settings.view.compare = compare;
+            editor.pagingPaused = pagingPaused;
+        }};
     if (const auto done = advanceReplay(*editor.desk.replay, scene, seconds, watcher); !done) {
         log->error("{}", done.error().message);
         return endReplay(editor, &scene);
@@ -307,7 +319,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     advanceErrorMeter(*scene.planet, editor.frames, editor.timeS, editor.errors);
     stepCompared(editor.compare,
                  {scene, editor.settings.view, editor.lodView, mainView(editor, pixelRatio), editor.timeS,
-                  editor.frames, goesOn, editor.pagingPaused},
+                  editor.frames, editor.cameraJumped, goesOn, editor.pagingPaused},
                  log);
     const Stopwatch watch;
     drawMainPicture(scene, pixelRatio, editor, log);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,13 @@ planet::Result<FlightPath> loadFlightPath(const std::filesystem::path& file);
 planet::Result<FlightPath> flightPathFromText(std::string_view text, const std::filesystem::path& place);
 
 double durationS(const FlightPath& path);
+
+// Whether a camera comes from one place to another faster than any flight: within a tenth of a second over 5
+// degrees of arc, ten times as high or as low, or ten times as far as it is high. Close to the ground its
+// height says little. Eyes: metres from the planet's centre; seconds >= 0.
+bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds);
+// Whether the path puts the camera elsewhere at once at a time in (fromS, toS].
+bool jumpsBetween(const FlightPath& path, double fromS, double toS);
 
 // How many views a flight has, one every so many seconds from its first key to its last. The Error is that of
 // --step-s: more than most of them.

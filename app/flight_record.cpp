@@ -12,7 +12,6 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <new>
-#include <numbers>
 #include <set>
 
 #include "app/settings_table.h"
@@ -693,23 +692,11 @@ planet::CameraPose flownPose(const FlightRecord& record, std::size_t frame) {
     return pose;
 }
 
-// Whether the camera comes to a frame faster than any flight: within a tenth of a second over 5 degrees of
-// arc, ten times as high or as low, or ten times as far as it is high. Close to the ground its height says
-// little.
 bool isJump(const FlightRecord& record, std::size_t frame) {
     if (frame == 0) return false;
-    constexpr double mostArcRad = 5 * std::numbers::pi / 180;
-    const double radiusM = record.data.shape.radiusM;
     const auto eyeM = [&](std::size_t i) { return record.frames[i].views[0].view.eyeM; };
-    const glm::dvec3 from = eyeM(frame - 1), to = eyeM(frame);
-    const double arcRad = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
-    const auto heightM = [&](const glm::dvec3& eye) {
-        return std::max(glm::length(eye) - radiusM, radiusM / 1000);
-    };
-    const double low = std::min(heightM(from), heightM(to)), high = std::max(heightM(from), heightM(to));
-    const double gaps = std::max(record.frames[frame].elapsedS / leastGapS, 1.0);
-    return arcRad > gaps * mostArcRad || std::log(high / low) > gaps * std::log(10) ||
-           arcRad * radiusM > gaps * 10 * high;
+    return isCameraJump(eyeM(frame - 1), eyeM(frame), record.data.shape.radiusM,
+                        record.frames[frame].elapsedS);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace worldy {
 
@@ -12,10 +13,15 @@ void forgetPops(Pops& pops) {
     pops.measuring = measuring;
 }
 
-void measurePops(const Scene& scene, const planet::View& view, double timeS, Pops& pops) {
-    if (!pops.measuring) return;
+void measurePops(const Scene& scene, const planet::View& view, double timeS, bool cameraJumped, Pops& pops) {
+    if (!pops.measuring) {
+        pops.interrupted = true;
+        return;
+    }
+    const bool interrupted = std::exchange(pops.interrupted, false);
     const planet::Planet& planet = *scene.planet;
-    pops.meter.add(planet.tree(), planet.selection(), view, planet.lodSettings(), timeS);
+    pops.meter.add(planet.tree(), planet.selection(), view, planet.lodSettings(), timeS,
+                   {.cameraJumped = cameraJumped || interrupted, .seaM = scene.seaSurfaceM});
 }
 
 std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops) {

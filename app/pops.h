@@ -12,6 +12,7 @@ namespace worldy {
 struct Pops {
     planet::PopMeter meter;
     bool measuring = true;
+    bool interrupted = false;  // frames went by unmeasured: what they changed is no one frame's switch
     std::optional<planet::PopEvent> shown;  // last gone back to
     ui::PopSide side = ui::PopSide::Live;
     std::string problem;  // why that side cannot be drawn
@@ -20,8 +21,8 @@ struct Pops {
 // Another planet: nothing of it is known.
 void forgetPops(Pops& pops);
 
-// After a frame has been chosen. View: that shows it.
-void measurePops(const Scene& scene, const planet::View& view, double timeS, Pops& pops);
+// After a frame has been chosen. View: that shows it. cameraJumped: as of planet::PopConditions.
+void measurePops(const Scene& scene, const planet::View& view, double timeS, bool cameraJumped, Pops& pops);
 
 // What is to be drawn instead of what is chosen: the frame before or after the event, its chunks in the slots
 // that hold them now. None while the picture is live, or where chunks are missing; then the problem says so.

@@ -28,14 +28,12 @@ using planet::Result;
 constexpr std::array shares = {0.5, 0.9, 0.99, 1.0};
 constexpr std::array<const char*, shares.size()> shareNames = {"p50", "p90", "p99", "maximum"};
 
-// All switches, the worst first.
+// All switches, the worst first; those that do not count come last.
 std::vector<const PopEvent*> rankedEvents(const PopsFlight& flown) {
     std::vector<const PopEvent*> ranked;
     for (const PopEvent& event : flown.events) ranked.push_back(&event);
-    std::sort(ranked.begin(), ranked.end(), [](const PopEvent* a, const PopEvent* b) {
-        if (a->jump.largestPx != b->jump.largestPx) return a->jump.largestPx > b->jump.largestPx;
-        return a->frame != b->frame ? a->frame < b->frame : a->chunk < b->chunk;
-    });
+    std::sort(ranked.begin(), ranked.end(),
+              [](const PopEvent* a, const PopEvent* b) { return planet::isWorsePop(*a, *b); });
     return ranked;
 }
 
@@ -45,6 +43,9 @@ Json jsonOf(const PopEvent& event, double radiusM) {
             {"from_level", event.fromLevel},
             {"to_level", event.toLevel},
             {"cause", planet::popCauseName(event.cause)},
+            {"after_jump", event.afterJump},
+            {"under_sea", event.jump.underSea},
+            {"outside_picture", event.jump.places == 0 && !event.jump.underSea},
             {"largest_px", event.jump.largestPx},
             {"largest_facing_px", event.jump.largestFacingPx},
             {"mean_px", event.jump.meanPx},
@@ -62,6 +63,9 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight
                    {"tau_px", options.view.lod.tauPx},
                    {"morph", options.view.lod.morph},
                    {"switches", flown.totals.switches},
+                   {"counted", flown.totals.counted},
+                   {"after_jump", flown.totals.afterJump},
+                   {"under_sea", flown.totals.underSea},
                    {"outside_picture", flown.totals.outsidePicture},
                    {"late", flown.totals.late},
                    {"worst_beside_px", flown.totals.worstBesidePx},
@@ -79,29 +83,34 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight
 void printSummary(const FlightPath& path, const PopsOptions& options, const PopsFlight& flown) {
     std::vector<double> jumps = jumpsOf(flown);
     fmt::print("{}: {} frames, {:.4g} s apart\n", path.name, flown.frames, options.stepS);
-    fmt::print("{} switches of level, {} of them outside the picture; {:.0f} us to measure one\n",
-               flown.totals.switches, flown.totals.outsidePicture, flown.usPerSwitch);
+    const planet::PopTotals& totals = flown.totals;
+    fmt::print(
+        "{} switches of level, {:.0f} us to measure one; {} counted, {} after jump, {} under sea, "
+        "{} outside picture\n",
+        totals.switches, flown.usPerSwitch, totals.counted, totals.afterJump, totals.underSea,
+        totals.outsidePicture);
     for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
         if (flown.totals.byCause[i] == 0) continue;
         fmt::print("  {:18}{:8}\n", planet::popCauseName(static_cast<planet::PopCause>(i)),
                    flown.totals.byCause[i]);
     }
-    if (jumps.empty()) return;
-    fmt::print(
-        "99% of switches move less than {:.4f} px; median {:.4f}, 90% {:.4f}, worst {:.4f} px; edges "
-        "beside them {:.4f} px\n\n",
-        percentileOf(jumps, 0.99), percentileOf(jumps, 0.5), percentileOf(jumps, 0.9), percentileOf(jumps, 1),
-        flown.totals.worstBesidePx);
+    if (!jumps.empty()) {
+        fmt::print(
+            "99% of those counted move less than {:.4f} px; median {:.4f}, 90% {:.4f}, worst {:.4f} px; "
+            "edges beside them {:.4f} px\n",
+            percentileOf(jumps, 0.99), percentileOf(jumps, 0.5), percentileOf(jumps, 0.9),
+            percentileOf(jumps, 1), flown.totals.worstBesidePx);
+    }
     std::vector<const PopEvent*> worst = rankedEvents(flown);
     worst.resize(std::min(worst.size(), static_cast<std::size_t>(options.worst)));
     if (worst.empty()) return;
-    fmt::print("{:>10}  {:22}{:>8}{:>14}{:>14}{:>14}  {}\n", "time", "chunk", "levels", "largest px",
-               "mean px", "beside px", "cause");
+    fmt::print("\n{:>10}  {:22}{:>8}{:>14}{:>14}{:>14}  {:18}{}\n", "time", "chunk", "levels", "largest px",
+               "mean px", "beside px", "cause", "note");
     for (const PopEvent* event : worst) {
-        fmt::print("{:8.2f} s  {:22}{:>8}{:14.4f}{:14.4f}{:14.4f}  {}\n", event->timeS,
+        fmt::print("{:8.2f} s  {:22}{:>8}{:14.4f}{:14.4f}{:14.4f}  {:18}{}\n", event->timeS,
                    planet::toString(event->chunk), fmt::format("{} > {}", event->fromLevel, event->toLevel),
                    event->jump.largestPx, event->jump.meanPx, event->besidePx,
-                   planet::popCauseName(event->cause));
+                   planet::popCauseName(event->cause), planet::popNote(*event));
     }
 }
 

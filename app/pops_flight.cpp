@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <thread>
 
 #include "app/camera_control.h"
 #include "app/scene.h"
 #include "app/stopwatch.h"
+#include "planet/gl/frame_uniforms.h"
 
 namespace worldy {
 
@@ -45,6 +47,36 @@ Result<void> stepOnTime(planet::Planet& planet, const planet::ViewInput& view, d
     return {};
 }
 
+// In short stretches, between which it can be given up.
+Result<void> settleView(planet::Planet& planet, const planet::ViewInput& view,
+                        const std::function<bool()>& goOn) {
+    constexpr int stretches = 600;
+    for (int i = 0; i < stretches; ++i) {
+        if (planet.settle({&view, 1}, planet::noUpload, settleTimeoutS / stretches)) return {};
+        if (!goOn()) return planet::cancelled();
+    }
+    return planet::ioError(
+        fmt::format("what the first view wants was not loaded within {:.0f} s", settleTimeoutS));
+}
+
+// Ground that is loaded may lift the camera, and then the view wants more.
+Result<void> settleAtStart(planet::Planet& planet, const std::function<planet::View()>& firstView,
+                           const planet::LodSettings& lod, const std::function<bool()>& goOn) {
+    constexpr int mostLifts = 5;
+    for (int i = 0; i < mostLifts; ++i) {
+        const planet::View view = firstView();
+        if (const Result<void> settled = settleView(planet, {view, lod, 1}, goOn); !settled) return settled;
+        if (firstView() == view) break;
+    }
+    return {};
+}
+
+std::optional<double> seaLevelM(const planet::Planet& planet, const ui::ViewSettings& settings,
+                                const planet::View& view) {
+    const planet::gl::RenderSettings render = renderSettingsOf(settings, view, planet.tree());
+    return planet::gl::isSeaSurfaceDrawn(render, false) ? std::optional(render.seaLevelM) : std::nullopt;
+}
+
 }  // namespace
 
 Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
@@ -56,6 +88,10 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
     const Result<int> frames = flightViews(path, stepS, mostFrames);
     if (!frames) return tl::unexpected(frames.error());
     flown.frames = *frames;
+    const auto firstView = [&] { return viewAt(planet, path, startS, settings.camera.fovDeg, size); };
+    if (const Result<void> settled = settleAtStart(planet, firstView, lod, [&] { return goOn(0); }); !settled)
+        return tl::unexpected(settled.error());
+    const std::optional<double> seaM = seaLevelM(planet, settings, firstView());
     planet::PopMeter meter;
     for (int i = 0; i < flown.frames; ++i) {
         const auto share = static_cast<double>(i) / flown.frames;
@@ -64,7 +100,9 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
         const Result<void> stepped =
             stepOnTime(planet, {view, lod, 1}, i == 0 ? 0 : stepS, [&] { return goOn(share); });
         if (!stepped) return tl::unexpected(stepped.error());
-        meter.add(planet.tree(), planet.selection(), view, lod, i * stepS);
+        const double timeS = startS + i * stepS;
+        meter.add(planet.tree(), planet.selection(), view, lod, i * stepS,
+                  {.cameraJumped = i > 0 && jumpsBetween(path, timeS - stepS, timeS), .seaM = seaM});
         // It forgets what is minutes old.
         const auto& events = meter.events();
         for (auto event = events.rbegin();
@@ -79,7 +117,7 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
 std::vector<double> jumpsOf(const PopsFlight& flown) {
     std::vector<double> jumps;
     for (const PopEvent& event : flown.events) {
-        if (event.jump.places > 0) jumps.push_back(event.jump.largestPx);
+        if (planet::counts(event)) jumps.push_back(event.jump.largestPx);
     }
     std::sort(jumps.begin(), jumps.end());
     return jumps;

@@ -1,5 +1,7 @@
 // A flight flown with all loads on time, and how far the surface jumps at each change of level: what `worldy
-// pops` and comparisons share. Draws nothing.
+// pops` and comparisons share. It begins settled: all that the first view wants is loaded, and every fade has
+// ended, before the first frame is measured. A sea that a GPU would draw as water hides the bed. Draws
+// nothing.
 #pragma once
 
 #include <functional>
@@ -27,7 +29,7 @@ planet::Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& 
                                       const ui::ViewSettings& settings, const PictureSize& size, double stepS,
                                       const PopsFlightWatch& goOn);
 
-// The largest jumps, pixels, of the switches in the picture, smallest first.
+// The largest jumps, pixels, of the switches that count (planet::counts), smallest first.
 std::vector<double> jumpsOf(const PopsFlight& flown);
 
 }  // namespace worldy

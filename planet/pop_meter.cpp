@@ -16,7 +16,7 @@ struct PopMeter::Switch {
     bool merged = false;        // the coarser one is drawn now
     std::uint32_t coarser = 0;  // places in the chunks of their frames
     std::vector<std::uint32_t> finer;
-    PopCause cause = PopCause::CameraMoved;
+    Why why{};
     SurfaceJump jump{};
     double besidePx = 0;
 };
@@ -89,6 +89,18 @@ const char* popCauseName(PopCause cause) {
     return names[static_cast<std::size_t>(cause)];
 }
 
+const char* popNote(const PopEvent& event) {
+    if (event.jump.underSea) return "under sea";
+    if (event.jump.places == 0) return "outside picture";
+    return event.afterJump ? "after jump" : "";
+}
+
+bool isWorsePop(const PopEvent& a, const PopEvent& b) {
+    if (counts(a) != counts(b)) return counts(a);
+    if (a.jump.largestPx != b.jump.largestPx) return a.jump.largestPx > b.jump.largestPx;
+    return a.frame != b.frame ? a.frame < b.frame : a.chunk < b.chunk;
+}
+
 PopMeter::Frame PopMeter::keep(const ChunkTree& tree, const Selection& selection, const View& view,
                                const LodSettings& settings) {
     Frame frame;
@@ -106,9 +118,11 @@ PopMeter::Frame PopMeter::keep(const ChunkTree& tree, const Selection& selection
 }
 
 void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View& view,
-                   const LodSettings& settings, double timeS) {
+                   const LodSettings& settings, double timeS, const PopConditions& conditions) {
     Frame now = keep(tree, selection, view, settings);
     if (timeS < nowS_) clear();
+    now.conditions = conditions;
+    now.conditions.cameraJumped |= !before_;
     nowS_ = timeS;
     std::vector<Switch> switches;
     if (before_ && before_->exaggeration == now.exaggeration) switches = findSwitches(now);
@@ -119,7 +133,7 @@ void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View
         totals_.measuringS += secondsSince(start);
         now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
         for (Switch& change : switches) {
-            change.cause = causeOf(now, change);
+            change.why = whyOf(now, change);
             note(now, change);
         }
     }
@@ -177,7 +191,8 @@ void PopMeter::measure(const PlanetShape& shape, const Frame& now, std::vector<S
         const Frame& fine = change.merged ? *before_ : now;
         std::vector<DrawnChunk> finer;
         for (const std::uint32_t place : change.finer) finer.push_back(drawnChunk(fine, place));
-        change.jump = surfaceJump(shape, drawnChunk(coarse, change.coarser), finer, change.merged, now.view);
+        change.jump = surfaceJump(shape, drawnChunk(coarse, change.coarser), finer, change.merged, now.view,
+                                  now.conditions.seaM);
     });
 }
 
@@ -210,8 +225,8 @@ void PopMeter::measureBeside(const PlanetShape& shape, const Frame& now,
             const std::uint32_t* beside = drawnOver(switched, neighbour);
             // Where what lies beyond has left the view, so has the edge.
             if (!beside || !isDrawn(now, switches[*beside], neighbour)) continue;
-            const SurfaceJump jump =
-                edgeJump(shape, drawnChunk(*before_, was), drawnChunk(now, chunk), edge, now.view);
+            const SurfaceJump jump = edgeJump(shape, drawnChunk(*before_, was), drawnChunk(now, chunk), edge,
+                                              now.view, now.conditions.seaM);
             double& largestPx = switches[*beside].besidePx;
             largestPx = std::max(largestPx, jump.largestPx);
         }
@@ -234,50 +249,71 @@ PopCause PopMeter::cameraOrSettings(const Frame& now) const {
     return same ? PopCause::CameraMoved : PopCause::SettingsChanged;
 }
 
-PopCause PopMeter::causeOf(const Frame& now, const Switch& change) const {
+PopMeter::Why PopMeter::whyOf(const Frame& now, const Switch& change) const {
+    const bool jumped = now.conditions.cameraJumped;
     const Frame& coarse = change.merged ? now : *before_;
     const KeptChunk& coarser = coarse.chunks[change.coarser];
-    if (isWaiting(coarser.item, coarser.children, coarse.settings))
-        return change.merged ? PopCause::Evicted : PopCause::LoadFinished;
+    if (isWaiting(coarser.item, coarser.children, coarse.settings)) {
+        if (change.merged) return {PopCause::Evicted, jumped};
+        return {PopCause::LoadFinished, jumped || decided_.loadsAfterJump.contains(change.chunk)};
+    }
     const auto& decided = change.merged ? decided_.merges : decided_.splits;
     if (const auto earlier = decided.find(change.chunk); earlier != decided.end()) return earlier->second;
-    if (cameraOrSettings(now) == PopCause::SettingsChanged) return PopCause::SettingsChanged;
-    if (isHeldBack(coarser.item, coarser.children, coarse.settings))
-        return neighbourCameOrWent(now, change.chunk) ? PopCause::Culling : PopCause::SeamLimit;
+    if (cameraOrSettings(now) == PopCause::SettingsChanged) return {PopCause::SettingsChanged, jumped};
+    if (isHeldBack(coarser.item, coarser.children, coarse.settings)) {
+        const bool culling = neighbourCameOrWent(now, change.chunk);
+        return {culling ? PopCause::Culling : PopCause::SeamLimit, jumped};
+    }
     // Hysteresis would have kept it split.
     const double leastPx = coarse.settings.tauPx * (1 - coarse.settings.hysteresis);
     if (change.merged && coarser.children != ChildrenState::Resident &&
         static_cast<double>(coarser.item.epsPx) > leastPx)
-        return PopCause::Evicted;
-    return PopCause::CameraMoved;
+        return {PopCause::Evicted, jumped};
+    return {PopCause::CameraMoved, jumped};
+}
+
+// The switch of this frame that has drawn a chunk in a coarser one's place; null where none has.
+const PopMeter::Switch* PopMeter::switchAbove(const ChunkId& chunk, std::span<const Switch> switches) const {
+    const std::uint32_t* above = before_ ? drawnAbove(before_->places, chunk) : nullptr;
+    if (!above) return nullptr;
+    const ChunkId& split = before_->chunks[*above].item.id;
+    const auto found =
+        std::lower_bound(switches.begin(), switches.end(), split,
+                         [](const Switch& change, const ChunkId& id) { return change.chunk < id; });
+    return found != switches.end() && found->chunk == split ? &*found : nullptr;
 }
 
 // Of a drawn chunk whose split is due and waits from this frame on.
-PopCause PopMeter::causeOfWaiting(const Frame& now, const ChunkId& chunk,
-                                  std::span<const Switch> switches) const {
-    if (!before_) return PopCause::CameraMoved;
-    if (const std::uint32_t* place = before_->places.find(chunk)) {
+PopMeter::Why PopMeter::whyOfWaiting(const Frame& now, const ChunkId& chunk,
+                                     std::span<const Switch> switches) const {
+    const bool jumped = now.conditions.cameraJumped;
+    if (const std::uint32_t* place = before_ ? before_->places.find(chunk) : nullptr) {
         const KeptChunk& was = before_->chunks[*place];
-        if (isWaiting(was.item, was.children, before_->settings)) return PopCause::LoadFinished;
+        if (isWaiting(was.item, was.children, before_->settings))
+            return {PopCause::LoadFinished, jumped || decided_.loadsAfterJump.contains(chunk)};
         const PopCause cause = cameraOrSettings(now);
         if (cause == PopCause::SettingsChanged || !isHeldBack(was.item, was.children, before_->settings))
-            return cause;
-        return neighbourCameOrWent(now, chunk) ? PopCause::Culling : PopCause::SeamLimit;
+            return {cause, jumped};
+        return {neighbourCameOrWent(now, chunk) ? PopCause::Culling : PopCause::SeamLimit, jumped};
     }
-    // It took the place of a coarser one on its way to a finer level.
-    if (const std::uint32_t* above = drawnAbove(before_->places, chunk)) {
-        const ChunkId& split = before_->chunks[*above].item.id;
-        const auto found =
-            std::lower_bound(switches.begin(), switches.end(), split,
-                             [](const Switch& change, const ChunkId& id) { return change.chunk < id; });
-        if (found != switches.end() && found->chunk == split) return found->cause;
-    }
-    return cameraOrSettings(now);
+    // It is on its way to a finer level still.
+    if (const Switch* above = switchAbove(chunk, switches)) return above->why;
+    return {cameraOrSettings(now), jumped};
 }
 
 PopMeter::Decided PopMeter::findDecided(const Frame& now, const Selection& selection,
                                         std::span<const Switch> switches) const {
     Decided decided;
+    for (const KeptChunk& chunk : now.chunks) {
+        const ChunkId& id = chunk.item.id;
+        if (!isWaiting(chunk.item, chunk.children, now.settings)) continue;
+        bool afterJump = now.conditions.cameraJumped || decided_.loadsAfterJump.contains(id);
+        if (!afterJump && !(before_ && before_->places.contains(id))) {
+            const Switch* above = switchAbove(id, switches);
+            afterJump = above && above->why.afterJump;
+        }
+        if (afterJump) decided.loadsAfterJump.insert(id);
+    }
     if (!now.settings.morph || now.settings.fadeS == 0) return decided;
     // Parents come first: what a chunk's merge takes with it merges for the same reason.
     for (const ChildrenRequest& split : selection.splits) {
@@ -286,17 +322,17 @@ PopMeter::Decided PopMeter::findDecided(const Frame& now, const Selection& selec
         const bool keeps = keepsSplit(split, now.settings);
         if (keeps && above == decided.merges.end()) continue;
         const auto earlier = decided_.merges.find(id);
-        const PopCause cause = earlier != decided_.merges.end() ? earlier->second
-                               : keeps                          ? above->second
-                                                                : cameraOrSettings(now);
-        decided.merges.emplace(id, cause);
+        const Why why = earlier != decided_.merges.end() ? earlier->second
+                        : keeps                          ? above->second
+                                : Why{cameraOrSettings(now), now.conditions.cameraJumped};
+        decided.merges.emplace(id, why);
     }
     for (const KeptChunk& chunk : now.chunks) {
         if (!chunk.item.splitWaits) continue;
         const ChunkId& id = chunk.item.id;
         const auto earlier = decided_.splits.find(id);
         decided.splits.emplace(
-            id, earlier != decided_.splits.end() ? earlier->second : causeOfWaiting(now, id, switches));
+            id, earlier != decided_.splits.end() ? earlier->second : whyOfWaiting(now, id, switches));
     }
     return decided;
 }
@@ -321,7 +357,8 @@ void PopMeter::note(const Frame& now, const Switch& change) {
     event.timeS = nowS_;
     event.frame = frame_;
     event.chunk = change.chunk;
-    event.cause = change.cause;
+    event.cause = change.why.cause;
+    event.afterJump = change.why.afterJump;
     event.jump = change.jump;
     event.besidePx = change.besidePx;
     event.viewBefore = before_->view;
@@ -339,9 +376,14 @@ void PopMeter::note(const Frame& now, const Switch& change) {
     event.toLevel = change.merged ? change.chunk.level : finest;
     ++totals_.switches;
     ++totals_.byCause[static_cast<std::size_t>(event.cause)];
-    if (event.jump.places == 0) ++totals_.outsidePicture;
-    totals_.worstPx = std::max(totals_.worstPx, event.jump.largestPx);
-    totals_.worstBesidePx = std::max(totals_.worstBesidePx, event.besidePx);
+    if (event.jump.underSea)
+        ++totals_.underSea;
+    else if (event.jump.places == 0)
+        ++totals_.outsidePicture;
+    else
+        ++(event.afterJump ? totals_.afterJump : totals_.counted);
+    if (counts(event)) totals_.worstPx = std::max(totals_.worstPx, event.jump.largestPx);
+    if (!event.afterJump) totals_.worstBesidePx = std::max(totals_.worstBesidePx, event.besidePx);
     events_.push_back(std::move(event));
 }
 
@@ -404,7 +446,7 @@ void PopMeter::forgetOld() {
 double PopMeter::percentilePx(double share) const {
     std::vector<double> values;
     for (const PopEvent& event : events_) {
-        if (event.jump.places > 0) values.push_back(event.jump.largestPx);
+        if (counts(event)) values.push_back(event.jump.largestPx);
     }
     return percentileOf(values, share);
 }

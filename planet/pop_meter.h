@@ -6,7 +6,11 @@
 // A pop is the distance on screen, through the new view, between the surface as it was drawn in the frame
 // before, morph included, and as it is drawn now at the same place. A camera that moves does not count, but
 // what vertices slide in that frame anyway does. Only places in the picture are looked at; whether something
-// hides them is not asked.
+// hides them is not asked, but for a drawn sea: places under it do not count.
+//
+// A jump of the camera, and the first frame of all, begin loads and fades that say nothing about a camera
+// that moves. Every switch that comes of what was wanted in such a frame is marked as after a jump, until
+// none of it waits any more.
 //
 // What comes into view or goes out of it is no change of level.
 #pragma once
@@ -18,6 +22,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "planet/chunk_table.h"
@@ -39,6 +44,12 @@ enum class PopCause : std::uint8_t {
 inline constexpr std::size_t popCauseCount = 6;
 const char* popCauseName(PopCause cause);  // "camera moved"
 
+// What else the meter is told of a frame.
+struct PopConditions {
+    bool cameraJumped = false;     // since the frame before, or is on its way to a flight
+    std::optional<double> seaM{};  // level of a sea that is drawn as water, metres above the radius
+};
+
 // What was drawn in a frame, for looking at it again.
 struct DrawnFrame {
     std::vector<DrawItem> items;
@@ -53,8 +64,9 @@ struct PopEvent {
     int fromLevel = 0;        // of the finest chunk on either side
     int toLevel = 0;
     PopCause cause = PopCause::CameraMoved;
-    SurfaceJump jump;     // of the place itself; jump.places is 0 where it lies outside the picture
-    double besidePx = 0;  // the largest screenPx along edges of unchanged chunks that it lies beside
+    bool afterJump = false;  // it was wanted in the frame of a jump, or in the first
+    SurfaceJump jump;        // of the place itself; jump.places is 0 where nothing of it is seen
+    double besidePx = 0;     // the largest screenPx along edges of unchanged chunks that it lies beside
     View viewBefore;
     View view;                     // that the jump is measured in
     std::vector<DrawItem> before;  // at the chunk's place; node and slot held in that frame only
@@ -62,6 +74,15 @@ struct PopEvent {
     std::weak_ptr<const DrawnFrame> frameBefore;  // all that was drawn; gone once it is too old
     std::weak_ptr<const DrawnFrame> frameAfter;
 };
+
+// Whether an event counts: it is seen, and not after a jump.
+inline bool counts(const PopEvent& event) {
+    return event.jump.places > 0 && !event.afterJump;
+}
+// Why it does not: "outside picture", "under sea" or "after jump"; "" where it counts.
+const char* popNote(const PopEvent& event);
+// Those that count first, of either kind the largest jump first, and of equal ones the earliest.
+bool isWorsePop(const PopEvent& a, const PopEvent& b);
 
 enum class LateEnd : std::uint8_t {
     Open,       // still late
@@ -86,6 +107,9 @@ struct PopTotals {
     std::array<std::uint64_t, popCauseCount> byCause{};
     std::uint64_t switches = 0;
     std::uint64_t outsidePicture = 0;  // switches of which no place lay in the picture
+    std::uint64_t underSea = 0;        // of which all places in the picture lay under a drawn sea
+    std::uint64_t afterJump = 0;       // seen, but after a jump
+    std::uint64_t counted = 0;         // the others; the largest below are of these
     std::uint64_t cameIntoView = 0;    // chunks that were culled in the frame before
     std::uint64_t wentOutOfView = 0;
     std::uint64_t late = 0;  // late arrivals, open ones too
@@ -100,7 +124,7 @@ public:
     // last one forgets everything first; another exaggeration the frame before, so that nothing is measured
     // across it.
     void add(const ChunkTree& tree, const Selection& selection, const View& view, const LodSettings& settings,
-             double timeS);
+             double timeS, const PopConditions& conditions = {});
     // Forgets everything: for another planet.
     void clear();
 
@@ -110,7 +134,7 @@ public:
     const std::deque<LateArrival>& late() const { return late_; }
     std::size_t lateOpen() const { return open_.size(); }
     const PopTotals& totals() const { return totals_; }
-    // The jump that a share, [0, 1], of the kept switches in the picture does not exceed: nearest rank. 0
+    // The jump that a share, [0, 1], of the kept switches that count does not exceed: nearest rank. 0
     // where there are none.
     double percentilePx(double share) const;
     double measuredUsPerSwitch() const;  // time that measuring one switch takes, on average
@@ -134,13 +158,19 @@ private:
         View view;
         LodSettings settings;
         double exaggeration = 1;
+        PopConditions conditions;
         std::shared_ptr<const DrawnFrame> drawn;
     };
     struct Switch;
+    struct Why {
+        PopCause cause = PopCause::CameraMoved;
+        bool afterJump = false;
+    };
     // Switches that are decided and not drawn yet, with what decided them; by the coarser chunk.
     struct Decided {
-        std::unordered_map<ChunkId, PopCause> splits;
-        std::unordered_map<ChunkId, PopCause> merges;
+        std::unordered_map<ChunkId, Why> splits;
+        std::unordered_map<ChunkId, Why> merges;
+        std::unordered_set<ChunkId> loadsAfterJump;  // drawn, waiting for children since a jump
     };
 
     static Frame keep(const ChunkTree& tree, const Selection& selection, const View& view,
@@ -150,8 +180,9 @@ private:
     void measureBeside(const PlanetShape& shape, const Frame& now, std::vector<Switch>& switches) const;
     bool isDrawn(const Frame& now, const Switch& change, const ChunkId& place) const;
     PopCause cameraOrSettings(const Frame& now) const;
-    PopCause causeOf(const Frame& now, const Switch& change) const;
-    PopCause causeOfWaiting(const Frame& now, const ChunkId& chunk, std::span<const Switch> switches) const;
+    Why whyOf(const Frame& now, const Switch& change) const;
+    Why whyOfWaiting(const Frame& now, const ChunkId& chunk, std::span<const Switch> switches) const;
+    const Switch* switchAbove(const ChunkId& chunk, std::span<const Switch> switches) const;
     Decided findDecided(const Frame& now, const Selection& selection, std::span<const Switch> switches) const;
     bool neighbourCameOrWent(const Frame& now, const ChunkId& chunk) const;
     void note(const Frame& now, const Switch& change);

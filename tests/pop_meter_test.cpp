@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <random>
 
 #include "planet/cube_sphere.h"
@@ -315,6 +316,10 @@ struct FadingFrames {
             meter.add(tree, selection, view, settings, timeS += popFrameS);
         }
     }
+    void addAfterJump(const ChunkTree& tree, const View& view, const LodSettings& settings) {
+        selectChunks(tree, view, settings, selection, popFrameS);
+        meter.add(tree, selection, view, settings, timeS += popFrameS, {.cameraJumped = true});
+    }
     std::uint64_t switches() const { return meter.totals().switches; }
 };
 
@@ -566,6 +571,112 @@ TEST(PopMeter, AChunkFreedByANeighbourOutOfViewIsCulling) {
     meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, settings, popFrameS);
     ASSERT_EQ(meter.events().size(), 1u);
     EXPECT_EQ(meter.events()[0].cause, PopCause::Culling);
+}
+
+// Jumps of the camera.
+
+TEST(PopMeter, WhatAJumpBeginsIsAfterTheJumpUntilItHasFaded) {
+    FadingFrames frames;
+    frames.add(wholeTree(), viewAt(30, 20, 60000), fadingSettings(1), fadedFrames);
+    frames.addAfterJump(wholeTree(), viewAt(30, 20, 8000), fadingSettings(1));
+    frames.add(wholeTree(), viewAt(30, 20, 8000), fadingSettings(1), fadedFrames);
+    const PopTotals jumped = frames.meter.totals();
+    EXPECT_GT(jumped.afterJump, 1u);
+    EXPECT_EQ(jumped.counted, 0u);
+    EXPECT_EQ(jumped.worstPx, 0);
+    EXPECT_EQ(frames.meter.percentilePx(1), 0);
+    for (const PopEvent& event : frames.meter.events()) EXPECT_TRUE(event.afterJump);
+    frames.add(wholeTree(), viewAt(30, 20, 8000), fadingSettings(24), fadedFrames);
+    EXPECT_GT(frames.meter.totals().counted, 1u);
+    EXPECT_EQ(frames.meter.totals().afterJump, jumped.afterJump);
+}
+
+TEST(PopMeter, LoadsThatTheFirstFrameWaitsForAreAfterAJump) {
+    ChunkTree tree = residentTree(fakePyramid(), 2);
+    const View view = viewAt(30, 20);
+    const LodSettings settings = tauOf(0.2);
+    PopMeter meter;
+    double timeS = 0;
+    const auto add = [&] { addSelected(meter, tree, view, settings, timeS += popFrameS); };
+    add();
+    for (int level = 2; level < 4; ++level) {
+        for (const ChildrenRequest& request : select(tree, view, settings).requests)
+            addBlock(tree, request.parentId);
+        add();
+    }
+    EXPECT_GT(meter.totals().switches, 2u);
+    for (const PopEvent& event : meter.events()) {
+        EXPECT_TRUE(event.afterJump) << toString(event.chunk);
+        EXPECT_EQ(event.cause, PopCause::LoadFinished);
+        if (event.jump.places > 0) {
+            EXPECT_STREQ(popNote(event), "after jump");
+        }
+    }
+}
+
+TEST(PopMeter, LoadsThatAreWantedLaterAreNotAfterAJump) {
+    ChunkTree tree = residentTree(fakePyramid(), 3);
+    const View view = viewAt(30, 20);
+    PopMeter meter;
+    addSelected(meter, tree, view, tauOf(200), 0);
+    ASSERT_EQ(meter.lateOpen(), 0u);
+    addSelected(meter, tree, view, tauOf(2), popFrameS);
+    for (const ChildrenRequest& request : select(tree, view, tauOf(2)).requests)
+        addBlock(tree, request.parentId);
+    addSelected(meter, tree, view, tauOf(2), 2 * popFrameS);
+    EXPECT_GT(countOf(meter, PopCause::LoadFinished), 0u);
+    for (const PopEvent& event : meter.events()) EXPECT_FALSE(event.afterJump);
+}
+
+TEST(PopMeter, SwitchesThatCountAreWorseThanThoseThatDoNot) {
+    PopEvent small, large, jumped, unseen;
+    small.jump.largestPx = 0.1;
+    large.jump.largestPx = 2;
+    jumped.jump.largestPx = 40;
+    small.jump.places = large.jump.places = jumped.jump.places = 1;
+    jumped.afterJump = true;
+    EXPECT_TRUE(isWorsePop(large, small));
+    EXPECT_TRUE(isWorsePop(small, jumped));
+    EXPECT_TRUE(isWorsePop(jumped, unseen));
+    EXPECT_FALSE(isWorsePop(unseen, small));
+    EXPECT_STREQ(popNote(large), "");
+    EXPECT_STREQ(popNote(unseen), "outside picture");
+}
+
+// The sea.
+
+PopEvent switchAtSea(std::optional<double> seaM) {
+    const View view = fromBeside(mountain);
+    PopMeter meter;
+    meter.add(wholeTree(), drawing({itemOf(wholeTree(), mountain)}), view, {}, 0, {.seaM = seaM});
+    meter.add(wholeTree(), drawingChildren(wholeTree(), mountain, {0, 0, 0, 0}), view, {}, popFrameS,
+              {.seaM = seaM});
+    EXPECT_EQ(meter.totals().underSea, meter.events().front().jump.underSea ? 1u : 0u);
+    return meter.events().front();
+}
+
+TEST(PopMeter, ADrawnSeaHidesTheBedsJump) {
+    const PlanetShape& shape = fakePyramid().shape;
+    const ChunkData& chunk = fakePyramid().at(mountain);
+    const double lowM = heightM(shape, chunk.minStep);
+    const double highM = heightM(shape, chunk.maxStep);
+    const PopEvent dry = switchAtSea(std::nullopt);
+    EXPECT_FALSE(dry.jump.underSea);
+    const PopEvent below = switchAtSea(lowM - 1);
+    EXPECT_EQ(below.jump.places, dry.jump.places);
+    EXPECT_EQ(below.jump.largestPx, dry.jump.largestPx);
+    EXPECT_EQ(below.jump.meanPx, dry.jump.meanPx);
+    const PopEvent half = switchAtSea(0.5 * (lowM + highM));
+    EXPECT_FALSE(half.jump.underSea);
+    EXPECT_GT(half.jump.places, 0u);
+    EXPECT_LT(half.jump.places, dry.jump.places);
+    EXPECT_LE(half.jump.largestPx, dry.jump.largestPx);
+    const PopEvent covered = switchAtSea(highM + 1);
+    EXPECT_TRUE(covered.jump.underSea);
+    EXPECT_EQ(covered.jump.places, 0u);
+    EXPECT_EQ(covered.jump.largestPx, 0);
+    EXPECT_EQ(covered.jump.meanPx, 0);
+    EXPECT_STREQ(popNote(covered), "under sea");
 }
 
 // The mean over the screen, by many small squares of the finer chunk, each with its area on screen. It shares

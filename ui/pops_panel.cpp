@@ -40,7 +40,7 @@ void refresh(const EditorView& view, PopsPanelState& state) {
     sample.switches = meter.totals().switches;
     std::vector<float> positions;
     for (const PopEvent& event : meter.events()) {
-        if (event.jump.places == 0) continue;
+        if (!planet::counts(event)) continue;
         const double px = std::max(event.jump.largestPx, leastPopPx);
         positions.push_back(static_cast<float>(logarithmicPosition(px, leastPopPx, mostPopPx)));
     }
@@ -80,7 +80,8 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
                            popPxText(std::max(sample.p99Px, leastPopPx)).c_str(),
                            countText(static_cast<double>(sample.seen)).c_str());
         tooltip(
-            "Level changes in the picture in the last five minutes: the largest screen-space distance, in "
+            "Level changes in the last five minutes that are visible and do not follow a camera jump: the "
+            "largest screen-space distance, in "
             "pixels, that a surface point jumps in the frame of the switch, including morphing. Less than "
             "0.1 px is invisible.");
     }
@@ -115,7 +116,8 @@ void totals(const EditorView& view, const PopsPanelState& state) {
     }
     valueRow("median jump", popPxText(state.sample.medianPx),
              "Median of the switches in the histogram, in pixels.");
-    valueRow("max jump", popPxText(t.worstPx), "Largest jump since the list was cleared, in pixels.");
+    valueRow("max jump", popPxText(t.worstPx),
+             "Largest jump of the switches that count since the list was cleared, in pixels.");
     valueRow("max adjacent jump", popPxText(t.worstBesidePx),
              "Largest jump along an edge of an unchanged chunk beside a switch, in pixels; the edge follows "
              "its neighbour.");
@@ -124,8 +126,15 @@ void totals(const EditorView& view, const PopsPanelState& state) {
         "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
         meter.lateOpen() > 0 ? &palette().warning : nullptr);
     valueRow("late, total", count(t.late), "Late chunks since the list was cleared.");
-    valueRow("outside the picture", count(t.outsidePicture),
+    valueRow("outside picture", count(t.outsidePicture),
              "Switches outside the picture; they count only in the totals by cause.");
+    valueRow(
+        "under sea", count(t.underSea),
+        "Switches of the sea bed under a sea that is drawn as water. They are not visible and count only "
+        "in the totals by cause.");
+    valueRow("after jump", count(t.afterJump),
+             "Switches caused by a camera jump or by the start of the measurement: the loads and fades that "
+             "were due then. They are listed last and count only in the totals by cause.");
     endValues();
 }
 
@@ -153,13 +162,16 @@ void selectedValues(const PopEvent& event) {
              "Level of the finest chunk drawn there, before and after.");
     const ImVec4 colour = popColour(event.cause);
     valueRow("cause", planet::popCauseName(event.cause), "Cause of the level change.", &colour);
+    if (!planet::counts(event))
+        valueRow("note", planet::popNote(event), "Why the switch does not count.", &palette().warning);
     valueRow("largest", popPxText(event.jump.largestPx),
              "Largest screen-space distance that a point jumps, in pixels, between the projections before "
              "and after through the new view.");
     valueRow("facing", popPxText(event.jump.largestFacingPx),
              "Largest jump in pixels as if the view faced the place, without the stretching towards the "
              "picture's corners.");
-    valueRow("mean", popPxText(event.jump.meanPx), "Mean over its screen area in the picture, in pixels.");
+    valueRow("mean", popPxText(event.jump.meanPx),
+             "Mean over its screen area in the picture, in pixels, without what a drawn sea covers.");
     valueRow("adjacent", popPxText(event.besidePx),
              "Largest jump along edges of unchanged adjacent chunks, in pixels.");
     endValues();
@@ -218,6 +230,7 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
     cell(planet::popCauseName(event.cause), popColour(event.cause));
     cell(popPxText(event.jump.meanPx));
     cell(popPxText(event.besidePx));
+    cell(planet::popNote(event), palette().dim);
 }
 
 void worstFirst(const EditorView& view, PopsPanelState& state) {
@@ -229,15 +242,12 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                                     TableColumn{"Levels", 0.9f},
                                     TableColumn{"Cause", 1.8f},
                                     TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
-                                    TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
-    if (!beginWideTable("worst", columns, 33)) return;
+                                    TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"},
+                                    TableColumn{"Note", 1.3f, nullptr, "outside picture"}};
+    if (!beginWideTable("worst", columns, 40)) return;
     std::vector<std::size_t> order(events.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto larger = [&](std::size_t a, std::size_t b) {
-        const double pxA = events[a].jump.largestPx;
-        const double pxB = events[b].jump.largestPx;
-        return pxA != pxB ? pxA > pxB : a > b;
-    };
+    const auto worse = [&](std::size_t a, std::size_t b) { return planet::isWorsePop(events[a], events[b]); };
     if (const std::optional<TableSort> sort = chosenSort()) {
         const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
             const PopEvent& event = events[row];
@@ -254,14 +264,16 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                     return std::string(planet::popCauseName(event.cause));
                 case 5:
                     return event.jump.meanPx;
-                default:
+                case 6:
                     return event.besidePx;
+                default:
+                    return std::string(planet::popNote(event));
             }
         };
         order = tableOrder(events.size(), sort, key);
         tableRows(order.size(), [&](std::size_t row) { eventRow(view, events[order[row]], row, state); });
     } else {
-        sortedTableRows(order, larger, [&](std::size_t event, std::size_t row) {
+        sortedTableRows(order, worse, [&](std::size_t event, std::size_t row) {
             eventRow(view, events[event], row, state);
         });
     }

@@ -82,7 +82,7 @@ std::vector<const planet::PopEvent*> columnsOf(const Plot& plot, const planet::P
         const auto column =
             std::min(static_cast<std::size_t>(plot.x(event.timeS) - plot.start.x), columns - 1);
         const planet::PopEvent*& best = highest[column];
-        if (!best || event.jump.largestPx > best->jump.largestPx) best = &event;
+        if (!best || planet::isWorsePop(event, *best)) best = &event;
     }
     return highest;
 }
@@ -92,7 +92,7 @@ void drawTicks(const Plot& plot, const std::vector<const planet::PopEvent*>& col
     for (const planet::PopEvent* event : columns) {
         if (!event) continue;
         const float x = plot.x(event->timeS);
-        const ImU32 colour = packed(popColour(event->cause));
+        const ImU32 colour = packed(popColour(event->cause), planet::counts(*event) ? 1.0f : 0.35f);
         drawList.AddLine({x, plot.end.y - 1}, {x, plot.y(event->jump.largestPx)}, colour, 1.5f);
         drawList.AddCircleFilled({x, plot.y(event->jump.largestPx)}, ImGui::GetFontSize() * 0.15f, colour);
     }
@@ -127,6 +127,7 @@ void tellAt(const Plot& plot, const planet::PopMeter& meter, const planet::PopEv
                     event->toLevel);
         ImGui::TextColored(popColour(event->cause), "%s, jumps %s", planet::popCauseName(event->cause),
                            popPxText(event->jump.largestPx).c_str());
+        if (!planet::counts(*event)) ImGui::TextUnformatted(planet::popNote(*event));
     }
     if (late > 0) ImGui::Text("%zu late chunks, max error %s", late, pixelsText(worstPx).c_str());
     ImGui::EndTooltip();

@@ -197,6 +197,27 @@ TEST(CameraRig, aFlightPausesScrubsAndBeginsAnewAtItsEnd) {
     EXPECT_EQ(driver.rig.flight->timeS, 0);
 }
 
+TEST(CameraRig, aFlightThatIsJoinedOrMovedAndAPlacedCameraAreJumps) {
+    const tests::TemporaryFolder folder;
+    Driver driver;
+    ASSERT_TRUE(driver.frame());
+    EXPECT_FALSE(takeJump(driver.rig));
+    ASSERT_TRUE(startFlight(driver.rig, writeFlight(folder), driver.settings));
+    ASSERT_TRUE(driver.frame());
+    EXPECT_TRUE(takeJump(driver.rig));
+    while (driver.rig.flight->from) ASSERT_TRUE(driver.frame());
+    EXPECT_TRUE(takeJump(driver.rig));
+    ASSERT_TRUE(driver.frame());
+    EXPECT_FALSE(takeJump(driver.rig));
+    moveFlight(driver.rig, 9.9);
+    EXPECT_TRUE(takeJump(driver.rig));
+    ASSERT_TRUE(driver.frame({}, {}, 0.2));  // over the end, and back to the start
+    EXPECT_TRUE(takeJump(driver.rig));
+    EXPECT_FALSE(takeJump(driver.rig));
+    placeRig(driver.rig, cameraAt(0, 0, 1000, 0, 0), driver.settings);
+    EXPECT_TRUE(takeJump(driver.rig));
+}
+
 TEST(CameraRig, touchingTheControlsLeavesAFlightWhereItIs) {
     const tests::TemporaryFolder folder;
     Driver driver;

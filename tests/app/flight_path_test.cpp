@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/camera_control.h"
 #include "planet/cube_sphere.h"
 #include "tests/temporary_folder.h"
 
@@ -132,6 +133,28 @@ TEST(FlightPath, ErrorsNameFileKeyAndWhatWouldBeRight) {
     EXPECT_THAT(pathErrorOf("speed = 3\n"), HasSubstr("speed is not known"));
     EXPECT_THAT(pathErrorOf("key = [3]\n"), HasSubstr("key 1 is not a table"));
     EXPECT_THAT(pathErrorOf("[[key]\n"), HasSubstr("path.toml: line 1: not TOML"));
+}
+
+TEST(FlightPath, AJumpIsFasterThanAnyFlight) {
+    constexpr double radiusM = 6.371e6;
+    const auto eyeM = [](double latitudeDeg, double altitudeM) {
+        return cameraFromPose({latitudeDeg, 20, altitudeM, 0, -30}, radiusM).eyeM;
+    };
+    constexpr double frameS = 1.0 / 60;
+    EXPECT_FALSE(isCameraJump(eyeM(10, 5000), eyeM(10, 5000), radiusM, 0));
+    EXPECT_FALSE(isCameraJump(eyeM(10, 5000), eyeM(10.01, 5200), radiusM, frameS));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 5000), eyeM(12, 5000), radiusM, frameS));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 2e7), eyeM(40, 2e7), radiusM, frameS));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 2e7), eyeM(10, 1e5), radiusM, frameS));
+    EXPECT_FALSE(isCameraJump(eyeM(10, 2e7), eyeM(14, 1.9e7), radiusM, 0.5));
+}
+
+TEST(FlightPath, JumpsAreFoundBetweenTwoTimes) {
+    FlightPath path;
+    path.keys = {{0, {}}, {1, {}}, {2, {}, true}, {3, {}}};
+    EXPECT_FALSE(jumpsBetween(path, 0, 1.9));
+    EXPECT_TRUE(jumpsBetween(path, 1.9, 2));
+    EXPECT_FALSE(jumpsBetween(path, 2, 3));
 }
 
 TEST(FlightPath, TheFlightsThatComeWithWorldyAreGood) {

@@ -1,4 +1,5 @@
 // worldy pops on a small planet.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,6 +57,43 @@ TEST_F(PopsCommand, TheReportHoldsAllSwitchesAndTheTableTheWorst) {
     const std::string head = "largest px";
     EXPECT_EQ(std::count(table.begin() + static_cast<std::ptrdiff_t>(table.find(head)), table.end(), '\n'),
               4);
+}
+
+// Loads and fades of the first view are no part of the measurement.
+TEST_F(PopsCommand, AStillCameraSwitchesNothing) {
+    std::ofstream still(folder.path() / "still.toml");
+    still << "name = \"Still\"\n";
+    for (const int timeS : {0, 2}) {
+        still << "[[key]]\ntime_s = " << timeS
+              << "\nlatitude_deg = 10\nlongitude_deg = 20\naltitude_m = 30000\nheading_deg = 0\n"
+                 "pitch_deg = -50\n";
+    }
+    still.close();
+    for (const char* options : {"", "--set lod.fade_s=0", "--tau 0.5 --set lod.morph=false"}) {
+        const Ran ran = runWorldy(
+            folder,
+            fmt::format("pops planet.chk --flight still.toml -o still.json --step-s 0.1 {}", options));
+        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+        const nlohmann::json found = nlohmann::json::parse(contentOf(folder.path() / "still.json"));
+        EXPECT_EQ(found["switches"], 0) << options;
+        EXPECT_EQ(found["late"], 0) << options;
+    }
+}
+
+// The sea level is set so high that all land is under it.
+TEST_F(PopsCommand, TheBedOfADrawnSeaIsNotSeenToPop) {
+    const std::string fine = "--tau 1 --step-s 0.02 --set lod.morph=false ";
+    const nlohmann::json dry = report(fine + "--set light.sea=off");
+    EXPECT_EQ(dry["under_sea"], 0);
+    EXPECT_EQ(dry["counted"].get<int>() + dry["outside_picture"].get<int>(), dry["switches"]);
+    const nlohmann::json flooded = report(fine + "--set light.sea=on --set surface.sea_level_m=9000");
+    EXPECT_EQ(flooded["switches"], dry["switches"]);
+    EXPECT_EQ(flooded["counted"], 0);
+    EXPECT_GT(flooded["under_sea"], 10);
+    EXPECT_EQ(flooded["under_sea"].get<int>() + flooded["outside_picture"].get<int>(), flooded["switches"]);
+    EXPECT_EQ(flooded["largest_px"]["maximum"], 0);
+    EXPECT_EQ(flooded["worst"][0]["under_sea"], true);
+    EXPECT_EQ(flooded["worst"][0]["after_jump"], false);
 }
 
 TEST_F(PopsCommand, SaysWhatIsWrongWithItsInput) {
