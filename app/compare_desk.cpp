@@ -63,8 +63,8 @@ double radiusOf(const Scene& scene) {
 
 void beginMeters(CompareDesk& desk, const Scene& a) {
     desk.meters = {};
-    desk.meters[0].bytesReadBefore = a.planet->paging().bytesRead;
-    if (desk.other) desk.meters[1].bytesReadBefore = desk.other->planet.scene.planet->paging().bytesRead;
+    desk.meters[0].bytesReadBefore = a.planet->bytesRead();
+    if (desk.other) desk.meters[1].bytesReadBefore = desk.other->planet.scene.planet->bytesRead();
     desk.measuredOf.reset();
     desk.difference.reset();
     desk.lastScene = a.identity;
@@ -145,8 +145,8 @@ ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters&
     figures.chunks = stats.selection.drawn;
     figures.residentBytes =
         static_cast<double>(stats.paging.residentBytesCpu + stats.paging.residentBytesGpu);
-    figures.bytesRead = static_cast<double>(stats.paging.bytesRead -
-                                            std::min(meters.bytesReadBefore, stats.paging.bytesRead));
+    const std::uint64_t bytesRead = ui::bytesReadOf(stats);
+    figures.bytesRead = static_cast<double>(bytesRead - std::min(meters.bytesReadBefore, bytesRead));
     figures.selectMs = stats.stages.selectMs;
     figures.drawMs = stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs;
     figures.worstEpsPx = static_cast<double>(stats.selection.worstEpsPx);

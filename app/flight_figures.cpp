@@ -74,7 +74,7 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
     Gathered gathered;
     // Residents of another setting are not this one's memory.
     offscreen.scene.planet->dropAll();
-    const std::uint64_t readBefore = offscreen.scene.planet->paging().bytesRead;
+    const std::uint64_t readBefore = offscreen.scene.planet->bytesRead();
     for (int i = 0; i < frames; ++i) {
         const std::function<bool()> goOnHere = [&] { return goOn(i); };
         if (!goOnHere()) return planet::cancelled();
@@ -93,7 +93,7 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
         if (const Result<void> looked = atMoment(offscreen, at); !looked)
             return tl::unexpected(looked.error());
     }
-    figures.bytesRead = offscreen.scene.planet->paging().bytesRead - readBefore;
+    figures.bytesRead = offscreen.scene.planet->bytesRead() - readBefore;
     figures.frames = frames;
     figures.meanGroundTriangles = meanOf(gathered.groundTriangles);
     figures.meanSkirtTriangles = meanOf(gathered.skirtTriangles);

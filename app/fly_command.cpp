@@ -54,7 +54,7 @@ constexpr std::array<Quantity, 24> quantities = {{
     {"queued", [](const Stats& s) { return double{1} * s.paging.queued; }},
     {"resident_bytes_cpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesCpu); }},
     {"resident_bytes_gpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesGpu); }},
-    {"bytes_read", [](const Stats& s) { return static_cast<double>(s.paging.bytesRead); }},
+    {"bytes_read", [](const Stats& s) { return static_cast<double>(ui::bytesReadOf(s)); }},
     {"upload_ms", [](const Stats& s) { return s.stages.uploadMs; }},
     {"select_ms", [](const Stats& s) { return s.stages.selectMs; }},
     {"paging_ms", [](const Stats& s) { return s.stages.pagingMs; }},

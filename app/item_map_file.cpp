@@ -13,7 +13,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     const planet::PagingCounters& paging = stats.paging;
     const planet::SelectionCounters& selection = stats.selection;
     std::vector<Counter> counters;
-    const auto add = [&](const char* name, const auto& value) {
+    const auto add = [&](const std::string& name, const auto& value) {
         counters.push_back({name, fmt::format("{}", value)});
     };
     add("frame", editor.frames);
@@ -26,9 +26,14 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("queued", paging.queued);
     add("loading", paging.loading);
     add("requested", paging.requested);
-    add("loaded", paging.loaded);
-    add("evicted", paging.evicted);
-    add("failed", paging.failed);
+    const auto addTotals = [&](const std::string& kind, const auto& totals) {
+        add("loaded_" + kind, totals.loaded);
+        add("evicted_" + kind, totals.evicted);
+        add("failed_" + kind, totals.failed);
+    };
+    addTotals("heights", paging);
+    addTotals("colours", stats.colourPaging);
+    addTotals("normals", stats.normalPaging);
     add("failed_for_good", paging.failedForGood);
     add("awaiting_retry", paging.awaitingRetry);
     add("colour_tiles", stats.colourPaging.residentTiles);

@@ -20,6 +20,18 @@ nlohmann::ordered_json poseJson(const planet::CameraPose& pose) {
             {"pitch_deg", pose.pitchDeg}};
 }
 
+namespace {
+
+// One object for a total that is counted per kind of block; countOf(counters) picks it.
+template <class CountOf>
+nlohmann::ordered_json byKind(const ui::FrameStats& stats, const CountOf& countOf) {
+    return {{"heights", countOf(stats.paging)},
+            {"colours", countOf(stats.colourPaging)},
+            {"normals", countOf(stats.normalPaging)}};
+}
+
+}  // namespace
+
 nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
     return {{"visited", stats.selection.visited},
             {"culled_frustum", stats.selection.culledFrustum},
@@ -36,14 +48,15 @@ nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
             {"requests", stats.paging.requested},
             {"queued", stats.paging.queued},
             {"loading", stats.paging.loading},
-            {"loaded_blocks", stats.paging.loaded},
-            {"evicted_blocks", stats.paging.evicted},
+            {"loaded_blocks", byKind(stats, [](const auto& paging) { return paging.loaded; })},
+            {"evicted_blocks", byKind(stats, [](const auto& paging) { return paging.evicted; })},
+            {"failed_reads", byKind(stats, [](const auto& paging) { return paging.failed; })},
             {"failed_blocks", stats.paging.failedForGood},
             {"budget_waits", stats.paging.budgetWaits},
             {"resident_chunks", stats.paging.residentChunks},
             {"resident_bytes_cpu", stats.paging.residentBytesCpu},
             {"resident_bytes_gpu", stats.paging.residentBytesGpu},
-            {"bytes_read", stats.paging.bytesRead},
+            {"bytes_read", ui::bytesReadOf(stats)},
             {"upload_ms", stats.stages.uploadMs},
             {"select_ms", stats.stages.selectMs},
             {"paging_ms", stats.stages.pagingMs},

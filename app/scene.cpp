@@ -387,6 +387,7 @@ ui::FrameStats statsOf(const Scene& scene) {
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
     stats.colourPaging = scene.planet->colourPaging();
+    stats.normalPaging = scene.planet->normalPaging();
     stats.stages = scene.planet->times();
     stats.render = scene.drawn;
     stats.gpuMemory = scene.renderer.gpuMemory();

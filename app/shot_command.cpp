@@ -51,7 +51,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
     }
     fmt::print("{}: {} chunks, {} triangles, worst error {:.2f} px, {} read\n", options.output.string(),
                stats.selection.drawn, ui::countText(static_cast<double>(stats.selection.triangles())),
-               stats.selection.worstEpsPx, ui::bytesText(static_cast<double>(stats.paging.bytesRead)));
+               stats.selection.worstEpsPx, ui::bytesText(static_cast<double>(ui::bytesReadOf(stats))));
 }
 
 }  // namespace

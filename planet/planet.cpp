@@ -379,6 +379,9 @@ const PagingSettings& Planet::pagingSettings() const {
 const PagingCounters& Planet::paging() const {
     return state_->paging;
 }
+std::uint64_t Planet::bytesRead() const {
+    return paging().bytesRead + colourPaging().bytesRead + normalPaging().bytesRead;
+}
 const std::deque<PagingEvent>& Planet::pagingHistory() const {
     return state_->history;
 }

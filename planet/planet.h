@@ -105,18 +105,21 @@ struct PagingMoves {
     bool operator==(const PagingMoves&) const = default;
 };
 
-// Totals since the file was opened, unless said otherwise.
+// Totals since the file was opened, unless said otherwise. Requests are counted over all kinds of blocks;
+// loaded, evicted, failed and bytesRead of heights alone, since TilePagingCounters has those of each kind of
+// tiles. Of each kind loaded - evicted blocks are resident now, checker patterns in place of failed ones
+// apart.
 struct PagingCounters {
     std::uint64_t requested = 0;       // page-ins put into the queue
     std::uint64_t merged = 0;          // asked again while queued
     std::uint64_t cancelled = 0;       // taken back by the opposite request, no longer wanted, or thrown away
-    std::uint64_t loaded = 0;          // blocks read and made resident
-    double loadSeconds = 0;            // spent on reading and decoding blocks, over all loader threads
-    std::uint64_t evicted = 0;         // blocks paged out
-    std::uint64_t failed = 0;          // reads that failed
-    std::uint64_t bytesRead = 0;       // from the file
-    std::uint32_t failedForGood = 0;   // blocks, now: not asked for again until told to
-    std::uint32_t awaitingRetry = 0;   // other blocks, now, whose last read failed
+    std::uint64_t loaded = 0;          // blocks of heights read and made resident
+    double loadSeconds = 0;            // spent on reading and decoding blocks of any kind, over all threads
+    std::uint64_t evicted = 0;         // blocks of heights paged out
+    std::uint64_t failed = 0;          // reads of heights that failed
+    std::uint64_t bytesRead = 0;       // from the file, for blocks of heights
+    std::uint32_t failedForGood = 0;   // blocks of any kind, now: not requested again until told to
+    std::uint32_t awaitingRetry = 0;   // other blocks of any kind, now, whose last read failed
     std::uint32_t queued = 0;          // now
     std::uint32_t loading = 0;         // now being read, or read and waiting for their upload
     std::uint32_t budgetWaits = 0;     // blocks wanted last step that the budget has no room for
@@ -125,12 +128,12 @@ struct PagingCounters {
     std::size_t residentBytesGpu = 0;  // now: heights in the pool that hold a resident chunk
 };
 
-// The same of tiles of one kind, beside what is counted of all kinds together.
+// The same of one kind of tiles, colours or normals.
 struct TilePagingCounters {
     std::uint64_t loaded = 0;        // blocks read and made resident
-    std::uint64_t evicted = 0;       // blocks paged out
+    std::uint64_t evicted = 0;       // loaded blocks that are no longer resident
     std::uint64_t failed = 0;        // reads that failed
-    std::uint64_t bytesRead = 0;     // from the file
+    std::uint64_t bytesRead = 0;     // from the file; for normals the heights that they are derived from
     std::uint32_t budgetWaits = 0;   // blocks wanted last step that the share has no room for
     std::size_t residentTiles = 0;   // now
     std::uint32_t tileCapacity = 0;  // 0: off, or no room for any
@@ -273,6 +276,7 @@ public:
     const Selection& selection(std::size_t view = 0) const;
     std::size_t viewCount() const;  // of the last step; 1 before it
     const PagingCounters& paging() const;
+    std::uint64_t bytesRead() const;  // from the file since it was opened, for blocks of all kinds
     const StageTimes& times() const;
     std::uint32_t slotCapacity() const;  // slots of the pool of heights that the budget pays for
     // True when the last selection waits for nothing that can still arrive, a block that is to be tried again

@@ -117,7 +117,10 @@ void Planet::State::uploadFinished(const UploadChunk& upload) {
 }
 
 void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
-    paging.bytesRead += load.bytes;
+    if (load.request.kind == BlockKind::Heights)
+        paging.bytesRead += load.bytes;
+    else
+        tilesOf(load.request.kind).counters.bytesRead += load.bytes;
     paging.loadSeconds += load.seconds;
     if (!isKept(load.request)) return throwAway(load);
     if (load.request.kind != BlockKind::Heights) return finishTiles(std::move(load));
@@ -155,14 +158,12 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
 
 void Planet::State::finishTiles(FinishedLoad&& load) {
     TilePaging& tiles = tilesOf(load.request.kind);
-    tiles.counters.bytesRead += load.bytes;
     if (!load.block) {
         const bool badData = load.block.error().kind == ErrorKind::BadInput;
         tiles.fail(load.request.parent, std::move(load.block.error()), frame, sinceAnewS, settings.retry);
         return noteFailure(load, tiles.failures, badData);
     }
     tiles.finish(load.request.parent, std::get<TileBlock>(*std::move(load.block)), frame, sinceAnewS);
-    ++paging.loaded;
     if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Loaded});
     note(load.request, PagingOutcome::Loaded, &load);
 }
@@ -172,6 +173,7 @@ void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, Error error
     const bool forGood = failures.failed(load.request.parent, std::move(error), sinceAnewS, settings.retry);
     changeState(tree.nodes[parent].childrenState,
                 forGood ? ChildrenState::Failed : ChildrenState::AwaitingRetry);
+    ++paging.failed;
     noteFailure(load, failures, badData);
 }
 
@@ -179,7 +181,6 @@ void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, Error error
 void Planet::State::noteFailure(const FinishedLoad& load, const BlockFailures& known, bool badData) {
     const ChunkId& parent = load.request.parent;
     if (known.isForGood(parent)) tell(known.messageOf(parent));
-    ++paging.failed;
     if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Failed, badData});
     note(load.request, PagingOutcome::Failed, &load);
 }
@@ -641,10 +642,7 @@ void Planet::State::count() {
     paging.cancelled = counters.opposed + counters.withdrawn + thrownAway;
     colours.count();
     normals.count();
-    if (deriver) {
-        const std::uint64_t read = deriver->bytesRead();
-        paging.bytesRead += read - std::exchange(normals.counters.bytesRead, read);
-    }
+    if (deriver) normals.counters.bytesRead = deriver->bytesRead();
     paging.failedForGood = paging.awaitingRetry = 0;
     for (const BlockFailures* known : {&failures, &colours.failures, &normals.failures}) {
         paging.failedForGood += static_cast<std::uint32_t>(known->countForGood());

@@ -25,6 +25,8 @@ void recall(const BlockFailures& failures, TileNode& node, bool staysAway, doubl
 
 void TilePaging::begin(std::uint32_t capacity, double sinceAnewS) {
     assert(capacity == 0 || (capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0));
+    for (const TileNode& node : tree.nodes)
+        if (node.childrenState == ChildrenState::Resident && !node.hasFailed) ++counters.evicted;
     tileCapacity = capacity;
     tree = capacity > 0 ? makeTileTree(leafLevel, !checkers, roots) : TileTree{};
     promised = 0;
@@ -142,8 +144,8 @@ bool TilePaging::mayBeEvicted(NodeIndex parent) const {
 void TilePaging::evict(NodeIndex parent, const Asking& asking) {
     const PagingRequest request{
         .parent = tree.nodes[parent].id, .kind = kind, .type = PagingType::PageOut, .askedAtS = asking.nowS};
+    if (!tree.nodes[parent].hasFailed) ++counters.evicted;  // a checker pattern was never loaded
     remove(parent);
-    ++counters.evicted;
     asking.note(request, PagingOutcome::Evicted);
 }
 

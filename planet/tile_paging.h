@@ -49,8 +49,8 @@ struct TilePaging {
 
     bool isOn() const { return tileCapacity > 0; }
 
-    // Begins with the roots alone, in a pool of so many slots; whatever was resident is gone. 0: with
-    // nothing. What has failed is still known.
+    // Evicts every block and begins with the roots alone, in a pool of so many slots; with nothing where
+    // capacity is 0. Failures are kept.
     void begin(std::uint32_t capacity, double sinceAnewS);
 
     // Marks what views have looked at in a frame.

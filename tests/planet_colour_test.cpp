@@ -227,6 +227,51 @@ TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
     comesAgain();
 }
 
+void expectTotalsOfEachKindAddUp(const Planet& planet) {
+    const PagingCounters& heights = planet.paging();
+    EXPECT_EQ(faceCount + quadrantCount * (heights.loaded - heights.evicted), heights.residentChunks);
+    const TilePagingCounters& colours = planet.colourPaging();
+    EXPECT_EQ(faceCount + quadrantCount * (colours.loaded - colours.evicted), colours.residentTiles);
+    EXPECT_EQ(planet.bytesRead(), heights.bytesRead + colours.bytesRead);
+}
+
+TEST(PlanetColours, TotalsOfEachKindCountThatKindAlone) {
+    PagingSettings settings = roomForColourTiles(6 + 4 * 20);
+    settings.time = PagingTime::Simulated;
+    const auto planet = Planet::open(colouredSource(), settings).value();
+    for (int i = 0; i < 200; ++i) {
+        const ViewInput input = coloured(viewAt(20 + 0.1 * i, 30 + 0.8 * i, 60'000 - 200 * i, -60));
+        planet->step({&input, 1}, noUpload, 1.0 / 60);
+        expectTotalsOfEachKindAddUp(*planet);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(planet->paging().loaded, 0u);
+    EXPECT_GT(planet->colourPaging().evicted, 10u);
+    planet->dropAll();
+    expectTotalsOfEachKindAddUp(*planet);
+    EXPECT_EQ(planet->paging().evicted, planet->paging().loaded);
+    EXPECT_EQ(planet->colourPaging().evicted, planet->colourPaging().loaded);
+    planet->setPaging(roomForColourTiles(6 + 4 * 24)).value();
+    expectTotalsOfEachKindAddUp(*planet);
+}
+
+TEST(PlanetColours, ACheckerPatternIsNeitherLoadedNorEvicted) {
+    PagingSettings settings = roomForColourTiles(800);
+    settings.retry.retries = 0;
+    const auto planet = Planet::open(colouredSource([](const ChunkId& parent, BlockLocation location) {
+                                         if (parent.level > 0) return Result<TileBlock>(ioError("gone"));
+                                         return loadFakeTiles(parent, location);
+                                     }),
+                                     settings)
+                            .value();
+    ASSERT_TRUE(colouredSettled(*planet, viewAt(20, 20, 40'000, -70)));
+    const std::uint64_t loaded = planet->colourPaging().loaded;
+    EXPECT_LE(loaded, faceCount);
+    EXPECT_GT(planet->colourPaging().residentTiles, faceCount + quadrantCount * loaded);
+    planet->dropAll();
+    EXPECT_EQ(planet->colourPaging().evicted, loaded);
+}
+
 TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
     const auto tooFew = Planet::open(colouredSource(), roomForColourTiles(20));
     ASSERT_FALSE(tooFew);

@@ -139,60 +139,72 @@ void residentMemory(const EditorView& view) {
     if (hasColours) colourMemory(view);
 }
 
-void kindRow(const char* name, const std::string& heights, const std::string& colours,
-             const char* explanation, bool bad = false) {
+std::string countCell(std::uint64_t value) {
+    return countText(static_cast<double>(value));
+}
+std::string bytesCell(std::uint64_t value) {
+    return bytesText(static_cast<double>(value));
+}
+
+// textOf(counters) is the text of one kind's cell.
+template <class TextOf>
+void kindRow(const EditorView& view, const char* name, const TextOf& textOf, const char* explanation,
+             bool markFailures = false) {
     ImGui::TableNextRow();
     cell(name, palette().dim);
     tooltip(explanation);
-    for (const std::string& text : {heights, colours}) {
-        cell(text, bad ? palette().bad : palette().text);
+    const auto kindCell = [&](const auto& counters) {
+        cell(textOf(counters), markFailures && counters.failed > 0 ? palette().bad : palette().text);
         tooltip(explanation);
-    }
+    };
+    kindCell(view.stats.paging);
+    kindCell(view.stats.colourPaging);
+    kindCell(view.stats.normalPaging);
 }
 
-// What is counted of each kind; the planet counts both together, and colours apart.
 void totalsByKind(const EditorView& view) {
-    const planet::PagingCounters& p = view.stats.paging;
-    const planet::TilePagingCounters& c = view.stats.colourPaging;
     constexpr std::array columns = {TableColumn{"By kind", 1, nullptr, nullptr, false},
                                     TableColumn{"Heights", 1, nullptr, nullptr, false},
-                                    TableColumn{"Colours", 1, nullptr, nullptr, false}};
+                                    TableColumn{"Colours", 1, nullptr, nullptr, false},
+                                    TableColumn{"Normals", 1, nullptr, nullptr, false}};
     if (!beginListTable("kinds", columns, 7)) return;
-    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
-    kindRow("Loaded", count(p.loaded - c.loaded), count(c.loaded), "Blocks read and made resident.");
-    kindRow("Evicted", count(p.evicted - c.evicted), count(c.evicted),
-            "Blocks evicted to stay within the budget.");
-    kindRow("Failed", count(p.failed - c.failed), count(c.failed),
-            "Failed reads, including those retried later.", p.failed > 0);
-    kindRow("Read", bytesText(static_cast<double>(p.bytesRead - c.bytesRead)),
-            bytesText(static_cast<double>(c.bytesRead)), "Bytes read from the chunk file.");
     kindRow(
-        "Resident", count(p.residentChunks), count(c.residentTiles),
-        "Resident chunks and colour tiles of 256 x 256 texels; the six roots of each are always resident.");
-    kindRow("Over budget", count(p.budgetWaits), count(c.budgetWaits),
-            "Blocks requested in the last frame that do not fit into the budget or its share.");
+        view, "Loaded", [](const auto& paging) { return countCell(paging.loaded); },
+        "Blocks read and made resident.");
+    kindRow(
+        view, "Evicted", [](const auto& paging) { return countCell(paging.evicted); },
+        "Loaded blocks that are no longer resident, to stay within the budget or dropped by hand.");
+    kindRow(
+        view, "Failed", [](const auto& paging) { return countCell(paging.failed); },
+        "Failed reads, including those retried later.", true);
+    kindRow(
+        view, "Read", [](const auto& paging) { return bytesCell(paging.bytesRead); },
+        "Bytes read from the chunk file. Normals are derived from heights, which are read again for them.");
+    kindRow(
+        view, "Resident",
+        [](const auto& paging) {
+            if constexpr (requires { paging.residentTiles; })
+                return countCell(paging.residentTiles);
+            else
+                return countCell(paging.residentChunks);
+        },
+        "Resident chunks and tiles of 256 x 256 texels; the six roots of each are always resident.");
+    kindRow(
+        view, "Over budget", [](const auto& paging) { return countCell(paging.budgetWaits); },
+        "Blocks requested in the last frame that do not fit into the budget or its share.");
     ImGui::EndTable();
 }
 
 void totals(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
-    const bool hasColours = view.planet->colour().has_value();
     if (!beginValues("totals")) return;
-    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
-    valueRow("Requested", count(p.requested), "Load requests queued since the file was opened.");
-    valueRow("Merged", count(p.merged), "Requests repeated while they were queued.");
-    valueRow("Cancelled", count(p.cancelled),
+    valueRow("Requested", countCell(p.requested),
+             "Load requests of all kinds queued since the file was opened.");
+    valueRow("Merged", countCell(p.merged), "Requests repeated while they were queued.");
+    valueRow("Cancelled", countCell(p.cancelled),
              "Requests cancelled by the opposite request or no longer needed.");
-    if (hasColours) {
-        endValues();
-        return totalsByKind(view);
-    }
-    valueRow("Loaded", count(p.loaded), "Blocks read and made resident.");
-    valueRow("Evicted", count(p.evicted), "Blocks evicted to stay within the budget.");
-    valueRow("Failed", count(p.failed), "Failed reads, including those retried later.",
-             p.failed > 0 ? &palette().bad : nullptr);
-    valueRow("Read", bytesText(static_cast<double>(p.bytesRead)), "Bytes read from the chunk file.");
     endValues();
+    totalsByKind(view);
 }
 
 void seedKnob(std::uint32_t& seed) {
@@ -627,7 +639,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     linePlot("queueLength", times, queue, "", 0, lines);
     constexpr double windowS = 0.5;
     const auto read = historyValues<double>(
-        view.history, [](const FrameStats& s) { return static_cast<double>(s.paging.bytesRead) / 1e6; });
+        view.history, [](const FrameStats& s) { return static_cast<double>(bytesReadOf(s)) / 1e6; });
     std::vector<Series> rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
     if (view.planet->colour()) {
         const auto colours = historyValues<double>(view.history, [](const FrameStats& s) {
