@@ -32,4 +32,14 @@ FaceGridPoint foldedOver(const FaceGridPoint& point, int cells) {
             (static_cast<int>(glm::dot(folded, nextAxes.v)) + cells) / 2};
 }
 
+FaceGridPoint placeOnFace(Face face, const FaceGridPoint& point, int cells) {
+    const FaceAxes& from = faceAxes(point.face);
+    const glm::dvec3 cube = double(cells) * from.normal + double(2 * point.column - cells) * from.u +
+                            double(2 * point.row - cells) * from.v;
+    const FaceAxes& axes = faceAxes(face);
+    assert(glm::dot(cube, axes.normal) == cells);
+    return {face, (static_cast<int>(glm::dot(cube, axes.u)) + cells) / 2,
+            (static_cast<int>(glm::dot(cube, axes.v)) + cells) / 2};
+}
+
 }  // namespace planet

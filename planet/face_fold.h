@@ -22,4 +22,7 @@ Face faceAlong(const glm::dvec3& normal);
 // edges included, is itself.
 FaceGridPoint foldedOver(const FaceGridPoint& point, int cells);
 
+// The same point of the cube on another face that it lies on, for a point on an edge.
+FaceGridPoint placeOnFace(Face face, const FaceGridPoint& point, int cells);
+
 }  // namespace planet

@@ -72,7 +72,11 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
         return tl::unexpected(std::move(check.error()));
     }
     if (isTerrainText(path)) return openTerrain(path, settings);
-    if (const std::optional<FaceFiles> faces = findFaceFiles(path)) return openFaceSource(*faces, settings);
+    if (const std::optional<FaceFiles> faces = findFaceFiles(path)) {
+        // Lossy pictures differ along their edges, which does colours no harm.
+        const FaceEdges edges = settings.colourChannel ? FaceEdges::MayDiffer : FaceEdges::MustAgree;
+        return openFaceSource(*faces, settings, edges);
+    }
     std::error_code problem;
     if (!std::filesystem::exists(path, problem)) {
         return ioError(fmt::format("{}: there is no such file, and no cube faces named {}_x_pos.raw or alike",

@@ -3,7 +3,8 @@
 //
 // An elevation image is equirectangular: north up, longitude -180 to 180 from left to right, samples at pixel
 // centres, one grey channel. Face images are seen as in cube_sphere.h: row 0 at v = +1, column 0 at u = -1,
-// outermost samples on the cube's edges. Raw faces are headerless, rows in the same order.
+// outermost samples on the cube's edges, where neighbouring faces hold the same heights. Raw faces are
+// headerless, rows in the same order.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +48,8 @@ struct HeightSource {
     // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
     // bit-identical. Filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
     // one is interpolated smoothly; faces on a grid of their own size are copied exactly. Where faces
-    // disagree along an edge of the cube, the first in enum order has its way. Takes some 16 MB a call beside
-    // the cache. The Error names the file.
+    // differ by rounding along an edge of the cube, the first in enum order is taken. Takes some 16 MB a call
+    // beside the cache. The Error names the file.
     std::function<Result<void>(const SampleTile& tile, std::span<float> out)> sample;
 };
 
@@ -84,8 +85,9 @@ bool heightSourceExists(const std::filesystem::path& path);
 // Opens a terrain's text ("noise:ridged,seed=7", terrain.h), an elevation image, or the six cube faces that
 // the path names one of (earth4097_z_pos.raw) or the common stem of (earth4097: .raw, or an image's
 // extension). A face's size is the number that the stem ends in or, where it ends in none, what the file
-// holds. Reads every sample once where NaN, noDataValue or the range of a wide type must be looked for.
-// Settings tell how a file is read: with made terrain any but the defaults are an Error.
+// holds. Heights of faces that differ along an edge of the cube by more than rounding are an Error. Reads
+// every sample once where NaN, noDataValue or the range of a wide type must be looked for. Settings tell how
+// a file is read: with made terrain any but the defaults are an Error.
 Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings);
 

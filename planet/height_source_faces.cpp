@@ -1,9 +1,10 @@
 // Samples six cube faces, each a square grid whose outermost samples lie on the cube's edges.
 //
-// A sample on an edge or corner of the cube is taken from the first of its faces in enum order, whichever
-// face it is asked through, so faces that disagree there leave no crack. The kernel reaches over an edge
-// onto the next face. Beyond a corner, where three faces meet and no fourth is there, the next face's rows
-// are mirrored.
+// Neighbouring faces repeat the samples of the edge between them; files whose faces differ there by more than
+// rounding are refused. A sample on an edge or corner of the cube is taken from the first of its faces in
+// enum order, whichever face it is asked through, so a difference by rounding leaves no crack. The kernel
+// reaches over an edge onto the next face. Beyond a corner, where three faces meet and no fourth is there,
+// the next face's rows are mirrored.
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "planet/face_fold.h"
+#include "planet/height_face_edges.h"
 #include "planet/height_filter.h"
 #include "planet/height_raster.h"
 #include "planet/height_source_kinds.h"
@@ -213,29 +215,14 @@ Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span
 
 Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out);
 
-// A column and row of a face's grid, rows rising with v.
-struct GridPlace {
-    int column = 0;
-    int row = 0;
-};
-
-// A place on the edge of a face, in the grid of the next face that shares it.
-GridPlace onNextFace(Face face, const GridPlace& place, Face next, int faceCells) {
-    const FaceAxes& axes = faceAxes(face);
-    const FaceAxes& nextAxes = faceAxes(next);
-    const glm::dvec3 point = double(faceCells) * axes.normal + double(2 * place.column - faceCells) * axes.u +
-                             double(2 * place.row - faceCells) * axes.v;
-    return {(static_cast<int>(glm::dot(point, nextAxes.u)) + faceCells) / 2,
-            (static_cast<int>(glm::dot(point, nextAxes.v)) + faceCells) / 2};
-}
-
 // Samples a line of the tile, from the next face that it lies on too, into the tile's own places.
 Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, const SampleTile& line, Face next,
                                 std::span<float> out) {
-    const GridPlace first = onNextFace(tile.face, {line.firstColumn, line.firstRow}, next, tile.faceCells);
-    const GridPlace last =
-        onNextFace(tile.face, {line.firstColumn + line.columns - 1, line.firstRow + line.rows - 1}, next,
-                   tile.faceCells);
+    const FaceGridPoint first =
+        placeOnFace(next, {tile.face, line.firstColumn, line.firstRow}, tile.faceCells);
+    const FaceGridPoint last =
+        placeOnFace(next, {tile.face, line.firstColumn + line.columns - 1, line.firstRow + line.rows - 1},
+                    tile.faceCells);
     const SampleTile there{next,
                            tile.faceCells,
                            std::min(first.column, last.column),
@@ -420,8 +407,15 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
     return FaceFormat{first.width, first.type, first.typeName};
 }
 
+// Faces are rounded each by itself, so their edges may be apart by one step of their sample type.
+double roundingOf(const FaceFormat& format, const HeightSource& source) {
+    if (source.stepM > 0) return source.stepM * (1 + 1e-6);
+    const double largestM = std::max(std::abs(source.minM), std::abs(source.maxM));
+    return largestM * (format.typeName == "half" ? 1e-3 : 1e-5);
+}
+
 Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& format,
-                                   const HeightConversion& conversion, FaceSet set) {
+                                   const HeightConversion& conversion, FaceSet set, FaceEdges edges) {
     HeightStatistics statistics;
     for (const HeightRaster& face : set.faces) {
         const Result<HeightStatistics> part = face.statistics();
@@ -438,6 +432,12 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
     const auto side = static_cast<std::uint64_t>(format.size);
     source.sampleCount = faceCount * side * side;
     describeHeights(source, conversion, statistics);
+    if (edges == FaceEdges::MustAgree) {
+        const FaceEdgeCheck check{files.stem, format.size, roundingOf(format, source),
+                                  statistics.missingCount > 0, conversion.fillM};
+        if (Result<void> agree = checkFaceEdges(set.faces, check); !agree)
+            return tl::unexpected(std::move(agree.error()));
+    }
     source.sample = [shared = std::move(set)](const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);
     };
@@ -446,7 +446,8 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
 
 }  // namespace
 
-Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings) {
+Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
+                                    FaceEdges edges) {
     if (Result<void> check = checkNoneMissing(files); !check) return tl::unexpected(check.error());
     const bool raw = files.extension == ".raw" || files.extension == ".RAW";
     if (raw && settings.colourChannel) {
@@ -475,7 +476,7 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
         if (!raster) return tl::unexpected(raster.error());
         set.faces[face] = std::move(*raster);
     }
-    return describeFaces(files, *format, conversion, std::move(set));
+    return describeFaces(files, *format, conversion, std::move(set), edges);
 }
 
 }  // namespace planet

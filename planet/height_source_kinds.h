@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -31,7 +32,10 @@ struct FaceFiles {
 // The six faces that a path names one of, or names the common stem of; none where it does neither.
 std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path);
 
-Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings);
+// MustAgree: faces that differ along their shared edges by more than rounding are an Error.
+enum class FaceEdges : std::uint8_t { MustAgree, MayDiffer };
+Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
+                                    FaceEdges edges);
 
 // What the kinds share.
 HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type);

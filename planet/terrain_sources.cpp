@@ -1,9 +1,5 @@
 #include "planet/terrain_sources.h"
 
-#include <cassert>
-#include <cstdlib>
-#include <glm/geometric.hpp>
-
 namespace planet {
 
 int naturalCells(double stepRad) {
@@ -36,25 +32,6 @@ std::size_t heldBy(std::span<const Octave> octaves, double stepRad) {
     // Lattices are often made for a grid, two of its steps wide but for rounding.
     while (count < octaves.size() && octaves[count].cellRad * (1 + 1e-9) >= 2 * stepRad) ++count;
     return count;
-}
-
-namespace {
-
-// On the cube [-cells, cells]^3.
-glm::dvec3 wholePoint(const FaceGridPoint& place, int cells) {
-    const FaceAxes& axes = faceAxes(place.face);
-    return double(cells) * axes.normal + double(2 * place.column - cells) * axes.u +
-           double(2 * place.row - cells) * axes.v;
-}
-
-}  // namespace
-
-FaceGridPoint placeOnFace(Face face, const FaceGridPoint& place, int cells) {
-    const glm::dvec3 point = wholePoint(place, cells);
-    const FaceAxes& axes = faceAxes(face);
-    assert(glm::dot(point, axes.normal) == cells);
-    return {face, (static_cast<int>(glm::dot(point, axes.u)) + cells) / 2,
-            (static_cast<int>(glm::dot(point, axes.v)) + cells) / 2};
 }
 
 Result<HeightSource> makeTerrain(const TerrainSettings& settings) {

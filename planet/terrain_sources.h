@@ -91,9 +91,6 @@ HeightSource fieldSource(const TerrainSettings& settings, int cells, double minM
     return source;
 }
 
-// Where a place on an edge of the cube lies on the other face there.
-FaceGridPoint placeOnFace(Face face, const FaceGridPoint& place, int cells);
-
 HeightSource fractalSource(const FractalTerrain& terrain);
 HeightSource ridgedSource(const RidgedTerrain& terrain);
 HeightSource faultSource(const FaultTerrain& terrain);

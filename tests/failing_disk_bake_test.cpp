@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -231,9 +232,14 @@ TEST(FailingDiskReadBack, WhatIsWrittenAndCannotBeReadBackLeavesTheOldFile) {
 
 TEST(FailingDiskSource, RawFacesAreReadWholeOrAreAnErrorThatNamesOne) {
     const tests::TemporaryFolder folder;
-    for (const Face face : allFaces)
-        std::ofstream(folder / fmt::format("earth17_{}.raw", faceName(face)), std::ios::binary)
-            << std::string(std::size_t{17} * 17 * 2, static_cast<char>(1 + static_cast<int>(face)));
+    for (const Face face : allFaces) {
+        // Each face has its own value inside; all have one on the edges that they share.
+        std::string bytes(std::size_t{17} * 17 * 2, 1);
+        for (std::size_t row = 1; row < 16; ++row)
+            std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(row * 34 + 2), 30,
+                        static_cast<char>(1 + static_cast<int>(face)));
+        std::ofstream(folder / fmt::format("earth17_{}.raw", faceName(face)), std::ios::binary) << bytes;
+    }
     const auto sampled = [&](const FileCalls& calls) -> Result<std::vector<float>> {
         HeightSourceSettings settings;
         settings.fileCalls = calls;

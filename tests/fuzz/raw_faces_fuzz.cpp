@@ -91,7 +91,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FaceFiles files = memory.files;
     if (shape & 2) files.sizeInName = input.byte();
     memory.write(shape & 1, input.rest());
-    const auto source = openFaceSource(files, settings);
+    const FaceEdges edges = shape & 4 ? FaceEdges::MustAgree : FaceEdges::MayDiffer;
+    const auto source = openFaceSource(files, settings, edges);
     if (isRead(source)) sample(*source, tileByte);
     return 0;
 }
