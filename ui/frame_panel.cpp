@@ -104,7 +104,7 @@ void counts(const EditorView& view) {
     valueRow("Chunks drawn", countText(stats.selection.drawn), "Chunks selected for the LOD view.");
     valueRow(terms::triangles.name, countText(static_cast<double>(stats.selection.triangles())),
              terms::triangles.meaning);
-    valueRow("All pictures", countText(static_cast<double>(stats.render.triangles())),
+    valueRow("Triangles, all pictures", countText(static_cast<double>(stats.render.triangles())),
              "Triangles drawn in this frame in all pictures of the planet, the observer's included.");
     valueRow("Uploads", countText(stats.render.uploads), "Chunks uploaded since the previous frame.");
     valueRow("Nodes visited", countText(stats.selection.visited),

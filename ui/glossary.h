@@ -1,6 +1,7 @@
 // The terms for what Worldy counts and measures: one name for one thing, the same in the window, in JSON and
-// in CSV. README.md holds the same table. Over a flight a key is prefixed by "mean_", "most_", "worst_" or
-// "p99_", for what is reported of all its moments.
+// in CSV. README.md holds the same table. Before a key, "worst_" and "p99_" stand for the largest value and
+// the 99th percentile over all drawn chunks, "mean_" and "most_" for the mean and the largest value over the
+// sample frames of a flight.
 #pragma once
 
 #include <array>
