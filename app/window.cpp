@@ -10,8 +10,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <optional>
 #include <utility>
 
+#include "app/input_queue.h"
 #include "app/stopwatch.h"
 #include "ui/theme.h"
 
@@ -61,6 +64,8 @@ GLFWwindow* createWindow(const WindowConfig& config) {
 // GLFW itself and the one window, ended together and in order.
 struct Window::Glfw {
     GLFWwindow* window = nullptr;
+    InputQueue input;
+    std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in the frame
     std::vector<KeyPress> pressedKeys;
     std::vector<std::filesystem::path> droppedFiles;
 
@@ -70,7 +75,71 @@ struct Window::Glfw {
         if (window) glfwDestroyWindow(window);
         glfwTerminate();
     }
+
+    void listen();
+    // Gives ImGui the events of the next frame. Returns where the pointer was if a button changed.
+    std::optional<glm::dvec2> giveInput();
 };
+
+namespace {
+
+int glfwAction(InputKind kind) {
+    if (kind == InputKind::KeyRepeat) return GLFW_REPEAT;
+    return kind == InputKind::KeyUp ? GLFW_RELEASE : GLFW_PRESS;
+}
+
+}  // namespace
+
+void Window::Glfw::listen() {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
+        const InputKind kind = action == GLFW_PRESS     ? InputKind::KeyDown
+                               : action == GLFW_RELEASE ? InputKind::KeyUp
+                                                        : InputKind::KeyRepeat;
+        of(handle).input.add({kind, key, scancode, modifiers});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* handle, int button, int action, int modifiers) {
+        glm::dvec2 pointer{0, 0};
+        glfwGetCursorPos(handle, &pointer.x, &pointer.y);
+        const InputKind kind = action == GLFW_PRESS ? InputKind::ButtonDown : InputKind::ButtonUp;
+        of(handle).input.add({kind, button, 0, modifiers, pointer});
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* handle, unsigned int letter) {
+        of(handle).input.add({InputKind::Text, static_cast<int>(letter)});
+    });
+    glfwSetDropCallback(window, [](GLFWwindow* handle, int count, const char** files) {
+        of(handle).droppedFiles.assign(files, files + count);
+    });
+    glfwSetScrollCallback(window, ImGui_ImplGlfw_ScrollCallback);
+    glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
+    glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
+}
+
+std::optional<glm::dvec2> Window::Glfw::giveInput() {
+    std::optional<glm::dvec2> pointer;
+    for (const InputEvent& event : input.takeFrame()) {
+        switch (event.kind) {
+            case InputKind::Text:
+                ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned int>(event.code));
+                break;
+            case InputKind::ButtonDown:
+            case InputKind::ButtonUp:
+                pointer = event.pointer;
+                buttonsDown.at(static_cast<std::size_t>(event.code)) = event.kind == InputKind::ButtonDown;
+                break;
+            case InputKind::KeyDown:
+            case InputKind::KeyRepeat:
+                pressedKeys.push_back({event.code, event.modifiers});
+                [[fallthrough]];
+            case InputKind::KeyUp:
+                ImGui_ImplGlfw_KeyCallback(window, event.code, event.scancode, glfwAction(event.kind),
+                                           event.modifiers);
+                break;
+        }
+    }
+    return pointer;
+}
 
 tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
     if (!glfwInit()) return tl::unexpected(WindowFailure{WindowProblem::NoDisplay, glfwProblem()});
@@ -83,13 +152,6 @@ tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
             fmt::format("this display has no OpenGL 3.3 core profile ({}); a newer graphics driver is needed",
                         glfwProblem())});
     }
-    glfwSetWindowUserPointer(window.glfw_->window, window.glfw_.get());
-    glfwSetKeyCallback(window.glfw_->window, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
-        if (action != GLFW_RELEASE) Glfw::of(handle).pressedKeys.push_back({key, modifiers});
-    });
-    glfwSetDropCallback(window.glfw_->window, [](GLFWwindow* handle, int count, const char** files) {
-        Glfw::of(handle).droppedFiles.assign(files, files + count);
-    });
     glfwSetWindowSizeLimits(window.glfw_->window, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window.glfw_->window);
     glfwSwapInterval(1);
@@ -128,7 +190,8 @@ void Window::startImGui(const WindowConfig& config) {
     ImGui::GetIO().IniFilename = imguiFile_.c_str();
     // A table that is let go while its panel is hidden comes back a frame too narrow.
     ImGui::GetIO().ConfigMemoryCompactTimer = -1;
-    ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);
+    ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
+    glfw_->listen();
     ImGui_ImplOpenGL3_Init("#version 330 core");
     panelsTimer_.emplace();
     setTheme(config.theme, config.scale);
@@ -164,12 +227,18 @@ void Window::close() const {
 void Window::beginFrame(double waitS) const {
     glfw_->pressedKeys.clear();
     glfw_->droppedFiles.clear();
-    if (waitS > 0)
+    if (waitS > 0 && glfw_->input.empty())
         glfwWaitEventsTimeout(waitS);
     else
         glfwPollEvents();
+    const std::optional<glm::dvec2> pointer = glfw_->giveInput();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // ImGui's backend asks for the buttons and the pointer as they are now, which may be later than the
+    // event.
+    ImGuiIO& io = ImGui::GetIO();
+    std::copy_n(glfw_->buttonsDown.begin(), std::size(io.MouseDown), std::begin(io.MouseDown));
+    if (pointer) io.MousePos = {static_cast<float>(pointer->x), static_cast<float>(pointer->y)};
     ImGui::NewFrame();
 }
 

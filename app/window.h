@@ -54,8 +54,8 @@ public:
     // Draws ImGui's windows and shows the picture; calls drawn with the picture done but not yet shown.
     void endFrame(const std::function<void()>& drawn);
 
-    // The keys that went down since the frame before, however short: between two slow frames a key may be up
-    // again.
+    // The keys that went down or repeat in this frame, the same that ImGui sees: input is handed out frame by
+    // frame (app/input_queue.h), so a key that is released before a slow frame begins is seen too.
     const std::vector<KeyPress>& pressedKeys() const;
     // What was dropped onto the window since the frame before.
     const std::vector<std::filesystem::path>& droppedFiles() const;

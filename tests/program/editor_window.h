@@ -66,10 +66,8 @@ reach() {
     echo "no way to $2"; return 1
 }
 key() { xdotool key --clearmodifiers "$@"; frames; }
-# ImGui sees only keys that are down when a frame begins.
-hold() { xdotool keydown "$1"; frames; xdotool keyup "$1"; frames; }
 # Types in place of what a field holds, ends with Return.
-type_over() { xdotool keydown ctrl; hold a; xdotool keyup ctrl; xdotool type --delay 20 -- "$1"; frames; hold Return; }
+type_over() { key ctrl+a; xdotool type --delay 20 -- "$1"; frames; key Return; }
 enter() { click "$1" && type_over "$2"; }
 # A middle part of a picture, without what is written at its borders.
 picture() { set -- $(place "$1"); import -window root -crop "$(($3 * 6 / 10))x$(($4 * 4 / 10))+$(($1 + $3 * 2 / 10))+$(($2 + $4 * 3 / 10))" +repage -depth 8 rgb:- | md5sum; }

@@ -1,0 +1,37 @@
+// Input events in the order in which they came, handed out frame by frame: Dear ImGui 1.86 sees only which
+// keys and buttons are down when a frame begins, so a key that is pressed and released between two frames
+// would be lost. No GLFW calls; one thread.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace worldy {
+
+enum class InputKind : std::uint8_t { KeyDown, KeyRepeat, KeyUp, Text, ButtonDown, ButtonUp };
+
+struct InputEvent {
+    InputKind kind = InputKind::KeyDown;
+    int code = 0;  // GLFW's key or mouse button; of Text the character
+    int scancode = 0;
+    int modifiers = 0;         // GLFW's
+    glm::dvec2 pointer{0, 0};  // of a button: where the pointer was, in the window's coordinates
+};
+
+class InputQueue {
+public:
+    void add(const InputEvent& event) { waiting_.push_back(event); }
+    bool empty() const { return waiting_.empty(); }
+
+    // Returns the events of the next frame, oldest first; the others wait. A key or a button changes once a
+    // frame. A frame ends after a key that acts rather than writes (Enter, an arrow, one held with Ctrl), so
+    // that what is typed after it comes after what it does, and likewise between keys and mouse buttons.
+    std::vector<InputEvent> takeFrame();
+
+private:
+    std::deque<InputEvent> waiting_;
+};
+
+}  // namespace worldy
