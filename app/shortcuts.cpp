@@ -43,11 +43,13 @@ void toggleAllPanels(const Targets& targets) {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i].shown = !anyShown && first[i].shown;
 }
 
-// Esc closes what is open over the panels, else it selects nothing.
+// Closes what is open over the panels, the topmost first; with nothing open, selects nothing.
 void leave(const Targets& targets) {
     const bool popupOpen = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     if (popupOpen)
         ImGui::ClosePopupsOverWindow(nullptr, true);
+    else if (targets.menu.showAbout || targets.menu.showKeys)
+        (targets.menu.showAbout ? targets.menu.showAbout : targets.menu.showKeys) = false;
     else
         ask(targets, ui::SelectChunk{});
 }
@@ -108,6 +110,24 @@ void togglePanel(const KeyPress& press, bool shifted, const Targets& targets) {
 }
 
 }  // namespace
+
+std::vector<std::string> shortcutNames() {
+    const auto keyName = [](int key) -> std::string {
+        if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
+        if (key == GLFW_KEY_ESCAPE) return "Esc";
+        if (key == GLFW_KEY_KP_ADD || key == GLFW_KEY_EQUAL) return "+";
+        if (key == GLFW_KEY_KP_SUBTRACT) return "-";
+        return std::string(1, static_cast<char>(key));  // GLFW's code of a letter is the letter
+    };
+    std::vector<std::string> names;
+    for (const Shortcut& one : shortcuts) {
+        // Shift only finds the plus on some keyboards.
+        const bool shifted = (one.modifiers & shift) != 0 && one.key != GLFW_KEY_EQUAL;
+        names.push_back(std::string((one.modifiers & ctrl) != 0 ? "Ctrl+" : "") + (shifted ? "Shift+" : "") +
+                        keyName(one.key));
+    }
+    return names;
+}
 
 void obeyShortcuts(std::span<const KeyPress> pressed, const ShortcutTargets& targets) {
     if (ImGui::GetIO().WantTextInput) return;

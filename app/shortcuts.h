@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "app/window.h"
 #include "ui/docks.h"
@@ -18,6 +20,9 @@ struct ShortcutTargets {
     ui::MenuState& menu;
     ui::Commands& commands;
 };
+
+// The names of all keys that obeyShortcuts() obeys, panels' left out: "Ctrl+Shift+Z", "F1".
+std::vector<std::string> shortcutNames();
 
 // Nothing while a text field has the keys.
 void obeyShortcuts(std::span<const KeyPress> pressed, const ShortcutTargets& targets);

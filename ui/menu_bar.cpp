@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "ui/item_map.h"
 #include "ui/theme.h"
@@ -140,10 +142,6 @@ void helpMenu(MenuState& state) {
     ImGui::EndMenu();
 }
 
-struct KeyHelp {
-    const char* keys;
-    const char* meaning;
-};
 constexpr std::array keyHelp = {
     KeyHelp{"Left drag", "move across the planet"},
     KeyHelp{"Right drag", "look around"},
@@ -160,18 +158,39 @@ constexpr std::array keyHelp = {
     KeyHelp{"F7", "observer: off, split, alone"},
     KeyHelp{"F8", "next chunk tint"},
     KeyHelp{"F9", "while comparing: switch between A and B"},
+    KeyHelp{"F10", "show or hide this list"},
     KeyHelp{"F11", "show or hide all panels"},
     KeyHelp{"F12, Shift+F12", "screenshot; with panels"},
-    KeyHelp{"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
+    KeyHelp{"Ctrl+Z", "undo"},
+    KeyHelp{"Ctrl+Shift+Z, Ctrl+Y", "redo"},
     KeyHelp{"Ctrl+O", "open a file (or drop it onto the window)"},
     KeyHelp{"Ctrl+Shift+C", "copy as command line"},
     KeyHelp{"Ctrl++, Ctrl+-", "larger, smaller text"},
-    KeyHelp{"Ctrl+0 to 9, Ctrl+P, Ctrl+L", "show or hide a panel"},
     KeyHelp{"Ctrl+click on a slider", "type a number"},
     KeyHelp{"Right click on a setting", "reset to its default"},
-    KeyHelp{"Esc", "clear the selection"},
+    KeyHelp{"Double click on a chunk's name", "look at the chunk"},
+    KeyHelp{"Esc", "close what is open, or clear the selection"},
     KeyHelp{"Ctrl+Q", "quit"},
 };
+
+std::vector<KeyHelp> panelKeys() {
+    std::vector<KeyHelp> keys;
+    for (const PanelInfo& info : panelInfos) keys.push_back({info.shortcut, info.title});
+    return keys;
+}
+
+void keyTable(const char* id, std::span<const KeyHelp> keys) {
+    if (!ImGui::BeginTable(
+            id, 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX))
+        return;
+    for (const KeyHelp& help : keys) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(palette().accent, "%s", help.keys);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(help.meaning);
+    }
+    ImGui::EndTable();
+}
 
 bool beginHelpWindow(const char* title, bool& shown) {
     if (!shown) return false;
@@ -208,17 +227,20 @@ void menuBar(const EditorView& view, MenuState& state, Workspace& workspace, Vie
     ImGui::EndMainMenuBar();
 }
 
+std::vector<KeyHelp> listedKeys() {
+    std::vector<KeyHelp> keys = panelKeys();
+    keys.insert(keys.begin(), keyHelp.begin(), keyHelp.end());
+    return keys;
+}
+
 void helpWindows(MenuState& state) {
+    setItemScope("help");
     if (beginHelpWindow("Keys and mouse", state.showKeys)) {
-        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-            for (const KeyHelp& help : keyHelp) {
-                ImGui::TableNextColumn();
-                ImGui::TextColored(palette().accent, "%s", help.keys);
-                ImGui::TableNextColumn();
-                ImGui::TextUnformatted(help.meaning);
-            }
-            ImGui::EndTable();
-        }
+        const ImVec2 at = ImGui::GetWindowPos();
+        noteRect("Keys and mouse", {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
+        keyTable("keys", keyHelp);
+        ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+        keyTable("panels", panelKeys());
         endHelpWindow();
     }
     if (beginHelpWindow("About", state.showAbout)) {

@@ -1,6 +1,8 @@
 // The menu bar: every command by name, with the key that does the same.
 #pragma once
 
+#include <vector>
+
 #include "ui/docks.h"
 
 namespace ui {
@@ -15,6 +17,13 @@ struct MenuState {
 
 void menuBar(const EditorView& view, MenuState& state, Workspace& workspace, ViewSettings& settings,
              Commands& commands);
+
+struct KeyHelp {
+    const char* keys;  // "Ctrl+Shift+Z, Ctrl+Y"
+    const char* meaning;
+};
+// All that the window of keys lists.
+std::vector<KeyHelp> listedKeys();
 
 // The windows that the Help menu opens.
 void helpWindows(MenuState& state);
