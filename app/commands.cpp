@@ -22,6 +22,15 @@ using planet::Result;
 
 constexpr int costRounds = 5;
 
+ui::Message openingFailed(const std::filesystem::path& file, const planet::Error& error) {
+    return {fmt::format("{} cannot be opened", file.filename().string()), error.message,
+            "What is open stays. Correct the file as the message says, or open another one: a chunk file "
+            "(.chk), an "
+            "elevation image, a cube face, settings (.toml), a recorded flight (.flt) or one of Worldy's own "
+            "screenshots (.png).",
+            true};
+}
+
 // One function a command, and what commands may change.
 struct CommandHandler {
     Window& window;
@@ -33,6 +42,15 @@ struct CommandHandler {
         if (!result) log->error("{}", result.error().message);
         return result.has_value();
     }
+    // failed: what the user asked for, as the title of a message that says why it was not done.
+    bool succeeded(const Result<void>& result, const std::string& failed) const {
+        if (!result) tellError(editor, log, {failed, result.error().message, ""});
+        return result.has_value();
+    }
+    void cannotOpen(const std::filesystem::path& file, const planet::Error& error) const {
+        tellError(editor, log, openingFailed(file, error));
+    }
+    void confirm(const std::string& text) const { worldy::confirm(editor, log, text); }
     void moveCamera(const Camera& camera) const {
         if (editor.rig) placeRig(*editor.rig, camera, editor.settings.view.camera);
     }
@@ -68,7 +86,9 @@ struct CommandHandler {
         }
     }
     void operator()(const ui::StartFlight& command) const {
-        if (editor.rig) succeeded(startFlight(*editor.rig, command.file, editor.settings.view.camera));
+        if (editor.rig)
+            succeeded(startFlight(*editor.rig, command.file, editor.settings.view.camera),
+                      "The flight cannot be followed");
     }
     void operator()(const ui::MoveFlight& command) const {
         if (editor.rig) moveFlight(*editor.rig, command.timeS);
@@ -137,13 +157,13 @@ struct CommandHandler {
         if (const auto settings = editor.undo.redo()) editor.settings.view = *settings;
     }
     void operator()(const ui::SavePreset& command) const {
-        if (succeeded(editor.presets.save(command.name, editor.settings.view))) {
-            log->info("Preset {} saved", command.name);
-        }
+        if (succeeded(editor.presets.save(command.name, editor.settings.view), "The preset was not saved"))
+            confirm(fmt::format("Preset {} saved", command.name));
     }
     void operator()(const ui::LoadPreset& command) const;
     void operator()(const ui::DeletePreset& command) const {
-        if (succeeded(editor.presets.remove(command.name))) log->info("Preset {} deleted", command.name);
+        if (succeeded(editor.presets.remove(command.name), "The preset was not deleted"))
+            confirm(fmt::format("Preset {} deleted", command.name));
     }
     void operator()(const ui::CopyCommandLine&) const;
     void operator()(const ui::CopyText& command) const { window.setClipboard(command.text); }
@@ -195,7 +215,7 @@ struct CommandHandler {
         editor.flights = availableFlights();
     }
     void operator()(const ui::DeleteRecording& command) const {
-        succeeded(deleteRecording(editor.desk, command.file));
+        succeeded(deleteRecording(editor.desk, command.file), "The recording was not deleted");
         editor.flights = availableFlights();
     }
     void operator()(const ui::StartReplay& command) const;
@@ -213,16 +233,17 @@ struct CommandHandler {
     void operator()(const ui::SaveSweep& command) const {
         const Result<std::filesystem::path> plot = saveSweep(editor.sweep, command.cost, picturesFolder());
         if (plot)
-            log->info("Sweep saved: {}, with its table as .csv and .json", plot->string());
+            confirm(fmt::format("Sweep saved: {}, with its table as .csv and .json", plot->string()));
         else
-            log->error("{}", plot.error().message);
+            tellError(editor, log, {"The sweep was not saved", plot.error().message, ""});
     }
     void operator()(const ui::OpenSweptChunks& command) const {
         openSweptChunks(editor.sweep, command.chunkSize, session, editor.settings.view, log);
     }
 
     void operator()(const ui::StartCompare& command) const {
-        if (succeeded(startCompare(editor.compare, session, editor.presets, editor.settings.view, command)))
+        if (succeeded(startCompare(editor.compare, session, editor.presets, editor.settings.view, command),
+                      "B cannot be shown"))
             editor.stepOneFrame = true;  // B has chosen nothing yet
     }
     void operator()(const ui::StopCompare&) const { editor.compare.ending = true; }
@@ -269,7 +290,7 @@ void CommandHandler::operator()(const ui::StartRecording& command) const {
     Scene* scene = shownScene(session);
     if (!scene || !editor.rig) return;
     endReplay(editor, scene);
-    if (succeeded(startRecording(editor.desk, *scene->planet, command.name)))
+    if (succeeded(startRecording(editor.desk, *scene->planet, command.name), "The flight is not recorded"))
         log->info("Recording {}: starting with the six root chunks", editor.desk.recorder->name());
     forgetChanges(editor);
     editor.stepOneFrame = true;  // nothing is chosen any more
@@ -285,13 +306,20 @@ void CommandHandler::operator()(const ui::SwapCompare&) const {
 
 void CommandHandler::operator()(const ui::StartReplay& command) const {
     Scene* scene = shownScene(session);
-    if (!scene || !editor.rig) return log->warn("{}: no planet is open", command.file.string());
+    if (!scene || !editor.rig)
+        return cannotOpen(command.file,
+                          {planet::ErrorKind::BadInput,
+                           fmt::format("{}: no planet is open; open one first", command.file.string())});
     stopRecording(editor.desk, scene->planet.get(), log);
     endInspection(editor);
     endReplay(editor, scene);
     const BeforeReplay before{editor.settings.view, editor.rig->camera, editor.pagingPaused, editor.lodView,
                               editor.lodFrozen};
-    if (succeeded(startReplay(editor.desk, command.file, *scene, before))) editor.lodFrozen = false;
+    const Result<void> started = startReplay(editor.desk, command.file, *scene, before);
+    if (started)
+        editor.lodFrozen = false;
+    else
+        cannotOpen(command.file, started.error());
     forgetChanges(editor);
     editor.stepOneFrame = true;
 }
@@ -299,29 +327,26 @@ void CommandHandler::operator()(const ui::StartReplay& command) const {
 void CommandHandler::operator()(const ui::KeepCameraAsStart&) const {
     if (!shownScene(session) || !editor.rig) return;
     editor.settings.camera = pose();
-    log->info("Future sessions start here");
+    confirm("Future sessions start here");
 }
 
 void CommandHandler::operator()(const ui::AddBookmark& command) const {
     if (!shownScene(session) || !editor.rig) return;
-    if (succeeded(addBookmark(editor.bookmarks, command.name, pose())))
-        log->info("Bookmark {} added", command.name);
+    if (succeeded(addBookmark(editor.bookmarks, command.name, pose()), "The bookmark was not added"))
+        confirm(fmt::format("Bookmark {} added", command.name));
 }
 
 void CommandHandler::operator()(const ui::RemoveBookmark& command) const {
-    succeeded(removeBookmark(editor.bookmarks, command.name));
+    succeeded(removeBookmark(editor.bookmarks, command.name), "The bookmark was not removed");
 }
 
 void CommandHandler::openPreset(const std::filesystem::path& file) const {
     if (!maySet()) return;
     const Result<ui::ViewSettings> loaded = loadViewSettings(file, editor.settings.view);
-    if (!loaded) {
-        log->error("{}", loaded.error().message);
-        return;
-    }
+    if (!loaded) return cannotOpen(file, loaded.error());
     editor.undo.add(editor.settings.view, *loaded, "settings of " + file.filename().string());
     editor.settings.view = *loaded;
-    log->info("Settings of {} taken over", file.string());
+    confirm(fmt::format("Settings of {} taken over", file.string()));
 }
 
 // False where the picture carries no settings, so is something else.
@@ -331,13 +356,13 @@ bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
     if (!maySet()) return true;
     const Result<Settings> settings = settingsFromText(note->settings, file, editor.settings);
     if (!settings) {
-        log->error("{}", settings.error().message);
+        cannotOpen(file, settings.error());
         return true;
     }
     editor.undo.add(editor.settings.view, settings->view, "settings of " + file.filename().string());
     editor.settings.view = settings->view;
     if (shownScene(session)) moveCamera(cameraFromPose(note->camera, radiusM()));
-    log->info("Camera and settings of {} taken over", file.string());
+    confirm(fmt::format("Camera and settings of {} taken over", file.string()));
     return true;
 }
 
@@ -348,8 +373,7 @@ void CommandHandler::operator()(const ui::OpenFile& command) const {
         if (command.file.extension() == ".png" && openScreenshot(command.file)) return;
     }
     if (!openFile(session, command.file, editor.settings.view, log)) {
-        // Why not is told there.
-        ui::showPanel(ui::PanelId::Log, editor.settings.workspace);
+        editor.message = openingFailed(command.file, *session.problem);  // the log has it already
         return;
     }
     addRecentFile(editor.recent, command.file);
@@ -360,10 +384,7 @@ void CommandHandler::operator()(const ui::OpenFile& command) const {
 void CommandHandler::operator()(const ui::LoadPreset& command) const {
     if (!maySet()) return;
     const Result<ui::ViewSettings> loaded = editor.presets.load(command.name, editor.settings.view);
-    if (!loaded) {
-        log->error("{}", loaded.error().message);
-        return;
-    }
+    if (!loaded) return tellError(editor, log, {"The preset cannot be loaded", loaded.error().message, ""});
     editor.undo.add(editor.settings.view, *loaded, "preset " + command.name);
     editor.settings.view = *loaded;
 }
@@ -371,7 +392,9 @@ void CommandHandler::operator()(const ui::LoadPreset& command) const {
 void CommandHandler::operator()(const ui::LoadLayerSet& command) const {
     if (!maySet()) return;
     ui::ViewSettings loaded = editor.settings.view;
-    if (!succeeded(loadInto(editor.layers, command.file, loaded.surface.layers))) return;
+    if (!succeeded(loadInto(editor.layers, command.file, loaded.surface.layers),
+                   "The layer set cannot be loaded"))
+        return;
     editor.undo.add(editor.settings.view, loaded, "layer set " + command.file.stem().string());
     editor.settings.view = std::move(loaded);
 }
@@ -379,7 +402,9 @@ void CommandHandler::operator()(const ui::LoadLayerSet& command) const {
 void CommandHandler::operator()(const ui::SaveLayerSet& command) const {
     if (!maySet()) return;
     ui::ViewSettings saved = editor.settings.view;
-    if (!succeeded(saveAs(editor.layers, command.name, saved.surface.layers))) return;
+    if (!succeeded(saveAs(editor.layers, command.name, saved.surface.layers), "The layer set was not saved"))
+        return;
+    confirm(fmt::format("Layer set {} saved", command.name));
     editor.undo.add(editor.settings.view, saved, "layer set saved");
     editor.settings.view = std::move(saved);
 }
@@ -438,7 +463,7 @@ void obey(const ui::Commands& commands, Window& window, Session& session, Editor
     for (const ui::Command& command : commands) obeyOne(handler, command, ui::CommandKinds{});
 }
 
-void keepScreenshot(const Picture& picture, const Session& session, const Editor& editor, const Log& log) {
+void keepScreenshot(const Picture& picture, const Session& session, Editor& editor, const Log& log) {
     ScreenshotNote note;
     note.version = WORLDY_VERSION;
     note.settings = settingsText(editor.settings);
@@ -450,9 +475,9 @@ void keepScreenshot(const Picture& picture, const Session& session, const Editor
     }
     const Result<std::filesystem::path> file = writeNewScreenshot(picture, note);
     if (file)
-        log->info("Screenshot: {}", file->string());
+        confirm(editor, log, fmt::format("Screenshot: {}", file->string()));
     else
-        log->error("{}", file.error().message);
+        tellError(editor, log, {"The screenshot was not saved", file.error().message, ""});
 }
 
 }  // namespace worldy

@@ -77,6 +77,17 @@ void endInspection(Editor& editor) {
     editor.stepOneFrame = true;
 }
 
+void confirm(Editor& editor, const Log& log, const std::string& text) {
+    log->info("{}", text);
+    constexpr double shownS = 5;
+    editor.confirmation = {text, editor.timeS + shownS};
+}
+
+void tellError(Editor& editor, const Log& log, ui::Message message) {
+    log->error("{}", message.text);
+    editor.message = std::move(message);
+}
+
 void endReplay(Editor& editor, Scene* scene) {
     if (!editor.desk.replay) return;
     editor.beforeInspection.reset();  // it belongs to the replay
@@ -118,7 +129,13 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
         else
             commands.push_back(ui::OpenFile{file});
     }
+    const bool hadProblem = session.problem.has_value();
     advanceSession(session, editor.settings.view, log);
+    // With no planet the viewport itself says why; the log has it already.
+    if (!hadProblem && session.problem && shownScene(session) &&
+        session.problem->kind != planet::ErrorKind::Cancelled)
+        editor.message = {"The file cannot be baked", session.problem->message,
+                          "The planet that is open stays. Correct the file, or open another one."};
     advanceSweep(editor.sweep, log);
     if (reloadChangedShaders(session, log) && editor.compare.other) {
         const auto reloaded = editor.compare.other->planet.scene.renderer.reloadShaders();

@@ -26,6 +26,7 @@
 #include "app/window.h"
 #include "ui/editor_view.h"
 #include "ui/menu_bar.h"
+#include "ui/message_box.h"
 #include "ui/open_dialog.h"
 
 namespace worldy {
@@ -73,6 +74,8 @@ struct Editor {
     ui::PanelStates panels;
     ui::MenuState menu;
     ui::OpenDialogState openDialog;
+    ui::Message message;
+    ui::Confirmation confirmation;
 
     UndoHistory undo;
     PresetShelf presets{presetFolders()};
@@ -99,6 +102,11 @@ void forgetChanges(Editor& editor);
 void inspect(Editor& editor, const Camera& camera, const planet::View& lodView);
 // Gives back what was before the first inspect(); does nothing if there was none.
 void endInspection(Editor& editor);
+
+// Says in the log and for some seconds in the viewport that something asked for is done.
+void confirm(Editor& editor, const Log& log, const std::string& text);
+// Says in the log and in front of the user why something asked for was not done, and what to do about it.
+void tellError(Editor& editor, const Log& log, ui::Message message);
 
 // Ends the replay, if one runs, and gives back the settings and the camera of before. scene: null where its
 // planet is gone.

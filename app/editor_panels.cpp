@@ -138,7 +138,9 @@ void drawPanels(const Session& session, const ui::EditorView& view, const ui::La
     }
     ui::statusBar(view, layout.statusBar);
     ui::helpWindows(editor.menu);
+    ui::confirmationLine(editor.confirmation, editor.timeS, layout.viewport);
     ui::openDialog(editor.openDialog, commands);
+    ui::messageBox(editor.message, commands);
 }
 
 }  // namespace worldy

@@ -52,7 +52,7 @@ BakeWindowCommands bakeWindow(const BakeWindowInput& input, const Rect& within) 
         if (ImGui::Button(input.stopping ? "Stopping..." : "Cancel") && !input.stopping)
             commands.cancel = true;
     } else {
-        ImGui::TextColored(palette().warning, "%s", input.problem.c_str());
+        ImGui::TextColored(palette().bad, "%s", input.problem.c_str());
         if (input.canBake && ImGui::Button("Bake again")) commands.bakeAgain = true;
     }
     ImGui::PopTextWrapPos();

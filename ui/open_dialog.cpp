@@ -7,6 +7,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "ui/item_map.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 
@@ -126,12 +127,13 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
         return;
+    setItemScope("open");
     if (ImGui::Button("Up") && state.folder.has_parent_path()) listFolder(state.folder.parent_path(), state);
     ImGui::SameLine();
     ImGui::TextUnformatted(state.folder.string().c_str());
     bool accepted = folderList(state);
     if (!state.problem.empty())
-        ImGui::TextColored(palette().warning, "%s", state.problem.c_str());
+        ImGui::TextColored(palette().bad, "%s", state.problem.c_str());
     else if (state.entries.empty())
         ImGui::TextDisabled("This folder contains no file that Worldy can open.");
     ImGui::SetNextItemWidth(-1);
@@ -140,11 +142,15 @@ void openDialog(OpenDialogState& state, Commands& commands) {
         ImGui::InputTextWithHint("##path",
                                  state.forColours ? "Path of a colour image or of one of six faces"
                                                   : "Path of a chunk file, an elevation image or a cube face",
-                                 state.path.data(), state.path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+                                 state.path.data(), state.path.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    noteItem("Path");
     accepted |= ImGui::Button(state.forColours ? "Choose" : "Open");
     ImGui::SameLine();
-    const bool cancelled =
-        ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    // Elsewhere Esc closes all popups by itself; a text field takes it for itself alone.
+    const bool left =
+        ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    const bool cancelled = ImGui::Button("Cancel") || left;
     if (cancelled || (accepted && accept(state, commands))) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }

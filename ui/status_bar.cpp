@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/item_map.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -63,10 +64,15 @@ void planetCells(const EditorView& view, Cells& cells) {
               waiting > 0 ? colours.good : colours.dim);
 }
 
-std::size_t problemsIn(const std::deque<LogLine>& log) {
-    return static_cast<std::size_t>(std::count_if(log.begin(), log.end(), [](const LogLine& line) {
-        return line.level == LogLevel::Warning || line.level == LogLevel::Error;
-    }));
+// "1 error", or nothing.
+void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name, const ImVec4& colour,
+                Cells& cells) {
+    const auto count =
+        std::count_if(log.begin(), log.end(), [&](const LogLine& line) { return line.level == level; });
+    if (count == 0) return;
+    cells.add(fmt::format("{} {}{}", count, name, count == 1 ? "" : "s"), "See the Log panel (Ctrl+L).",
+              colour);
+    noteItem(name);
 }
 
 void warningCells(const EditorView& view, Cells& cells) {
@@ -94,10 +100,8 @@ void warningCells(const EditorView& view, Cells& cells) {
         cells.add(fmt::format("baking {:.0f} %", 100 * static_cast<double>(progress.samplesDone) / total),
                   "See the Bake panel.", colours.good);
     }
-    if (const std::size_t problems = problemsIn(view.log); problems > 0) {
-        cells.add(fmt::format("{} {}", problems, problems == 1 ? "warning" : "warnings"),
-                  "Warnings and errors in the log.", colours.warning);
-    }
+    addLogCell(view.log, LogLevel::Error, "error", colours.bad, cells);
+    addLogCell(view.log, LogLevel::Warning, "warning", colours.warning, cells);
 }
 
 }  // namespace
@@ -112,6 +116,7 @@ void statusBar(const EditorView& view, const Rect& rect) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
     beginFixedWindow("status bar", rect, ImGuiWindowFlags_NoScrollbar);
+    setItemScope("status");
     Cells cells(rect);
     cells.add(view.data.name.empty() ? "no planet open" : shortened(view.data.name, 32),
               view.data.chunkFile.string().c_str(), palette().accent);

@@ -145,19 +145,25 @@ TEST_F(BakeWindowTest, ADroppedFileIsOpenedAndABrokenOneLeavesThePlanet) {
     std::ofstream(folder.path() / "broken.png") << "nor is this a picture";
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
 plain=$(viewport)
-hidden log/Filter || echo "the log is in front already"
 for file in broken.chk broken.png; do
     ')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/$file" || echo "the window does not take $file"
     expect says "error: .*$file"
     [ "$(counter file)" = planet.chk ] || echo "$file leaves $(counter file)"
+    expect shown message/Text; expect shown status/error
+    [ $file = broken.chk ] && { shot message.png; key Escape; } || key Return
+    expect hidden message/Text
 done
-expect shown log/Filter; tab Paging; settle
+tab Paging; settle
 same "$plain" || echo "broken files change the picture"
 ')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/other.chk" || echo "the window does not take other.chk"
 expect counts chunk_size -eq 33; [ "$(counter file)" = "$PWD/other.chk" ] || echo "open is $(counter file)"
 settle; differs "$plain" || echo "the picture is the old one"
 click menu/File && click "menu/Open recent" && click "menu item/$PWD/other.chk"; frames
 key ctrl+o; frames; xdotool type --delay 20 "$PWD/planet.chk"; frames; key Return; expect counts chunk_size -eq 17
+# Opened again, what is typed takes the place of the last path.
+key ctrl+o; frames; xdotool type --delay 20 "$PWD/other.chk"; frames; key Return; expect counts chunk_size -eq 33
+key ctrl+o; expect shown open/Path; key Escape; expect hidden open/Path
+key F10; expect shown "help/Keys and mouse"; shot keys.png; key Escape; expect hidden "help/Keys and mouse"
 )sh");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "") << ran.errors;

@@ -167,7 +167,7 @@ TEST_F(Overwrite, ScreenshotThatBringsSettingsToTheWindowStaysAPicture) {
     if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
     ASSERT_EQ(run("shot s.chk -o look.png --size 64x64").exitCode, 0);
     const std::string before = contentOf(path("look.png"));
-    const Ran ran = runInWindow(folder_, "s.chk --settings look.png", "hold F1");
+    const Ran ran = runInWindow(folder_, "s.chk --settings look.png", "key F1");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, "");
     EXPECT_EQ(contentOf(path("look.png")), before);
