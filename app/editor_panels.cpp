@@ -136,7 +136,7 @@ void drawPanels(const Session& session, const ui::EditorView& view, const ui::La
     for (const ui::Dock dock : {ui::Dock::Left, ui::Dock::Right, ui::Dock::Bottom}) {
         ui::drawDock(dock, layout, view, editor.panels, workspace, settings, commands);
     }
-    ui::statusBar(view, layout.statusBar);
+    ui::statusBar(view, settings, layout.statusBar);
     ui::helpWindows(editor.menu);
     ui::confirmationLine(editor.confirmation, editor.timeS, layout.viewport);
     ui::openDialog(editor.openDialog, commands);

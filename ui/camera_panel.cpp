@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "ui/camera_heights.h"
 #include "ui/item_map.h"
 #include "ui/text.h"
 #include "ui/theme.h"
@@ -85,15 +86,18 @@ bool poseControl(int index, Pose& pose, CameraPanelState& state) {
     return entered;
 }
 
-void poseSection(const EditorView& view, CameraPanelState& state, Commands& commands) {
+void poseSection(const EditorView& view, const ViewSettings& settings, CameraPanelState& state,
+                 Commands& commands) {
     if (!section("Place")) return;
     Pose pose = view.camera.pose;
     for (int i = 0; i < static_cast<int>(poseFields.size()); ++i) {
         if (poseControl(i, pose, state)) commands.push_back(MoveCamera{pose});
     }
     if (beginValues("height")) {
-        valueRow("Above ground", distanceText(view.camera.heightAboveGroundM),
-                 "Height above the finest ground that is loaded below the camera.");
+        for (NamedHeight& height : namedHeights(cameraHeights(view, settings))) {
+            height.name[0] = 'A';
+            valueRow(height.name.c_str(), distanceText(height.heightM), height.explanation);
+        }
         endValues();
     }
     if (button("Reset", "Moves the camera to where this session started (F3)."))
@@ -203,7 +207,7 @@ void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& 
                  Commands& commands) {
     if (!view.planet) return emptyState("No planet is open.");
     motionSection(view, settings, commands);
-    poseSection(view, state, commands);
+    poseSection(view, settings, state, commands);
     bookmarksSection(view, state, commands);
     flightsSection(view, settings, commands);
     observerSection(settings.camera);

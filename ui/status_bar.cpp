@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/camera_heights.h"
 #include "ui/item_map.h"
 #include "ui/text.h"
 #include "ui/theme.h"
@@ -46,14 +47,14 @@ std::string shortened(const std::string& text, std::size_t most) {
     return "..." + text.substr(start);
 }
 
-void planetCells(const EditorView& view, Cells& cells) {
+void planetCells(const EditorView& view, const ViewSettings& settings, Cells& cells) {
     const Palette& colours = palette();
     const planet::PagingCounters& paging = view.stats.paging;
     const planet::CameraPose& pose = view.camera.pose;
     cells.add(placeText(pose.latitudeDeg, pose.longitudeDeg), "Camera position: latitude, longitude.",
               colours.text);
-    cells.add(distanceText(view.camera.heightAboveGroundM) + " above ground",
-              "Height of the camera over the surface that is loaded.", colours.text);
+    for (const NamedHeight& height : namedHeights(cameraHeights(view, settings)))
+        cells.add(distanceText(height.heightM) + " " + height.name, height.explanation, colours.text);
     const double perSecond = view.stats.frameMs > 0 ? 1000 / view.stats.frameMs : 0;
     cells.add(fmt::format("{:.1f} ms  {:.0f} FPS", view.stats.frameMs, perSecond),
               "Frame time and frame rate, including the wait for the monitor.", colours.text);
@@ -110,7 +111,7 @@ float statusBarHeight() {
     return std::round(ImGui::GetFontSize() * 1.65f);
 }
 
-void statusBar(const EditorView& view, const Rect& rect) {
+void statusBar(const EditorView& view, const ViewSettings& settings, const Rect& rect) {
     const float pad = std::round((rect.height - ImGui::GetFontSize()) / 2);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize() * 0.7f, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
@@ -122,7 +123,7 @@ void statusBar(const EditorView& view, const Rect& rect) {
               view.data.chunkFile.string().c_str(), palette().accent);
     // What is wrong comes before what is merely so: a narrow window leaves out from the right.
     warningCells(view, cells);
-    if (view.planet) planetCells(view, cells);
+    if (view.planet) planetCells(view, settings, cells);
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);

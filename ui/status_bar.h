@@ -8,6 +8,6 @@ namespace ui {
 
 float statusBarHeight();
 
-void statusBar(const EditorView& view, const Rect& rect);
+void statusBar(const EditorView& view, const ViewSettings& settings, const Rect& rect);
 
 }  // namespace ui
