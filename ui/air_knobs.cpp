@@ -54,13 +54,14 @@ void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& comman
     planet::gl::AirDrawing& air = surface.light.air;
     checkbox("Atmosphere", surface.atmosphere, defaults.atmosphere,
              "Draws haze and the sky. Off: no atmosphere, as on the Moon.");
-    ImGui::BeginDisabled(!surface.atmosphere);
+    beginGrey(!surface.atmosphere, "Turn on Atmosphere first.");
     featureKnob("Physical model", CostlyPart::Air, view, surface, commands,
                 "Molecules, haze and ozone scatter and absorb light as in the Earth's atmosphere, with "
                 "multiple scattering. Off: an analytic model, which costs almost nothing and leaves the "
                 "ground more contrast. Automatic: on, but off with software rendering.",
                 "it");
-    ImGui::BeginDisabled(!planet::gl::isUsed(air.use, view.light.software));
+    beginGrey(!planet::gl::isUsed(air.use, view.light.software),
+              "The physical atmosphere is off or turned down.");
     amounts(air.settings);
     slider("Exposure", air.exposure, defaults.light.air.exposure, 0.1, 10, "%.2f x",
            "Multiplies all light. At 1 the ground by day is as bright as with the analytic model. Larger: "
@@ -70,8 +71,8 @@ void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& comman
            "Ray-march steps through the whole atmosphere; half as many in front of ground, fewer where it is "
            "near. Fewer: a cheaper frame, and a rougher limb and dusk.");
     figures(view);
-    ImGui::EndDisabled();
-    ImGui::EndDisabled();
+    endGrey();
+    endGrey();
 }
 
 }  // namespace ui

@@ -229,7 +229,7 @@ bool sourceSection(const EditorView& view, BakePanelState& state, BakeRequest& r
 void requestSection(const EditorView& view, BakePanelState& state, Commands& commands) {
     if (!section("Bake settings")) return;
     BakeRequest request = state.edited.value_or(view.bake.current);
-    ImGui::BeginDisabled(view.bake.running.has_value());
+    beginGrey(view.bake.running.has_value(), "A bake is running: wait for its end, or cancel it.");
     bool changed = sourceSection(view, state, request);
     changed |= chunkSizeControl(view.bake.current, request);
     changed |= faceSizeControl(view.bake.current, request);
@@ -237,7 +237,7 @@ void requestSection(const EditorView& view, BakePanelState& state, Commands& com
     changed |= quantumControl(view.bake.current, request);
     changed |= colourControls(view, state.colour, request, commands);
     changed |= effortControls(view, request);
-    ImGui::EndDisabled();
+    endGrey();
     if (changed) edited(request, view.timeS, state);
 }
 
@@ -319,14 +319,15 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
 void bakeButtons(const EditorView& view, BakePanelState& state, Commands& commands) {
     const BakeRequest request = state.edited.value_or(view.bake.current);
     const bool same = sameFile(request, view.bake.current);
-    ImGui::BeginDisabled(!state.source.problem.empty() || !mayBake(state.colour));
+    beginGrey(!state.source.problem.empty() || !mayBake(state.colour),
+              "The source or the colour image cannot be baked; see above why.");
     if (button(same ? "Bake again" : "Bake",
                "Bakes in the background, then shows the new planet with the same camera and settings. The "
                "previous bake stays available for comparison.")) {
         state.estimateAtS.reset();
         commands.push_back(StartBake{request});
     }
-    ImGui::EndDisabled();
+    endGrey();
     if (!state.edited) return;
     ImGui::SameLine();
     if (button("Revert to open file", "Discards the changes made above.")) {
@@ -351,11 +352,11 @@ void progressSection(const BakeView& bake, Commands& commands) {
                  "Estimated from the current rate.");
         endValues();
     }
-    ImGui::BeginDisabled(bake.stopping);
+    beginGrey(bake.stopping, "The bake is stopping.");
     if (button(bake.stopping ? "Stopping..." : "Cancel",
                "Cancels the bake and discards its output; the open planet stays."))
         commands.push_back(CancelBake{});
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 void outcomeLines(const BakeView& bake) {

@@ -138,9 +138,9 @@ void addBookmarkControl(CameraPanelState& state, Commands& commands) {
     noteItem("Name");
     tooltip("Up to 60 characters. A bookmark of your own with the same name is replaced.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(state.bookmarkName[0] == 0);
+    beginGrey(state.bookmarkName[0] == 0, "Type a name first.");
     const bool pressed = button("Add", "Saves the current camera under this name.");
-    ImGui::EndDisabled();
+    endGrey();
     if ((!entered && !pressed) || state.bookmarkName[0] == 0) return;
     commands.push_back(AddBookmark{state.bookmarkName.data()});
     state.bookmarkName.fill(0);
@@ -185,7 +185,7 @@ void observerSection(CameraSettings& camera) {
     choice("View", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
            "A second camera that shows the LOD view's selection and culling from outside. Split: both views "
            "side by side. The planet is drawn twice.");
-    ImGui::BeginDisabled(camera.observer == ObserverMode::Off);
+    beginGrey(camera.observer == ObserverMode::Off, "The observer is off: choose a Picture above.");
     checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
              "Draws the edges of the LOD view's frustum, up to the farthest visible ground.");
     secondColumn();
@@ -198,7 +198,7 @@ void observerSection(CameraSettings& camera) {
     checkbox("Own LOD", camera.observerOwnLod, defaultCamera.observerOwnLod,
              "The observer uses its own LOD selection and requests instead of the LOD view's. This loads "
              "more chunks.");
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 }  // namespace

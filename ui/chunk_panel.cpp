@@ -83,9 +83,9 @@ void buttons(const ChunkId& id, Commands& commands) {
     if (button("Copy id", "Copies the chunk id to the clipboard."))
         commands.emplace_back(CopyText{toString(id)});
     ImGui::SameLine();
-    ImGui::BeginDisabled(id.level == 0);
+    beginGrey(id.level == 0, "A root chunk has no parent.");
     const bool parent = button("Parent", "Selects the parent chunk.");
-    ImGui::EndDisabled();
+    endGrey();
     if (parent) commands.emplace_back(SelectChunk{parentOf(id)});
 }
 

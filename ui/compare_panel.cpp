@@ -23,11 +23,11 @@ int asked(const char* name, const char* question, const std::vector<std::string>
     for (const std::string& item : items) list += item + std::string(1, '\0');
     list += '\0';
     int index = 0;
-    ImGui::BeginDisabled(items.empty());
+    beginGrey(items.empty(), "There is nothing to choose from.");
     ImGui::SetNextItemWidth(-1);
     const bool chosen = combo(name, index, list.c_str());
-    ImGui::EndDisabled();
     tooltip(explanation);
+    endGrey();
     return chosen ? index - 1 : -1;
 }
 
@@ -177,11 +177,11 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
 void nowSection(const CompareView& compare, Commands& commands) {
     if (!section("Now")) return;
     figuresTable("now", compare.now, true, compare.stale);
-    ImGui::BeginDisabled(compare.measuring);
+    beginGrey(compare.measuring, "The measurement is running.");
     if (button("Measure this view",
                "Measures the true error (in the background) and cracks of both for the current view."))
         commands.push_back(MeasureCompare{});
-    ImGui::EndDisabled();
+    endGrey();
     if (compare.measuring)
         usageBar(compare.measured, "measuring the true error");
     else if (compare.stale)
@@ -205,13 +205,13 @@ void flightControls(const EditorView& view, ComparePanelState& state, Commands& 
     slider("Sample frames", state.moments, 12, 2, 100, "%d",
            "Number of frames measured, evenly spread over the flight, with all chunks loaded; pops are "
            "measured over the whole flight. More: more reliable and slower.");
-    ImGui::BeginDisabled(!view.compare.on);
+    beginGrey(!view.compare.on, "Choose a B first: there is nothing to compare with.");
     if (button("Measure over the flight",
                "Flies twice with the settings of A and twice with those of B in the background: once to "
                "measure frames, once with all loads on time to measure pops. worldy compare does the same "
                "without a window."))
         commands.push_back(CompareOverFlight{flights[static_cast<std::size_t>(chosen)], state.moments});
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 void flightSection(const EditorView& view, ComparePanelState& state, Commands& commands) {
@@ -220,10 +220,10 @@ void flightSection(const EditorView& view, ComparePanelState& state, Commands& c
     if (flight.running) {
         usageBar(flight.progress,
                  flight.stopping ? "cancelling" : fmt::format("{:.0f} %", 100 * flight.progress));
-        ImGui::BeginDisabled(flight.stopping);
+        beginGrey(flight.stopping, "It is stopping.");
         if (button("Cancel", "Cancels the measurement and discards its results."))
             commands.push_back(CancelCompareFlight{});
-        ImGui::EndDisabled();
+        endGrey();
     } else if (view.camera.flights.empty()) {
         wrappedText(
             "There are no flights. Record one in the Flight panel, or put TOML files into a folder "

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "ui/chunk_link.h"
 #include "ui/inspection.h"
+#include "ui/item_map.h"
 #include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
@@ -17,22 +19,29 @@ namespace ui {
 
 namespace {
 
+const char* whyNoSkirts(const CracksView& cracks) {
+    if (!cracks.measured) return "Measure first.";
+    if (!cracks.current) return "The camera or what is drawn has changed: measure again.";
+    return "Stitched seams have no skirts.";
+}
+
 void knobs(const EditorView& view, CrackKnobs& cracks, Commands& commands) {
     const CrackKnobs defaults;
-    ImGui::BeginDisabled(!view.planet);
+    beginGrey(!view.planet, "Open a planet first.");
     if (button("Measure",
                "Renders the depth of the chunks three times (with full-depth skirts, without skirts, with "
                "the current skirts) and compares them. Takes as long as several frames."))
         commands.emplace_back(MeasureCracks{});
     sameLineIfRoom(ImGui::CalcTextSize("Find smallest skirts").x + ImGui::GetFontSize());
-    ImGui::BeginDisabled(!view.cracks.current || view.cracks.measured->seams == planet::SeamMode::Stitched);
+    beginGrey(!view.cracks.current || view.cracks.measured->seams == planet::SeamMode::Stitched,
+              whyNoSkirts(view.cracks));
     if (button(
             "Find smallest skirts",
             "Searches for the smallest fixed depth and the smallest automatic factor that leave no uncovered "
             "pixel in this view. For a whole flight use worldy cracks FILE --flight F --find-depth."))
         commands.emplace_back(FindSmallestSkirts{});
-    ImGui::EndDisabled();
-    ImGui::EndDisabled();
+    endGrey();
+    endGrey();
     checkbox("Measure while flying", cracks.live, defaults.live,
              "Measures every few frames. Each measurement takes at least as long as drawing three frames, so "
              "the picture stutters.");
@@ -45,7 +54,54 @@ void knobs(const EditorView& view, CrackKnobs& cracks, Commands& commands) {
              "measured one.");
 }
 
-void values(const CracksView& cracks) {
+// A value that was found, with a button that sets it. whyNot: empty where it can be set. True if it is to be
+// set.
+bool foundRow(const char* name, const std::string& value, const char* explanation,
+              const std::string& whyNot) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(palette().dim, "%s", name);
+    tooltip(explanation);
+    ImGui::TableNextColumn();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float wide =
+        ImGui::CalcTextSize((value + "Apply").c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    const float slack = ImGui::GetContentRegionAvail().x - wide;
+    if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
+    ImGui::TextUnformatted(value.c_str());
+    tooltip(explanation);
+    ImGui::SameLine();
+    ImGui::PushID(name);
+    beginGrey(!whyNot.empty(), whyNot.c_str());
+    const bool pressed = ImGui::SmallButton("Apply");
+    noteItem(std::string("Apply ") + name);
+    tooltip("Sets skirts of this in the Seams panel. Undo takes it back.");
+    endGrey();
+    ImGui::PopID();
+    return pressed;
+}
+
+void depthRow(const char* name, double depthM, const char* explanation, bool replayed, SeamKnobs& seams) {
+    const std::string whyNot = replayed ? "A replay has settings of its own; end it first." : "";
+    if (!foundRow(name, distanceText(depthM), explanation, whyNot)) return;
+    seams.mode = planet::SeamMode::Skirts;
+    seams.depth = planet::SkirtDepth::Fixed;
+    seams.skirtDepthM = std::clamp(depthM, 0.0, 100000.0);
+}
+
+void factorRow(const char* name, double factor, const char* explanation, bool replayed, SeamKnobs& seams) {
+    constexpr double mostFactor = 10;
+    const std::string whyNot = replayed              ? "A replay has settings of its own; end it first."
+                               : factor > mostFactor ? "A factor may be 10 at most: apply the depth instead."
+                                                     : "";
+    const std::string text = std::isfinite(factor) ? fmt::format("{:.3f}", factor) : std::string("none");
+    if (!foundRow(name, text, explanation, whyNot)) return;
+    seams.mode = planet::SeamMode::Skirts;
+    seams.depth = planet::SkirtDepth::Automatic;
+    seams.skirtFactor = factor;
+}
+
+void values(const CracksView& cracks, bool replayed, SeamKnobs& seams) {
     const CrackMeasurement& measured = *cracks.measured;
     if (!beginValues("cracks")) return;
     const ImVec4 good = palette().good;
@@ -59,18 +115,19 @@ void values(const CracksView& cracks) {
              "Connected crack pixels between the same two chunks.");
     valueRow("LOD seams", fmt::format("{}", measured.levelPairs),
              "Pairs of adjacent drawn chunks with different levels.");
-    valueRow("Required depth (max gap)", distanceText(measured.required.depthM),
-             "Largest height difference between two adjacent edges, in metres.");
-    valueRow("Required factor (max gap)", fmt::format("{:.3f}", measured.required.factor),
-             "Smallest automatic factor whose skirts reach every adjacent edge.");
+    depthRow("Required depth (max gap)", measured.required.depthM,
+             "Largest height difference between two adjacent edges, in metres.", replayed, seams);
+    factorRow("Required factor (max gap)", measured.required.factor,
+              "Smallest automatic factor whose skirts reach every adjacent edge.", replayed, seams);
     if (cracks.smallest) {
-        valueRow("Smallest depth", distanceText(cracks.smallest->depthM),
-                 "Smallest fixed skirt depth that leaves no uncovered pixel in this view; within 0.5 %.");
-        valueRow("Smallest factor",
-                 std::isfinite(cracks.smallest->factor) ? fmt::format("{:.3f}", cracks.smallest->factor)
-                                                        : std::string("none"),
-                 "Smallest automatic factor that leaves no uncovered pixel in this view; within 0.5 %. None: "
-                 "a factor of 1000 is not enough.");
+        depthRow("Smallest depth", cracks.smallest->depthM,
+                 "Smallest fixed skirt depth that leaves no uncovered pixel in this view; within 0.5 %.",
+                 replayed, seams);
+        factorRow("Smallest factor", cracks.smallest->factor,
+                  "Smallest automatic factor that leaves no uncovered pixel in this view; within 0.5 %. "
+                  "None: a factor "
+                  "of 1000 is not enough.",
+                  replayed, seams);
     }
     valueRow("Picture", fmt::format("{} x {}", measured.map.widthPx, measured.map.heightPx),
              "Size of the measured picture, in pixels.");
@@ -167,7 +224,7 @@ void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settin
     }
     const float alpha = ImGui::GetStyle().Alpha * (view.cracks.current ? 1.0f : 0.6f);
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
-    if (section("Results")) values(view.cracks);
+    if (section("Results")) values(view.cracks, view.recording.replay.has_value(), settings.seams);
     if (section("Crack clusters")) spotTable(view, commands);
     if (section("Edge gaps")) gapTable(view, commands);
     ImGui::PopStyleVar();

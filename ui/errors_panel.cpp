@@ -34,13 +34,13 @@ std::string finePx(double px, const char* unit = " px") {
 
 void errorsControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
     const ErrorsView& errors = view.errors;
-    ImGui::BeginDisabled(errors.running);
+    beginGrey(errors.running, "A measurement is running.");
     if (button(
             "Measure",
             "Compares every finest sample under every drawn chunk with the drawn surface, for this frame's "
             "view. Runs in the background and reads blocks that are not in memory from the chunk file."))
         commands.push_back(MeasureErrors{});
-    ImGui::EndDisabled();
+    endGrey();
     sameLineIfRoom(checkboxWidth("Keep measuring"));
     bool keep = errors.keepMeasuring;
     if (ImGui::Checkbox("Keep measuring", &keep)) commands.push_back(KeepMeasuringErrors{keep});

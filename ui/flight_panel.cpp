@@ -98,14 +98,14 @@ void flightList(const EditorView& view, FlightPanelState& state, Commands& comma
     }
     const auto chosen = std::find_if(flights.begin(), flights.end(),
                                      [&](const RecordedFlight& f) { return f.name == state.selected; });
-    ImGui::BeginDisabled(chosen == flights.end());
+    beginGrey(chosen == flights.end(), "Select a flight first.");
     if (button("Replay",
                "Replays the flight from the start. Camera and settings come from the recording until you end "
                "the replay."))
         commands.push_back(StartReplay{chosen->file});
     ImGui::SameLine();
     if (button("Delete...", "Deletes the file after confirmation.")) ImGui::OpenPopup("delete");
-    ImGui::EndDisabled();
+    endGrey();
     if (chosen != flights.end()) deletePopup(*chosen, commands);
 }
 
@@ -202,11 +202,11 @@ void eventButtons(const ReplayNow& replay, Commands& commands) {
     const ImGuiStyle& style = ImGui::GetStyle();
     sameLineIfRoom(ImGui::CalcTextSize("< ChangeChange >").x + 4 * style.FramePadding.x +
                    style.ItemSpacing.x);
-    ImGui::BeginDisabled(replay.ticks.empty());
+    beginGrey(replay.ticks.empty(), "The recording has no split and no merge.");
     if (button("< Change", "Goes to the previous frame with a split or merge.")) go(false);
     ImGui::SameLine();
     if (button("Change >", "Goes to the next frame with a split or merge.")) go(true);
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 void replayKnobs(const ReplayNow& replay, Commands& commands) {
@@ -273,10 +273,12 @@ void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& 
         runningReplay(*view.recording.replay, commands);
         return;
     }
-    if (view.recording.recording)
+    if (view.recording.recording) {
         runningRecording(*view.recording.recording, commands);
-    else
+        state.selected = view.recording.recording->name;  // once it is kept, it is in the list
+    } else {
         recordControl(state, commands);
+    }
     checkbox("Simulated paging", settings.paging.simulated, PagingKnobs().simulated,
              "Read times follow the fault-injection settings and seed in frame time instead of real time, so "
              "a recorded flight is the same on any machine. Without fault injection a read takes no time.");

@@ -66,9 +66,9 @@ void pauseControls(const EditorView& view, Commands& commands) {
     noteItem("Pause");
     tooltip("Pauses movement, LOD selection and loading; the panels stay active.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!view.framesPaused);
+    beginGrey(!view.framesPaused, "Pause frames first.");
     if (button("Step", "While paused: runs one frame.")) commands.push_back(StepFrame{});
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 void times(const EditorView& view, Commands& commands) {
@@ -154,12 +154,13 @@ void memoryByKind(const EditorView& view) {
 // Stages that one draw call does together cannot be timed in it: they are drawn with and without.
 void partCosts(const EditorView& view, Commands& commands) {
     const bool measuring = view.light.measured < 1;
-    ImGui::BeginDisabled(measuring || !view.planet);
+    beginGrey(measuring || !view.planet,
+              view.planet ? "The measurement is running." : "Open a planet first.");
     if (button("Measure features",
                "Draws this view with and without each light and surface feature, each twice, five times, and "
                "shows medians. The window is slow meanwhile."))
         commands.emplace_back(MeasureCosts{});
-    ImGui::EndDisabled();
+    endGrey();
     if (measuring) usageBar(view.light.measured, fmt::format("{:.0f} %", 100 * view.light.measured));
     if (view.light.costs.empty()) return;
     if (!beginValues("parts")) return;

@@ -47,11 +47,11 @@ void blendKnobs(LayerSettings& layers) {
     choice("Blend by", layers.set.blend, defaults.blend, "weight\0height\0",
            "How overlapping layers are blended. Weight: by their weights. Height: the layer with the higher "
            "relief wins, so sand lies between stones.");
-    ImGui::BeginDisabled(layers.set.blend == planet::LayerBlend::Weight);
+    beginGrey(layers.set.blend == planet::LayerBlend::Weight, "Blend by height first.");
     slider("Blend depth", layers.set.blendDepth, defaults.blendDepth, 0.05, 2, "%.2f",
            "For blending by height: a layer lower by this depth keeps 2 % of its weight; relief and weight "
            "are in [0, 1]. Smaller: sharper borders.");
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 void previewKnob(const LayersPanelState& state, LayerSettings& layers) {
@@ -145,35 +145,36 @@ void layerList(const EditorView& view, LayersPanelState& state, LayerSettings& l
 void listButtons(LayersPanelState& state, LayerList& list) {
     const bool full = list.size() >= planet::maxLayers;
     const std::size_t last = list.empty() ? 0 : list.size() - 1;
-    ImGui::BeginDisabled(full);
+    beginGrey(full, "There are eight layers, and no more fit.");
     if (button("Add", full ? "The maximum of eight layers is reached."
                            : "Adds a layer without textures above all others."))
         state.chosen = addLayer(list);
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
-    ImGui::BeginDisabled(full || list.empty());
+    beginGrey(full || list.empty(),
+              full ? "There are eight layers, and no more fit." : "There is no layer to copy.");
     if (button("Copy", "Duplicates the selected layer above it."))
         state.chosen = duplicateLayer(list, state.chosen);
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
-    ImGui::BeginDisabled(list.empty());
+    beginGrey(list.empty(), "There is no layer to remove.");
     if (button("Remove", "Removes the selected layer. Undo restores it."))
         state.chosen = removeLayer(list, state.chosen);
-    ImGui::EndDisabled();
+    endGrey();
     sameLineIfRoom(4 * ImGui::GetFontSize());
-    ImGui::BeginDisabled(list.empty() || state.chosen >= last);
+    beginGrey(list.empty() || state.chosen >= last, "The chosen layer is the topmost.");
     if (button("Up", "Moves the selected layer up.")) {
         moveLayer(list, state.chosen, state.chosen + 1);
         ++state.chosen;
     }
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
-    ImGui::BeginDisabled(list.empty() || state.chosen == 0);
+    beginGrey(list.empty() || state.chosen == 0, "The chosen layer is the lowest.");
     if (button("Down", "Moves the selected layer down.")) {
         moveLayer(list, state.chosen, state.chosen - 1);
         --state.chosen;
     }
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 // What is left of the planet's own colour is named too.
@@ -235,12 +236,12 @@ void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettin
         "Used as the file name: letters, digits, spaces, dots and dashes, up to 60 bytes. A set of your own "
         "with this name is replaced.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(state.newName[0] == 0);
+    beginGrey(state.newName[0] == 0, "Type a name first.");
     if (button("Save##set", "Saves the layers as a TOML file.")) {
         commands.push_back(SaveLayerSet{state.newName.data()});
         state.newName.fill(0);
     }
-    ImGui::EndDisabled();
+    endGrey();
     if (!view.layers.setProblem.empty()) wrappedText(view.layers.setProblem, palette().bad);
 }
 

@@ -46,7 +46,7 @@ void toleranceKnobs(LodKnobs& lod) {
     checkbox("Morph", lod.morph, defaults.morph,
              "Moves a chunk's vertices gradually onto its parent's surface before the parent replaces it. "
              "Off: chunks pop when their level changes.");
-    ImGui::BeginDisabled(!lod.morph);
+    beginGrey(!lod.morph, "Turn on Morph first.");
     slider("Morph range", lod.morphRange, defaults.morphRange, 0.01, 4, "%.2f",
            fmt::format("Fraction of {0} over which a chunk morphs: its morph is 0 where its parent's {1} is "
                        "{0} (1 + range), and 1 where it is {0}. Larger: slower morphs, but more chunks are "
@@ -59,7 +59,7 @@ void toleranceKnobs(LodKnobs& lod) {
            "range cannot anticipate: late children, a new tolerance, a fast camera. Larger: smoother, but "
            "chunks stay too coarse or too fine for longer. 0: such changes pop.",
            ImGuiSliderFlags_Logarithmic);
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 // Of a file that was baked before there was one.
@@ -114,7 +114,8 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
     const bool running = view.bake.running.has_value();
     ImGui::TextColored(palette().warning, "%s", running ? "baking" : "baked");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!view.bake.canBake || running);
+    beginGrey(!view.bake.canBake || running,
+              running ? "A bake is running." : "The source of this file is not known or no longer there.");
     const char* explanation =
         running ? "A bake is running; see the Bake panel."
         : view.bake.canBake && !view.bake.lostColours.empty()
@@ -129,7 +130,7 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
         request.settings.chunkSize = wantedSize;
         commands.push_back(StartBake{request});
     }
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 void chunkSizeKnob(const EditorView& view, Commands& commands) {

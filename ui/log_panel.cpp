@@ -68,12 +68,12 @@ void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& c
     ImGui::Checkbox("Follow", &state.autoScroll);
     tooltip("Scrolls to new lines. Scrolling up turns this off.");
     sameLineIfRoom(font * 3.5f);
-    ImGui::BeginDisabled(state.shown.lines.empty());
+    beginGrey(state.shown.lines.empty(), "No line is shown.");
     const std::string explanation = fmt::format(
         "Copies the {} lines shown. Right-click a line to copy only that line.", state.shown.lines.size());
     if (button("Copy", explanation.c_str()))
         commands.push_back(CopyText{linesText(lines, state.shown.lines)});
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 // Selects the chunk that a line names, looks at the tile of colour, or else copies the path of the file.

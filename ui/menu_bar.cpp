@@ -11,39 +11,53 @@
 
 #include "ui/item_map.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 
 namespace ui {
 
 namespace {
 
 // An open menu's own name is no longer ImGui's last item, so its place is noted before.
-bool beginMenu(const char* label, bool enabled = true) {
+// whyNot: why it is grey; null: it is not.
+bool beginMenu(const char* label, const char* whyNot = nullptr) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     setItemScope("menu");
     noteRect(label, {at.x, at.y, ImGui::CalcTextSize(label).x, ImGui::GetFontSize()});
-    return ImGui::BeginMenu(label, enabled);
+    const bool open = ImGui::BeginMenu(label, !whyNot);
+    if (whyNot) tooltip(whyNot);
+    return open;
 }
 
-bool menuItem(const char* label, const char* shortcut = nullptr, bool selected = false, bool enabled = true) {
-    const bool pressed = ImGui::MenuItem(label, shortcut, selected, enabled);
+bool menuItem(const char* label, const char* shortcut = nullptr, bool selected = false,
+              const char* whyNot = nullptr) {
+    const bool pressed = ImGui::MenuItem(label, shortcut, selected, !whyNot);
     setItemScope("menu item");
     noteItem(label);
+    if (whyNot) tooltip(whyNot);
     return pressed;
 }
+
+// unless: what makes an item usable.
+const char* greyUnless(bool unless, const char* why) {
+    return unless ? nullptr : why;
+}
+
+constexpr const char* noPlanet = "No planet is open.";
 
 void fileMenu(const EditorView& view, Commands& commands) {
     if (!beginMenu("File")) return;
     if (menuItem("Open...", "Ctrl+O")) commands.push_back(AskForFile{});
-    if (beginMenu("Open recent", !view.data.recent.empty())) {
+    if (beginMenu("Open recent", greyUnless(!view.data.recent.empty(), "No file was opened yet."))) {
         for (const std::filesystem::path& file : view.data.recent) {
             if (menuItem(file.string().c_str())) commands.push_back(OpenFile{file});
         }
         ImGui::EndMenu();
     }
     ImGui::Separator();
-    if (menuItem("Screenshot", "F12", false, view.planet)) commands.push_back(TakeScreenshot{false});
+    if (menuItem("Screenshot", "F12", false, greyUnless(view.planet, noPlanet)))
+        commands.push_back(TakeScreenshot{false});
     if (menuItem("Screenshot with panels", "Shift+F12")) commands.push_back(TakeScreenshot{true});
-    if (menuItem("Copy as command line", "Ctrl+Shift+C", false, view.planet))
+    if (menuItem("Copy as command line", "Ctrl+Shift+C", false, greyUnless(view.planet, noPlanet)))
         commands.push_back(CopyCommandLine{});
     ImGui::Separator();
     if (menuItem("Quit", "Ctrl+Q")) commands.push_back(Quit{});
@@ -55,15 +69,20 @@ void editMenu(const EditorView& view, ViewSettings& settings, Commands& commands
     const auto named = [](const char* verb, const std::string& name) {
         return name.empty() ? std::string(verb) : verb + (" " + name);
     };
-    if (menuItem(named("Undo", view.undoName).c_str(), "Ctrl+Z", false, !view.undoName.empty()))
+    if (menuItem(named("Undo", view.undoName).c_str(), "Ctrl+Z", false,
+                 greyUnless(!view.undoName.empty(), "No setting was changed yet.")))
         commands.push_back(Undo{});
-    if (menuItem(named("Redo", view.redoName).c_str(), "Ctrl+Shift+Z", false, !view.redoName.empty()))
+    if (menuItem(named("Redo", view.redoName).c_str(), "Ctrl+Shift+Z", false,
+                 greyUnless(!view.redoName.empty(), "Nothing was undone.")))
         commands.push_back(Redo{});
     ImGui::Separator();
-    if (menuItem("Reset all settings", nullptr, false, settings != ViewSettings())) settings = {};
-    if (beginMenu("Load preset", !view.presets.empty())) {
+    if (menuItem("Reset all settings", nullptr, false,
+                 greyUnless(settings != ViewSettings(), "All settings have their defaults.")))
+        settings = {};
+    if (beginMenu("Load preset", greyUnless(!view.presets.empty(), "There is no preset."))) {
         for (const PresetView& preset : view.presets) {
-            if (menuItem(preset.name.c_str(), nullptr, false, preset.problem.empty()))
+            if (menuItem(preset.name.c_str(), nullptr, false,
+                         greyUnless(preset.problem.empty(), preset.problem.c_str())))
                 commands.push_back(LoadPreset{preset.name});
         }
         ImGui::EndMenu();
@@ -93,7 +112,9 @@ void viewMenu(Workspace& workspace) {
     }
     if (menuItem("Larger text", "Ctrl++")) workspace.scale = std::min(workspace.scale * 1.1, 3.0);
     if (menuItem("Smaller text", "Ctrl+-")) workspace.scale = std::max(workspace.scale / 1.1, 0.5);
-    if (menuItem("Match monitor scale", nullptr, false, workspace.scale != 1)) workspace.scale = 1;
+    if (menuItem("Match monitor scale", nullptr, false,
+                 greyUnless(workspace.scale != 1, "Text has the monitor's scale.")))
+        workspace.scale = 1;
     ImGui::Separator();
     if (menuItem("Reset layout")) {
         const Theme theme = workspace.theme;

@@ -61,13 +61,13 @@ void whyNone(const EditorView& view) {
 void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands) {
     const ViewSettings defaults;
     planet::gl::NormalDrawing& normals = settings.surface.light.normals;
-    ImGui::BeginDisabled(!settings.surface.lighting);
+    beginGrey(!settings.surface.lighting, "Turn on Lighting first.");
     featureKnob("Fine normals", CostlyPart::Normals, view, settings.surface, commands,
                 "Lights coarse chunks by slopes of the finest heights, up to the screen resolution, using "
                 "tiles derived from the file's heights. Off: lights by vertex normals, which are smooth "
                 "where the mesh is coarse; no memory is needed.",
                 "fine normals");
-    ImGui::BeginDisabled(normals.use == planet::gl::FeatureUse::Off);
+    beginGrey(normals.use == planet::gl::FeatureUse::Off, "Fine normals are off.");
     slider("Texels per pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
            "%.2f",
            "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
@@ -76,8 +76,8 @@ void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& comma
     slider("Share", settings.paging.normalShare, defaults.paging.normalShare, 0.01, 0.9, "%.2f",
            "Fraction of the paging budget that colours leave. Larger: finer shading of coarse chunks. "
            "Smaller: finer ground when the budget is full.");
-    ImGui::EndDisabled();
-    ImGui::EndDisabled();
+    endGrey();
+    endGrey();
     if (!view.planet) return;
     if (view.planet->normalPaging().tileCapacity > 0)
         figures(*view.planet);

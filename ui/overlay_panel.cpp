@@ -23,12 +23,12 @@ void colourKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
            "Quantity that tints the chunks in the viewport: level, screen-space error relative to the "
            "tolerance, geometric error δc in metres, morph, time since loading, load order, or the last "
            "measured error (True error panel) relative to the tolerance. F8 cycles through them.");
-    ImGui::BeginDisabled(overlay.colourBy == ColourBy::None);
+    beginGrey(overlay.colourBy == ColourBy::None, "Choose a tint first: nothing colours the chunks.");
     slider("Opacity", overlay.opacity, defaults.opacity, 0, 1, "%.2f",
            "Opacity of the tint, [0, 1]. Smaller: more of the ground shows, but colours are harder to tell "
            "apart. At 1, and without lighting, the colours are exactly those of the legend: neither light "
            "nor the atmosphere changes them.");
-    ImGui::EndDisabled();
+    endGrey();
     if (overlay.colourBy == ColourBy::Error || overlay.colourBy == ColourBy::Measured)
         slider("Midpoint", overlay.errorScale, defaults.errorScale, 0.01, 100,
                (std::string("%.2f x ") + tauSymbol()).c_str(),

@@ -70,9 +70,9 @@ void buttons(const EditorView& view, Commands& commands) {
     noteItem("Pause");
     tooltip("Stops loaders from taking requests from the queue. Missing chunks stay coarse.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!view.pagingPaused);
+    beginGrey(!view.pagingPaused, "Pause paging first.");
     if (button("Load one", "While paused: processes the most urgent request.")) commands.push_back(LoadOne{});
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
     if (button("Evict all",
                "Evicts all chunks and colour tiles except the six roots, and cancels all queued requests, to "

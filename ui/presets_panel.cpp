@@ -84,11 +84,13 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
     noteItem("Name");
     tooltip("Used as the file name: letters, digits, spaces, dots and dashes, up to 60 bytes.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(state.name[0] == 0 || (same && same->shipped));
+    beginGrey(state.name[0] == 0 || (same && same->shipped),
+              state.name[0] == 0 ? "Type a name first."
+                                 : "A preset of this name comes with Worldy and stays as it is.");
     const bool pressed =
         button(label, same && same->shipped ? "A built-in preset has this name and cannot be replaced."
                                             : "Saves all current view settings under this name.");
-    ImGui::EndDisabled();
+    endGrey();
     // Enter replaces nothing: that wants the button's word for it.
     if (!pressed && !(entered && !same)) return;
     if (state.name[0] == 0) return;
@@ -98,11 +100,11 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
 }
 
 void deleteControl(const PresetView& preset, Commands& commands) {
-    ImGui::BeginDisabled(preset.shipped);
+    beginGrey(preset.shipped, "It comes with Worldy and cannot be deleted.");
     if (button("Delete...", preset.shipped ? "Built-in presets cannot be deleted."
                                            : "Deletes the file after confirmation."))
         ImGui::OpenPopup("delete");
-    ImGui::EndDisabled();
+    endGrey();
     if (!ImGui::BeginPopup("delete")) return;
     ImGui::Text("Delete \"%s\" permanently?", preset.name.c_str());
     if (ImGui::Button("Delete")) {
@@ -146,10 +148,11 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
         return;
     }
     const bool readable = preset->problem.empty();
-    ImGui::BeginDisabled(!readable || preset->differences.empty());
+    beginGrey(!readable || preset->differences.empty(),
+              readable ? "All that it holds is as it is now." : "The preset cannot be read.");
     if (button("Load", "Applies the settings listed below. Undo reverts this."))
         commands.push_back(LoadPreset{preset->name});
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
     deleteControl(*preset, commands);
     if (!readable) {
@@ -164,11 +167,11 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
 }  // namespace
 
 void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings&, Commands& commands) {
-    ImGui::BeginDisabled(!view.planet);
+    beginGrey(!view.planet, "Open a planet first.");
     if (button("Copy as command line",
                "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))
         commands.push_back(CopyCommandLine{});
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
     if (button("Reset all settings", "Resets all view settings to their defaults. Undo reverts this."))
         commands.push_back(LoadPreset{"default"});

@@ -85,9 +85,9 @@ void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
     if (button("Fit", "Shows the whole net. Double-clicking beside the faces does the same."))
         state.focus = {};
     ImGui::SameLine();
-    ImGui::BeginDisabled(!view.focus.selected);
+    beginGrey(!view.focus.selected, "Select a chunk first.");
     const bool toSelection = button("Selected", "Centres and enlarges the selected chunk in the net.");
-    ImGui::EndDisabled();
+    endGrey();
     if (toSelection) state.focus = centredOn(state.focus, state.area, *view.focus.selected, 40);
     ImGui::SameLine();
     checkbox("List", state.showTree, true, "Shows the chunks as a tree beside the net.");

@@ -62,9 +62,9 @@ void clipmapKnobs(SurfaceSettings& surface) {
            "Tiles: each pixel looks up its tile in a page table; as sharp everywhere as the loaded tiles. "
            "Clipmap: a stack of textures centred on the camera, filled from the same tiles; no page table "
            "lookup, but sharp only near the point under the camera, and it needs additional memory.");
-    ImGui::BeginDisabled(surface.colourMode != ColourMode::Clipmap);
+    beginGrey(surface.colourMode != ColourMode::Clipmap, "Only the clipmap has windows.");
     windowSizeKnob(surface, defaults.clipmapSizePx);
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 // Of both ways side by side.
@@ -100,13 +100,13 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     checkbox("Streamed", surface.streamed, defaults.streamed,
              "Draws the colours baked into the file, streamed as tiles. Off: the image beside the source, if "
              "there is one, otherwise the ramp.");
-    ImGui::BeginDisabled(!surface.streamed);
+    beginGrey(!surface.streamed, "Turn on Streamed first.");
     slider("Texels per pixel", surface.texelsPerPixel, defaults.texelsPerPixel, 0.1, 4, "%.2f",
            "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
            "doubling it needs up to four times the tiles, and it may shimmer. Smaller: softer.",
            ImGuiSliderFlags_Logarithmic);
     clipmapKnobs(surface);
-    ImGui::EndDisabled();
+    endGrey();
     const std::string& problem = view.stats.clipmap.problem;
     if (!problem.empty()) wrappedText(problem, palette().warning);
     const planet::TileCounters& seen = view.planet->colourSelection().counters;
@@ -129,11 +129,12 @@ void colourKnobs(const EditorView& view, SurfaceSettings& surface) {
            hasAny ? "Source of the ground colour: the colour image or a ramp of colours by height."
                   : "No colour image is loaded; the ramp is used for both.");
     const bool image = surface.surface == planet::gl::SurfaceColour::Image && hasAny;
-    ImGui::BeginDisabled(!image);
+    beginGrey(!image,
+              hasAny ? "The height ramp is drawn: choose the image above." : "No colour image is loaded.");
     slider("Image opacity", surface.imageOpacity, defaults.imageOpacity, 0, 1, "%.2f",
            hasAny ? "Opacity of the colour image over the ramp, [0, 1]." : "No colour image is loaded.");
     if (hasOwn) streamedKnobs(view, surface);
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 // The ramp as a picture, from its first stop to its last, each marked below it. A click gives the height
@@ -232,7 +233,7 @@ void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSetting
         addedM = previewBar(ramp, state.selectedStop);
         rampStops(ramp, state.selectedStop);
     }
-    ImGui::BeginDisabled(ramp.size() >= maxRampStops);
+    beginGrey(ramp.size() >= maxRampStops, "The ramp is full.");
     const std::string explanation = fmt::format(
         "Adds a stop after the selected one, or above the last, with the current ramp colour; at most {} "
         "stops.",
@@ -242,7 +243,7 @@ void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSetting
             state.selectedStop >= 0 ? static_cast<std::size_t>(state.selectedStop) : ramp.size() - 1;
         addedM = ramp.empty() ? 0 : heightAfter(ramp, after);
     }
-    ImGui::EndDisabled();
+    endGrey();
     if (!addedM || ramp.size() >= maxRampStops) return;
     if (ramp.empty()) ramp = greyRamp(heights.lowestM, heights.highestM);
     state.selectedStop = static_cast<int>(addStop(ramp, *addedM));

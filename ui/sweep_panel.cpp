@@ -110,10 +110,10 @@ std::vector<int> chunksControl(const EditorView& view, SweepPanelState& state) {
         anyBarred |= !problem.empty() && !view.bake.canBake;
         sameLineIfRoom(checkboxWidth(label.c_str()));
         bool on = (*state.chunks)[i] && problem.empty();
-        ImGui::BeginDisabled(!problem.empty());
+        beginGrey(!problem.empty(), problem.c_str());
         if (ImGui::Checkbox(label.c_str(), &on)) (*state.chunks)[i] = on;
         noteItem(fmt::format("Chunk {}", size));
-        ImGui::EndDisabled();
+        endGrey();
         tooltip(
             problem.empty()
                 ? fmt::format("Chunks of {0} x {0} vertices{1}", size,
@@ -183,10 +183,10 @@ void progressLines(const EditorView& view, Commands& commands) {
         now +=
             fmt::format("; {}{} left", view.sweep.suggesting ? "at most " : "about ", durationText(*p.leftS));
     // Over the text, whose lines come and go.
-    ImGui::BeginDisabled(view.sweep.cancelling);
+    beginGrey(view.sweep.cancelling, "It is stopping.");
     if (button("Cancel", "Cancels the sweep. Points measured so far stay visible, but are not saved."))
         commands.push_back(CancelSweep{});
-    ImGui::EndDisabled();
+    endGrey();
     wrappedText(now, palette().dim);
 }
 
@@ -202,14 +202,15 @@ void runControl(const EditorView& view, const SweepRequest& request, const TauLi
                 Commands& commands) {
     if (view.sweep.running && !view.sweep.suggesting) return progressLines(view, commands);
     const std::string problem = requestProblem(request, taus);
-    ImGui::BeginDisabled(!problem.empty() || view.sweep.running);
+    beginGrey(!problem.empty() || view.sweep.running,
+              view.sweep.running ? "A search for a tolerance is running." : problem.c_str());
     if (button(
             "Run",
             "Measures each setting in the background, without I/O fault injection and overlays. Meanwhile "
             "the window draws at most 20 frames per second unless there is input, because drawing disturbs "
             "the measured frame times. For frame times to publish use worldy sweep, without a window."))
         commands.push_back(StartSweep{request});
-    ImGui::EndDisabled();
+    endGrey();
     ImGui::SameLine();
     const std::size_t flights = request.tausPx.size() * request.chunkSizes.size() * request.metrics.size();
     wrappedText(problem.empty() ? fmt::format("{} of {}", countOf(flights, "flight"),
@@ -254,13 +255,13 @@ void answer(const SweepSuggestion& suggestion, const EditorView& view, ViewSetti
         suggestion.found.met ? palette().text : palette().warning);
     if (!suggestion.found.met) return;
     ImGui::PushID(tight ? 1 : 0);
-    ImGui::BeginDisabled(view.recording.replay.has_value());
+    beginGrey(view.recording.replay.has_value(), "A replay has settings of its own; end it first.");
     if (ImGui::Button("Apply")) {
         settings.lod.tauPx = suggestion.found.tauPx;
         settings.lod.metric = suggestion.metric;
     }
     noteItem(tight ? "Apply: tight" : "Apply: additive");
-    ImGui::EndDisabled();
+    endGrey();
     tooltip("Sets the tolerance and the metric of the LOD panel. Undo reverts this.");
     ImGui::PopID();
 }
@@ -271,12 +272,13 @@ void suggestControls(const EditorView& view, SweepPanelState& state, SweepReques
     if (view.sweep.running && view.sweep.suggesting) {
         progressLines(view, commands);
     } else {
-        ImGui::BeginDisabled(view.sweep.running || request.metrics.empty());
+        beginGrey(view.sweep.running || request.metrics.empty(),
+                  view.sweep.running ? "A sweep is running." : "Choose a metric first.");
         const bool asked =
             button("Suggest",
                    "Bisects the tolerance range to 2 %: about ten flights per metric, with the open file's "
                    "chunks. Uses the flight, metrics, sample frames and picture above.");
-        ImGui::EndDisabled();
+        endGrey();
         if (asked) {
             const auto goal = static_cast<std::size_t>(state.goal);
             request.goal = goalKinds[goal].goal;
@@ -330,10 +332,11 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
     const SweepPoint* point = state.selected ? &table.points[*state.selected] : nullptr;
     const bool samePlanet = table.source == view.data.source;
     const bool otherSize = point && point->chunkSize != planet::chunkSize(view.planet->shape());
-    ImGui::BeginDisabled(!point || view.recording.replay);
+    beginGrey(!point || view.recording.replay.has_value(),
+              point ? "A replay has settings of its own; end it first." : "Select a point or a row first.");
     const bool pressed = ImGui::Button("Use these settings");
     noteItem("Use these settings");
-    ImGui::EndDisabled();
+    endGrey();
     std::string meaning = "Select a point or a row first.";
     if (point) {
         meaning =
@@ -354,12 +357,12 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
 void saveButton(const SweepTable& table, const SweepPanelState& state, Commands& commands) {
     const char* label = "Save table and plot";
     sameLineIfRoom(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x);
-    ImGui::BeginDisabled(!table.whole);
+    beginGrey(!table.whole, "Only a sweep that has come to its end is saved.");
     if (button(label, table.whole ? "Saves the table as .csv and .json and the plot as .png, beside the "
                                     "screenshots. The log shows the paths."
                                   : "Only a completed sweep can be saved."))
         commands.push_back(SaveSweep{state.cost});
-    ImGui::EndDisabled();
+    endGrey();
 }
 
 // The name of the plot's upright axis too.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "ui/item_map.h"
 #include "ui/theme.h"
@@ -19,12 +21,17 @@ constexpr float labelShare = 0.40f;
 // Share of a table's width that values may take.
 constexpr float valueShare = 0.65f;
 
+// Of each beginGrey() that is open: why it greys; empty: it does not. Beside ImGui's own stack, and of the
+// same lifetime.
+std::vector<std::string> greyReasons;
+
 // After the control. True where the user asks for the default.
 bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
     bool reset = false;
     if (ImGui::BeginPopupContextItem(label)) {
         reset = ImGui::MenuItem(("Reset to " + defaultText).c_str(), nullptr, false, !isDefault);
         noteItem("reset");
+        if (isDefault) tooltip("It has its default.");
         ImGui::EndPopup();
     }
     return reset;
@@ -75,11 +82,31 @@ bool section(const char* title) {
 
 void tooltip(const char* text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    // The tooltip of what is grey is not grey itself.
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-    ImGui::TextUnformatted(inFont(text).c_str());
+    const auto why = std::find_if(greyReasons.begin(), greyReasons.end(),
+                                  [](const std::string& reason) { return !reason.empty(); });
+    const bool grey = why != greyReasons.end();
+    if (grey) {
+        ImGui::TextColored(palette().warning, "%s", why->c_str());
+        noteItem("Why grey");
+    }
+    if (!grey || *why != text) ImGui::TextUnformatted(inFont(text).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+
+void beginGrey(bool grey, const char* why) {
+    ImGui::BeginDisabled(grey);
+    greyReasons.emplace_back(grey ? why : "");
+}
+
+void endGrey() {
+    greyReasons.pop_back();
+    ImGui::EndDisabled();
 }
 
 bool beginValues(const char* id) {

@@ -18,6 +18,11 @@ bool section(const char* title);
 // Explains the last item when the pointer rests on it.
 void tooltip(const char* text);
 
+// Greys what is drawn until endGrey() and takes no input for it, if grey; its tooltips then begin with why, a
+// sentence. May be nested: the outermost that greys says why.
+void beginGrey(bool grey, const char* why);
+void endGrey();
+
 // Two columns: names on the left, numbers right-aligned. Rows between begin and end.
 bool beginValues(const char* id);
 void valueRow(const char* name, const std::string& value, const char* explanation,

@@ -5,6 +5,10 @@
 
 #include <array>
 
+#include "tests/panel_fixture.h"
+#include "tests/planet_fixture.h"
+#include "ui/editor_view.h"
+
 namespace ui {
 namespace {
 
@@ -40,6 +44,24 @@ TEST(FlightPanel, ChangesAreSteppedThroughOneByOne) {
     EXPECT_EQ(nextTickS(ticks, 1.0, false), 0.5);
     EXPECT_EQ(nextTickS(ticks, 0.5, false), 0.5);
     EXPECT_EQ(nextTickS({}, 0.7, true), 0.7);
+}
+
+TEST(FlightPanel, TheFlightThatIsRecordedIsSelected) {
+    PanelWindow window{{400, 600}};
+    FlightPanelState state;
+    state.selected = "an old one";
+    const FrameStats stats;
+    const std::deque<FrameSample> history;
+    const planet::LodChanges changes;
+    const std::deque<LogLine> log;
+    EditorView view{.stats = stats, .history = history, .changes = changes, .log = log};
+    const auto planet = planet::openFake();
+    view.planet = planet.get();
+    view.recording.recording = RecordingNow{"flight 7", 1, 60, 1000, false};
+    ViewSettings settings;
+    Commands commands;
+    window.frame([&] { flightPanel(view, state, settings, commands); });
+    EXPECT_EQ(state.selected, "flight 7");
 }
 
 }  // namespace
