@@ -138,7 +138,7 @@ void drawTable(const AllocationsView& view) {
     if (!ImGui::BeginTable("allocations", columns)) return;
     ImGui::TableSetupColumn("kind", ImGuiTableColumnFlags_WidthStretch, 1.6f);
     for (int column = 1; column < columns; ++column)
-        ImGui::TableSetupColumn(nullptr, ImGuiTableColumnFlags_WidthStretch, 1);
+        ImGui::TableSetupColumn(nullptr, ImGuiTableColumnFlags_WidthFixed);
     for (const AllocationRow& row : kindRows) {
         if (row.group) drawGroup(row, withMark);
         drawRow(row, view, withMark);

@@ -185,7 +185,7 @@ void observerSection(CameraSettings& camera) {
     choice("View", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
            "A second camera that shows the LOD view's selection and culling from outside. Split: both views "
            "side by side. The planet is drawn twice.");
-    beginGrey(camera.observer == ObserverMode::Off, "The observer is off: choose a Picture above.");
+    beginGrey(camera.observer == ObserverMode::Off, "The observer is off: choose a view above.");
     checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
              "Draws the edges of the LOD view's frustum, up to the farthest visible ground.");
     secondColumn();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -66,26 +67,27 @@ void comparedCell(const std::string& text, const char* explanation = nullptr) {
 }
 
 void differencesTable(const CompareView& compare) {
-    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
-                                  ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingStretchProp;
-    if (!ImGui::BeginTable("sides", 3, flags)) return;
-    ImGui::TableSetupColumn("Setting", 0, 2);
-    ImGui::TableSetupColumn("A", 0, 1);
-    ImGui::TableSetupColumn("B", 0, 1);
-    ImGui::TableHeadersRow();
-    if (compare.fileA != compare.fileB) {
-        ImGui::TableNextRow();
-        comparedCell("chunk file");
-        comparedCell(compare.fileA.filename().string(), compare.fileA.c_str());
-        comparedCell(compare.fileB.filename().string(), compare.fileB.c_str());
-    }
+    struct Row {
+        std::array<std::string, 3> texts;
+        std::array<const char*, 3> explanations{};
+    };
+    std::vector<Row> rows;
+    if (compare.fileA != compare.fileB)
+        rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
+                        {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
     for (const SettingDifference& one : compare.different) {
-        ImGui::TableNextRow();
-        comparedCell(one.setting);
         const auto [a, b] = shortNumberTexts(one.here, one.there);
-        comparedCell(a);
-        comparedCell(b);
+        rows.push_back({{one.setting, a, b}});
     }
+    constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"A", 1}, TableColumn{"B", 1}};
+    if (!beginListTable("sides", columns, rows.size())) return;
+    const auto key = [&](std::size_t row, std::size_t column) {
+        return textSortKey(rows[row].texts[column]);
+    };
+    tableRows(rows.size(), key, [&](std::size_t row) {
+        for (std::size_t column = 0; column < columns.size(); ++column)
+            comparedCell(rows[row].texts[column], rows[row].explanations[column]);
+    });
     ImGui::EndTable();
 }
 
@@ -149,10 +151,11 @@ bool isMeasured(const CompareRow& row) {
 
 // live: the table of the view as it is, else that of a flight.
 void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures, bool live, bool stale) {
-    if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-    ImGui::TableSetupColumn("", 0, 1.6f);
-    for (const char* title : {"A", "B"}) ImGui::TableSetupColumn(title, 0, 1);
-    ImGui::TableSetupColumn("B / A", 0, 1.15f);
+    if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg)) return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    // As wide as their numbers.
+    for (const char* title : {"A", "B", "B / A"})
+        ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     rightAligned("A", palette().accent, "The planet shown in the window.");
@@ -165,7 +168,9 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
         const ImVec4 colour = live && stale && isMeasured(row) ? palette().dim : palette().text;
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
+        ImGui::PushTextWrapPos(0);
         ImGui::TextColored(palette().dim, "%s", inFont(row.name).c_str());
+        ImGui::PopTextWrapPos();
         tooltip(row.explanation);
         rightAligned(figureText(row, a), colour, row.explanation);
         rightAligned(figureText(row, b), colour, row.explanation);

@@ -145,14 +145,14 @@ void layerList(const EditorView& view, LayersPanelState& state, LayerSettings& l
 void listButtons(LayersPanelState& state, LayerList& list) {
     const bool full = list.size() >= planet::maxLayers;
     const std::size_t last = list.empty() ? 0 : list.size() - 1;
-    beginGrey(full, "There are eight layers, and no more fit.");
+    beginGrey(full, "The maximum of eight layers is reached.");
     if (button("Add", full ? "The maximum of eight layers is reached."
                            : "Adds a layer without textures above all others."))
         state.chosen = addLayer(list);
     endGrey();
     ImGui::SameLine();
     beginGrey(full || list.empty(),
-              full ? "There are eight layers, and no more fit." : "There is no layer to copy.");
+              full ? "The maximum of eight layers is reached." : "There is no layer to copy.");
     if (button("Copy", "Duplicates the selected layer above it."))
         state.chosen = duplicateLayer(list, state.chosen);
     endGrey();
@@ -162,14 +162,14 @@ void listButtons(LayersPanelState& state, LayerList& list) {
         state.chosen = removeLayer(list, state.chosen);
     endGrey();
     sameLineIfRoom(4 * ImGui::GetFontSize());
-    beginGrey(list.empty() || state.chosen >= last, "The chosen layer is the topmost.");
+    beginGrey(list.empty() || state.chosen >= last, "The selected layer is the topmost.");
     if (button("Up", "Moves the selected layer up.")) {
         moveLayer(list, state.chosen, state.chosen + 1);
         ++state.chosen;
     }
     endGrey();
     ImGui::SameLine();
-    beginGrey(list.empty() || state.chosen == 0, "The chosen layer is the lowest.");
+    beginGrey(list.empty() || state.chosen == 0, "The selected layer is the lowest.");
     if (button("Down", "Moves the selected layer down.")) {
         moveLayer(list, state.chosen, state.chosen - 1);
         --state.chosen;

@@ -100,7 +100,7 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
 }
 
 void deleteControl(const PresetView& preset, Commands& commands) {
-    beginGrey(preset.shipped, "It comes with Worldy and cannot be deleted.");
+    beginGrey(preset.shipped, "Built-in presets cannot be deleted.");
     if (button("Delete...", preset.shipped ? "Built-in presets cannot be deleted."
                                            : "Deletes the file after confirmation."))
         ImGui::OpenPopup("delete");
@@ -112,7 +112,7 @@ void deleteControl(const PresetView& preset, Commands& commands) {
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();
-    if (ImGui::Button("Keep")) ImGui::CloseCurrentPopup();
+    if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
@@ -124,20 +124,18 @@ void textCell(const std::string& text) {
 }
 
 void differencesTable(const PresetView& preset) {
-    const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
-                                  ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingStretchProp;
-    if (!ImGui::BeginTable("differences", 3, flags)) return;
-    ImGui::TableSetupColumn("Setting", 0, 2);
-    ImGui::TableSetupColumn("Now", 0, 1);
-    ImGui::TableSetupColumn("Preset", 0, 1);
-    ImGui::TableHeadersRow();
+    std::vector<std::array<std::string, 3>> rows;
     for (const SettingDifference& difference : preset.differences) {
-        ImGui::TableNextRow();
-        textCell(difference.setting);
         const auto [now, then] = shortNumberTexts(difference.here, difference.there);
-        textCell(now);
-        textCell(then);
+        rows.push_back({difference.setting, now, then});
     }
+    constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"Now", 1},
+                                    TableColumn{"Preset", 1}};
+    if (!beginListTable("differences", columns, rows.size())) return;
+    const auto key = [&](std::size_t row, std::size_t column) { return textSortKey(rows[row][column]); };
+    tableRows(rows.size(), key, [&](std::size_t row) {
+        for (const std::string& text : rows[row]) textCell(text);
+    });
     ImGui::EndTable();
 }
 

@@ -21,6 +21,8 @@ struct TableSort {
     bool descending = false;
 };
 
+// Sorts texts that are numbers by value, before other texts.
+SortKey textSortKey(const std::string& text);
 // Sorts chunks by face, then level, x and y.
 SortKey sortKey(const planet::ChunkId& id);
 

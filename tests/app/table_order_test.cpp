@@ -43,6 +43,13 @@ TEST(TableOrder, chunksSortByLevelAsNumbers) {
     EXPECT_EQ(tableOrder(3, TableSort{0, false}, key), (Order{2, 1, 0}));
 }
 
+TEST(TableOrder, textsThatAreNumbersSortByValue) {
+    EXPECT_EQ(textSortKey("10"), SortKey(10.0));
+    EXPECT_LT(textSortKey("9.5"), textSortKey("10"));
+    EXPECT_LT(textSortKey("10"), textSortKey("tight"));
+    EXPECT_EQ(textSortKey("10 m"), SortKey(std::string("10 m")));
+}
+
 // Three rows of a list table, drawn in the order of its titles' clicks.
 class SortedTable : public testing::Test {
 protected:
