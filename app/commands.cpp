@@ -421,6 +421,7 @@ void CommandHandler::operator()(const ui::CopyCommandLine&) const {
     const std::string line = lineOf(session, editor);
     window.setClipboard(line);
     log->info("Copied: {}", line);
+    editor.confirmation = {"Command line copied", editor.timeS + confirmationS};
 }
 
 void CommandHandler::operator()(const ui::TakeScreenshot& command) const {

@@ -79,8 +79,7 @@ void endInspection(Editor& editor) {
 
 void confirm(Editor& editor, const Log& log, const std::string& text) {
     log->info("{}", text);
-    constexpr double shownS = 5;
-    editor.confirmation = {text, editor.timeS + shownS};
+    editor.confirmation = {text, editor.timeS + confirmationS};
 }
 
 void tellError(Editor& editor, const Log& log, ui::Message message) {

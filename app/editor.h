@@ -103,6 +103,7 @@ void inspect(Editor& editor, const Camera& camera, const planet::View& lodView);
 // Gives back what was before the first inspect(); does nothing if there was none.
 void endInspection(Editor& editor);
 
+inline constexpr double confirmationS = 5;  // how long one is shown
 // Says in the log and for some seconds in the viewport that something asked for is done.
 void confirm(Editor& editor, const Log& log, const std::string& text);
 // Says in the log and in front of the user why something asked for was not done, and what to do about it.

@@ -181,17 +181,20 @@ void ring(const ScatterScale& scale, const ErrorMeasurement& last, const std::op
                                           ImGui::GetFontSize() * 0.35f, packed(colour), 0, 2);
 }
 
-void pointerOnChunk(const ChunkError& chunk, Commands& commands) {
+void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& commands) {
     commands.push_back(HoverChunk{chunk.id});
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) commands.push_back(SelectChunk{chunk.id});
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) commands.push_back(LookAtChunk{chunk.id});
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        const planet::View& from = view.errors.last->lodView;
+        commands.push_back(inspectionOf(from, from, chunk.worstM, view.planet->shape().radiusM));
+    }
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(planet::toString(chunk.id).c_str());
     ImGui::Text("measured %s, drawn bound %s", finePx(chunk.facingPx).c_str(),
                 finePx(chunk.drawnBoundPx).c_str());
     ImGui::Text("max error %s", distanceText(chunk.errorM).c_str());
     if (planet::isViolation(chunk)) ImGui::TextColored(palette().bad, "violation");
-    ImGui::TextDisabled("click: select   double-click: look at");
+    ImGui::TextDisabled("click: select   double-click: go to the worst place");
     ImGui::EndTooltip();
 }
 
@@ -220,7 +223,7 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
     ring(scale, last, view.focus.hovered, palette().warning);
     ImGui::PopClipRect();
     if (const auto nearest = nearestToPointer(scale, last.report.chunks))
-        return pointerOnChunk(last.report.chunks[*nearest], commands);
+        return pointerOnChunk(last.report.chunks[*nearest], view, commands);
     tooltip(
         "One dot per chunk: drawn bound on the horizontal axis, measured error on the vertical axis, in "
         "facing pixels. On the diagonal the bound is exact; above it, it is violated; far below it, "
