@@ -120,7 +120,7 @@ void drawB(CompareDesk& desk, Viewport& viewport, const ui::ChunkFocus& focus, c
     content.tints = tints;
     content.hiddenLines = linesOver(b.planet.scene, drawn, content.view, b.settings);
     content.frontLines = focusLines(planet.tree(), focus, content.view);
-    drawPicture(viewport, desk.picture, b.planet.scene, b.settings, content, log);
+    drawPicture(viewport, desk.picture, b.planet.scene, comparedSettings(b.settings), content, log);
 }
 
 // Takes what the flight's job has made.

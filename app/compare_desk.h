@@ -44,6 +44,12 @@ struct MeasuredOf {
     ui::ViewSettings settingsOfB;
 };
 
+// Returns the settings that a compared picture is drawn with: without the fill light.
+inline ui::ViewSettings comparedSettings(ui::ViewSettings settings) {
+    settings.surface.light.fill = 0;
+    return settings;
+}
+
 struct CompareDesk {
     std::optional<ComparedOther> other{};
     std::array<ComparedMeters, 2> meters{};

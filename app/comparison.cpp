@@ -211,6 +211,7 @@ ComparedSide flownSide(const ComparisonPlan& plan, std::size_t index) {
     side.settings.camera = plan.sides[0].settings.camera;
     side.settings.paging.badDisk = {};
     side.settings.paging.simulated = false;
+    side.settings.surface.light.fill = 0;
     return side;
 }
 

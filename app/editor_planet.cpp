@@ -201,7 +201,8 @@ std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Sel
 
 void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
     Viewport& viewport = editor.viewport;
-    const ui::ViewSettings& settings = editor.settings.view;
+    const ui::ViewSettings settings =
+        editor.compare.other ? comparedSettings(editor.settings.view) : editor.settings.view;
     PictureContent content;
     content.view = mainView(editor, pixelRatio);
     viewport.main.view = content.view;

@@ -289,6 +289,7 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     render.sunDirection = surface.sunFollows ? morningSun(view.eyeM)
                                              : planet::directionFromGeographic(ui::sunOverheadOf(surface));
     render.light = surface.light;
+    if (overlay.colourBy != ui::ColourBy::None) render.light.fill = 0;  // a tinted picture measures
     render.layers = layerDrawingOf(surface.layers);
     return render;
 }

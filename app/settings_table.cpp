@@ -222,7 +222,9 @@ void addLight(Fields& fields, planet::gl::LightDrawing& light) {
           Choice{asByte(light.normals.use), featureUseNames}},
          {"light", "normal_texels_per_pixel",
           "Texels per pixel of fine normals; larger: sharper, but more memory.",
-          Number{&light.normals.texelsPerPixel, {0.1, 4, ""}}}});
+          Number{&light.normals.texelsPerPixel, {0.1, 4, ""}}},
+         {"light", "fill", "Debug light on the night side; pictures that measure are drawn without it.",
+          Number{&light.fill, {0, 1, ""}}}});
     addAir(fields, light.air);
 }
 

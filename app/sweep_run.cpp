@@ -19,6 +19,7 @@ using planet::Result;
 ui::ViewSettings sweptSettings(ui::ViewSettings settings) {
     settings.overlay = {};
     settings.surface.streamed = false;
+    settings.surface.light.fill = 0;
     settings.paging.badDisk = {};
     settings.paging.simulated = false;
     return settings;

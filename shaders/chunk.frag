@@ -263,7 +263,7 @@ vec3 lightByPixel() {
     vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
     float sea = isUnderSea() ? material.water : 0.0;
     vec3 sunlight = inRange(sunLit);
-    vec3 skylight = inRange(skyLit);
+    vec3 skylight = inRange(skyLit) + fillLight(facing, -ray, up);
     if (isOn(switchShadows))
         sunlight *= sunSeen(position, normalize(mix(surfaceNormal.xyz, up, sea)));
     float wet = material.water - sea;

@@ -95,8 +95,8 @@ void lightGround(vec3 position, vec3 up, float height) {
 
 void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     vec3 ray = normalize(position);
-    vec3 land = sunLit * max(dot(normal, sun.xyz), 0.0) + skyLit;
-    vec3 sea = sunLit * max(dot(up, sun.xyz), 0.0) + skyLit;
+    vec3 land = sunLit * max(dot(normal, sun.xyz), 0.0) + skyLit + fillLight(normal, -ray, up);
+    vec3 sea = sunLit * max(dot(up, sun.xyz), 0.0) + skyLit + fillLight(up, -ray, up);
     steep = steepness(normal, up);
     groundArriving = vec4(land, sea.g / land.g);
     airArriving = vec4(0.0, 0.0, 0.0, seaGlint(up, -ray) * sunLit.g / land.g);

@@ -31,7 +31,7 @@ layout(std140) uniform Frame {
                          // [0, 1] across a face; unused
     ivec4 grid;          // reference step; log2 of cells a chunk side; stops of the ramp; unused
     vec4 surfacing;      // opacity of the image over the ramp; 1 where the ramp colours the sea too; rise of the
-                         // sea level over the reference step, metres; unused
+                         // sea level over the reference step, metres; strength of the fill light
     vec4 rampColours[32];  // of the stops: roots of linear light; unused
     vec4 rampRises[32];  // of each: height of the one before, above the sea level; 1 / metres from there; unused
     ivec4 colouring;     // finest level of streamed colours; unused

@@ -15,6 +15,14 @@ float seaGlint(vec3 normal, vec3 toEye) {
     return fresnel * (7.0 * core + 0.7 * halo);
 }
 
+// Returns the debug light that falls where the sun is down. It comes from the upper left of the view, so that slopes
+// show as on a shaded map.
+float fillLight(vec3 normal, vec3 toEye, vec3 up) {
+    float night = 1.0 - smoothstep(-0.10, 0.15, dot(up, sun.xyz));
+    vec3 from = normalize(toEye + 0.7 * (normalize(rayUp.xyz) - normalize(rayRight.xyz)));
+    return 2.0 * surfacing.w * night * (0.2 + 0.8 * max(dot(normal, from), 0.0));
+}
+
 // The cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the axes are the
 // chunk's own face's, whichever face reckons the position.
 vec3 normalOnSphere(FaceFrame face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {

@@ -20,6 +20,10 @@ void lightKnobs(SurfaceSettings& surface) {
     checkbox(
         "Detail", surface.detail, defaults.detail,
         "Adds procedural roughness between the samples, to light and colour only; no measurement changes.");
+    slider(
+        "Fill light", surface.light.fill, defaults.light.fill, 0, 1, "%.2f",
+        "Strength of a debug light on the night side, from the upper left of the view; 0 is off. It is left "
+        "out of pictures that measure: tinted chunks, compared pictures and sweeps.");
 }
 
 void seaKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {

@@ -185,6 +185,7 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     setRamp(settings, uniforms);
     uniforms.surfacing.z =
         static_cast<float>(settings.seaLevelM - (shape.baseHeightM + frame.referenceStep * shape.quantumM));
+    uniforms.surfacing.w = static_cast<float>(settings.light.fill);
     uniforms.colouring = {colours.leafLevel, 0, 0, 0};
     uniforms.colourFilter = glm::dvec4(colours.anisotropy, std::log2(colours.texelsPerPixel), 0, 0);
     return uniforms;

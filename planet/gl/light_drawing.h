@@ -60,6 +60,9 @@ struct LightDrawing {
     SeaDrawing sea;
     ShadowDrawing shadows;
     NormalDrawing normals;
+    // Strength of a debug light on ground where the sun is down, from the upper left of the view; 0: none, 1:
+    // about as bright as day; [0, 1].
+    double fill = 0;
 
     bool operator==(const LightDrawing&) const = default;
 };

@@ -123,6 +123,15 @@ TEST_F(SceneTest, everyKnobOfDrawingReachesTheLibraryAndHeightsAreExaggerated) {
     EXPECT_FALSE(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).atmosphere);
 }
 
+TEST_F(SceneTest, theFillLightIsLeftOutOfTintedPictures) {
+    Scene scene = openSlope();
+    EXPECT_EQ(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).light.fill, 0);
+    settings_.surface.light.fill = 0.75;
+    EXPECT_EQ(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).light.fill, 0.75);
+    settings_.overlay.colourBy = ui::ColourBy::Level;
+    EXPECT_EQ(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).light.fill, 0);
+}
+
 TEST_F(SceneTest, aNewBudgetTakesEffectAndThePictureStays) {
     Scene scene = openSlope(1025);
     const planet::View view = viewAt(300'000);

@@ -156,6 +156,23 @@ TEST_F(ChunkRendererTest, TheSunLightsTheSideItStandsOver) {
     EXPECT_GT(half.brightness(260, 200), 8 * half.brightness(140, 200));
 }
 
+TEST_F(ChunkRendererTest, theFillLightShowsTheNightSideAndLeavesTheDay) {
+    TestPlanet planet({}, 384);
+    planet.addLevel(3, wavyHills);
+    RenderSettings settings = mattSettings();
+    settings.sunDirection = directionFromGeographic({0, 0});
+    for (const double altitudeM : {30000.0, 2e7}) {
+        const auto brightnessAt = [&](double longitudeDeg, double fill) {
+            settings.light.fill = fill;
+            const View view = viewFrom({}, 0, longitudeDeg, altitudeM, -90, 0, 32, 32);
+            return drawPicture(planet.renderer(), view, planet.items(), settings).brightness(16, 16);
+        };
+        EXPECT_EQ(brightnessAt(0, 1), brightnessAt(0, 0)) << altitudeM;
+        EXPECT_LT(brightnessAt(180, 0), 100) << altitudeM;
+        EXPECT_GT(brightnessAt(180, 1), brightnessAt(180, 0) + 150) << altitudeM;
+    }
+}
+
 TEST_F(ChunkRendererTest, SlopesTowardsTheSunAreBrighter) {
     TestPlanet planet({}, 96);
     // Ridges along meridians: falling eastwards between longitude 0 and 5 degrees,
