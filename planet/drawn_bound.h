@@ -8,11 +8,15 @@
 //
 //   inside          (1 - m) eps + m eps_P      since each point is drawn so far on the way from the chunk's
 //                                              surface to its parent's; eps_P is the parent's own eps
-//   along an edge   an edge e has a morph m_e of its own, and its vertices lie on the chunk beside it too:
-//   s_e is
+//   along an edge   an edge e has a morph m_e of its own. Its vertices lie on the chunk beside it too, so s_e
+//   is
 //                   at most s, at most the same of a neighbour of the chunk's level, and at most the delta of
-//                   a coarser neighbour. A triangle there mixes both, so the smaller of two bounds holds:
-//                     (1 - m) eps + m eps_P + |m_e - m| s_e K' / D     and     eps + max(m s, m_e s_e) K' / D
+//                   a coarser neighbour; and they are no nearer than that chunk. So what lies in the cells
+//                   along the edge is at least D_e = max(D, D of the neighbour - L) away, L being the
+//                   farthest that two points of a cell are apart. A triangle there mixes vertices of the edge
+//                   with others, so the smaller of two bounds holds:
+//                     ((1 - m) delta + m delta_P + |m_e - m| s_e) K' / D_e
+//                     (delta + max(m s, m_e s_e)) K' / D_e
 //
 // Along an edge that is stitched to a coarser chunk a triangle has two of that one's vertices and one of the
 // chunk's own, so both errors are added up; while vertices are gathered (drawn_surface.h), s_e counts once
@@ -36,10 +40,16 @@ inline constexpr std::uint32_t noNeighbour = ~std::uint32_t{0};
 // noNeighbour.
 using DrawnNeighbours = std::array<std::uint32_t, edgeCount>;
 
-// Fills DrawItem::drawnBoundPx. screenScalePx: K'. stitched: drawn with RenderSettings::stitched.
+// Returns L above, metres: no two points of one of the chunk's cells, drawn or true, are farther apart.
+double cellSpanM(const PlanetShape& shape, const ChunkNode& node);
+
+// Fills DrawItem::drawnBoundPx. cellSpansM: L of each item, infinity where it is not known. screenScalePx:
+// K'. stitched: drawn with RenderSettings::stitched.
 void fillDrawnBounds(std::span<DrawItem> items, std::span<const DrawnNeighbours> neighbours,
-                     double screenScalePx, ErrorMetric metric, bool stitched);
+                     std::span<const double> cellSpansM, double screenScalePx, ErrorMetric metric,
+                     bool stitched);
 // The same for items in any order, whose neighbours are looked up among them.
-void fillDrawnBounds(std::span<DrawItem> items, double screenScalePx, ErrorMetric metric, bool stitched);
+void fillDrawnBounds(std::span<DrawItem> items, std::span<const double> cellSpansM, double screenScalePx,
+                     ErrorMetric metric, bool stitched);
 
 }  // namespace planet

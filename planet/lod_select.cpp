@@ -405,7 +405,11 @@ private:
         for (std::size_t i = 0; i < beyond_.size(); ++i) {
             for (std::size_t e = 0; e < edgeCount; ++e) neighbours[i][e] = beyond_[i][e].item;
         }
-        fillDrawnBounds(out_.draw, neighbours, frame_.scalePx, settings_.metric,
+        std::vector<double> cellSpansM;
+        cellSpansM.reserve(out_.draw.size());
+        for (const DrawItem& item : out_.draw)
+            cellSpansM.push_back(cellSpanM(frame_.tree.shape, frame_.tree.nodes[item.node]));
+        fillDrawnBounds(out_.draw, neighbours, cellSpansM, frame_.scalePx, settings_.metric,
                         settings_.seams == SeamMode::Stitched);
         for (const DrawItem& item : out_.draw)
             out_.counters.worstDrawnBoundPx = std::max(out_.counters.worstDrawnBoundPx, item.drawnBoundPx);

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 
+#include "planet/drawn_surface.h"
 #include "planet/true_error.h"
 #include "tests/fake_selection.h"
 #include "tests/random_view.h"
@@ -25,6 +28,15 @@ TrueErrorReport measuredIn(const ChunkTree& tree, std::span<const DrawItem> item
             return fakePyramid().load(parent, location, parentHeights);
         });
     return measureTrueError(snapshotOf(tree, items, view, false), heights).value();
+}
+
+constexpr double unknownM = std::numeric_limits<double>::infinity();
+
+std::vector<double> spansOf(std::span<const DrawItem> items) {
+    std::vector<double> spansM;
+    for (const DrawItem& item : items)
+        spansM.push_back(cellSpanM(wholeTree().shape, wholeTree().nodes[item.node]));
+    return spansM;
 }
 
 void expectWithinBounds(const TrueErrorReport& report) {
@@ -58,7 +70,7 @@ TEST(DrawnBound, ofAChunkAtMorphOneIsItsParents) {
         item.edgeMorph.fill(1);
     }
     for (const ErrorMetric metric : {ErrorMetric::Additive, ErrorMetric::Tight}) {
-        fillDrawnBounds(selection.draw, screenScalePx(view), metric, false);
+        fillDrawnBounds(selection.draw, spansOf(selection.draw), screenScalePx(view), metric, false);
         for (const DrawItem& item : selection.draw) {
             ASSERT_GT(item.parentEpsPx, 0);
             EXPECT_EQ(item.drawnBoundPx, std::max(item.parentEpsPx, item.epsPx)) << toString(item.id);
@@ -73,7 +85,7 @@ TEST(DrawnBound, ofAChunkHalfWayLiesHalfWay) {
     item.parentEpsPx = 5;
     item.morph = 0.5f;
     item.edgeMorph.fill(0.5f);
-    fillDrawnBounds(std::span(&item, 1), 1000, ErrorMetric::Additive, false);
+    fillDrawnBounds(std::span(&item, 1), std::vector{unknownM}, 1000, ErrorMetric::Additive, false);
     EXPECT_EQ(item.drawnBoundPx, 3);
 }
 
@@ -97,20 +109,48 @@ std::array<DrawItem, 2> finerAndCoarser() {
 TEST(DrawnBound, alongAnEdgeThatShowsACoarserChunkAddsThatOnesError) {
     std::array<DrawItem, 2> items = finerAndCoarser();
     items[0].edgeMorph[static_cast<std::size_t>(Edge::East)] = 1;
-    fillDrawnBounds(items, 1000, ErrorMetric::Additive, false);
+    fillDrawnBounds(items, std::vector{unknownM, unknownM}, 1000, ErrorMetric::Additive, false);
     EXPECT_EQ(items[0].drawnBoundPx, 5);  // 1 + 4, far below the parent's 100
     EXPECT_EQ(items[1].drawnBoundPx, 2);
     items[0].edgeMorph[static_cast<std::size_t>(Edge::East)] = 0.5f;
-    fillDrawnBounds(items, 1000, ErrorMetric::Additive, false);
+    fillDrawnBounds(items, std::vector{unknownM, unknownM}, 1000, ErrorMetric::Additive, false);
     EXPECT_EQ(items[0].drawnBoundPx, 3);
+}
+
+TEST(DrawnBound, alongAnEdgeFarAwayIsAsSmallAsItIsSeen) {
+    std::array<DrawItem, 2> items = finerAndCoarser();
+    items[0].edgeMorph[static_cast<std::size_t>(Edge::East)] = 1;
+    items[1].distanceM = 2500;
+    fillDrawnBounds(items, std::vector{500.0, 1000.0}, 1000, ErrorMetric::Additive, false);
+    EXPECT_EQ(items[0].drawnBoundPx, 2.5f);  // (1 + 4) m, 2500 m - 500 m away
+    items[1].distanceM = 20000;
+    fillDrawnBounds(items, std::vector{500.0, 1000.0}, 1000, ErrorMetric::Additive, false);
+    EXPECT_EQ(items[0].drawnBoundPx, 1);  // the inside, 1000 m away
+}
+
+TEST(DrawnBound, noTwoPointsOfACellAreFartherApartThanItsSpan) {
+    for (NodeIndex index = 0; index < wholeTree().nodes.size(); index += 7) {
+        const ChunkNode& node = wholeTree().nodes[index];
+        DrawItem item;
+        item.id = node.id;
+        const DrawnGrid grid = drawnGrid(wholeTree().shape, item, *node.heights, false);
+        const auto side = static_cast<std::size_t>(grid.cells) + 1;
+        for (std::size_t i = 0; i + side + 1 < grid.positionM.size(); ++i) {
+            if (i % side == side - 1) continue;
+            EXPECT_LE(glm::length(grid.positionM[i + side + 1] - grid.positionM[i]),
+                      cellSpanM(wholeTree().shape, node));
+            EXPECT_LE(glm::length(grid.positionM[i + side] - grid.positionM[i + 1]),
+                      cellSpanM(wholeTree().shape, node));
+        }
+    }
 }
 
 TEST(DrawnBound, alongAnEdgeWithoutANeighbourAddsTheWholeSlide) {
     std::array<DrawItem, 2> items = finerAndCoarser();
     items[0].edgeMorph[static_cast<std::size_t>(Edge::West)] = 0.5f;
-    fillDrawnBounds(items, 1000, ErrorMetric::Tight, false);
+    fillDrawnBounds(items, std::vector{unknownM, unknownM}, 1000, ErrorMetric::Tight, false);
     EXPECT_EQ(items[0].drawnBoundPx, 51);
-    fillDrawnBounds(items, 1000, ErrorMetric::Additive, false);
+    fillDrawnBounds(items, std::vector{unknownM, unknownM}, 1000, ErrorMetric::Additive, false);
     EXPECT_EQ(items[0].drawnBoundPx, 50.5f);
 }
 
@@ -166,7 +206,7 @@ TEST(DrawnBound, isNeverExceededByPlantedMorphs) {
             item.morph = random() % 4 == 0 ? 1 : anyMorph(random);
             for (float& morph : item.edgeMorph) morph = random() % 4 == 0 ? 1 : anyMorph(random);
         }
-        fillDrawnBounds(selection.draw, screenScalePx(view), metric, false);
+        fillDrawnBounds(selection.draw, spansOf(selection.draw), screenScalePx(view), metric, false);
         expectWithinBounds(measuredIn(wholeTree(), selection.draw, view));
     }
 }
