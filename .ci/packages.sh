@@ -9,6 +9,7 @@ pkg-config              finds libraries without a CMake package
 libglfw3-dev            window and input
 libimgui-dev            panels
 libopenimageio-dev      reads and writes images
+libtiff-dev             where a GeoTIFF lies, which OpenImageIO does not tell
 libglm-dev              vectors and matrices
 libepoxy-dev            OpenGL and EGL entry points
 libegl-dev              pictures without a display

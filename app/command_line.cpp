@@ -63,7 +63,8 @@ void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
         ->check(number(-1e9, 1e9, false));
     command.add_option("--offset", source.offsetM, "Metres added to every height (0)")
         ->check(number(-1e9, 1e9));
-    command.add_option("--no-data", source.noDataValue, "Value that means \"no data\"; NaN always does");
+    command.add_option("--no-data", source.noDataValue,
+                       "Value that means \"no data\", instead of a GeoTIFF's own; NaN always does");
     command.add_option("--fill", source.fillM, "Height of samples without data, metres (0)")
         ->check(number(-1e9, 1e9));
     command.add_option("--raw-size", source.rawSize, "Raw faces: samples a side")

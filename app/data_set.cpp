@@ -115,6 +115,7 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
     identity += identityOf(sourceSettings);
     const planet::HeightSourceFiles sourceFiles = planet::heightSourceFiles(source);
     identity += identityOf(sourceFiles.files);
+    identity += " placed";  // bakes made before the tags of a GeoTIFF were read are not taken
     if (planet::isTerrainText(source))
         identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
     identity += identityOf(colour, settings.colour);

@@ -137,8 +137,8 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
         return badInput(fmt::format("{}: has tiles of {} x {} samples; {} samples a tile are the most", file,
                                     spec.tile_width, spec.tile_height, maxTileSamples));
     }
-    return ImageLayout{spec.width,      spec.height,      spec.x, spec.y,
-                       spec.tile_width, spec.tile_height, *type,  spec.format.c_str()};
+    return ImageLayout{spec.width, spec.height,         spec.x, spec.y, spec.tile_width, spec.tile_height,
+                       *type,      spec.format.c_str(), {}};
 }
 
 Result<void> checkIsFile(const std::filesystem::path& path) {
@@ -195,6 +195,11 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
     }
     Result<ImageLayout> layout = layoutOf(path, reader->spec(), colourChannel.has_value());
     if (!layout) return tl::unexpected(std::move(layout.error()));
+    if (std::string_view(reader->format_name()) == "tiff") {
+        Result<GeoTags> tags = readGeoTags(path);
+        if (!tags) return tl::unexpected(std::move(tags.error()));
+        layout->geoTags = *std::move(tags);
+    }
     // One or two channels: grey, without or with alpha.
     const int channel = reader->spec().nchannels < 3 ? 0 : colourChannel.value_or(0);
     auto readers = std::make_unique<Readers>();

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "planet/file_calls.h"
+#include "planet/geo_tags.h"
 #include "planet/result.h"
 
 namespace planet {
@@ -129,6 +130,7 @@ struct ImageLayout {
     int tileHeight = 0;
     SampleType type = SampleType::Uint8;
     std::string typeName;  // "int16"; "half" is read as Float
+    GeoTags geoTags;       // of a TIFF
 };
 
 // One channel of an image, open for reading by several threads: each borrows an open reader of its own.

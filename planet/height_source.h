@@ -1,10 +1,12 @@
 // Where heights come from: an elevation image, six cube faces or made terrain (terrain.h), behind one
 // sampling function.
 //
-// An elevation image is equirectangular: north up, longitude -180 to 180 from left to right, samples at pixel
-// centres, one grey channel. Face images are seen as in cube_sphere.h: row 0 at v = +1, column 0 at u = -1,
-// outermost samples on the cube's edges, where neighbouring faces hold the same heights. Raw faces are
-// headerless, rows in the same order.
+// An elevation image is equirectangular, of the whole planet, north up, with one grey channel. GeoTIFF tags
+// tell where its samples lie; without them an image of 2 n + 1 by n + 1 samples, or 2 n by n + 1, holds the
+// points of a grid whose first lies at longitude -180 on the north pole, and any other has its samples at
+// pixel centres, from longitude -180 to 180. Face images are seen as in cube_sphere.h: row 0 at v = +1,
+// column 0 at u = -1, outermost samples on the cube's edges, where neighbouring faces hold the same heights.
+// Raw faces are headerless, rows in the same order.
 #pragma once
 
 #include <cstdint>
@@ -54,14 +56,16 @@ struct HeightSource {
 };
 
 struct HeightSourceSettings {
-    double metresPerUnit = 1;           // height = offsetM + metresPerUnit * value; not 0
-    double offsetM = 0;                 // metres
-    std::optional<double> noDataValue;  // a value that means "missing"; NaN and infinities always do
-    double fillM = 0;                   // height given to missing samples, metres
-    std::optional<int> rawSize;         // raw faces: samples a side, where the name does not say
-    std::optional<int> rawBits;         // raw faces: 8 or 16, where the file's length does not say
-    bool rawSigned = false;             // raw faces of 16 bits: signed steps
-    bool rawBigEndian = false;          // raw faces of 16 bits
+    double metresPerUnit = 1;  // height = offsetM + metresPerUnit * value; not 0
+    double offsetM = 0;        // metres
+    std::optional<double>
+        noDataValue;             // a value that means "missing", instead of the file's own GDAL_NODATA; NaN
+                                 //   and infinities always do
+    double fillM = 0;            // height given to missing samples, metres
+    std::optional<int> rawSize;  // raw faces: samples a side, where the name does not say
+    std::optional<int> rawBits;  // raw faces: 8 or 16, where the file's length does not say
+    bool rawSigned = false;      // raw faces of 16 bits: signed steps
+    bool rawBigEndian = false;   // raw faces of 16 bits
     // 0 to 2: instead of heights that channel of a colour image, as linear light in [0, 1]; integers are
     // taken to be sRGB, floats linear light already. A grey image is the same in all three, alpha is left
     // out.

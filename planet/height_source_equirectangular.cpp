@@ -1,5 +1,5 @@
-// Samples an equirectangular image: longitude -180 to 180 from left to right, latitude 90 to -90 from the top
-// down, samples at pixel centres.
+// Samples an equirectangular image of the whole planet, north up, whose samples lie where ImagePlacement
+// says.
 //
 // The image continues without end: columns wrap, and a row beyond a pole is the row as far on this side of
 // it, half a turn on. The kernel covers a grid cell's (pi/2) / faceCells radians, in longitude over
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "planet/height_geographic.h"
 #include "planet/height_raster.h"
 #include "planet/height_source_kinds.h"
+#include "planet/image_placement.h"
 
 namespace planet {
 
@@ -28,22 +28,30 @@ namespace {
 constexpr int pieceSide = 65;                    // samples of a tile worked on at once, a side
 constexpr std::size_t regionSamples = 3u << 20;  // of the image held at once: 12 MB
 
+// Rows from pole to pole.
+int rowsToPole(const ImagePlacement& placement, int height) {
+    return placement.hasPoleRows ? height - 1 : height;
+}
+
 // How the samples of a grid fall on the image.
 struct Projection {
-    int width = 0;  // image, samples
+    ImagePlacement placement;
+    int width = 0;  // columns once around the planet
     int height = 0;
     double columnsPerRad = 0;
     double rowsPerRad = 0;
     double stretchAtEquator = 0;  // of the kernel in longitude, before it is held to [1, width / 4]
     float stretchRows = 1;        // of the kernel in latitude
 
-    Projection(int imageWidth, int imageHeight, int faceCells)
-        : width(imageWidth),
+    Projection(const ImagePlacement& imagePlacement, int imageHeight, int faceCells)
+        : placement(imagePlacement),
+          width(imagePlacement.period),
           height(imageHeight),
-          columnsPerRad(imageWidth / (2 * std::numbers::pi)),
-          rowsPerRad(imageHeight / std::numbers::pi),
-          stretchAtEquator(imageWidth / (4.0 * faceCells)),
-          stretchRows(static_cast<float>(std::max(1.0, imageHeight / (2.0 * faceCells)))) {}
+          columnsPerRad(width / (2 * std::numbers::pi)),
+          rowsPerRad(rowsToPole(imagePlacement, imageHeight) / std::numbers::pi),
+          stretchAtEquator(width / (4.0 * faceCells)),
+          stretchRows(static_cast<float>(
+              std::max(1.0, rowsToPole(imagePlacement, imageHeight) / (2.0 * faceCells)))) {}
 };
 
 // The taps of every sample of a piece: rows and columns of the endless image.
@@ -80,7 +88,7 @@ int wrapped(int value, int period) {
 void tapsOfRow(const Projection& projection, const GeographicRow& places, std::size_t begin,
                PieceTaps& taps) {
     const double width = projection.width;
-    const double middleColumn = width / 2 - 0.5;
+    const double middleColumn = projection.placement.zeroColumn;
     const double middleRow = projection.height / 2.0 - 0.5;
     const double wholeRow = width / 4;  // stretched more than this, the kernel would meet itself
     const int wholeRowGroups = (projection.width + 3) / 4;
@@ -133,7 +141,7 @@ PieceTaps tapsOfPiece(const Projection& projection, const SampleTile& piece) {
 // The smallest region that holds all taps. First columns west of the middle are moved a turn east where
 // that makes it narrower: across the date line.
 Region regionOf(const Projection& projection, PieceTaps& taps) {
-    const int half = projection.width / 2;
+    const int half = static_cast<int>(projection.placement.zeroColumn + 0.5);
     int low = taps.firstColumn[0], high = low, lowMoved = low + projection.width, highMoved = 0;
     int top = taps.firstRow[0], bottom = top;
     for (std::size_t i = 0; i < taps.firstColumn.size(); ++i) {
@@ -154,28 +162,33 @@ Region regionOf(const Projection& projection, PieceTaps& taps) {
 }
 
 // Reads some columns, wrapped, of rows that the image has.
-Result<void> readWrapped(const HeightRaster& image, int column, int row, int columns, int rows, float* out,
-                         std::size_t stride) {
+Result<void> readWrapped(const HeightRaster& image, int period, int column, int row, int columns, int rows,
+                         float* out, std::size_t stride) {
     for (int done = 0; done < columns;) {
-        const int from = wrapped(column + done, image.width());
-        const int count = std::min(columns - done, image.width() - from);
+        const int from = wrapped(column + done, period);
+        const int count = std::min(columns - done, period - from);
         if (Result<void> read = image.read({from, row, count, rows}, out + done, stride); !read) return read;
         done += count;
     }
     return {};
 }
 
-Result<void> readRegion(const HeightRaster& image, const Region& region, std::vector<float>& out) {
+Result<void> readRegion(const HeightRaster& image, const ImagePlacement& placement, const Region& region,
+                        std::vector<float>& out) {
     const auto stride = static_cast<std::size_t>(region.columns);
     out.resize(stride * static_cast<std::size_t>(region.rows));
+    const int turn = 2 * rowsToPole(placement, image.height());
     for (int done = 0; done < region.rows;) {
-        const int turned = wrapped(region.row + done, 2 * image.height());
+        const int turned = wrapped(region.row + done, turn);
         const bool beyondPole = turned >= image.height();
-        const int row = beyondPole ? 2 * image.height() - 1 - turned : turned;
-        const int column = region.column + (beyondPole ? image.width() / 2 : 0);
+        // The row of a pole has no other one beyond it.
+        const int row = beyondPole ? turn - (placement.hasPoleRows ? 0 : 1) - turned : turned;
+        const int column = region.column + (beyondPole ? placement.period / 2 : 0);
         const int count = beyondPole ? 1 : std::min(region.rows - done, image.height() - row);
         float* const to = out.data() + static_cast<std::size_t>(done) * stride;
-        if (Result<void> read = readWrapped(image, column, row, region.columns, count, to, stride); !read) {
+        if (Result<void> read =
+                readWrapped(image, placement.period, column, row, region.columns, count, to, stride);
+            !read) {
             return read;
         }
         done += count;
@@ -248,6 +261,7 @@ private:
 
 struct Equirectangular {
     HeightRaster image;
+    ImagePlacement placement;
     float minM = 0;
     float maxM = 0;
 
@@ -268,14 +282,15 @@ bool sameSquare(const SampleTile& a, const SampleTile& b) {
 
 // Kept by each thread for its last piece: the three channels of a colour image lie alike, and are sampled one
 // after the other. Holds until the next call.
-const PiecePlace& placeOf(const HeightRaster& image, const SampleTile& piece) {
+const PiecePlace& placeOf(const Equirectangular& source, const SampleTile& piece) {
     thread_local std::optional<PiecePlace> last;
     thread_local SampleTile lastPiece;
-    const bool same = last && sameSquare(piece, lastPiece) && last->projection.width == image.width() &&
-                      last->projection.height == image.height();
+    const bool same = last && sameSquare(piece, lastPiece) &&
+                      last->projection.placement == source.placement &&
+                      last->projection.height == source.image.height();
     if (same) return *last;
     last.reset();
-    const Projection projection(image.width(), image.height(), piece.faceCells);
+    const Projection projection(source.placement, source.image.height(), piece.faceCells);
     PieceTaps taps = tapsOfPiece(projection, piece);
     const Region region = regionOf(projection, taps);
     last.emplace(PiecePlace{projection, std::move(taps), region});
@@ -286,7 +301,7 @@ const PiecePlace& placeOf(const HeightRaster& image, const SampleTile& piece) {
 // out: the piece's first sample; stride: from one row of the piece to the next.
 Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece, float* out,
                          std::size_t stride) {
-    const PiecePlace& place = placeOf(source.image, piece);
+    const PiecePlace& place = placeOf(source, piece);
     const auto& [projection, taps, region] = place;
     const int bandRows = std::clamp(
         static_cast<int>(regionSamples / static_cast<std::size_t>(region.columns)), 1, region.rows);
@@ -296,7 +311,7 @@ Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece,
     for (int done = 0; done < region.rows; done += bandRows) {
         const Region band{region.column, region.row + done, region.columns,
                           std::min(bandRows, region.rows - done)};
-        if (Result<void> read = readRegion(source.image, band, samples); !read) return read;
+        if (Result<void> read = readRegion(source.image, source.placement, band, samples); !read) return read;
         for (std::size_t i = 0; i < taps.firstColumn.size(); ++i) {
             float* const sum = lanes.data() + 4 * i;
             storeFloat4(sum, filter.add(loadFloat4(sum), i, band, samples.data()));
@@ -317,16 +332,6 @@ Result<void> sampleTile(const Equirectangular& source, const SampleTile& tile, s
     });
 }
 
-Result<void> checkShape(const std::string& file, const ImageLayout& layout) {
-    const int excess = std::abs(layout.width - 2 * layout.height);
-    if (layout.width >= 2 && excess <= std::max(2, layout.width / 100)) return {};
-    return badInput(
-        fmt::format("{}: is {} x {} samples; an equirectangular image is twice as wide as high, "
-                    "{} x {} or {} x {}",
-                    file, layout.width, layout.height, layout.width, std::max(1, layout.width / 2),
-                    2 * layout.height, layout.height));
-}
-
 }  // namespace
 
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
@@ -334,10 +339,10 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     const Result<std::shared_ptr<ImageFile>> file = ImageFile::open(path, settings.colourChannel);
     if (!file) return tl::unexpected(file.error());
     const ImageLayout& layout = (*file)->layout();
-    if (Result<void> check = checkShape(path.string(), layout); !check) {
-        return tl::unexpected(std::move(check.error()));
-    }
-    const HeightConversion conversion = conversionFor(settings, layout.type);
+    const Result<ImagePlacement> placement =
+        placementOf(path.string(), layout.width, layout.height, layout.geoTags);
+    if (!placement) return tl::unexpected(placement.error());
+    const HeightConversion conversion = conversionFor(settings, layout.type, layout.geoTags.noDataValue);
     const RasterMemory memory{std::make_shared<HeightBlockCache>(settings.cacheBytes), 0,
                               settings.cacheBytes};
     const Result<HeightRaster> image = openImageRaster(*file, conversion, memory, settings.fileCalls);
@@ -346,13 +351,13 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     if (!statistics) return tl::unexpected(statistics.error());
 
     HeightSource source;
-    source.description = fmt::format("{}, {} x {} {}, equirectangular", path.filename().string(),
-                                     layout.width, layout.height, layout.typeName);
+    source.description = fmt::format("{}, {} x {} {}, {}", path.filename().string(), layout.width,
+                                     layout.height, layout.typeName, placementText(*placement, layout.width));
     // Under Nowell's map a grid step covers at most 2 / cells radians.
-    source.naturalFaceSize = powerOfTwoCells(layout.width / std::numbers::pi) + 1;
+    source.naturalFaceSize = powerOfTwoCells(placement->period / std::numbers::pi) + 1;
     source.sampleCount = static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
     describeHeights(source, conversion, *statistics);
-    source.sample = [shared = Equirectangular{*image, statistics->minM, statistics->maxM}](
+    source.sample = [shared = Equirectangular{*image, *placement, statistics->minM, statistics->maxM}](
                         const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);
     };

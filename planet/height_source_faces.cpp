@@ -396,6 +396,12 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
                 layout.width, layout.height, layout.typeName, firstName, first.width, first.height,
                 first.typeName));
         }
+        if (layout.geoTags.noDataValue != first.geoTags.noDataValue) {
+            return badInput(
+                fmt::format("{} and {} have different GDAL_NODATA tags; expected the same no-data value "
+                            "in all six faces",
+                            name, firstName));
+        }
         if (expected && layout.width != *expected) {
             return badInput(fmt::format("{} is {} x {} samples; {} {} x {}{}", name, layout.width,
                                         layout.height,
@@ -462,7 +468,9 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     }
     const Result<FaceFormat> format = raw ? rawFormat(files, settings) : imageFormat(files, settings, images);
     if (!format) return tl::unexpected(format.error());
-    HeightConversion conversion = conversionFor(settings, format->type);
+    const std::optional<double> fileNoDataValue =
+        raw ? std::nullopt : images[0]->layout().geoTags.noDataValue;
+    HeightConversion conversion = conversionFor(settings, format->type, fileNoDataValue);
     conversion.swapBytes = raw && settings.rawBigEndian != (std::endian::native == std::endian::big);
 
     const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);

@@ -6,18 +6,31 @@
 
 namespace planet {
 
-HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type) {
+namespace {
+
+// A text such as -3.40282346638529e+38 is a float's value only once it is rounded to one.
+double asStored(double value, SampleType type) {
+    const bool fits = std::abs(value) <= 3.4028235e38;
+    return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+}  // namespace
+
+HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type,
+                               std::optional<double> fileNoDataValue) {
     HeightConversion conversion;
     conversion.type = type;
     conversion.metresPerUnit = settings.metresPerUnit;
     conversion.offsetM = settings.offsetM;
-    conversion.noDataValue = settings.noDataValue;
+    conversion.noDataValue = settings.noDataValue ? settings.noDataValue : fileNoDataValue;
+    if (conversion.noDataValue) conversion.noDataValue = asStored(*conversion.noDataValue, type);
     conversion.fillM = static_cast<float>(settings.fillM);
     if (settings.colourChannel) {
         const bool isInteger = type != SampleType::Float && type != SampleType::Double;
         const auto bits = static_cast<int>(8 * bytesOf(type));
         conversion.metresPerUnit = isInteger ? 1 / (std::ldexp(1.0, bits) - 1) : 1;
         conversion.offsetM = 0;
+        conversion.noDataValue = settings.noDataValue;  // the file's is often a colour of the picture
         conversion.fillM = 0;
         conversion.decodesSrgb = isInteger;
     }

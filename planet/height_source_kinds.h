@@ -17,7 +17,7 @@
 
 namespace planet {
 
-// The image must be about twice as wide as high.
+// The image must show the whole planet (image_placement.h).
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
                                                const HeightSourceSettings& settings);
 
@@ -38,7 +38,9 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
                                     FaceEdges edges);
 
 // What the kinds share.
-HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type);
+// fileNoDataValue: what the file's own tags say, where the settings say nothing.
+HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type,
+                               std::optional<double> fileNoDataValue);
 
 // Sets stepM, minM, maxM and missingCount.
 void describeHeights(HeightSource& source, const HeightConversion& conversion,

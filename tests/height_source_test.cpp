@@ -418,9 +418,9 @@ TEST(HeightSource, OddWidthsAreSampled) {
     const TemporaryFolder folder;
     // No column is half a turn on from another: off by half a sample beyond the poles.
     writeImage(
-        folder / "grid.tif", Image<float>(721, 361, [](int column, int row) {
+        folder / "grid.tif", Image<float>(723, 361, [](int column, int row) {
             return smoothField(directionFromGeographic({std::numbers::pi * (0.5 - (row + 0.5) / 361),
-                                                        std::numbers::pi * ((column + 0.5) * 2 / 721 - 1)}));
+                                                        std::numbers::pi * ((column + 0.5) * 2 / 723 - 1)}));
         }));
     EXPECT_LT(largestError(mustOpen(folder / "grid.tif"), 128, smoothField), 2);
 }
@@ -439,8 +439,11 @@ TEST(HeightSource, WrongShapesAreRefused) {
     const TemporaryFolder folder;
     writeImage(folder / "square.png", Image<std::uint8_t>(64, 64, [](int, int) { return 1; }));
     writeImage(folder / "thin.png", Image<std::uint8_t>(1, 1, [](int, int) { return 1; }));
-    EXPECT_THAT(errorOf(folder / "square.png"),
-                AllOf(HasSubstr("is 64 x 64 samples"), HasSubstr("64 x 32 or 128 x 64")));
+    EXPECT_THAT(
+        errorOf(folder / "square.png"),
+        AllOf(HasSubstr("is 64 x 64 samples; expected an equirectangular image of the whole planet, twice "
+                        "as wide as high"),
+              HasSubstr("an image of a region cannot be placed on a planet yet")));
     EXPECT_THAT(errorOf(folder / "thin.png"), HasSubstr("is 1 x 1 samples"));
 }
 
