@@ -395,7 +395,7 @@ void previousSection(const DataView& data, Commands& commands) {
     if (ImGui::Checkbox("Show previous bake", &shown)) commands.push_back(ShowPreviousBake{shown});
     noteItem("Show previous bake");
     tooltip("Switches between the two bakes; the camera stays. The difference is what the bake changed.");
-    secondColumn();
+    secondColumn("Dismiss");
     if (button("Dismiss", "Frees its memory. Its file stays in the cache."))
         commands.push_back(DismissPreviousBake{});
 }

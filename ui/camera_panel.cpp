@@ -188,13 +188,13 @@ void observerSection(CameraSettings& camera) {
     beginGrey(camera.observer == ObserverMode::Off, "The observer is off: choose a view above.");
     checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
              "Draws the edges of the LOD view's frustum, up to the farthest visible ground.");
-    secondColumn();
+    secondColumn("Horizon");
     checkbox("Horizon", camera.showHorizon, defaultCamera.showHorizon,
              "Draws the LOD view's horizon circle, beyond which the planet occludes itself.");
     checkbox("Switch distance", camera.showSwitchDistances, defaultCamera.showSwitchDistances,
              "Draws the switch distance d_m = δc K around the selected chunk, K = W / (2 τ tan(fov / 2)). A "
              "camera within this distance requires the chunk to be split. Leaves have none.");
-    secondColumn();
+    secondColumn("Own LOD");
     checkbox("Own LOD", camera.observerOwnLod, defaultCamera.observerOwnLod,
              "The observer uses its own LOD selection and requests instead of the LOD view's. This loads "
              "more chunks.");

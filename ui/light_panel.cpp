@@ -16,7 +16,7 @@ void lightKnobs(SurfaceSettings& surface) {
     const SurfaceSettings defaults;
     checkbox("Lighting", surface.lighting, defaults.lighting,
              "Shades the ground by the sun. Off: flat colour, without sun and atmosphere.");
-    secondColumn();
+    secondColumn("Detail");
     checkbox(
         "Detail", surface.detail, defaults.detail,
         "Adds procedural roughness between the samples, to light and colour only; no measurement changes.");

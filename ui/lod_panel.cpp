@@ -88,7 +88,7 @@ void cullingKnobs(const EditorView& view, LodKnobs& lod, Commands& commands) {
     checkbox("Frustum culling", lod.frustumCulling, defaults.frustumCulling,
              "Skips chunks outside the view frustum. Off: they are loaded and drawn too, several times as "
              "many chunks; turning the camera then shows no coarse ground.");
-    secondColumn();
+    secondColumn("Horizon culling");
     checkbox("Horizon culling", lod.horizonCulling, defaults.horizonCulling,
              "Skips chunks below the horizon. Off: the far side of the planet is loaded and drawn too, "
              "without visible benefit.");

@@ -49,14 +49,14 @@ void drawnKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
     checkbox(
         "Outlines", overlay.outlines, defaults.outlines,
         "Draws chunk borders: red where finer chunks could not be read, amber where they will be retried.");
-    secondColumn();
+    secondColumn("Bounds");
     checkbox("Bounds", overlay.bounds, defaults.bounds,
              "Draws the bounding boxes used for distance and culling, which contain a chunk and its "
              "descendants. Slow with thousands of chunks.");
     checkbox("Wireframe", overlay.wireframe, defaults.wireframe,
              "Draws the mesh edges over a dimmed surface (F1). Triangles smaller than about three pixels "
              "appear as uniform grey.");
-    secondColumn();
+    secondColumn("Unprojected cube");
     checkbox("Unprojected cube", overlay.cube, defaults.cube,
              "Draws the cube before it is projected onto the sphere (F4). LOD selection still uses the "
              "sphere, so screen-space errors do not apply to this picture.");

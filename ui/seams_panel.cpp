@@ -140,7 +140,7 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
 }  // namespace
 
 void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    if (section("Seams between chunks")) knobs(settings.seams);
+    if (section("Seams")) knobs(settings.seams);
     if (!view.planet) return emptyState("No planet is open. Open one to see its LOD seams.");
     const planet::Selection& selection = view.planet->selection();
     if (section("Drawn now")) {

@@ -69,7 +69,7 @@ bool seedControl(const TerrainField& field, TerrainSettings& settings) {
     bool changed = ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed);
     noteItem("Seed");
     tooltip(std::string(field.about).c_str());
-    ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
+    sameLineIfRoom(ImGui::CalcTextSize("New seed").x + 2 * ImGui::GetStyle().FramePadding.x);
     if (button("New seed", "Picks another seed for the same kind of terrain.")) {
         seed = newSeed();
         changed = true;

@@ -65,8 +65,8 @@ SunChoice sunChoiceOf(const SurfaceSettings& surface) {
 
 void chooseSun(SurfaceSettings& surface) {
     SunChoice sun = sunChoiceOf(surface);
-    if (!choice("Sun", sun, SunChoice::Follows, "follow camera\0by date\0fixed\0",
-                "Follow camera: the sun stays east of the camera, so it is always day there. By date: the "
+    if (!choice("Sun", sun, SunChoice::Follows, "follow\0by date\0fixed\0",
+                "Follow: the sun stays east of the camera, so it is always day there. By date: the "
                 "sun's position over the Earth at a given time. Fixed: the position set below."))
         return;
     surface.sunFollows = sun == SunChoice::Follows;

@@ -233,8 +233,12 @@ bool button(const char* label, const char* explanation) {
     return pressed;
 }
 
-void secondColumn() {
-    ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionMax().x * 0.5f);
+void secondColumn(const char* label) {
+    const float left = ImGui::GetWindowContentRegionMin().x;
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    const float column = left + right * 0.5f;
+    const float last = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetScrollX();
+    if (last < column && column + checkboxWidth(label) <= right) ImGui::SameLine(column);
 }
 
 void sameLineIfRoom(float width) {

@@ -54,8 +54,8 @@ bool choice(const char* label, Enum& value, Enum defaultValue, const char* items
     return changed;
 }
 bool button(const char* label, const char* explanation);
-// Starts the right-hand column of a pair of check boxes.
-void secondColumn();
+// Starts the right-hand column of a pair of check boxes, unless the box with this label does not fit there.
+void secondColumn(const char* label);
 
 // Goes on in the same line while there is room for an item so wide.
 void sameLineIfRoom(float width);

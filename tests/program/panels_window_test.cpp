@@ -194,7 +194,7 @@ click light/Lighting; expect differs "$plain"; click light/Lighting; expect same
 choose light/Sun "by date"; expect differs "$plain"; dated=$(viewport)
 slide light/Hour 0.9; expect differs "$dated"
 choose light/Sun fixed; expect differs "$dated"
-choose light/Sun "follow camera"; expect same "$plain"
+choose light/Sun follow; expect same "$plain"
 tab Surface
 slide surface/Exaggeration 0.7; expect differs "$plain"
 )sh");
