@@ -45,7 +45,7 @@ void tabMenu(const PanelInfo& info, Workspace& workspace) {
             place.dock = static_cast<Dock>(dock);
             workspace.inFront[dock] = info.id;
         }
-        if (here) tooltip("The panel stands there.");
+        if (here) tooltip("The panel is already there.");
     }
     ImGui::Separator();
     if (ImGui::MenuItem("Hide", info.shortcut)) place.shown = false;

@@ -41,9 +41,8 @@ void inspectButton(const planet::View& lodView, const planet::View& measured, co
     }
     noteItem("Go");
     tooltip(
-        "Moves the camera near the place, selects the chunk, and freezes LOD as it was measured. The "
-        "viewport "
-        "offers the way back.");
+        "Moves the camera near the place, selects the chunk, and freezes LOD as measured. A button in the "
+        "viewport goes back.");
 }
 
 void inspectionNotice(const EditorView& view, const Rect& viewport, Commands& commands) {

@@ -149,9 +149,7 @@ void flip(const EditorView& view, Commands& commands) {
         const auto side = static_cast<PopSide>(i);
         if (ImGui::RadioButton(names[i], pops.side == side)) commands.push_back(ShowPopSide{side});
         noteItem(names[i]);
-        tooltip(fmt::format("Of the switch of {}, last gone back to. {}", planet::toString(pops.shown->chunk),
-                            meanings[i])
-                    .c_str());
+        tooltip(fmt::format("Switch of {}: {}", planet::toString(pops.shown->chunk), meanings[i]).c_str());
     }
     if (!pops.problem.empty()) wrappedText(pops.problem, palette().warning);
 }
@@ -295,7 +293,7 @@ void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings&, Com
                                            totals(view, state);
                                        }},
                                 Column{"Timeline", 1.5f, 0, [&] { timeline(view, state, wide, commands); }},
-                                Column{"Worst first", 1.6f, rows, [&] { worstFirst(view, state); }}};
+                                Column{"Level changes", 1.6f, rows, [&] { worstFirst(view, state); }}};
     drawColumns("pops", columns);
 }
 

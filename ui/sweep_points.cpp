@@ -28,7 +28,7 @@ const char* metricName(planet::ErrorMetric metric) {
 }
 
 const char* limitedName(const TauGoal& goal) {
-    if (goal.limitsError) return "the worst measured error";
+    if (goal.limitsError) return "the max measured error";
     switch (goal.cost) {
         case SweepCost::Triangles:
             return "the mean number of triangles";
@@ -80,7 +80,7 @@ const char* costName(SweepCost cost) {
         case SweepCost::FrameMs:
             return "median frame, ms";
         case SweepCost::MemoryMiB:
-            return "most resident, MiB";
+            return "max resident, MiB";
     }
     return "";
 }
@@ -122,7 +122,7 @@ std::vector<SweepSeries> seriesOf(std::span<const SweepPoint> points) {
 }
 
 std::string settingText(int chunkSize, planet::ErrorMetric metric, double tauPx, std::string_view tau) {
-    return fmt::format("{} a side, {}, {} {:.3g} px", chunkSize, metricName(metric), tau, tauPx);
+    return fmt::format("chunk size {}, {}, {} {:.3g} px", chunkSize, metricName(metric), tau, tauPx);
 }
 
 std::string suggestionText(const TauGoal& goal, const TauSuggestion& found, std::string_view tau) {
@@ -147,18 +147,18 @@ TauList tausFromText(std::string_view text) {
         double tauPx = 0;
         const auto parsed = std::from_chars(word.data(), word.data() + word.size(), tauPx);
         if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size())
-            return wrongTaus(fmt::format("\"{}\" is no number", word));
+            return wrongTaus(fmt::format("\"{}\" is not a number", word));
         // Written so that what is no number is refused too.
         if (!(tauPx >= smallestTauPx && tauPx <= largestTauPx))
             return wrongTaus(fmt::format("{} is out of range", word));
         if (std::find(list.tausPx.begin(), list.tausPx.end(), tauPx) != list.tausPx.end())
-            return wrongTaus(fmt::format("{} is there twice", word));
+            return wrongTaus(fmt::format("{} is given twice", word));
         list.tausPx.push_back(tauPx);
         from = text.find_first_not_of(between, to);
     }
-    if (list.tausPx.empty()) return wrongTaus("there is no tolerance");
+    if (list.tausPx.empty()) return wrongTaus("no tolerance is given");
     if (list.tausPx.size() > mostTaus)
-        return wrongTaus(fmt::format("there are more than {} tolerances", mostTaus));
+        return wrongTaus(fmt::format("more than {} tolerances are given", mostTaus));
     std::sort(list.tausPx.begin(), list.tausPx.end());
     return list;
 }

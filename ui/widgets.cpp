@@ -31,7 +31,7 @@ bool offerDefault(const char* label, bool isDefault, const std::string& defaultT
     if (ImGui::BeginPopupContextItem(label)) {
         reset = ImGui::MenuItem(("Reset to " + defaultText).c_str(), nullptr, false, !isDefault);
         noteItem("reset");
-        if (isDefault) tooltip("It has its default.");
+        if (isDefault) tooltip("It already has its default.");
         ImGui::EndPopup();
     }
     return reset;

@@ -236,7 +236,7 @@ TEST_F(Sweeping, AFileOfUnknownSourceIsSweptInItsOwnChunksAlone) {
     startSweep(desk, shownPlanet(session), asked, settings_, log_);
     EXPECT_FALSE(desk.job);
     EXPECT_THAT(sweepViewOf(desk).problem, HasSubstr("own.chk"));
-    EXPECT_THAT(sweepViewOf(desk).problem, HasSubstr("17 a side"));
+    EXPECT_THAT(sweepViewOf(desk).problem, HasSubstr("its own chunk size of 17"));
     asked.chunkSizes = {17};
     startSweep(desk, shownPlanet(session), asked, settings_, log_);
     EXPECT_TRUE(desk.job);

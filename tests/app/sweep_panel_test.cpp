@@ -22,14 +22,14 @@ TEST(SweepPanel, ReadsTolerancesHoweverTheyAreSeparated) {
 TEST(SweepPanel, SaysWhatIsWrongWithTolerancesAndWhatWouldBeRight) {
     const std::pair<std::string, const char*> wrong[] = {{"", "no tolerance"},
                                                          {" , ", "no tolerance"},
-                                                         {"1 two 3", "\"two\" is no number"},
+                                                         {"1 two 3", "\"two\" is not a number"},
                                                          {"1x", "\"1x\""},
                                                          {"0.05", "0.05 is out"},
                                                          {"65", "65 is out"},
                                                          {"nan", "nan is out"},
                                                          {"inf", "inf is out"},
                                                          {"-1", "-1 is out"},
-                                                         {"1 2 1.0", "1.0 is there twice"},
+                                                         {"1 2 1.0", "1.0 is given twice"},
                                                          {"1e999", "\"1e999\""}};
     for (const auto& [text, problem] : wrong) {
         const TauList taus = tausFromText(text);
@@ -44,7 +44,7 @@ TEST(SweepPanel, SaysWhatIsWrongWithTolerancesAndWhatWouldBeRight) {
 
 TEST(SweepPanel, AnswersInWords) {
     EXPECT_EQ(suggestionText({true, SweepCost::Triangles, 1}, {1.8342, 0.9831, true, 7}, "tau"),
-              "tau 1.83 px keeps the worst measured error at 0.983 px (7 flights flown).");
+              "tau 1.83 px keeps the max measured error at 0.983 px (7 flights flown).");
     EXPECT_EQ(suggestionText({false, SweepCost::Triangles, 200'000}, {2, 198'000, true, 11}, "tau"),
               "tau 2 px keeps the mean number of triangles at 198 k (11 flights flown).");
     EXPECT_EQ(
