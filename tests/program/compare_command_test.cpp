@@ -63,5 +63,40 @@ TEST(CompareCommand, SaysWhatIsWrongWithItsFiles) {
     EXPECT_EQ(moon.output, "");
 }
 
+// A flight that stands still, and a shot and an audit of its view.
+TEST(CompareCommand, SaysTheSameOfAViewAsAShotAndAnAudit) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    std::ofstream still(folder.path() / "still.toml");
+    for (const int timeS : {0, 1})
+        still << "[[key]]\ntime_s = " << timeS
+              << "\nlatitude_deg = 10\nlongitude_deg = 20\naltitude_m = 30000\nheading_deg = 0\npitch_deg = "
+                 "-40\n";
+    still.close();
+    const std::string view = " --camera 10,20,30000,0,-40 --size 160x120 --tau 2";
+    const Ran shot = runWorldy(folder, "shot planet.chk -o shot.png --json" + view);
+    ASSERT_EQ(shot.exitCode, 0) << shot.errors;
+    ASSERT_EQ(runWorldy(folder, "audit planet.chk -o audit.json" + view).exitCode, 0);
+    const Ran compared = runWorldy(folder,
+                                   "compare planet.chk --flight still.toml --frames 1 --size 160x120 "
+                                   "--set-a lod.tau_px=2 --set-b lod.tau_px=3 -o compare.json");
+    ASSERT_EQ(compared.exitCode, 0) << compared.errors;
+    const nlohmann::json ofShot = nlohmann::json::parse(shot.output);
+    const nlohmann::json ofAudit = nlohmann::json::parse(contentOf(folder.path() / "audit.json"));
+    const nlohmann::json ofCompare = nlohmann::json::parse(contentOf(folder.path() / "compare.json"))["a"];
+    for (const char* key : {"worst_eps_px", "worst_drawn_bound_px"}) {
+        const double px = ofShot[key];
+        EXPECT_GT(px, 0.1) << key;
+        EXPECT_NEAR(ofAudit[key], px, 1e-6 * px) << key;
+        EXPECT_NEAR(ofCompare[key], px, 1e-6 * px) << key;
+    }
+    const double measuredPx = ofAudit["worst_measured_px"];
+    EXPECT_NEAR(ofCompare["worst_measured_px"], measuredPx, 1e-6 * measuredPx);
+    for (const std::string key : {"ground_triangles", "skirt_triangles", "triangles"}) {
+        EXPECT_EQ(ofShot[key], ofAudit["view"][0][key]) << key;
+        EXPECT_EQ(ofShot[key], ofCompare["mean_" + key]) << key;
+    }
+}
+
 }  // namespace
 }  // namespace worldy
