@@ -77,7 +77,8 @@ planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::pa
         picture = set->colourImage;
     }
     if (picture.empty()) return std::optional<Picture>();
-    return readPicture(picture).map([](Picture&& read) { return std::optional<Picture>(std::move(read)); });
+    return readPlanetPicture(picture).map(
+        [](Picture&& read) { return std::optional<Picture>(std::move(read)); });
 }
 
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,

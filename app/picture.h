@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planet/image_placement.h"
 #include "planet/result.h"
 
 namespace worldy {
@@ -19,6 +20,14 @@ struct Picture {
 
 // Any image that OpenImageIO reads; grey becomes colour, alpha is left out.
 planet::Result<Picture> readPicture(const std::filesystem::path& file);
+
+// A picture of a whole planet, moved to pixel centres from longitude -180 to 180: its GeoTIFF tags or its
+// size tell where it lies (planet/image_placement.h). One without tags may have any shape. The Error of a
+// region or of another projection says what was found.
+planet::Result<Picture> readPlanetPicture(const std::filesystem::path& file);
+
+// The same picture with its samples at pixel centres from longitude -180 to 180, bilinear in between.
+Picture placedPicture(const Picture& picture, const planet::ImagePlacement& placement);
 
 // A text kept in a picture's file: in a PNG a tEXt chunk of that keyword, 1 to 79 bytes.
 struct PictureText {

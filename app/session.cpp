@@ -36,7 +36,7 @@ void addColours(const planet::ChunkFileInfo& info, const DataSet& data, ui::Bake
 // A colour image that cannot be read is told; the planet is then coloured by height.
 std::optional<Picture> readColour(const fs::path& file, const Log& log) {
     if (file.empty()) return std::nullopt;
-    Result<Picture> colour = readPicture(file);
+    Result<Picture> colour = readPlanetPicture(file);
     if (colour) return std::move(*colour);
     log->warn("{}", colour.error().message);
     return std::nullopt;
@@ -364,7 +364,7 @@ Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const
     std::optional<Picture> colour;
     // Without its picture it is coloured by height.
     if (data.colourImage != session.colourFile && !data.colourImage.empty()) {
-        if (Result<Picture> read = readPicture(data.colourImage)) colour = std::move(*read);
+        if (Result<Picture> read = readPlanetPicture(data.colourImage)) colour = std::move(*read);
     } else if (data.colourImage == session.colourFile) {
         colour = session.colour;
     }

@@ -27,5 +27,44 @@ TEST(ReadPicture, ColoursAreKeptOpacityIsLeftOutAndGreyIsSpread) {
     EXPECT_EQ(readOf({7, 255, 8, 255}, 2), (Samples{7, 7, 7, 8, 8, 8}));
 }
 
+Picture rampPicture(int width, int height) {
+    Picture picture{width, height, {}};
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column)
+            for (const int value : {10 * column, 20 * row, 0})
+                picture.rgb.push_back(static_cast<std::uint8_t>(value));
+    return picture;
+}
+
+TEST(PlacedPicture, onePixelCentredIsLeftAsItIs) {
+    EXPECT_EQ(placedPicture(rampPicture(8, 4), planet::centredPlacement(8)).rgb, rampPicture(8, 4).rgb);
+}
+
+TEST(PlacedPicture, oneThatBeginsAtLongitudeZeroIsTurnedByHalf) {
+    const Picture placed = placedPicture(rampPicture(8, 4), {8, -0.5, false});
+    ASSERT_EQ(placed.width, 8);
+    ASSERT_EQ(placed.height, 4);
+    for (std::size_t column = 0; column < 8; ++column)
+        EXPECT_EQ(placed.rgb[3 * column], 10 * ((column + 4) % 8)) << column;
+}
+
+TEST(PlacedPicture, gridPointsBecomePixelCentres) {
+    const Picture placed = placedPicture(rampPicture(9, 5), {8, 4, true});
+    ASSERT_EQ(placed.width, 8);
+    ASSERT_EQ(placed.height, 4);
+    for (std::size_t row = 0; row < 4; ++row) {
+        EXPECT_EQ(placed.rgb[3 * 8 * row], 5) << "half way to the next column";
+        EXPECT_EQ(placed.rgb[3 * 8 * row + 1], 20 * row + 10);
+    }
+}
+
+TEST(ReadPlanetPicture, aGridOfPointsIsToldByItsSizeAndOtherShapesAreStretched) {
+    const tests::TemporaryFolder folder;
+    ASSERT_TRUE(writePicture(rampPicture(9, 5), folder / "grid.png"));
+    EXPECT_EQ(readPlanetPicture(folder / "grid.png")->width, 8);
+    ASSERT_TRUE(writePicture(rampPicture(6, 6), folder / "square.png"));
+    EXPECT_EQ(readPlanetPicture(folder / "square.png")->rgb, rampPicture(6, 6).rgb);
+}
+
 }  // namespace
 }  // namespace worldy
