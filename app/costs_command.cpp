@@ -29,9 +29,9 @@ nlohmann::ordered_json reportOf(const std::vector<ui::PartCost>& costs, const Se
 }
 
 void print(const std::vector<ui::PartCost>& costs) {
-    fmt::print("{:<18} {:>11} {:>9} {:>9} {:>7}\n", "part", "without, ms", "with, ms", "more, ms", "ratio");
+    fmt::print("{:<20} {:>11} {:>9} {:>9} {:>7}\n", "part", "without, ms", "with, ms", "more, ms", "ratio");
     for (const ui::PartCost& cost : costs)
-        fmt::print("{:<18} {:>11.2f} {:>9.2f} {:>9.2f} {:>7.2f}\n", cost.part, cost.withoutMs, cost.withMs,
+        fmt::print("{:<20} {:>11.2f} {:>9.2f} {:>9.2f} {:>7.2f}\n", cost.part, cost.withoutMs, cost.withMs,
                    cost.withMs - cost.withoutMs, cost.withMs / cost.withoutMs);
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using planet::gl::FeatureUse;
 
-// The thin air, where the physical one is off.
+// The analytic atmosphere, where the physical one is off.
 void useAir(ui::SurfaceSettings& surface, FeatureUse physical) {
     surface.atmosphere = true;
     surface.light.air.use = physical;
@@ -41,8 +41,8 @@ std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, const PartsT
         turnOn(parts.back().settings.surface);
         turnOn(all.surface);
     };
-    add("thin air", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::Off); });
-    add("physical air", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::On); });
+    add("analytic atmosphere", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::Off); });
+    add("physical atmosphere", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::On); });
     add("sea surface", [](ui::SurfaceSettings& surface) { surface.light.sea.use = FeatureUse::On; });
     add("shadows", [](ui::SurfaceSettings& surface) { surface.light.shadows.use = FeatureUse::On; });
     if (there.normals)

@@ -18,7 +18,7 @@ TEST(Costs, TimeEachPartOfThePictureThatThereIs) {
     const Ran ran =
         runWorldy(folder, "costs planet.chk --camera 10,20,9000,0,-40 --size 64x48 --rounds 1 -o costs.json");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_THAT(ran.output, HasSubstr("physical air"));
+    EXPECT_THAT(ran.output, HasSubstr("physical atmosphere"));
     const json report = json::parse(contentOf(folder.path() / "costs.json"));
     EXPECT_EQ(report["width_px"], 64);
     EXPECT_EQ(report["rounds"], 1);
@@ -30,8 +30,8 @@ TEST(Costs, TimeEachPartOfThePictureThatThereIs) {
         EXPECT_GT(part["with_ms"], 0);
     }
     // The planet has no colours, and faces too small for tiles of normals.
-    EXPECT_EQ(parts, (std::set<std::string>{"thin air", "physical air", "sea surface", "shadows", "detail",
-                                            "layers", "all of them"}));
+    EXPECT_EQ(parts, (std::set<std::string>{"analytic atmosphere", "physical atmosphere", "sea surface",
+                                            "shadows", "detail", "layers", "all of them"}));
 }
 
 TEST(Costs, OfNoFileOrNoRoundsAreRefused) {
