@@ -16,7 +16,6 @@
 #include "app/flight_path.h"
 #include "app/interrupt.h"
 #include "app/message.h"
-#include "app/output_file.h"
 #include "app/report.h"
 #include "app/scene.h"
 #include "app/stopwatch.h"
@@ -38,11 +37,10 @@ using planet::TrueErrorReport;
 Result<std::vector<planet::CameraPose>> flightPoses(const AuditOptions& options) {
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
-    const Result<int> views = flightViews(*path, options.stepS, mostFlightViews);
-    if (!views) return tl::unexpected(views.error());
+    const Result<FlightFrames> frames = framesOf(*path, options.sampling, mostFlightViews);
+    if (!frames) return tl::unexpected(frames.error());
     std::vector<planet::CameraPose> poses;
-    for (int i = 0; i < *views; ++i)
-        poses.push_back(poseAt(*path, path->keys.front().timeS + i * options.stepS));
+    for (int i = 0; i < frames->count; ++i) poses.push_back(poseAt(*path, frames->timeS(i)));
     return poses;
 }
 
@@ -292,7 +290,7 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
         1e9 * audit.measuringS / std::max(samples, 1.0), audit.blocksRead);
 }
 
-Result<void> writeAudit(const AuditOptions& options, const Audit& audit) {
+Json auditJson(const AuditOptions& options, const Audit& audit) {
     Json json = {{"file", options.file.string()},
                  {"tau_px", options.view.lod.tauPx},
                  {"metric", auditedLod(options).metric == planet::ErrorMetric::Tight ? "tight" : "additive"},
@@ -303,18 +301,16 @@ Result<void> writeAudit(const AuditOptions& options, const Audit& audit) {
     addFigures(totalsOf(audit), json);
     json["view"] = Json::array();
     for (const AuditedView& view : audit.views) json["view"].push_back(jsonOf(view));
-    return writeTextFile(options.jsonOutput, jsonText(json));
+    return json;
 }
 
 Result<bool> runAudit(const AuditOptions& options) {
     const Result<Audit> audited = audit(options);
     if (!audited) return tl::unexpected(audited.error());
-    printAudit(options, *audited);
-    if (!options.jsonOutput.empty()) {
-        if (const Result<void> written = writeAudit(options, *audited); !written)
-            return tl::unexpected(written.error());
-    }
-    return audited->violations() == 0;
+    if (!options.report.json) printAudit(options, *audited);
+    return writeReport(options.report, auditJson(options, *audited)).map([&] {
+        return audited->violations() == 0;
+    });
 }
 
 }  // namespace worldy

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "app/flight_path.h"
+#include "app/report.h"
 #include "app/view_options.h"
 #include "planet/lod_select.h"
 #include "planet/true_error.h"
@@ -16,11 +18,11 @@ namespace worldy {
 
 struct AuditOptions {
     std::filesystem::path file;
-    std::vector<planet::CameraPose> cameras;    // none, and no flight: auditPoses
-    std::filesystem::path flight;               // of keys; empty: none
-    double stepS = 1;                           // between the flight's views, seconds, > 0
+    std::vector<planet::CameraPose> cameras;  // none, and no flight: auditPoses
+    std::filesystem::path flight;             // of keys; empty: none
+    FlightSampling sampling;
     std::optional<planet::ErrorMetric> metric;  // instead of the settings'
-    std::filesystem::path jsonOutput;           // empty: none
+    ReportTo report;                            // every chunk of every view
     int worst = 20;                             // chunks that are listed, the worst over all views; >= 0
     PictureSize size;
     ui::ViewSettings view;
@@ -48,6 +50,6 @@ planet::Result<bool> runAudit(const AuditOptions& options);
 // The parts of it.
 planet::Result<Audit> audit(const AuditOptions& options);
 void printAudit(const AuditOptions& options, const Audit& audit);
-planet::Result<void> writeAudit(const AuditOptions& options, const Audit& audit);
+nlohmann::ordered_json auditJson(const AuditOptions& options, const Audit& audit);
 
 }  // namespace worldy

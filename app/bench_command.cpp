@@ -16,7 +16,6 @@
 #include "app/bake_progress.h"
 #include "app/bench_parts.h"
 #include "app/data_set.h"
-#include "app/output_file.h"
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "planet/gl/offscreen_context.h"
@@ -237,8 +236,9 @@ Result<void> runBench(const BenchOptions& options) {
     const auto planets = onlyColours ? Result<std::vector<BenchPlanet>>(std::vector<BenchPlanet>{})
                                      : bakePlanets(*source, options, folder->path());
     if (!planets) return tl::unexpected(planets.error());
-    fmt::print("{}\n{}, {} threads; {}\n{} rounds: median (lowest..highest)\n", source->description,
-               machine->processor, machine->threads, machine->renderer, options.rounds);
+    if (!options.report.json)
+        fmt::print("{}\n{}, {} threads; {}\n{} rounds: median (lowest..highest)\n", source->description,
+                   machine->processor, machine->threads, machine->renderer, options.rounds);
 
     std::vector<Section> sections;
     for (const Part& part : partsOf(options, *source, *planets, folder->path())) {
@@ -246,11 +246,9 @@ Result<void> runBench(const BenchOptions& options) {
         BenchRows rows = part.measure();
         if (!rows) return tl::unexpected(rows.error());
         sections.push_back({part.name, part.title, std::move(*rows)});
-        print(sections.back());
+        if (!options.report.json) print(sections.back());
     }
-    if (options.jsonOutput.empty()) return {};
-    return writeTextFile(options.jsonOutput,
-                         jsonText(jsonOf(options, source->description, *machine, sections)));
+    return writeReport(options.report, jsonOf(options, source->description, *machine, sections));
 }
 
 }  // namespace worldy

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/report.h"
 #include "app/view_options.h"
 #include "planet/height_source.h"
 
@@ -24,8 +25,8 @@ struct BenchOptions {
     std::vector<double> tausPx = {1, 2, 4};
     int rounds = 5;  // each draws, reads or bakes everything once, in turn; [1, 1000]
     PictureSize size;
-    std::vector<std::string> parts;    // of benchParts; empty: all
-    std::filesystem::path jsonOutput;  // nowhere if empty
+    std::vector<std::string> parts;  // of benchParts; empty: all
+    ReportTo report;
 };
 
 // The Error names the source, or what the machine lacks. Bakes into a temporary folder, which is gone

@@ -9,7 +9,6 @@
 
 #include "app/comparison.h"
 #include "app/interrupt.h"
-#include "app/output_file.h"
 #include "app/report.h"
 #include "app/settings.h"
 
@@ -32,7 +31,7 @@ std::vector<ui::SettingDifference> differencesOf(const ComparisonPlan& plan) {
 
 void printTable(const ComparisonPlan& plan, std::span<const ui::SettingDifference> different,
                 const ComparedPair& pair) {
-    fmt::print("{}: {} moments\n", plan.path.name, plan.moments);
+    fmt::print("{}: {} frames\n", plan.path.name, plan.moments);
     if (plan.sides[0].chunkFile != plan.sides[1].chunkFile) {
         fmt::print("A is {}, B is {}\n", plan.sides[0].chunkFile.string(), plan.sides[1].chunkFile.string());
     }
@@ -64,7 +63,7 @@ Json jsonOf(const ComparedSide& side, const ui::ComparedFigures& figures) {
 
 Json reportOf(const ComparisonPlan& plan, std::span<const ui::SettingDifference> different,
               const ComparedPair& pair, const std::optional<ComparedPictures>& pictures) {
-    Json report = {{"flight", plan.path.name},           {"moments", plan.moments},
+    Json report = {{"flight", plan.path.name},           {"frames", plan.moments},
                    {"width_px", plan.size.widthPx},      {"height_px", plan.size.heightPx},
                    {"pops_step_s", plan.popStepS},       {"a", jsonOf(plan.sides[0], pair[0])},
                    {"b", jsonOf(plan.sides[1], pair[1])}};
@@ -93,7 +92,10 @@ Result<ComparisonPlan> planOf(const CompareOptions& options) {
     if (!path) return tl::unexpected(path.error());
     ComparisonPlan plan;
     plan.path = std::move(*path);
-    plan.moments = options.moments;
+    const Result<FlightFrames> frames = framesOf(plan.path, options.sampling, mostFlightViews);
+    if (!frames) return tl::unexpected(frames.error());
+    plan.moments = frames->count;
+    plan.momentStepS = frames->stepS;
     plan.size = options.size;
     plan.sides[0] = {options.file, options.settings[0]};
     plan.sides[1] = {options.fileOfB.empty() ? options.file : options.fileOfB, options.settings[1]};
@@ -110,18 +112,19 @@ Result<void> runCompare(const CompareOptions& options) {
     const Result<ComparedPair> pair = compareOverFlight(*plan, goOn);
     if (!pair) return tl::unexpected(pair.error());
     const std::vector<ui::SettingDifference> different = differencesOf(*plan);
-    printTable(*plan, different, *pair);
+    if (!options.report.json) printTable(*plan, different, *pair);
     std::optional<ComparedPictures> pictures;
     if (!options.pictures.empty()) {
         Result<ComparedPictures> taken = compareInPictures(*plan, goOn);
         if (!taken) return tl::unexpected(taken.error());
         pictures = std::move(*taken);
-        fmt::print("\n{} pixels differ at {:.2f} s, where most do, the largest by {} of 255 steps\n",
-                   pictures->pixels, pictures->timeS, pictures->largestSteps);
+        if (!options.report.json) {
+            fmt::print("\n{} pixels differ at {:.2f} s, where most do, the largest by {} of 255 steps\n",
+                       pictures->pixels, pictures->timeS, pictures->largestSteps);
+        }
         if (const Result<void> written = writePictures(options.pictures, *pictures); !written) return written;
     }
-    if (options.report.empty()) return {};
-    return writeTextFile(options.report, jsonText(reportOf(*plan, different, *pair, pictures)));
+    return writeReport(options.report, reportOf(*plan, different, *pair, pictures));
 }
 
 }  // namespace worldy

@@ -5,6 +5,8 @@
 #include <array>
 #include <filesystem>
 
+#include "app/flight_path.h"
+#include "app/report.h"
 #include "app/view_options.h"
 #include "ui/view_settings.h"
 
@@ -14,11 +16,11 @@ struct CompareOptions {
     std::filesystem::path file;
     std::filesystem::path fileOfB;  // empty: the same
     std::filesystem::path flight;   // .toml, or a recorded .flight
-    int moments = 12;               // of the flight, >= 1
+    FlightSampling sampling;
     PictureSize size;
     std::array<ui::ViewSettings, 2> settings;  // A and B
-    std::filesystem::path report;              // JSON; empty: none
-    std::filesystem::path pictures;            // a folder; empty: none
+    ReportTo report;
+    std::filesystem::path pictures;  // a folder; empty: none
 };
 
 planet::Result<void> runCompare(const CompareOptions& options);

@@ -52,6 +52,11 @@ ui::ComparedFigures figuresOf(const FlightFigures& flown) {
     return figures;
 }
 
+FlightFrames momentsOf(const ComparisonPlan& plan) {
+    if (plan.momentStepS == 0) return evenFrames(plan.path, plan.moments);
+    return {plan.path.keys.front().timeS, plan.momentStepS, plan.moments};
+}
+
 Result<ui::ComparedFigures> measureMoments(const ComparedSide& side, const ComparisonPlan& plan,
                                            const PartWatch& goOn) {
     Result<Offscreen> offscreen = openOffscreen({.chunkFile = side.chunkFile}, side.settings, plan.size, 1);
@@ -69,7 +74,7 @@ Result<ui::ComparedFigures> measureMoments(const ComparedSide& side, const Compa
         return {};
     };
     const Result<FlightFigures> flown = measureFlight(
-        *offscreen, plan.path, side.settings, plan.moments, FigureSet::CostAndError, heights,
+        *offscreen, plan.path, side.settings, momentsOf(plan), FigureSet::CostAndError, heights,
         [&](int) { return goOn(static_cast<double>(done) / plan.moments); }, measureMoment);
     if (!flown) return tl::unexpected(flown.error());
     ui::ComparedFigures figures = figuresOf(*flown);
@@ -156,8 +161,7 @@ Result<BothScenes> openBoth(const ComparedSide& a, const ComparedSide& b, const 
 }
 
 double timeOfMoment(const ComparisonPlan& plan, int moment) {
-    const double share = plan.moments > 1 ? static_cast<double>(moment) / (plan.moments - 1) : 0;
-    return plan.path.keys.front().timeS + share * durationS(plan.path);
+    return momentsOf(plan).timeS(moment);
 }
 
 Result<double> frameMs(Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings) {

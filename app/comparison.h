@@ -26,7 +26,8 @@ using ComparedSides = std::array<ComparedSide, 2>;  // A and B
 struct ComparisonPlan {
     ComparedSides sides;
     FlightPath path;
-    int moments = 12;  // evenly spread over the flight, >= 1
+    int moments = 12;        // of the flight, >= 1
+    double momentStepS = 0;  // seconds from one to the next; 0: evenly spread over the flight
     double popStepS = 1.0 / 60;
     PictureSize size;
 };

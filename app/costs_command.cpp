@@ -6,7 +6,6 @@
 
 #include "app/message.h"
 #include "app/offscreen.h"
-#include "app/output_file.h"
 #include "app/report.h"
 #include "app/surface_costs.h"
 
@@ -54,9 +53,8 @@ Result<void> runCosts(const CostsOptions& options) {
     while (meter->step(offscreen->scene)) {
     }
     const std::vector<ui::PartCost> costs = meter->costs();
-    print(costs);
-    if (options.jsonOutput.empty()) return {};
-    return writeTextFile(options.jsonOutput, jsonText(reportOf(costs, at, options)));
+    if (!options.report.json) print(costs);
+    return writeReport(options.report, reportOf(costs, at, options));
 }
 
 }  // namespace worldy

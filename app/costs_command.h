@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/report.h"
 #include "app/view_options.h"
 #include "ui/view_settings.h"
 
@@ -16,7 +17,7 @@ struct CostsOptions {
     planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
     PictureSize size;
     int rounds = 5;
-    std::filesystem::path jsonOutput;
+    ReportTo report;
     ui::ViewSettings view;
 };
 

@@ -14,7 +14,6 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/offscreen.h"
-#include "app/output_file.h"
 #include "app/report.h"
 
 namespace worldy {
@@ -179,9 +178,16 @@ Totals totalsOf(const std::vector<MeasuredView>& views) {
     return totals;
 }
 
+// The smallest skirts, proven by measuring the same views again with them.
+struct Proof {
+    int leaksByDepth = 0;                // leaking pixels
+    std::optional<int> leaksByFactor{};  // none where no factor is enough
+    bool tight() const { return leaksByDepth == 0 && leaksByFactor.value_or(0) == 0; }
+};
+
 constexpr std::array<const char*, 3> seamNames = {"none", "skirts", "stitched"};
 
-Json reportOf(const CracksOptions& options, const Measured& all) {
+Json reportOf(const CracksOptions& options, const Measured& all, const std::optional<Proof>& proof) {
     const Totals totals = totalsOf(all.views);
     Json report = {{"file", options.file.string()},
                    {"width_px", options.size.widthPx},
@@ -200,6 +206,8 @@ Json reportOf(const CracksOptions& options, const Measured& all) {
     if (options.findDepth) {
         report["smallest_depth_m"] = all.smallest.depthM;
         report["smallest_factor"] = numberOrNull(all.smallest.factor);
+        if (proof) report["leaking_px_at_smallest_depth"] = proof->leaksByDepth;
+        if (proof && proof->leaksByFactor) report["leaking_px_at_smallest_factor"] = *proof->leaksByFactor;
     }
     report["view"] = Json::array();
     for (const MeasuredView& view : all.views) {
@@ -279,23 +287,26 @@ void printWorst(const std::vector<MeasuredView>& views, int worst) {
     }
 }
 
-// Found, and proven by measuring the same views again with it.
-Result<bool> proveAndPrint(Offscreen& offscreen, const CracksOptions& options, const Measured& all) {
-    const Totals totals = totalsOf(all.views);
+Result<Proof> prove(Offscreen& offscreen, const CracksOptions& options, const Measured& all) {
     const Result<int> byDepth = leaksWith(offscreen, options, all, planet::SkirtDepth::Fixed);
     if (!byDepth) return tl::unexpected(byDepth.error());
+    if (!std::isfinite(all.smallest.factor)) return Proof{*byDepth};
+    return leaksWith(offscreen, options, all, planet::SkirtDepth::Automatic).map([&](int byFactor) {
+        return Proof{*byDepth, byFactor};
+    });
+}
+
+void print(const Proof& proof, const Measured& all) {
+    const Totals totals = totalsOf(all.views);
     fmt::print(
         "\nsmallest depth without a leak: {:.2f} m ({:.2f} m by the gaps); measured again: {} leaking\n",
-        all.smallest.depthM, totals.requiredDepthM, *byDepth);
-    if (!std::isfinite(all.smallest.factor)) {
+        all.smallest.depthM, totals.requiredDepthM, proof.leaksByDepth);
+    if (!proof.leaksByFactor) {
         fmt::print("no automatic factor up to 1000 is enough\n");
-        return *byDepth == 0;
+        return;
     }
-    const Result<int> byFactor = leaksWith(offscreen, options, all, planet::SkirtDepth::Automatic);
-    if (!byFactor) return tl::unexpected(byFactor.error());
     fmt::print("smallest factor without a leak: {:.3f} ({:.3f} by the gaps); measured again: {} leaking\n",
-               all.smallest.factor, totals.requiredFactor, *byFactor);
-    return *byDepth == 0 && *byFactor == 0;
+               all.smallest.factor, totals.requiredFactor, *proof.leaksByFactor);
 }
 
 Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Measured& all) {
@@ -307,11 +318,11 @@ Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Meas
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
     const InterruptWatch watch;
-    const Result<int> views = flightViews(*path, options.stepS, mostFlightViews);
-    if (!views) return tl::unexpected(views.error());
-    for (int i = 0; i < *views; ++i) {
+    const Result<FlightFrames> frames = framesOf(*path, options.sampling, mostFlightViews);
+    if (!frames) return tl::unexpected(frames.error());
+    for (int i = 0; i < frames->count; ++i) {
         if (watch.interrupted()) return planet::cancelled();
-        const double timeS = path->keys.front().timeS + i * options.stepS;
+        const double timeS = frames->timeS(i);
         if (Result<void> done = measureView(offscreen, poseAt(*path, timeS), timeS, options, all); !done)
             return done;
     }
@@ -324,8 +335,6 @@ Result<bool> runCracks(const CracksOptions& options) {
     if (options.findDepth && options.view.seams.mode == planet::SeamMode::Stitched) {
         return planet::badInput("--find-depth: stitched seams have no skirts; expected --seams skirts");
     }
-    if (!options.flight.empty() && options.camera)
-        return planet::badInput("--camera and --flight: expected only one of them");
     const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
@@ -333,20 +342,24 @@ Result<bool> runCracks(const CracksOptions& options) {
     if (const Result<void> done = measureAll(*offscreen, options, all); !done)
         return tl::unexpected(done.error());
     for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
-    printTable(all);
-    printWorst(all.views, options.worst);
+    if (!options.report.json) {
+        printTable(all);
+        printWorst(all.views, options.worst);
+    }
     bool tight = totalsOf(all.views).leaking == 0;
+    std::optional<Proof> proof;
     if (options.findDepth) {
-        const Result<bool> proven = proveAndPrint(*offscreen, options, all);
-        if (!proven) return proven;
-        tight = tight && *proven;
+        const Result<Proof> proven = prove(*offscreen, options, all);
+        if (!proven) return tl::unexpected(proven.error());
+        proof = *proven;
+        if (!options.report.json) print(*proof, all);
+        tight = tight && proof->tight();
     }
     if (!options.markedPicture.empty()) {
         if (const Result<void> written = writePicture(all.marked, options.markedPicture); !written)
             return tl::unexpected(written.error());
     }
-    if (options.report.empty()) return tight;
-    return writeTextFile(options.report, jsonText(reportOf(options, all))).map([&] { return tight; });
+    return writeReport(options.report, reportOf(options, all, proof)).map([&] { return tight; });
 }
 
 }  // namespace worldy

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/flight_path.h"
+#include "app/report.h"
 #include "app/view_options.h"
 #include "ui/view_settings.h"
 
@@ -12,13 +14,13 @@ namespace worldy {
 
 struct CracksOptions {
     std::filesystem::path file;
-    std::filesystem::path flight;         // its keys; empty: one view
-    std::filesystem::path report;         // .json; empty: none
+    std::filesystem::path flight;  // its keys; empty: one view
+    ReportTo report;
     std::filesystem::path markedPicture;  // of the view that leaks most, else cracks most; empty: none
     std::filesystem::path shaderFolder;
     std::optional<planet::CameraPose> camera;
     planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
-    double stepS = 1;                          // along the flight, seconds, > 0
+    FlightSampling sampling;
     bool findDepth = false;
     int worst = 20;  // clusters and gaps that are printed, of each so many, >= 0; the report holds all
     PictureSize size;

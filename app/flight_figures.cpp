@@ -67,20 +67,18 @@ Result<void> addCost(Offscreen& offscreen, const planet::View& view, const ui::V
 }  // namespace
 
 Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path,
-                                    const ui::ViewSettings& settings, int frames, FigureSet wanted,
-                                    planet::FinestHeights& heights, const KeepFlying& goOn,
+                                    const ui::ViewSettings& settings, const FlightFrames& frames,
+                                    FigureSet wanted, planet::FinestHeights& heights, const KeepFlying& goOn,
                                     const AtMoment& atMoment) {
     FlightFigures figures;
     Gathered gathered;
     // Residents of another setting are not this one's memory.
     offscreen.scene.planet->dropAll();
     const std::uint64_t readBefore = offscreen.scene.planet->bytesRead();
-    for (int i = 0; i < frames; ++i) {
+    for (int i = 0; i < frames.count; ++i) {
         const std::function<bool()> goOnHere = [&] { return goOn(i); };
         if (!goOnHere()) return planet::cancelled();
-        const double share = frames > 1 ? static_cast<double>(i) / (frames - 1) : 0;
-        const double timeS = path.keys.front().timeS + share * durationS(path);
-        const SettledView at = settleAt(offscreen, poseAt(path, timeS), settings, goOnHere);
+        const SettledView at = settleAt(offscreen, poseAt(path, frames.timeS(i)), settings, goOnHere);
         if (!at.settled && !goOnHere()) return planet::cancelled();
         if (!at.settled) return planet::ioError("the data that a view wants could not all be loaded in time");
         if (const Result<void> added = addCost(offscreen, at.view, settings, gathered, figures); !added)
@@ -94,7 +92,7 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
             return tl::unexpected(looked.error());
     }
     figures.bytesRead = offscreen.scene.planet->bytesRead() - readBefore;
-    figures.frames = frames;
+    figures.frames = frames.count;
     figures.meanGroundTriangles = meanOf(gathered.groundTriangles);
     figures.meanSkirtTriangles = meanOf(gathered.skirtTriangles);
     figures.meanTriangles = meanOf(gathered.triangles);

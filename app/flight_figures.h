@@ -23,10 +23,10 @@ using KeepFlying = std::function<bool(int frame)>;
 // Looks at each moment once its figures are there. An Error ends the flight.
 using AtMoment = std::function<planet::Result<void>(Offscreen& offscreen, const SettledView& at)>;
 
-// frames: at least 1. The Error names the file and what of it could not be read.
+// The Error names the file and what of it could not be read.
 planet::Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path,
-                                            const ui::ViewSettings& settings, int frames, FigureSet wanted,
-                                            planet::FinestHeights& heights, const KeepFlying& goOn,
-                                            const AtMoment& atMoment = {});
+                                            const ui::ViewSettings& settings, const FlightFrames& frames,
+                                            FigureSet wanted, planet::FinestHeights& heights,
+                                            const KeepFlying& goOn, const AtMoment& atMoment = {});
 
 }  // namespace worldy

@@ -251,6 +251,23 @@ Result<int> flightViews(const FlightPath& path, double stepS, int most) {
     return static_cast<int>(steps) + 1;
 }
 
+FlightFrames evenFrames(const FlightPath& path, int count) {
+    return {path.keys.front().timeS, count > 1 ? durationS(path) / (count - 1) : 0, count};
+}
+
+Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& sampling, int most) {
+    if (!sampling.stepS) {
+        const int count = sampling.frames.value_or(1);
+        if (count > most)
+            return planet::badInput(
+                fmt::format("--frames: {} are too many; expected at most {}", count, most));
+        return evenFrames(path, count);
+    }
+    return flightViews(path, *sampling.stepS, most).map([&](int count) {
+        return FlightFrames{path.keys.front().timeS, *sampling.stepS, count};
+    });
+}
+
 Pose poseAt(const FlightPath& path, double timeS) {
     const std::vector<FlightKey>& keys = path.keys;
     const double time = std::clamp(timeS, keys.front().timeS, keys.back().timeS);

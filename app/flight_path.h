@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,23 @@ bool jumpsBetween(const FlightPath& path, double fromS, double toS);
 // How many views a flight has, one every so many seconds from its first key to its last. The Error is that of
 // --step-s: more than most of them.
 planet::Result<int> flightViews(const FlightPath& path, double stepS, int most);
+
+// Where along a flight a command looks: at so many frames, evenly spread from the first key to the last, or
+// at one every so many seconds. One of the two is given.
+struct FlightSampling {
+    std::optional<int> frames{};    // >= 1
+    std::optional<double> stepS{};  // > 0
+};
+struct FlightFrames {
+    double startS = 0;
+    double stepS = 0;  // 0 where there is one frame
+    int count = 1;
+
+    double timeS(int frame) const { return startS + frame * stepS; }
+};
+// The Error is that of --frames or --step-s: more than most frames.
+planet::Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& sampling, int most);
+FlightFrames evenFrames(const FlightPath& path, int count);
 inline constexpr int mostFlightViews = 100'000;  // each of which is settled and measured
 
 // The pose at a time, held at the ends. Over the ground it follows great-circle arcs blended to a smooth

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -11,7 +12,6 @@
 #include "app/interrupt.h"
 #include "app/message.h"
 #include "app/offscreen.h"
-#include "app/output_file.h"
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "planet/percentile.h"
@@ -23,6 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using planet::Result;
+
+constexpr int mostFlownFrames = 1'000'000;
 
 struct FlownFrame {
     double timeS = 0;
@@ -68,6 +70,12 @@ constexpr std::array<Quantity, 24> quantities = {{
     {"clipmap_texels", [](const Stats& s) { return static_cast<double>(s.clipmap.filledTexels); }},
 }};
 
+// Times and pixels are measures; all else is counted, and so is each percentile of it.
+bool isCount(const Quantity& quantity) {
+    const std::string_view name = quantity.name;
+    return !name.ends_with("_ms") && !name.ends_with("_px");
+}
+
 struct Spread {
     double median = 0;
     double percentile99 = 0;
@@ -109,8 +117,12 @@ Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector
                    {"budget_mb", options.view.paging.budgetMB}};
     for (const Quantity& quantity : quantities) {
         const Spread spread = spreadOf(frames, quantity);
-        report["summary"][quantity.name] = {
-            {"median", spread.median}, {"p99", spread.percentile99}, {"maximum", spread.maximum}};
+        const auto figure = [&](double value) {
+            return isCount(quantity) ? Json(std::llround(value)) : Json(value);
+        };
+        report["summary"][quantity.name] = {{"median", figure(spread.median)},
+                                            {"p99", figure(spread.percentile99)},
+                                            {"maximum", figure(spread.maximum)}};
     }
     report["frame"] = Json::array();
     for (const FlownFrame& frame : frames) {
@@ -126,18 +138,19 @@ void printSummary(const FlightPath& path, const std::vector<FlownFrame>& frames)
                durationS(path), "", "median", "99th percentile", "maximum");
     for (const Quantity& quantity : quantities) {
         const Spread s = spreadOf(frames, quantity);
-        const std::string_view name = quantity.name;
-        const int digits = name.ends_with("_ms") || name.ends_with("_px") ? 3 : 0;
-        fmt::print("{:20}{:16.{}f}{:16.{}f}{:16.{}f}\n", name, s.median, digits, s.percentile99, digits,
-                   s.maximum, digits);
+        const int digits = isCount(quantity) ? 0 : 3;
+        fmt::print("{:20}{:16.{}f}{:16.{}f}{:16.{}f}\n", quantity.name, s.median, digits, s.percentile99,
+                   digits, s.maximum, digits);
     }
 }
 
 }  // namespace
 
 Result<void> flyPath(const FlyOptions& options) {
-    const Result<FlightPath> path = loadFlightPath(options.path);
+    const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
+    const Result<FlightFrames> moments = framesOf(*path, options.sampling, mostFlownFrames);
+    if (!moments) return tl::unexpected(moments.error());
     const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
@@ -146,18 +159,16 @@ Result<void> flyPath(const FlyOptions& options) {
     settleAt(*offscreen, path->keys.front().pose, options.view);
     const InterruptWatch watch;
     std::vector<FlownFrame> frames;
-    const double stepS = options.frames > 1 ? durationS(*path) / (options.frames - 1) : 0;
-    for (int i = 0; i < options.frames; ++i) {
+    for (int i = 0; i < moments->count; ++i) {
         if (watch.interrupted()) return planet::cancelled();
-        const double timeS = path->keys.front().timeS + i * stepS;
-        const Result<FlownFrame> frame = flyFrame(*offscreen, *path, timeS, i > 0 ? stepS : 0, options.view);
+        const Result<FlownFrame> frame =
+            flyFrame(*offscreen, *path, moments->timeS(i), i > 0 ? moments->stepS : 0, options.view);
         if (!frame) return tl::unexpected(frame.error());
         frames.push_back(*frame);
     }
     for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
-    printSummary(*path, frames);
-    if (options.jsonOutput.empty()) return {};
-    return writeTextFile(options.jsonOutput, jsonText(jsonOf(options, *path, frames)));
+    if (!options.report.json) printSummary(*path, frames);
+    return writeReport(options.report, jsonOf(options, *path, frames));
 }
 
 }  // namespace worldy

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "app/flight_path.h"
+#include "app/report.h"
 #include "app/view_options.h"
 #include "ui/view_settings.h"
 
@@ -10,10 +12,10 @@ namespace worldy {
 
 struct FlyOptions {
     std::filesystem::path file;
-    std::filesystem::path path;  // of the flight's keys
-    std::filesystem::path jsonOutput;
+    std::filesystem::path flight;  // .toml, or a recorded .flight
+    FlightSampling sampling;
+    ReportTo report;
     std::filesystem::path shaderFolder;
-    int frames = 300;
     PictureSize size;
     ui::ViewSettings view;
 };

@@ -3,10 +3,12 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 
 #include "app/layer_file.h"
+#include "app/report.h"
 #include "planet/atomic_file.h"
 
 namespace worldy {
@@ -32,9 +34,9 @@ Result<void> writeTexture(const fs::path& file, std::span<const std::uint8_t> by
 }
 
 Result<void> writeMaterial(const MakeLayersOptions& options, planet::Material material) {
-    const planet::MaterialMaps maps = planet::makeMaterial(material, options.size, options.seed);
+    const planet::MaterialMaps maps = planet::makeMaterial(material, options.texels, options.seed);
     const std::string_view name = planet::materialNames[static_cast<std::size_t>(material)];
-    const auto file = [&](const char* what) { return options.folder / fmt::format("{}_{}.png", name, what); };
+    const auto file = [&](const char* what) { return options.output / fmt::format("{}_{}.png", name, what); };
     return writeTexture(file("albedo"), maps.albedo, maps.size, 4)
         .and_then([&] { return writeTexture(file("normal"), maps.normal, maps.size, 3); })
         .and_then([&] { return writeTexture(file("roughness"), maps.roughness, maps.size, 1); });
@@ -44,18 +46,25 @@ Result<void> writeMaterial(const MakeLayersOptions& options, planet::Material ma
 
 Result<void> makeLayers(const MakeLayersOptions& options) {
     std::error_code status;
-    fs::create_directories(options.folder, status);
+    fs::create_directories(options.output, status);
     if (status) {
         return planet::ioError(
-            fmt::format("{}: no such folder can be made: {}", options.folder.string(), status.message()));
+            fmt::format("{}: no such folder can be made: {}", options.output.string(), status.message()));
     }
     for (std::size_t i = 0; i < planet::materialNames.size(); ++i) {
         if (Result<void> made = writeMaterial(options, static_cast<planet::Material>(i)); !made) return made;
-        fmt::print("{}\n", planet::materialNames[i]);
+        if (!options.json) fmt::print("{}\n", planet::materialNames[i]);
     }
-    return saveLayerSet(planet::earthLayers(), options.folder, options.folder / "earth.toml").and_then([&] {
-        return saveLayerSet(planet::twoLayerHeightBlend(), options.folder,
-                            options.folder / "two_layer_height_blend.toml");
+    if (options.json) {
+        fmt::print("{}", jsonText({{"output", options.output.string()},
+                                   {"texels", options.texels},
+                                   {"seed", options.seed},
+                                   {"materials", planet::materialNames},
+                                   {"layer_sets", {"earth.toml", "two_layer_height_blend.toml"}}}));
+    }
+    return saveLayerSet(planet::earthLayers(), options.output, options.output / "earth.toml").and_then([&] {
+        return saveLayerSet(planet::twoLayerHeightBlend(), options.output,
+                            options.output / "two_layer_height_blend.toml");
     });
 }
 

@@ -10,9 +10,10 @@
 namespace worldy {
 
 struct MakeLayersOptions {
-    std::filesystem::path folder;  // made where it is missing
-    int size = planet::shippedMaterialSize;
+    std::filesystem::path output;  // a folder, made where it is missing
+    int texels = planet::shippedMaterialSize;
     std::uint32_t seed = planet::shippedMaterialSeed;
+    bool json = false;
 };
 
 // Six materials of three PNG files each, earth.toml and two_layer_height_blend.toml.

@@ -10,7 +10,6 @@
 
 #include "app/interrupt.h"
 #include "app/message.h"
-#include "app/output_file.h"
 #include "app/pops_flight.h"
 #include "app/report.h"
 #include "app/scene.h"
@@ -53,11 +52,12 @@ Json jsonOf(const PopEvent& event, double radiusM) {
             {"camera", poseJson(planet::poseFromView(event.view, radiusM))}};
 }
 
-Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight& flown, double radiusM) {
+Json jsonOf(const PopsOptions& options, const FlightPath& path, double stepS, const PopsFlight& flown,
+            double radiusM) {
     Json report = {{"flight", path.name},
                    {"file", options.file.string()},
                    {"frames", flown.frames},
-                   {"step_s", options.stepS},
+                   {"step_s", stepS},
                    {"width_px", options.size.widthPx},
                    {"height_px", options.size.heightPx},
                    {"tau_px", options.view.lod.tauPx},
@@ -80,9 +80,9 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, const PopsFlight
     return report;
 }
 
-void printSummary(const FlightPath& path, const PopsOptions& options, const PopsFlight& flown) {
+void printSummary(const FlightPath& path, const PopsOptions& options, double stepS, const PopsFlight& flown) {
     std::vector<double> jumps = jumpsOf(flown);
-    fmt::print("{}: {} frames, {:.4g} s apart\n", path.name, flown.frames, options.stepS);
+    fmt::print("{}: {} frames, {:.4g} s apart\n", path.name, flown.frames, stepS);
     const planet::PopTotals& totals = flown.totals;
     fmt::print(
         "{} switches of level, {:.0f} us to measure one; {} counted, {} after jump, {} under sea, "
@@ -119,18 +119,20 @@ void printSummary(const FlightPath& path, const PopsOptions& options, const Pops
 Result<void> runPops(const PopsOptions& options) {
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
+    const Result<FlightFrames> frames = framesOf(*path, options.sampling, mostPopsFrames);
+    if (!frames) return tl::unexpected(frames.error());
+    if (frames->stepS == 0) return planet::badInput("--frames: 1 is too few for a pop; expected at least 2");
     auto planet = planet::Planet::open(options.file, pagingSettingsOf(options.view));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(options.view.surface.exaggeration);
     const InterruptWatch watch;
-    const Result<PopsFlight> flown = flyForPops(**planet, *path, options.view, options.size, options.stepS,
+    const Result<PopsFlight> flown = flyForPops(**planet, *path, options.view, options.size, frames->stepS,
                                                 [&](double) { return !watch.interrupted(); });
     if (!flown) return tl::unexpected(flown.error());
     for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
-    printSummary(*path, options, *flown);
-    if (options.output.empty()) return {};
-    return writeTextFile(options.output,
-                         jsonText(jsonOf(options, *path, *flown, (*planet)->shape().radiusM)));
+    if (!options.report.json) printSummary(*path, options, frames->stepS, *flown);
+    return writeReport(options.report,
+                       jsonOf(options, *path, frames->stepS, *flown, (*planet)->shape().radiusM));
 }
 
 }  // namespace worldy

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "app/flight_path.h"
+#include "app/report.h"
 #include "app/view_options.h"
 #include "ui/view_settings.h"
 
@@ -12,9 +14,9 @@ namespace worldy {
 struct PopsOptions {
     std::filesystem::path file;
     std::filesystem::path flight;  // its keys
-    std::filesystem::path output;  // of the report, JSON; empty: none
-    int worst = 20;                // switches that are printed, >= 0; the report holds all
-    double stepS = 1.0 / 60;       // of the flight's time between two frames, > 0
+    ReportTo report;
+    int worst = 20;  // switches that are printed, >= 0; the report holds all
+    FlightSampling sampling;
     PictureSize size;
     ui::ViewSettings view;
 };

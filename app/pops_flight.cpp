@@ -21,8 +21,6 @@ namespace {
 using planet::PopEvent;
 using planet::Result;
 
-constexpr int mostFrames = 10'000'000;
-
 planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double timeS, double fovDeg,
                     const PictureSize& size) {
     const double radiusM = planet.shape().radiusM;
@@ -85,7 +83,7 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
     const planet::LodSettings lod = lodSettingsOf(settings);
     const double startS = path.keys.front().timeS;
     PopsFlight flown;
-    const Result<int> frames = flightViews(path, stepS, mostFrames);
+    const Result<int> frames = flightViews(path, stepS, mostPopsFrames);
     if (!frames) return tl::unexpected(frames.error());
     flown.frames = *frames;
     const auto firstView = [&] { return viewAt(planet, path, startS, settings.camera.fovDeg, size); };

@@ -21,6 +21,8 @@ struct PopsFlight {
     int frames = 0;
 };
 
+inline constexpr int mostPopsFrames = 10'000'000;
+
 // Told again and again what share of a flight is done, [0, 1]; false ends it with an Error of kind Cancelled.
 using PopsFlightWatch = std::function<bool(double share)>;
 

@@ -9,7 +9,6 @@
 
 #include "app/interrupt.h"
 #include "app/message.h"
-#include "app/output_file.h"
 #include "app/report.h"
 #include "app/write_check.h"
 
@@ -97,7 +96,8 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     Result<planet::ChunkFile> file = openData(options, record->data);
     if (!file) return tl::unexpected(file.error());
     // The recording may have named it.
-    if (const Result<void> apart = checkNotInputs({{file->name()}, {{options.output, OutputKind::Json}}});
+    if (const Result<void> apart =
+            checkNotInputs({{file->name()}, {{options.report.file, OutputKind::Json}}});
         !apart)
         return tl::unexpected(apart.error());
     const std::string fileName = file->name();
@@ -117,13 +117,10 @@ Result<bool> replayFlight(const ReplayOptions& options) {
         static_cast<void>((*planet)->takeNormalChanges());
     }
     for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
-    printReport(*replay);
-    if (!options.output.empty()) {
-        const Result<void> written =
-            writeTextFile(options.output, jsonText(jsonOf(options, fileName, *replay)));
-        if (!written) return tl::unexpected(written.error());
-    }
-    return !replay->firstDifference() || !options.assignments.empty();
+    if (!options.report.json) printReport(*replay);
+    return writeReport(options.report, jsonOf(options, fileName, *replay)).map([&] {
+        return !replay->firstDifference() || !options.assignments.empty();
+    });
 }
 
 }  // namespace worldy

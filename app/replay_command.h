@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "app/flight_replay.h"
+#include "app/report.h"
 
 namespace worldy {
 
 struct ReplayOptions {
     std::filesystem::path flight;
-    std::filesystem::path file;    // chunk file; empty: the one it was recorded over, where that lay
-    std::filesystem::path output;  // report; empty: none
+    std::filesystem::path file;  // chunk file; empty: the one it was recorded over, where that lay
+    ReportTo report;
     ReplayPaging paging = ReplayPaging::AsRecorded;
     std::vector<std::string> assignments;  // settings held at other values: then a difference is no failure
 };

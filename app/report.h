@@ -1,6 +1,7 @@
 // What was drawn, as JSON, and JSON as text.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -15,6 +16,13 @@ inline constexpr int schemaVersion = 1;
 // Returns the report, an object, with "schema_version" before its members, in lines, the last one ended too.
 // A file's name may be any bytes, and JSON is UTF-8: bytes that are not are replaced by U+FFFD.
 std::string jsonText(const nlohmann::ordered_json& report);
+
+// Where a command's report goes.
+struct ReportTo {
+    bool json = false;             // printed as JSON, in place of the tables
+    std::filesystem::path file{};  // written there as JSON too; empty: nowhere
+};
+planet::Result<void> writeReport(const ReportTo& to, const nlohmann::ordered_json& report);
 
 nlohmann::ordered_json poseJson(const planet::CameraPose& pose);
 

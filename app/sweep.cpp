@@ -80,6 +80,24 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
     return jsonText(report);
 }
 
+std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, const std::string& file,
+                            const std::string& flight) {
+    Json report = {{"file", file}, {"flight", flight}, {"suggestions", Json::array()}};
+    for (const ui::SweepSuggestion& one : suggestions) {
+        const TauGoal& goal = one.goal;
+        report["suggestions"].push_back(
+            {{"metric", metricName(one.metric)},
+             {"chunk_size", one.chunkSize},
+             {"tau_px", one.found.tauPx},
+             {"limited", goal.limitsError ? "worst_measured_px" : costName(goal.cost)},
+             {"limit", goal.limit},
+             {"value", one.found.value},
+             {"met", one.found.met},
+             {"flights", one.found.flown}});
+    }
+    return jsonText(report);
+}
+
 Result<TauGoal> tauGoalFromText(const std::string& text) {
     const std::size_t equals = text.find('=');
     const std::string_view name = std::string_view(text).substr(0, equals);

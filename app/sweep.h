@@ -24,6 +24,10 @@ std::string sweepCsv(std::span<const SweepPoint> points);
 std::string sweepJson(std::span<const SweepPoint> points, const std::string& file, const std::string& flight,
                       SweepCost cost);
 
+// What was suggested, a tau for each metric.
+std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, const std::string& file,
+                            const std::string& flight);
+
 // "triangles=200000", "frame_ms=20", "memory_mib=64" or "error_px=1".
 planet::Result<TauGoal> tauGoalFromText(const std::string& text);
 

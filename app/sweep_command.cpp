@@ -63,7 +63,6 @@ Result<SweepPlan> planOf(const SweepOptions& options) {
                    .flight = options.flight,
                    .tausPx = options.tausPx,
                    .metrics = options.metrics,
-                   .frames = options.frames,
                    .goal = options.goal,
                    .size = options.size,
                    .view = options.view};
@@ -98,18 +97,37 @@ void print(const SweepPoint& point) {
     std::fflush(stdout);
 }
 
-Result<void> write(const SweepOptions& options, std::vector<SweepPoint> points, const std::string& flight) {
-    markFront(points, options.cost);
-    if (!options.csvOutput.empty()) {
-        if (Result<void> written = writeTextFile(options.csvOutput, sweepCsv(points)); !written)
+bool isCsvTable(const std::filesystem::path& file) {
+    return file.extension() == ".csv";
+}
+
+// Before anything is flown.
+Result<void> checkTableFile(const SweepOptions& options) {
+    const std::filesystem::path& file = options.report.file;
+    if (file.empty() || file.extension() == ".json" || (isCsvTable(file) && !options.goal)) return {};
+    return planet::badInput(fmt::format("{}: the name does not say the table's format; expected {}",
+                                        file.string(), options.goal ? ".json" : ".csv or .json"));
+}
+
+struct Swept {
+    std::vector<SweepPoint> points;
+    std::vector<ui::SweepSuggestion> suggestions;  // in place of the points where a tau was looked for
+};
+
+Result<void> write(const SweepOptions& options, Swept swept, const std::string& flight) {
+    markFront(swept.points, options.cost);
+    const std::string json = options.goal
+                                 ? suggestionsJson(swept.suggestions, options.file.string(), flight)
+                                 : sweepJson(swept.points, options.file.string(), flight, options.cost);
+    if (options.report.json) fmt::print("{}", json);
+    const std::filesystem::path& file = options.report.file;
+    if (!file.empty()) {
+        if (Result<void> written = writeTextFile(file, isCsvTable(file) ? sweepCsv(swept.points) : json);
+            !written)
             return written;
     }
-    if (!options.jsonOutput.empty()) {
-        const std::string json = sweepJson(points, options.file.string(), flight, options.cost);
-        if (Result<void> written = writeTextFile(options.jsonOutput, json); !written) return written;
-    }
-    if (options.plotOutput.empty()) return {};
-    const Result<Picture> plot = plotSweep(points, options.cost, flight);
+    if (options.plotOutput.empty() || options.goal) return {};
+    const Result<Picture> plot = plotSweep(swept.points, options.cost, flight);
     if (!plot) return tl::unexpected(plot.error());
     return writePicture(*plot, options.plotOutput);
 }
@@ -129,13 +147,18 @@ void print(const ui::SweepSuggestion& suggestion) {
 
 Result<void> runSweep(const SweepOptions& options) {
     // Before anything is baked for it.
+    if (Result<void> good = checkTableFile(options); !good) return good;
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());
-    const Result<SweepPlan> plan = planOf(options);
+    const Result<FlightFrames> frames = framesOf(*path, options.sampling, mostFlightViews);
+    if (!frames) return tl::unexpected(frames.error());
+    Result<SweepPlan> plan = planOf(options);
     if (!plan) return tl::unexpected(plan.error());
+    plan->frames = frames->count;
+    plan->frameStepS = frames->stepS;
     const InterruptWatch watch;
     std::optional<TerminalProgress> line;
-    std::vector<SweepPoint> points;
+    Swept swept;
     SweepWatcher watcher;
     watcher.baking = [&](int, const planet::BakeProgress& progress) {
         if (!line || progress.samplesDone == 0) line.emplace();
@@ -147,13 +170,16 @@ Result<void> runSweep(const SweepOptions& options) {
         return !watch.interrupted();
     };
     watcher.flown = [&](const SweepPoint& point) {
-        if (points.empty()) printHead();
-        points.push_back(point);
-        print(point);
+        if (!options.report.json && swept.points.empty()) printHead();
+        swept.points.push_back(point);
+        if (!options.report.json) print(point);
     };
-    watcher.suggested = [](const ui::SweepSuggestion& suggestion) { print(suggestion); };
-    if (Result<void> swept = runSweepPlan(*plan, watcher); !swept) return swept;
-    return options.goal ? Result<void>() : write(options, std::move(points), path->name);
+    watcher.suggested = [&](const ui::SweepSuggestion& suggestion) {
+        swept.suggestions.push_back(suggestion);
+        if (!options.report.json) print(suggestion);
+    };
+    if (Result<void> ran = runSweepPlan(*plan, watcher); !ran) return ran;
+    return write(options, std::move(swept), path->name);
 }
 
 }  // namespace worldy

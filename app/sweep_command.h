@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/flight_path.h"
+#include "app/report.h"
 #include "app/sweep.h"
 #include "app/view_options.h"
 #include "planet/height_source.h"
@@ -20,11 +22,10 @@ struct SweepOptions {
     std::vector<double> tausPx = {0.5, 1, 2, 4, 8};
     std::vector<int> chunkSizes;  // none: 33, or the chunk file's own
     std::vector<planet::ErrorMetric> metrics = {planet::ErrorMetric::Additive, planet::ErrorMetric::Tight};
-    int frames = 12;  // moments of the flight, >= 1
+    FlightSampling sampling;
     SweepCost cost = SweepCost::Triangles;
-    std::optional<TauGoal> goal;      // a tau is looked for instead
-    std::filesystem::path csvOutput;  // nowhere where empty
-    std::filesystem::path jsonOutput;
+    std::optional<TauGoal> goal;       // a tau is looked for instead
+    ReportTo report;                   // as JSON, or as CSV where the file's name ends in .csv
     std::filesystem::path plotOutput;  // .png
     PictureSize size;
     ui::ViewSettings view;  // all but tau and metric

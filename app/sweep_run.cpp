@@ -66,9 +66,12 @@ Result<FlightFigures> fly(SweptPlanet& planet, const SweepPlan& plan, const Flig
     ui::ViewSettings settings = plan.view;
     settings.lod.metric = leg.metric;
     settings.lod.tauPx = leg.tauPx;
+    const FlightFrames frames = plan.frameStepS > 0
+                                    ? FlightFrames{path.keys.front().timeS, plan.frameStepS, plan.frames}
+                                    : evenFrames(path, plan.frames);
     if (watcher.begun) watcher.begun(leg);
     Result<FlightFigures> figures =
-        measureFlight(planet.offscreen, path, settings, plan.frames, wanted, *planet.heights,
+        measureFlight(planet.offscreen, path, settings, frames, wanted, *planet.heights,
                       [&](int frame) { return watcher.flying(leg, frame); });
     if (watcher.ended) watcher.ended(leg);
     return figures;

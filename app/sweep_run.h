@@ -33,7 +33,8 @@ struct SweepPlan {
     std::filesystem::path flight;  // .toml or .flight
     std::vector<double> tausPx;
     std::vector<planet::ErrorMetric> metrics;
-    int frames = 12;  // moments of the flight, >= 1
+    int frames = 12;        // moments of the flight, >= 1
+    double frameStepS = 0;  // seconds of the flight from one to the next; 0: evenly spread
     std::optional<TauGoal> goal;
     PictureSize size;
     ui::ViewSettings view;  // all but tau, metric, overlays and bad disks

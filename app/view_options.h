@@ -1,4 +1,4 @@
-// Options of the command line that shot and fly share, and what they turn into.
+// What the command line says of a view, and the settings that it turns into.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,6 @@ struct ViewTexts {
     std::filesystem::path settingsFile;    // settings, a preset or a screenshot
     std::vector<std::string> assignments;  // "lod.tau_px=3"
     std::string size = "1280x720";
-    std::string camera;              // poseFromText's
     std::string colourBy;            // one of colourByNames
     std::string surface;             // one of surfaceNames
     std::filesystem::path layerSet;  // a set of texture layers

@@ -66,7 +66,7 @@ CommandFiles filesOf(const AuditOptions& options) {
     addChunkFile(files, options.file);
     files.inputs.push_back(options.flight);
     addLayerFiles(files, options.view);
-    files.outputs = {{options.jsonOutput, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 
@@ -82,7 +82,7 @@ CommandFiles filesOf(const BakeOptions& options) {
 CommandFiles filesOf(const BenchOptions& options) {
     CommandFiles files;
     addSource(files, options.source.empty() ? earthElevation() : options.source);
-    files.outputs = {{options.jsonOutput, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 
@@ -92,7 +92,7 @@ CommandFiles filesOf(const CompareOptions& options) {
     addChunkFile(files, options.fileOfB);
     files.inputs.push_back(options.flight);
     for (const ui::ViewSettings& view : options.settings) addLayerFiles(files, view);
-    files.outputs = {{options.report, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     if (options.pictures.empty()) return files;
     for (const char* name : {"side_by_side.png", "difference.png"})
         files.outputs.push_back({options.pictures / name, OutputKind::Picture});
@@ -104,7 +104,7 @@ CommandFiles filesOf(const CostsOptions& options) {
     addChunkFile(files, options.file);
     files.inputs.push_back(options.colourImage);
     addLayerFiles(files, options.view);
-    files.outputs = {{options.jsonOutput, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 
@@ -113,16 +113,16 @@ CommandFiles filesOf(const CracksOptions& options) {
     addChunkFile(files, options.file);
     files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
     addLayerFiles(files, options.view);
-    files.outputs = {{options.report, OutputKind::Json}, {options.markedPicture, OutputKind::Picture}};
+    files.outputs = {{options.report.file, OutputKind::Json}, {options.markedPicture, OutputKind::Picture}};
     return files;
 }
 
 CommandFiles filesOf(const FlyOptions& options) {
     CommandFiles files;
     addChunkFile(files, options.file);
-    files.inputs.insert(files.inputs.end(), {options.path, options.shaderFolder});
+    files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
     addLayerFiles(files, options.view);
-    files.outputs = {{options.jsonOutput, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 
@@ -131,11 +131,11 @@ CommandFiles filesOf(const MakeLayersOptions& options) {
     for (const std::string_view material : planet::materialNames) {
         for (const char* what : {"albedo", "normal", "roughness"}) {
             files.outputs.push_back(
-                {options.folder / fmt::format("{}_{}.png", material, what), OutputKind::PngImage});
+                {options.output / fmt::format("{}_{}.png", material, what), OutputKind::PngImage});
         }
     }
     for (const char* name : {"earth.toml", "two_layer_height_blend.toml"})
-        files.outputs.push_back({options.folder / name, OutputKind::LayerSet});
+        files.outputs.push_back({options.output / name, OutputKind::LayerSet});
     return files;
 }
 
@@ -144,7 +144,7 @@ CommandFiles filesOf(const PopsOptions& options) {
     addChunkFile(files, options.file);
     files.inputs.push_back(options.flight);
     addLayerFiles(files, options.view);
-    files.outputs = {{options.output, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 
@@ -152,7 +152,7 @@ CommandFiles filesOf(const ReplayOptions& options) {
     CommandFiles files;
     addChunkFile(files, options.file);
     files.inputs.push_back(options.flight);
-    files.outputs = {{options.output, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 
@@ -171,8 +171,8 @@ CommandFiles filesOf(const SweepOptions& options) {
     addSource(files, sourceIn(options.file));
     files.inputs.push_back(options.flight);
     addLayerFiles(files, options.view);
-    files.outputs = {{options.csvOutput, OutputKind::Csv},
-                     {options.jsonOutput, OutputKind::Json},
+    const fs::path& table = options.report.file;
+    files.outputs = {{table, table.extension() == ".csv" ? OutputKind::Csv : OutputKind::Json},
                      {options.plotOutput, OutputKind::Picture}};
     return files;
 }

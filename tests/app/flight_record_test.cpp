@@ -657,10 +657,10 @@ TEST_F(FlightRecordTest, AReportOfAFileWhoseNameIsNotUtf8IsWritten) {
     const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
     ReplayOptions options;
     options.flight = written(flyAbout(*planet, troubled(true), 5));
-    options.output = folder_ / "out.json";
+    options.report.file = folder_ / "out.json";
     const planet::Result<bool> exact = replayFlight(options);
     ASSERT_TRUE(exact) << exact.error().message;
-    EXPECT_GT(std::filesystem::file_size(options.output), 100u);
+    EXPECT_GT(std::filesystem::file_size(options.report.file), 100u);
 }
 
 TEST_F(FlightRecordTest, theFileThatARecordingNamesIsNotReplacedByTheReport) {
@@ -669,7 +669,7 @@ TEST_F(FlightRecordTest, theFileThatARecordingNamesIsNotReplacedByTheReport) {
     const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
     ReplayOptions options;
     options.flight = written(flyAbout(*planet, troubled(true), 5));
-    options.output = copy;
+    options.report.file = copy;
     const planet::Result<bool> replayed = replayFlight(options);
     ASSERT_FALSE(replayed);
     EXPECT_THAT(replayed.error().message, testing::HasSubstr("flown.chk: is read here"));

@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "tests/program/run_program.h"
 
@@ -25,6 +29,38 @@ TEST(CommandLine, HelpAndVersionEndWell) {
     const Ran version = runWorldy(folder, "--version");
     EXPECT_EQ(version.exitCode, 0);
     EXPECT_THAT(version.output, StartsWith("worldy "));
+}
+
+// The options that a command lists, "--json" among them.
+std::set<std::string> optionsOf(const std::string& help) {
+    std::set<std::string> options;
+    const std::regex option("\\n  (?:-\\w,)?(--[a-z-]+)");
+    for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found)
+        options.insert((*found)[1]);
+    return options;
+}
+
+// A row of the README's table of shared options: | `--json` | ... | bake, info |
+TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
+    const TemporaryFolder folder;
+    const std::string readme = contentOf(std::filesystem::path(WORLDY_SOURCE_DIR) / "README.md");
+    const std::string commands = readme.substr(readme.find("| option | means | taken by |"));
+    std::map<std::string, std::set<std::string>> takers;
+    const std::regex row("\\n\\| `(--[a-z-]+)[^|]*\\|[^|]*\\| ([a-z, -]+) \\|");
+    const std::string table = commands.substr(0, commands.find("\n\n"));
+    for (std::sregex_iterator found(table.begin(), table.end(), row), end; found != end; ++found) {
+        std::istringstream names((*found)[2]);
+        for (std::string name; names >> name;) takers[(*found)[1]].insert(name.substr(0, name.find(',')));
+    }
+    ASSERT_GE(takers.size(), 15u);
+    for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks",
+                                "costs", "pops", "audit", "replay", "compare", "make-layers"}) {
+        const std::set<std::string> options =
+            optionsOf(runWorldy(folder, std::string(command) + " --help").output);
+        EXPECT_TRUE(options.contains("--json")) << command;
+        for (const auto& [option, names] : takers)
+            EXPECT_EQ(options.contains(option), names.contains(command)) << command << " " << option;
+    }
 }
 
 // Each must end with 2, one line on stderr that starts so, and nothing on stdout.
@@ -82,24 +118,31 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"shot junk.chk -o o.png --set surface.layers=3",
                    "surface.layers is 3; layers, as [[layer]]"},
         BadCommand{"shot junk.chk -o o.png --set surface.layer_use=maybe", "\"automatic\", \"on\", \"off\""},
-        BadCommand{"make-layers", "FOLDER is required"}, BadCommand{"make-layers junk.chk", "junk.chk"},
-        BadCommand{"make-layers made --size 100", "--size"},
+        BadCommand{"make-layers", "--output is required"}, BadCommand{"make-layers -o junk.chk", "junk.chk"},
+        BadCommand{"make-layers -o made --texels 100", "--texels"},
+        BadCommand{"make-layers -o made --size 16", "make-layers --size: removed; expected --texels"},
+        BadCommand{"fly junk.chk --path a.toml", "fly --path: removed; expected --flight"},
+        BadCommand{"fly junk.chk --flight a.toml --json out.json", "fly --json: removed; expected -o FILE"},
+        BadCommand{"sweep junk.chk --flight a.toml --csv=s.csv", "sweep --csv: removed; expected -o"},
+        BadCommand{"sweep junk.chk --flight a.toml --json s.json", "sweep --json: removed; expected -o"},
+        BadCommand{"pops junk.chk --flight a.toml --frames 3 --step-s 1", "--frames"},
+        BadCommand{"cracks junk.chk --frames 3", "--flight"},
         BadCommand{"shot junk.chk -o o.png --set lod.tau_px=0", "a number of pixels from 0.1 to 64"},
         BadCommand{"shot junk.chk -o o.png --set", "--set"},
         BadCommand{"shot junk.chk -o o.png --settings none.toml", "none.toml: no such file"},
         BadCommand{"shot junk.chk -o o.png --settings bad.toml", "bad.toml: line 2: lod.tau_px is 0"},
-        BadCommand{"fly junk.chk --path none.toml --set lod.morph=2", "lod.morph is 2; true or false"},
-        BadCommand{"fly junk.chk --path none.toml", "none.toml"}, BadCommand{"bench none.tif", "none.tif"},
+        BadCommand{"fly junk.chk --flight none.toml --set lod.morph=2", "lod.morph is 2; true or false"},
+        BadCommand{"fly junk.chk --flight none.toml", "none.toml"}, BadCommand{"bench none.tif", "none.tif"},
         BadCommand{"bench --rounds 0", "--rounds"}, BadCommand{"bench --parts colour", "--parts"},
         BadCommand{"sweep junk.chk --flight none.toml", "none.toml"},
         BadCommand{"sweep junk.chk --flight none.toml --suggest speed=3", "--suggest speed=3"},
         BadCommand{"sweep junk.chk --flight none.toml --chunk 34", "--chunk"},
-        BadCommand{"fly junk.chk --path bad.toml", "bad.toml: line 1: lod is not known"},
+        BadCommand{"fly junk.chk --flight bad.toml", "bad.toml: line 1: lod is not known"},
         BadCommand{"replay", "FLIGHT is required"},
         BadCommand{"replay none.flight", "none.flight: no such file"},
         BadCommand{"replay junk.chk", "junk.chk: is no recorded flight"},
         BadCommand{"replay junk.chk --simulated --as-recorded", "--simulated"},
-        BadCommand{"fly junk.chk --path none.flight", "none.flight: no such file"},
+        BadCommand{"fly junk.chk --flight none.flight", "none.flight: no such file"},
         BadCommand{"junk.chk", "junk.chk"}, BadCommand{"--settings none.toml", "none.toml: no such file"},
         BadCommand{"--settings bad.toml", "bad.toml: line 2: lod.tau_px is 0; a number of pixels"},
         BadCommand{"info junk.chk extra", "extra"}, BadCommand{"audit", "FILE is required"},

@@ -82,6 +82,17 @@ TEST(CracksCommand, AViewOfAFlightIsTheSameAsAlone) {
     EXPECT_EQ(flown, alone);
 }
 
+TEST(CracksCommand, PrintsTheReportAndNothingElseAsJson) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran ran = runWorldy(folder, "cracks planet.chk " + view + "--find-depth --json -o report.json");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, contentOf(folder.path() / "report.json"));
+    const auto report = nlohmann::json::parse(ran.output);
+    EXPECT_EQ(report["leaking_px_at_smallest_depth"], 0);
+    EXPECT_EQ(report["leaking_px_at_smallest_factor"], 0);
+}
+
 TEST(CracksCommand, BadInputEndsWithTwo) {
     const TemporaryFolder folder;
     bakePlanet(folder);

@@ -241,7 +241,7 @@ TEST(Program, AFlightReportsEveryFrame) {
     bakePlanet(folder);
     writeFlight(folder);
     const Ran ran =
-        runWorldy(folder, "fly planet.chk --path path.toml --frames 12 --size 160x100 --json out.json");
+        runWorldy(folder, "fly planet.chk --flight path.toml --frames 12 --size 160x100 -o out.json");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_THAT(ran.output, HasSubstr("Down: 12 frames over 5 s"));
     EXPECT_THAT(ran.output, HasSubstr("99th percentile"));
@@ -255,6 +255,14 @@ TEST(Program, AFlightReportsEveryFrame) {
     }
     EXPECT_EQ(report["summary"]["drawn_chunks"]["maximum"], most);
     EXPECT_NEAR(report["frame"][11]["camera"]["altitude_m"].get<double>(), 8000, 1e-3);
+    EXPECT_TRUE(report["summary"]["drawn_chunks"]["median"].is_number_integer());
+
+    const Ran printed =
+        runWorldy(folder, "fly planet.chk --flight path.toml --step-s 2 --size 160x100 --json");
+    ASSERT_EQ(printed.exitCode, 0) << printed.errors;
+    const json steps = json::parse(printed.output);
+    ASSERT_EQ(steps["frame"].size(), 3u);
+    EXPECT_EQ(steps["frame"][2]["time_s"], 4);
 }
 
 TEST(Program, ASweepFliesAtEveryTauAndFindsOneForABudget) {
@@ -264,9 +272,9 @@ TEST(Program, ASweepFliesAtEveryTauAndFindsOneForABudget) {
     writeFlight(folder);
     const std::string common =
         "sweep planet.chk --flight path.toml --frames 3 --size 160x100 --metric additive ";
-    const Ran ran = runWorldy(folder, common + "--tau 0.5,2,16 --csv out.csv --json out.json --plot out.png");
+    const Ran ran = runWorldy(folder, common + "--tau 0.5,2,16 -o out.csv --json --plot out.png");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
-    const json points = json::parse(contentOf(folder.path() / "out.json"))["points"];
+    const json points = json::parse(ran.output)["points"];
     ASSERT_EQ(points.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(points[i]["violations"], 0);

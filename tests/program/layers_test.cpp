@@ -33,7 +33,7 @@ class LayersProgram : public testing::Test {
 protected:
     void SetUp() override {
         bakePlanet(folder_);
-        ASSERT_EQ(runWorldy(folder_, "make-layers layers --size 16").exitCode, 0);
+        ASSERT_EQ(runWorldy(folder_, "make-layers -o layers --texels 16").exitCode, 0);
     }
 
     Ran shot(const std::string& name, const std::string& more) {

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "shot planet.chk -o o.png --size 160x120 --json",
                     "sweep planet.chk --flight still.toml --tau 8 --metric tight --frames 2 --size 160x120",
                     "compare planet.chk --flight still.toml --frames 2 --size 160x120",
-                    "make-layers made --size 16"));
+                    "make-layers -o made --texels 16"));
 
 TEST(LostOutput, FailedCheckIsNotToldWhereItsReportIsLost) {
     const TemporaryFolder folder;

@@ -30,12 +30,17 @@ protected:
 TEST_F(SweepTest, WritesTheSamePointsAsTableAndAsJson) {
     const Ran ran = runWorldy(folder,
                               "sweep planet.chk --flight down.toml --tau 1,4 --frames 2 --size 160x120 "
-                              "--csv s.csv --json s.json --plot s.png");
+                              "-o s.csv --plot s.png");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(std::count(ran.output.begin(), ran.output.end(), '\n'), 5) << ran.output;
     const std::string csv = contentOf(folder.path() / "s.csv");
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5) << csv;
-    const auto json = nlohmann::json::parse(contentOf(folder.path() / "s.json"));
+    const Ran told = runWorldy(
+        folder, "sweep planet.chk --flight down.toml --tau 1,4 --step-s 4 --size 160x120 -o s.json --json");
+    ASSERT_EQ(told.exitCode, 0) << told.errors;
+    EXPECT_EQ(told.output, contentOf(folder.path() / "s.json"));
+    const auto json = nlohmann::json::parse(told.output);
+    EXPECT_EQ(json["frames"], 2);
     ASSERT_EQ(json["points"].size(), 4u);
     EXPECT_EQ(json["points"][0]["chunk_size"], 17);
     EXPECT_GE(json["points"][0]["mean_triangles"], json["points"][1]["mean_triangles"]);
@@ -61,6 +66,13 @@ TEST_F(SweepTest, SuggestsInOneLineAMetric) {
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_THAT(ran.output, testing::StartsWith("tight: tau "));
     EXPECT_THAT(ran.output, HasSubstr("within 1"));
+    const Ran told = runWorldy(folder,
+                               "sweep planet.chk --flight down.toml --frames 1 --size 160x120 --metric tight "
+                               "--suggest error_px=1 --json");
+    ASSERT_EQ(told.exitCode, 0) << told.errors;
+    const auto suggestion = nlohmann::json::parse(told.output)["suggestions"].at(0);
+    EXPECT_EQ(suggestion["met"], true);
+    EXPECT_LE(suggestion["value"], 1);
 }
 
 TEST_F(SweepTest, WhatCannotBeFlownEndsWithTwoAndAReason) {
@@ -68,6 +80,7 @@ TEST_F(SweepTest, WhatCannotBeFlownEndsWithTwoAndAReason) {
          {std::pair("planet.chk --flight gone.toml", "gone.toml"),
           std::pair("gone.chk --flight down.toml", "gone.chk"),
           std::pair("planet.chk --flight down.toml --chunk 33", "its chunks are 17 a side"),
+          std::pair("planet.chk --flight down.toml -o table.txt", "expected .csv or .json"),
           std::pair("planet.chk --flight down.toml --tau 0", "--tau")}) {
         const Ran ran = runWorldy(folder, std::string("sweep --frames 1 --size 64x64 ") + arguments);
         EXPECT_EQ(ran.exitCode, 2) << arguments;

@@ -91,9 +91,9 @@ TEST_F(TerrainTest, ASweepBakesOtherChunkSizesOfWhatAChunkFileSaysItWasMadeFrom)
     const Ran ran =
         runWorldy(folder,
                   "sweep w.chk --flight down.toml --tau 4 --metric tight --chunk 17,33 --frames 1 "
-                  "--size 160x120 --json s.json");
+                  "--size 160x120 --json");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
-    const auto json = nlohmann::json::parse(contentOf(folder / "s.json"));
+    const auto json = nlohmann::json::parse(ran.output);
     ASSERT_EQ(json["points"].size(), 2u);
     EXPECT_EQ(json["points"][1]["chunk_size"], 33);
 }

@@ -87,12 +87,12 @@ TEST_F(Overwrite, OutputsThatAreInputsAreRefused) {
                                 "cracks s.chk --flight d.toml -o d.toml",
                                 "pops s.chk --flight d.toml -o d.toml",
                                 "pops s.chk --flight d.toml -o s.chk",
-                                "fly s.chk --path d.toml --json s.chk",
-                                "fly s.chk --path d.toml --json d.toml",
-                                "sweep s.chk --flight d.toml --csv s.chk",
-                                "sweep s.chk --flight d.toml --csv d.toml",
+                                "fly s.chk --flight d.toml -o s.chk",
+                                "fly s.chk --flight d.toml -o d.toml",
+                                "sweep s.chk --flight d.toml -o s.chk",
+                                "sweep s.chk --flight d.toml -o d.toml",
                                 "sweep s.chk --flight d.toml --plot s.chk",
-                                "sweep n.tif --flight d.toml --csv n.tif",
+                                "sweep n.tif --flight d.toml -o n.tif",
                                 "shot s.chk -o s.chk",
                                 "shot s.chk --colour-image c.jpg -o c.jpg",
                                 "shot s.chk --settings own.toml -o own.toml",
@@ -118,7 +118,7 @@ TEST_F(Overwrite, FilesOfAnotherKindAreReplacedOnlyWithOverwrite) {
     for (const char* command :
          {"bake x.tif -o n.tif", "bake x.tif -o d.toml", "bake x.tif -o c.jpg", "audit s.chk -o other.chk",
           "cracks s.chk -o n.tif", "cracks s.chk --mark n.tif", "pops s.chk --flight d.toml -o other.chk",
-          "sweep s.chk --flight d.toml --csv other.chk", "sweep s.chk --flight d.toml --plot other.chk",
+          "sweep s.chk --flight d.toml -o other.chk", "sweep s.chk --flight d.toml --plot other.chk",
           "shot s.chk -o other.chk", "shot s.chk -o n.tif", "costs s.chk -o other.chk",
           "bench n.tif -o other.chk", "compare s.chk --flight d.toml -o other.chk"})
         expectRefused(command, "or --overwrite to replace it");
@@ -135,7 +135,7 @@ TEST_F(Overwrite, OutputsOfTheSameKindAreReplacedAsBefore) {
         EXPECT_EQ(run("bake hills.pgm -o o.chk --chunk-size 17").exitCode, 0);
         EXPECT_EQ(run("audit s.chk --camera 1,2,1e6 --size 64x64 -o o.json").exitCode, 0);
         EXPECT_EQ(run("shot s.chk --size 64x64 -o o.png").exitCode, 0);
-        EXPECT_EQ(run("make-layers layers --size 16").exitCode, 0);
+        EXPECT_EQ(run("make-layers -o layers --texels 16").exitCode, 0);
         EXPECT_EQ(run("bake hills.pgm -o o.chk --chunk-size 17 --debug-levels levels").exitCode, 0);
     }
 }
@@ -143,7 +143,7 @@ TEST_F(Overwrite, OutputsOfTheSameKindAreReplacedAsBefore) {
 TEST_F(Overwrite, FoldersOfOutputsKeepFilesOfOtherKinds) {
     fs::create_directory(path("made"));
     copy("d.toml", "made/earth.toml");
-    expectRefused("make-layers made --size 16", "earth.toml: is there and is not a layer set");
+    expectRefused("make-layers -o made --texels 16", "earth.toml: is there and is not a layer set");
     fs::create_directory(path("pictures"));
     copy("s.chk", "pictures/difference.png");
     expectRefused("compare s.chk --flight d.toml --pictures pictures", "difference.png: is there and is not");
