@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "ui/item_map.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 
@@ -29,7 +30,17 @@ void setPath(OpenDialogState& state, const std::string& path) {
 bool entryRows(OpenDialogState& state) {
     bool chosen = false;
     fs::path entered;
-    for (const OpenDialogEntry& entry : state.entries) {
+    // Folders stay before files however they are sorted.
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const OpenDialogEntry& entry = state.entries[row];
+        if (column == 0) return entry.path.filename().string();
+        return entry.bytes;
+    };
+    std::vector<std::size_t> order = tableOrder(state.entries.size(), chosenSort(), key);
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t row) { return state.entries[row].isFolder; });
+    for (const std::size_t row : order) {
+        const OpenDialogEntry& entry = state.entries[row];
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         const std::string name = entry.path.filename().string() + (entry.isFolder ? "/" : "");
@@ -45,7 +56,7 @@ bool entryRows(OpenDialogState& state) {
         }
         if (entry.isFolder) ImGui::PopStyleColor();
         ImGui::TableNextColumn();
-        ImGui::TextDisabled("%s", entry.size.c_str());
+        if (!entry.isFolder) ImGui::TextDisabled("%s", bytesText(entry.bytes).c_str());
     }
     if (!entered.empty()) listFolder(entered, state);
     return chosen;
@@ -55,10 +66,13 @@ bool folderList(OpenDialogState& state) {
     bool chosen = false;
     const float height = ImGui::GetFontSize() * 18;
     if (ImGui::BeginTable("files", 2,
-                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter,
+                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter |
+                              ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate,
                           {ImGui::GetFontSize() * 36, height})) {
-        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupScrollFreeze(0, 1);
+        ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableHeadersRow();
         chosen = entryRows(state);
         ImGui::EndTable();
     }
@@ -106,8 +120,7 @@ void listFolder(const fs::path& folder, OpenDialogState& state) {
         const bool isFolder = files->is_directory(status);
         if (!isFolder && !mayBeOpened(path)) continue;
         const std::uintmax_t size = isFolder ? 0 : files->file_size(status);
-        state.entries.push_back(
-            {path, isFolder, isFolder || status ? "" : bytesText(static_cast<double>(size))});
+        state.entries.push_back({path, isFolder, status ? 0 : static_cast<double>(size)});
     }
     std::sort(state.entries.begin(), state.entries.end(), [](const auto& a, const auto& b) {
         return a.isFolder != b.isFolder ? a.isFolder : a.path < b.path;

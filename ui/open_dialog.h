@@ -13,7 +13,7 @@ namespace ui {
 struct OpenDialogEntry {
     std::filesystem::path path;
     bool isFolder = false;
-    std::string size;  // "5.1 MiB"
+    double bytes = 0;
 };
 
 struct OpenDialogState {
