@@ -47,84 +47,88 @@ CLI::IsMember oneOf(const std::array<std::string_view, count>& names) {
 void addBake(CLI::App& command, BakeOptions& options) {
     planet::BakeSettings& settings = options.settings;
     command.add_option("SOURCE", options.source,
-                       "Elevation image, one of six cube faces or their common stem, a terrain as "
-                       "noise:ridged,seed=7, or a preset as preset:moon");
+                       "Elevation image, one of six cube faces or their common stem, procedural terrain "
+                       "(noise:ridged,seed=7), or a preset (preset:moon)");
     command.add_flag("--list-presets", options.listPresets,
-                     "Instead: list the presets, and the settings of all kinds of terrain");
+                     "List the presets and the settings of procedural terrain instead of baking");
     command
         .add_flag("--detail", options.detail,
-                  "Add detail below the source's own resolution; --detail=strength=0.8,octaves=4 sets its "
-                  "knobs")
-        ->type_name("KNOBS");
-    command.add_option("--face-size", settings.faceSize, "Samples a face's side, 2^n + 1 (the source's own)");
-    command.add_option("--chunk-size", settings.chunkSize, "Vertices a chunk's side: 17, 33, 65 or 129 (33)")
+                  "Add fractal detail below the source's resolution; --detail=strength=0.8,octaves=4 sets "
+                  "its parameters")
+        ->type_name("PARAMETERS");
+    command.add_option("--face-size", settings.faceSize,
+                       "Samples per face side, 2^n + 1 (the source's resolution)");
+    command.add_option("--chunk-size", settings.chunkSize, "Vertices per chunk side: 17, 33, 65 or 129 (33)")
         ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
-    command.add_option("--radius", options.radiusM, "The planet's radius, metres (the preset's, or 6371000)")
+    command.add_option("--radius", options.radiusM, "Planet radius, metres (the preset's, or 6371000)")
         ->check(number(1e-3, 1e9));
-    command.add_option("--quantum", settings.quantumM, "Metres a stored step (the source's own)")
+    command
+        .add_option("--quantum", settings.quantumM,
+                    "Quantisation step of stored heights, metres (the source's step)")
         ->check(number(1e-9, 1e6));
-    command.add_option("--threads", settings.threads, "Threads; 0: one a core (0)")
+    command.add_option("--threads", settings.threads, "Threads; 0: one per core (0)")
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--compression-level", settings.compressionLevel,
-                    fmt::format("{} largest file, {} slowest bake ({})", planet::minCompressionLevel,
-                                planet::maxCompressionLevel, planet::defaultCompressionLevel))
+                    fmt::format("Compression level, from {} (largest file) to {} (slowest bake) ({})",
+                                planet::minCompressionLevel, planet::maxCompressionLevel,
+                                planet::defaultCompressionLevel))
         ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
     command.add_option("--debug-levels", settings.debugLevelsFolder,
-                       "Also write each level of each face there as PNG");
+                       "Also write each level of each face as PNG to this folder");
     command.add_option("--colour", options.colour,
-                       "Colour image, of the whole planet or of six faces, to be baked in too");
+                       "Colour image of the whole planet, or of six cube faces, to bake into the file");
     command.add_option("--colour-face-size", settings.colour.faceSize,
-                       "Colours a face's side, 2^n + 1 from 257 on (the image's own)");
+                       "Colour texels per face side, 2^n + 1, at least 257 (the image's resolution)");
     const std::map<std::string, planet::ColourFormat> formats = {
         {"bc1", planet::ColourFormat::Bc1}, {"lossless", planet::ColourFormat::Lossless}};
     command
-        .add_option("--colour-format", settings.colour.format, "bc1: half a byte a texel; or lossless (bc1)")
+        .add_option("--colour-format", settings.colour.format,
+                    "Colour format: bc1 (0.5 bytes per texel) or lossless (bc1)")
         ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
         ->option_text("bc1|lossless");
 }
 
 void addMakeLayers(CLI::App& command, MakeLayersOptions& options) {
-    command.add_option("--texels", options.texels, "Texels a side, a power of two (512)")
+    command.add_option("--texels", options.texels, "Texels per side, a power of two (512)")
         ->check(CLI::IsMember(std::vector<int>{16, 32, 64, 128, 256, 512, 1024, 2048, 4096}));
-    command.add_option("--seed", options.seed, "The same seed makes the same textures (1)");
+    command.add_option("--seed", options.seed, "Seed of the textures (1)");
 }
 
 void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--samples", options.samples, "Multisampling, samples a pixel (4)")
+    command.add_option("--samples", options.samples, "Multisampling, samples per pixel (4)")
         ->check(CLI::Range(1, 16));
-    command.add_flag("--wireframe", view.wireframe, "Draw the triangles' edges");
-    command.add_flag("--no-skirts", view.noSkirts,
-                     "Leave out the skirts that hide cracks: short for --set seams.mode=none");
-    command.add_flag("--cube", view.cube, "Draw the cube before it is blown up to the sphere");
+    command.add_flag("--wireframe", view.wireframe, "Draw triangle edges");
+    command.add_flag("--no-skirts", view.noSkirts, "Draw no skirts, short for --set seams.mode=none");
+    command.add_flag("--cube", view.cube, "Draw the unprojected cube");
     command
         .add_option("--colour-by", view.colourBy,
-                    fmt::format("What a chunk's tint shows: {} (none)", fmt::join(colourByNames, ", ")))
+                    fmt::format("Quantity that tints chunks: {} (none)", fmt::join(colourByNames, ", ")))
         ->check(oneOf(colourByNames));
-    command.add_option("--surface", view.surface, "Colour of the ground: image or ramp (image)")
+    command.add_option("--surface", view.surface, "Ground colour: image or ramp (image)")
         ->check(oneOf(surfaceNames));
     command.add_option("--colour-image", options.colourImage,
-                       "Picture laid over the planet (colour.jpg beside FILE)");
-    command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
+                       "Colour image of the planet (colour.jpg beside FILE)");
+    command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
 }
 
 void addFly(CLI::App& command, FlyOptions& options) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
+    command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
 }
 
 void addBench(CLI::App& command, BenchOptions& options) {
     command.add_option("SOURCE", options.source, "Elevation image or cube faces (the Earth)");
     command
         .add_option("--faces", options.faceSizes,
-                    "Samples a side, 2^n + 1, of the planets to bake (513 4097)")
+                    "Samples per face side, 2^n + 1, of the planets to bake (513 4097)")
         ->check(CLI::Range(33, 32769));
-    command.add_option("--rounds", options.rounds, "How often each is measured, in turn (5)")
+    command.add_option("--rounds", options.rounds, "Measurements of each, in alternation (5)")
         ->check(CLI::Range(1, 1000));
     command
         .add_option("--parts", options.parts,
-                    fmt::format("What is measured, of {} (all)", fmt::join(benchParts, ", ")))
+                    fmt::format("Parts to measure: {} (all)", fmt::join(benchParts, ", ")))
         ->check(oneOf(benchParts));
 }
 
@@ -137,37 +141,40 @@ struct SweepTexts {
 constexpr std::array<std::string_view, 3> sweepCostNames = {"triangles", "frame_ms", "memory_mib"};
 
 void addSweep(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
-    command.add_option("FILE", options.file, "Chunk file, or what is baked for each chunk size")->required();
-    command.add_option("--chunk", options.chunkSizes, "Vertices a side of a chunk (33)")
+    command.add_option("FILE", options.file, "Chunk file, or a source to bake for each chunk size")
+        ->required();
+    command.add_option("--chunk", options.chunkSizes, "Vertices per chunk side (33)")
         ->delimiter(',')
         ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
     command.add_option("--metric", texts.metrics, "Error metrics: additive, tight (both)")
         ->delimiter(',')
         ->check(oneOf(errorMetricNames));
-    command.add_option("--cost", texts.cost, "What is paid: triangles, frame_ms or memory_mib (triangles)")
+    command.add_option("--cost", texts.cost, "Cost: triangles, frame_ms or memory_mib (triangles)")
         ->check(oneOf(sweepCostNames));
     command.add_option("--suggest", texts.goal,
-                       "Instead: the tau for triangles=N, frame_ms=N, memory_mib=N or error_px=N");
-    command.add_option("--plot", options.plotOutput, "Draw it there, .png");
+                       "Find the tau that meets triangles=N, frame_ms=N, memory_mib=N or error_px=N instead");
+    command.add_option("--plot", options.plotOutput, "Plot to write, .png");
 }
 
 void addCracks(CLI::App& command, CracksOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--seams", view.seams, "none, skirts or stitched (skirts)")
+    command.add_option("--seams", view.seams, "Crack treatment: none, skirts or stitched (skirts)")
         ->check(CLI::IsMember({"none", "skirts", "stitched"}));
     command.add_flag(
         "--find-depth", options.findDepth,
-        "Also find the smallest skirt depth and the smallest automatic factor that leak nothing");
-    command.add_option("--mark", options.markedPicture,
-                       "Picture to write of the view that leaks most, cracks marked, .png");
-    command.add_option("--shaders", options.shaderFolder, "Read the shaders from this folder");
+        "Also find the smallest skirt depth and the smallest automatic factor that leave no uncovered pixel");
+    command.add_option(
+        "--mark", options.markedPicture,
+        "Picture to write of the view with the most uncovered pixels, with cracks marked, .png");
+    command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
 }
 
 void addCosts(CLI::App& command, CostsOptions& options) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--rounds", options.rounds, "How often each is drawn (5)")->check(CLI::Range(1, 1000));
+    command.add_option("--rounds", options.rounds, "Number of measurements of each (5)")
+        ->check(CLI::Range(1, 1000));
     command.add_option("--colour-image", options.colourImage,
-                       "Picture laid over the planet (colour.jpg beside FILE)");
+                       "Colour image of the planet (colour.jpg beside FILE)");
 }
 
 void addPops(CLI::App& command, PopsOptions& options) {
@@ -191,7 +198,7 @@ void addCompare(CLI::App& command, CompareOptions& options, CompareTexts& texts)
                            fmt::format("Settings of {}: a settings file, a preset, or a screenshot", side));
         command
             .add_option(fmt::format("--set-{}", letter), texts[i].assignments,
-                        fmt::format("Any setting of {}, as lod.tau_px=3; may be given again and again", side))
+                        fmt::format("Any setting of {}, for example lod.tau_px=3; may be repeated", side))
             ->type_name("NAME=VALUE")
             ->expected(1)
             ->take_all()
@@ -199,12 +206,12 @@ void addCompare(CLI::App& command, CompareOptions& options, CompareTexts& texts)
     }
     command.add_option(
         "--pictures", options.pictures,
-        "Folder for pictures of the moment that differs most: side_by_side.png, difference.png");
+        "Folder for pictures of the frame that differs most: side_by_side.png, difference.png");
 }
 
 void addAudit(CLI::App& command, AuditOptions& options, std::string& metric) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--metric", metric, "Which bound chooses and predicts: additive or tight")
+    command.add_option("--metric", metric, "Error metric for selection and prediction: additive or tight")
         ->check(oneOf(errorMetricNames));
 }
 
@@ -214,12 +221,12 @@ void addReplay(CLI::App& command, ReplayOptions& options) {
     const auto set = [&options](ReplayPaging paging) {
         return [&options, paging](std::int64_t) { options.paging = paging; };
     };
-    CLI::Option* simulated =
-        command.add_flag_function("--simulated", set(ReplayPaging::Simulated),
-                                  "Blocks arrive when the recorded bad disk and seed say, by simulated time");
+    CLI::Option* simulated = command.add_flag_function(
+        "--simulated", set(ReplayPaging::Simulated),
+        "Blocks arrive according to the recorded fault-injection settings and seed, in simulated time");
     command
         .add_flag_function("--as-recorded", set(ReplayPaging::AsRecorded),
-                           "Blocks arrive in the frames in which they did (this is what it does by itself)")
+                           "Blocks arrive in their recorded frames (default)")
         ->excludes(simulated);
 }
 
@@ -230,15 +237,17 @@ void addFile(CLI::App& command, FileCommandOptions& options) {
 void addVerify(CLI::App& command, FileCommandOptions& options) {
     addFile(command, options);
     command.add_option("--source", options.source,
-                       "Also compare it with the source that it was baked from, given with the same options");
+                       "Also compare it with the source it was baked from, given with the same options");
     command.add_option("--colour", options.colour,
-                       "Also compare its colours with the image that they were baked from");
+                       "Also compare its colours with the image they were baked from");
 }
 
 void addProbe(CLI::App& command, FileCommandOptions& options) {
     addFile(command, options);
-    command.add_option("LATITUDE", options.latitudeDeg, "Degrees north")->required()->check(number(-90, 90));
-    command.add_option("LONGITUDE", options.longitudeDeg, "Degrees east")
+    command.add_option("LATITUDE", options.latitudeDeg, "Latitude, degrees north")
+        ->required()
+        ->check(number(-90, 90));
+    command.add_option("LONGITUDE", options.longitudeDeg, "Longitude, degrees east")
         ->required()
         ->check(number(-360, 360));
 }
@@ -353,8 +362,8 @@ int exitCodeOf(const Result<void>& result) {
 // All options, and where what was given goes. The parser points into it, so it stays where it is.
 struct CommandLine {
     CLI::App app{
-        "Worldy: shows, tunes and measures planets drawn by chunked level of detail.\n"
-        "Without a command it opens a window on FILE, or on the Earth.",
+        "Worldy shows, tunes and measures planets drawn with chunked level of detail.\nWithout a command it "
+        "opens a window with FILE, or with the Earth.",
         "worldy"};
     AppOptions window;
     BakeOptions bake;
@@ -379,14 +388,14 @@ struct CommandLine {
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
         app.add_option("FILE", window.file,
-                       "Chunk file (.chk), elevation image, cube faces, terrain (noise:ridged) or preset "
-                       "(preset:moon) to show");
-        app.add_option("--settings", window.settingsFile, "Settings to use instead of the user's own");
+                       "Chunk file (.chk), elevation image, cube faces, procedural terrain (noise:ridged) or "
+                       "preset (preset:moon) to show");
+        app.add_option("--settings", window.settingsFile, "Settings file to use instead of the user's");
         app.add_option("--shaders", window.shaderFolder,
-                       "Read the shaders from this folder, and again when they change");
+                       "Folder to read the shaders from; changes are reloaded");
         app.add_option(
             "--item-map", window.itemMapFile,
-            "Keep writing there where each control is on the screen, and what is counted, for scripts");
+            "Keep writing the positions of all controls and the counters to this file, for scripts");
         std::map<std::string_view, CLI::App*> commands;
         for (const CommandSpec& spec : commandSpecs())
             commands[spec.name] = &addCommand(app, spec, shared[spec.name]);

@@ -23,73 +23,73 @@ constexpr const char* reportHelp = "Report to write, JSON";
 
 constexpr std::array<CommandSpec, 15> commandTable = {{
     {.name = "bake",
-     .about = "Bake an elevation image, six cube faces or made terrain into a chunk file",
+     .about = "Bake an elevation image, six cube faces or procedural terrain into a chunk file",
      .takes = takes::json | takes::output | takes::source,
      .output = "Chunk file to write"},
-    {.name = "info", .about = "Tell what a chunk file holds", .takes = takes::json},
-    {.name = "verify",
-     .about = "Read the whole of a chunk file and check it",
-     .takes = takes::json | takes::source},
-    {.name = "probe", .about = "Tell the height at a place, and which chunks hold it", .takes = takes::json},
+    {.name = "info", .about = "Describe the content of a chunk file", .takes = takes::json},
+    {.name = "verify", .about = "Read a whole chunk file and check it", .takes = takes::json | takes::source},
+    {.name = "probe",
+     .about = "Print the height at a place and the chunks that contain it",
+     .takes = takes::json},
     {.name = "shot",
-     .about = "Draw one picture of a chunk file, without a display",
+     .about = "Render one picture of a chunk file, without a display",
      .takes = pictureOptions | takes::mustOutput | takes::camera,
      .output = "Picture to write, .png"},
     {.name = "fly",
-     .about = "Fly a path without a display, and measure each frame",
+     .about = "Fly along a path without a display and measure each frame",
      .takes = pictureOptions | takes::output | takes::mustFlight,
      .output = reportHelp,
      .sampling = byFrames(300)},
     {.name = "bench",
-     .about = "Measure LOD, streaming and the file's format, each beside a plain way to do the same",
+     .about = "Benchmark LOD, streaming and the file format against simple alternatives",
      .takes = takes::json | takes::output | takes::size | takes::taus | takes::source,
      .output = reportHelp,
      .defaultTaus = "1,2,4"},
     {.name = "sweep",
-     .about = "Fly at many tolerances, and set what each costs beside its true error",
+     .about = "Fly with many tolerances and compare the cost and the true error of each",
      .takes =
          (pictureOptions & ~takes::tau) | takes::taus | takes::output | takes::mustFlight | takes::source,
      .output = "Table to write, .csv or .json",
      .sampling = byFrames(12),
      .defaultTaus = "0.5,1,2,4,8"},
     {.name = "cracks",
-     .about = "Count crack pixels and what the skirts leave open; exits with 1 if anything leaks",
+     .about =
+         "Count crack pixels and those that skirts do not cover; exits with 1 if there are uncovered pixels",
      .takes = pictureOptions | takes::output | takes::camera | takes::flight | takes::worst,
      .output = reportHelp,
      .sampling = everySeconds(1),
      .worst = "Crack clusters and gaps"},
     {.name = "costs",
-     .about = "Time a picture with each part of light and surface and without it, in turn",
+     .about = "Measure the frame time with and without each light and surface feature",
      .takes = pictureOptions | takes::output | takes::camera,
      .output = reportHelp},
     {.name = "pops",
-     .about = "Fly a path with all loads on time, and tell how far each change of level jumps",
+     .about = "Fly along a path with all loads on time and measure the jump of each level change",
      .takes = pictureOptions | takes::output | takes::mustFlight | takes::worst,
      .output = reportHelp,
      .sampling = everySeconds(1.0 / 60),
      .worst = "Switches"},
     {.name = "audit",
-     .about = "Measure the true error of what is drawn beside its bound; exits with 1 where that was too "
-              "little",
+     .about =
+         "Compare the true error of the drawn surface with its bound; exits with 1 if it exceeds the bound",
      .takes = pictureOptions | takes::output | takes::cameras | takes::flight | takes::worst,
      .output = reportHelp,
      .sampling = everySeconds(1),
      .worst = "Chunks"},
     {.name = "replay",
-     .about =
-         "Make a recorded flight again without a display, and tell whether every frame is the same; with "
-         "other settings a difference is told and is no failure",
+     .about = "Replay a recorded flight without a display and check that every frame matches; with other "
+              "settings, differences are reported but are no failure",
      .takes = takes::json | takes::output | takes::tau | takes::set,
      .output = reportHelp},
     {.name = "compare",
-     .about = "Fly with two settings or two bakes, A and B, and set their figures side by side",
+     .about = "Fly with two settings or two bakes, A and B, and compare their measurements",
      .takes = pictureOptions | takes::output | takes::mustFlight,
      .output = reportHelp,
      .sampling = byFrames(12)},
     {.name = "make-layers",
-     .about = "Make the six materials of the texture layers, and the sets that use them, from noise",
+     .about = "Generate the six materials of the texture layers and the sets that use them",
      .takes = takes::json | takes::mustOutput,
-     .output = "Folder to write them into"},
+     .output = "Output folder"},
 }};
 
 // Spellings of earlier versions: an option, followed by a value that ends in `value`.
@@ -108,25 +108,26 @@ constexpr std::array<OldSpelling, 5> oldSpellings = {{
 }};
 
 void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
-    command.add_option("--metres-per-unit", source.metresPerUnit, "Metres a unit of the source's values (1)")
+    command
+        .add_option("--metres-per-unit", source.metresPerUnit, "Metres per unit of the source's values (1)")
         ->check(number(-1e9, 1e9, false));
     command.add_option("--offset", source.offsetM, "Metres added to every height (0)")
         ->check(number(-1e9, 1e9));
     command.add_option("--no-data", source.noDataValue,
-                       "Value that means \"no data\", instead of a GeoTIFF's own; NaN always does");
+                       "Value that means \"no data\", instead of a GeoTIFF's own; NaN is always no data");
     command.add_option("--fill", source.fillM, "Height of samples without data, metres (0)")
         ->check(number(-1e9, 1e9));
-    command.add_option("--raw-size", source.rawSize, "Raw faces: samples a side")
+    command.add_option("--raw-size", source.rawSize, "Raw faces: samples per side")
         ->check(CLI::Range(2, (1 << 22) + 1));
     command.add_option("--raw-bits", source.rawBits, "Raw faces: 8 or 16")->check(CLI::IsMember({8, 16}));
     command.add_flag("--raw-signed", source.rawSigned, "Raw faces: 16-bit values are signed");
-    command.add_flag("--raw-big-endian", source.rawBigEndian, "Raw faces: the high byte comes first");
+    command.add_flag("--raw-big-endian", source.rawBigEndian, "Raw faces: big-endian values");
 }
 
 void addFlightOptions(CLI::App& command, const CommandSpec& spec, SharedTexts& texts) {
     const bool required = (spec.takes & takes::mustFlight) != 0;
     CLI::Option& flight = *command.add_option("--flight", texts.flight,
-                                              "Flight to look along: its keys, .toml, or a recorded .flight");
+                                              "Views along a flight: keys (.toml) or a recording (.flight)");
     flight.required(required);
     const FlightSampling& usual = spec.sampling;
     CLI::Option& count =
@@ -138,7 +139,7 @@ void addFlightOptions(CLI::App& command, const CommandSpec& spec, SharedTexts& t
     CLI::Option& step =
         *command
              .add_option("--step-s", texts.sampling.stepS,
-                         fmt::format("Instead: seconds of the flight from frame to frame{}",
+                         fmt::format("Seconds of the flight between frames, instead of --frames{}",
                                      usual.stepS ? fmt::format(" ({:.3g})", *usual.stepS) : ""))
              ->check(number(1e-4, 86400));
     step.excludes(&count);
@@ -149,13 +150,13 @@ void addFlightOptions(CLI::App& command, const CommandSpec& spec, SharedTexts& t
 
 void addViewOptions(CLI::App& command, ViewTexts& view) {
     command.add_option("--settings", view.settingsFile,
-                       "Settings to start from: a settings file, a preset, or a screenshot by Worldy");
+                       "Settings to start from: a settings file, a preset, or a Worldy screenshot");
     command.add_option(
         "--layers", view.layerSet,
-        "A set of texture layers, .toml; draw them where the CPU draws with --set surface.layer_use=on");
-    command.add_option("--budget", view.budgetMB, "Memory for resident chunks, MiB (256)")
+        "Texture layer set, .toml; with software rendering also give --set surface.layer_use=on");
+    command.add_option("--budget", view.budgetMB, "Memory budget for resident chunks, MiB (256)")
         ->check(CLI::Range(16, 65536));
-    command.add_flag("--no-culling", view.noCulling, "Also draw and load what is out of sight");
+    command.add_flag("--no-culling", view.noCulling, "Turn off frustum and horizon culling");
     command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
 }
 
@@ -199,7 +200,8 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
     const auto takesAny = [&](unsigned options) { return (spec.takes & options) != 0; };
     if (takesAny(takes::output | takes::mustOutput)) {
         command.add_option("-o,--output", texts.output, spec.output)->required(takesAny(takes::mustOutput));
-        command.add_flag("--overwrite", texts.overwrite, "Let outputs replace files of other kinds too");
+        command.add_flag("--overwrite", texts.overwrite,
+                         "Allow outputs to replace existing files of another kind");
     }
     if (takesAny(takes::json))
         command.add_flag("--json", texts.json, "Print the report as JSON on standard output");
@@ -208,13 +210,15 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
     if (takesAny(takes::size))
         command.add_option("--size", texts.view.size, "Picture size, WIDTHxHEIGHT (1280x720)");
     if (takesAny(takes::tau)) {
-        command.add_option("--tau", texts.view.tauPx, "Tolerance on screen, pixels (the settings')")
+        command
+            .add_option("--tau", texts.view.tauPx,
+                        "Screen-space error threshold tau, pixels (from the settings)")
             ->check(number(1e-6, 1000));
     }
     if (takesAny(takes::taus)) {
         command
             .add_option("--tau", texts.tausPx,
-                        fmt::format("Tolerances on screen, pixels ({})", spec.defaultTaus))
+                        fmt::format("Screen-space error thresholds tau, pixels ({})", spec.defaultTaus))
             ->delimiter(',')
             ->check(number(0.1, 64));
     }
@@ -222,7 +226,7 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
         command
             .add_option(
                 "--set", texts.view.assignments,
-                "Any setting, as lod.tau_px=3; may be given again and again, and wins over the others")
+                "Any setting, for example lod.tau_px=3; may be repeated, and overrides the other options")
             ->type_name("NAME=VALUE")
             ->expected(1)
             ->take_all()
@@ -232,8 +236,8 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
     if (takesAny(takes::worst)) {
         command
             .add_option("--worst", texts.worst,
-                        fmt::format("{} to list, the worst first; the report holds all ({})", spec.worst,
-                                    texts.worst))
+                        fmt::format("{} to list, largest first; the JSON report contains all ({})",
+                                    spec.worst, texts.worst))
             ->check(CLI::Range(0, 1000000));
     }
     if (takesAny(takes::source)) addSourceOptions(command, texts.source);
