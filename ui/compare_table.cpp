@@ -64,9 +64,13 @@ constexpr std::array<CompareRow, 20> comparedRows = {{
      "Chunks replaced by chunks of another level: since the comparison began, or over the flight at 60 "
      "frames per second.",
      &Figures::switches, FigureUnit::Count, true, true, true},
-    {"worst_pop_px", "Max pop", "Largest jump of the surface at a level change, in pixels.",
+    {"worst_pop_px", "Max pop",
+     "Largest jump of the surface at a level change that is visible and does not follow a camera jump, in "
+     "pixels.",
      &Figures::worstPopPx, FigureUnit::Pixels, true, true, false},
-    {"p99_pop_px", "P99 pop", "99 % of the level changes in the picture have no larger jump, in pixels.",
+    {"p99_pop_px", "P99 pop",
+     "99 % of the level changes that are visible and do not follow a camera jump have no larger jump, in "
+     "pixels.",
      &Figures::p99PopPx, FigureUnit::Pixels, true, true, false},
     {"late", "Late arrivals",
      "Chunks drawn too coarse because their children were not loaded. Over a flight all loads are on time, "
