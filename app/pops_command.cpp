@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "app/interrupt.h"
@@ -107,10 +108,11 @@ void printSummary(const FlightPath& path, const PopsOptions& options, double ste
     fmt::print("\n{:>10}  {:22}{:>8}{:>14}{:>14}{:>14}  {:18}{}\n", "time", "chunk", "levels", "largest px",
                "mean px", "beside px", "cause", "note");
     for (const PopEvent* event : worst) {
-        fmt::print("{:8.2f} s  {:22}{:>8}{:14.4f}{:14.4f}{:14.4f}  {:18}{}\n", event->timeS,
+        const std::string note = planet::popNote(*event);
+        fmt::print("{:8.2f} s  {:22}{:>8}{:14.4f}{:14.4f}{:14.4f}  {:{}}{}\n", event->timeS,
                    planet::toString(event->chunk), fmt::format("{} > {}", event->fromLevel, event->toLevel),
                    event->jump.largestPx, event->jump.meanPx, event->besidePx,
-                   planet::popCauseName(event->cause), planet::popNote(*event));
+                   planet::popCauseName(event->cause), note.empty() ? 0 : 18, note);
     }
 }
 
