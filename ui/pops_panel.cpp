@@ -238,7 +238,7 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                                     TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
                                     TableColumn{"Chunk", 1.6f},
                                     TableColumn{"Levels", 0.9f},
-                                    TableColumn{"Cause", 1.8f},
+                                    TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
                                     TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
                                     TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"},
                                     TableColumn{"Note", 1.3f, nullptr, "outside picture"}};
