@@ -172,6 +172,11 @@ void formulas(const EditorView& view, double tauPx) {
     endValues();
 }
 
+// Two decimals, to compare with the tolerance.
+std::string preciseErrorText(float px) {
+    return px < 1000 ? fmt::format("{:.2f} px", px) : pixelsText(static_cast<double>(px));
+}
+
 void drawnValues(const EditorView& view, double tauPx) {
     const planet::SelectionCounters& s = view.stats.selection;
     if (!beginValues("drawn")) return;
@@ -196,13 +201,10 @@ void drawnValues(const EditorView& view, double tauPx) {
     valueRow("Deepest level", fmt::format("{}", s.deepestLevel),
              "Deepest level drawn; level 0 is a whole cube face.");
     const bool over = static_cast<double>(s.worstEpsPx) > tauPx;
-    valueRow(fmt::format("Max {}", epsSymbol()).c_str(),
-             s.worstEpsPx < 1000 ? fmt::format("{:.2f} px", s.worstEpsPx)
-                                 : pixelsText(static_cast<double>(s.worstEpsPx)),
+    valueRow(fmt::format("Max {}", epsSymbol()).c_str(), preciseErrorText(s.worstEpsPx),
              "Largest predicted error on screen of a drawn chunk's own surface, in pixels.",
              over ? &palette().warning : nullptr);
-    valueRow("Max drawn bound", pixelsText(static_cast<double>(s.worstDrawnBoundPx)),
-             terms::drawnBoundPx.meaning);
+    valueRow("Max drawn bound", preciseErrorText(s.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
     endValues();
 }
 
