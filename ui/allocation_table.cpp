@@ -183,7 +183,7 @@ void allocationTable(const AllocationsView& view, double timeS, Commands& comman
                "Stores the current values as the reference for the change column. To find leaks, do "
                "something, undo it, and check that the changes are 0."))
         commands.emplace_back(MarkAllocations{});
-    ImGui::SameLine();
+    sameLineForButton("Copy##allocations");
     if (button("Copy##allocations", "Copies the table as tab-separated text with unrounded bytes."))
         commands.emplace_back(CopyText{allocationsText(view)});
     ImGui::SameLine();

@@ -329,7 +329,7 @@ void bakeButtons(const EditorView& view, BakePanelState& state, Commands& comman
     }
     endGrey();
     if (!state.edited) return;
-    ImGui::SameLine();
+    sameLineForButton("Revert to open file");
     if (button("Revert to open file", "Discards the changes made above.")) {
         state.edited.reset();
         state.estimateAtS.reset();

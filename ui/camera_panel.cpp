@@ -102,7 +102,7 @@ void poseSection(const EditorView& view, const ViewSettings& settings, CameraPan
     }
     if (button("Reset", "Moves the camera to where this session started (F3)."))
         commands.push_back(ResetCamera{});
-    ImGui::SameLine();
+    sameLineForButton("Set as start");
     if (button("Set as start", "Future sessions start with this view."))
         commands.push_back(KeepCameraAsStart{});
 }

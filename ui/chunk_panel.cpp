@@ -79,10 +79,10 @@ void buttons(const ChunkId& id, Commands& commands) {
                "Moves the camera to where the whole chunk is in view. Double-clicking the chunk in the net "
                "or the list does the same."))
         commands.emplace_back(LookAtChunk{id});
-    ImGui::SameLine();
+    sameLineForButton("Copy id");
     if (button("Copy id", "Copies the chunk id to the clipboard."))
         commands.emplace_back(CopyText{toString(id)});
-    ImGui::SameLine();
+    sameLineForButton("Parent");
     beginGrey(id.level == 0, "A root chunk has no parent.");
     const bool parent = button("Parent", "Selects the parent chunk.");
     endGrey();

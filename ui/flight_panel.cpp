@@ -103,7 +103,7 @@ void flightList(const EditorView& view, FlightPanelState& state, Commands& comma
                "Replays the flight from the start. Camera and settings come from the recording until you end "
                "the replay."))
         commands.push_back(StartReplay{chosen->file});
-    ImGui::SameLine();
+    sameLineForButton("Delete...");
     if (button("Delete...", "Deletes the file after confirmation.")) ImGui::OpenPopup("delete");
     endGrey();
     if (chosen != flights.end()) deletePopup(*chosen, commands);
@@ -176,12 +176,12 @@ void transport(const ReplayNow& replay, Commands& commands) {
         controls.playing = false;
         commands.push_back(SetReplay{controls});
     };
-    ImGui::SameLine();
+    sameLineForButton("< Step");
     if (button("< Step", "One frame back. Replays the flight from the start up to that frame.")) {
         hold();
         commands.push_back(MoveReplay{std::max<std::size_t>(replay.frame, 2) - 1});
     }
-    ImGui::SameLine();
+    sameLineForButton("Step >");
     if (button("Step >", "One frame forward.")) {
         hold();
         commands.push_back(MoveReplay{replay.frame + 1});
@@ -204,7 +204,7 @@ void eventButtons(const ReplayNow& replay, Commands& commands) {
                    style.ItemSpacing.x);
     beginGrey(replay.ticks.empty(), "The recording has no split and no merge.");
     if (button("< Change", "Goes to the previous frame with a split or merge.")) go(false);
-    ImGui::SameLine();
+    sameLineForButton("Change >");
     if (button("Change >", "Goes to the next frame with a split or merge.")) go(true);
     endGrey();
 }

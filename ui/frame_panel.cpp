@@ -65,7 +65,7 @@ void pauseControls(const EditorView& view, Commands& commands) {
     if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PauseFrames{paused});
     noteItem("Pause");
     tooltip("Pauses movement, LOD selection and loading; the panels stay active.");
-    ImGui::SameLine();
+    sameLineForButton("Step");
     beginGrey(!view.framesPaused, "Pause frames first.");
     if (button("Step", "While paused: runs one frame.")) commands.push_back(StepFrame{});
     endGrey();

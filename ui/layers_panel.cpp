@@ -150,13 +150,13 @@ void listButtons(LayersPanelState& state, LayerList& list) {
                            : "Adds a layer without textures above all others."))
         state.chosen = addLayer(list);
     endGrey();
-    ImGui::SameLine();
+    sameLineForButton("Copy");
     beginGrey(full || list.empty(),
               full ? "The maximum of eight layers is reached." : "There is no layer to copy.");
     if (button("Copy", "Duplicates the selected layer above it."))
         state.chosen = duplicateLayer(list, state.chosen);
     endGrey();
-    ImGui::SameLine();
+    sameLineForButton("Remove");
     beginGrey(list.empty(), "There is no layer to remove.");
     if (button("Remove", "Removes the selected layer. Undo restores it."))
         state.chosen = removeLayer(list, state.chosen);
@@ -168,7 +168,7 @@ void listButtons(LayersPanelState& state, LayerList& list) {
         ++state.chosen;
     }
     endGrey();
-    ImGui::SameLine();
+    sameLineForButton("Down");
     beginGrey(list.empty() || state.chosen == 0, "The selected layer is the lowest.");
     if (button("Down", "Moves the selected layer down.")) {
         moveLayer(list, state.chosen, state.chosen - 1);

@@ -69,11 +69,11 @@ void buttons(const EditorView& view, Commands& commands) {
     if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PausePaging{paused});
     noteItem("Pause");
     tooltip("Stops loaders from taking requests from the queue. Missing chunks stay coarse.");
-    ImGui::SameLine();
+    sameLineForButton("Load one");
     beginGrey(!view.pagingPaused, "Pause paging first.");
     if (button("Load one", "While paused: processes the most urgent request.")) commands.push_back(LoadOne{});
     endGrey();
-    ImGui::SameLine();
+    sameLineForButton("Evict all");
     if (button("Evict all",
                "Evicts all chunks and colour tiles except the six roots, and cancels all queued requests, to "
                "show how the picture loads again."))

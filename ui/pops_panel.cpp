@@ -58,7 +58,7 @@ void popsControls(const EditorView& view, PopsPanelState& state, Commands& comma
                         "Off: no changes are recorded and no time is spent.",
                         view.pops.meter->measuredUsPerSwitch())
                 .c_str());
-    ImGui::SameLine();
+    sameLineForButton("Clear");
     if (button("Clear", "Discards all measurements.")) {
         commands.push_back(ClearPops{});
         state.selected.reset();

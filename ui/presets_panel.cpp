@@ -170,7 +170,7 @@ void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings
                "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))
         commands.push_back(CopyCommandLine{});
     endGrey();
-    ImGui::SameLine();
+    sameLineForButton("Reset all settings");
     if (button("Reset all settings", "Resets all view settings to their defaults. Undo reverts this."))
         commands.push_back(LoadPreset{"default"});
     ImGui::Spacing();

@@ -175,10 +175,10 @@ std::optional<double> previewBar(std::span<const RampStop> ramp, int selected) {
 
 void presetButtons(const HeightRange& heights, Ramp& ramp) {
     if (button("Built-in", "Built-in ramp with rules for steep slopes, ice and dry belts.")) ramp.clear();
-    ImGui::SameLine();
+    sameLineForButton("Grey");
     if (button("Grey", "Grey ramp: black at this planet's minimum height, white at its maximum."))
         ramp = greyRamp(heights.lowestM, heights.highestM);
-    ImGui::SameLine();
+    sameLineForButton("Hypsometric");
     if (button("Hypsometric",
                "Atlas colours scaled to this planet's heights: blue below sea level; green, yellow, brown "
                "and white above."))

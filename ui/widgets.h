@@ -59,6 +59,8 @@ void secondColumn(const char* label);
 
 // Goes on in the same line while there is room for an item so wide.
 void sameLineIfRoom(float width);
+// The same for a button.
+void sameLineForButton(const char* label);
 float checkboxWidth(const char* label);
 
 // In lines as wide as the panel.
