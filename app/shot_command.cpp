@@ -49,9 +49,10 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
         fmt::print("{}", jsonText(report));
         return;
     }
-    fmt::print("{}: {} chunks, {} triangles, worst error {:.2f} px, {} read\n", options.output.string(),
-               stats.selection.drawn, ui::countText(static_cast<double>(stats.selection.triangles())),
-               stats.selection.worstEpsPx, ui::bytesText(static_cast<double>(ui::bytesReadOf(stats))));
+    fmt::print("{}: {} chunks, {} triangles, worst eps {:.2f} px, worst drawn bound {:.2f} px, {} read\n",
+               options.output.string(), stats.selection.drawn,
+               ui::countText(static_cast<double>(stats.selection.triangles())), stats.selection.worstEpsPx,
+               stats.selection.worstDrawnBoundPx, ui::bytesText(static_cast<double>(ui::bytesReadOf(stats))));
 }
 
 }  // namespace
