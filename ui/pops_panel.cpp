@@ -69,11 +69,10 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     popsControls(view, state, commands);
     const PopsPanelState::Sample& sample = state.sample;
     if (sample.seen == 0) {
-        wrappedText(
-            view.pops.measuring
-                ? "No level changes in the last five minutes. Fly, or change a setting in the LOD panel."
-                : "Not measuring.",
-            palette().dim);
+        wrappedText(view.pops.measuring ? "No level changes that count in the last five minutes. Fly, or "
+                                          "change a setting in the LOD panel."
+                                        : "Not measuring.",
+                    palette().dim);
     } else {
         // A line of its own: else it may be broken at its decimal point.
         ImGui::TextWrapped("99 %% of switches move less than\n%s; %s measured.",
