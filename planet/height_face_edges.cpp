@@ -15,7 +15,7 @@ namespace planet {
 
 namespace {
 
-constexpr int edgeCount = 12;
+constexpr int cubeEdgeCount = 12;
 
 // One edge of the cube, as the end points of its samples on two faces. Sample k lies k / (size - 1) of the
 // way from first to last on both.
@@ -112,7 +112,7 @@ Error edgeError(const EdgeDifference& worst, int edges, const FaceEdgeCheck& che
             sideName(first, last, cells), faceName(first.face), sideName(edge.first[1], edge.last[1], cells),
             faceName(edge.first[1].face), worst.heightsM[0], worst.heightsM[1],
             alongColumn ? "row" : "column", place, faceName(first.face), worst.samples, check.size, edges,
-            edgeCount, check.toleranceM)};
+            cubeEdgeCount, check.toleranceM)};
 }
 
 }  // namespace
