@@ -118,7 +118,8 @@ TEST(LayerPictures, WhatIsMissingOrOfAWrongSizeIsNamed) {
     };
     EXPECT_EQ(problemOf({"good.png", "good.png", "good.png"}), "none");
     EXPECT_THAT(problemOf({"none.png", "", ""}), HasSubstr("none.png: cannot be read"));
-    EXPECT_THAT(problemOf({"good.png", "wide.png", ""}), HasSubstr("wide.png: is 32 x 16 pixels; square"));
+    EXPECT_THAT(problemOf({"good.png", "wide.png", ""}),
+                HasSubstr("wide.png: is 32 x 16 pixels; expected a square"));
     EXPECT_THAT(problemOf({"odd.png", "", ""}),
                 HasSubstr("odd.png: is 24 x 24 pixels; expected a square with a power-of-two side"));
     EXPECT_THAT(problemOf({"good.png", "", "junk.png"}), HasSubstr("junk.png"));
