@@ -163,7 +163,7 @@ TEST_F(BakePanelSource, AnImageThatWasChosenIsTakenAndOneThatIsNotThereCannotBeB
     EXPECT_TRUE(window_.isShown("/Choose"));
     states_.bake.colour.chosen = "/nonexistent/map.png";
     EXPECT_FALSE(askedFor<EstimateBake>());
-    EXPECT_THAT(states_.bake.colour.problem, HasSubstr("/nonexistent/map.png: there is no such image"));
+    EXPECT_THAT(states_.bake.colour.problem, HasSubstr("/nonexistent/map.png: no such image or cube faces"));
 }
 
 TEST_F(BakePanelSource, AnotherWorldBringsItsOwnColours) {
