@@ -145,30 +145,34 @@ void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::d
 
 void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& commands) {
     const CrackMeasurement& measured = *view.cracks.measured;
+    const bool hasPair = spot.pair != planet::noPair;
+    if (hasPair)
+        goButton(view, measured.items[measured.pairs[spot.pair].finer], spot.placeM, commands);
+    else
+        cell("");
     cell(fmt::format("{}", spot.pixels));
     cell(fmt::format("{}", spot.leaking), spot.leaking > 0 ? palette().bad : palette().dim);
-    if (spot.pair == planet::noPair) return cell("no drawn neighbour");
-    const planet::DrawnPair& pair = measured.pairs[spot.pair];
-    chunkCell(measured.items[pair.finer], view, commands);
-    chunkCell(measured.items[pair.coarser], view, commands);
-    goButton(view, measured.items[pair.finer], spot.placeM, commands);
+    if (!hasPair) return cell("no drawn neighbour");
+    chunkCell(measured.items[measured.pairs[spot.pair].finer], view, commands);
+    chunkCell(measured.items[measured.pairs[spot.pair].coarser], view, commands);
 }
 
 void spotTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::CrackSpot>& spots = view.cracks.measured->spots;
     if (spots.empty()) return wrappedText("There are no crack pixels in this view.", palette().dim);
-    constexpr std::array columns = {TableColumn{"Pixels", 0.8f}, TableColumn{"Uncovered", 1.0f},
-                                    TableColumn{"Finer", 1.6f}, TableColumn{"Coarser", 1.6f},
-                                    TableColumn{"##go", 0.5f}};
+    // Go comes first: a narrow panel scrolls the last columns out of sight.
+    constexpr std::array columns = {TableColumn{"##go", 0.5f}, TableColumn{"Pixels", 0.8f},
+                                    TableColumn{"Uncovered", 1.0f}, TableColumn{"Finer", 1.6f},
+                                    TableColumn{"Coarser", 1.6f}};
     if (!beginListTable("spots", columns, spots.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::CrackSpot& spot = spots[row];
-        if (column == 0) return static_cast<double>(spot.pixels);
-        if (column == 1) return static_cast<double>(spot.leaking);
+        if (column <= 1) return static_cast<double>(spot.pixels);
+        if (column == 2) return static_cast<double>(spot.leaking);
         if (spot.pair == planet::noPair) return std::string();
         const CrackMeasurement& measured = *view.cracks.measured;
         const planet::DrawnPair& pair = measured.pairs[spot.pair];
-        return sortKey(measured.items[column == 2 ? pair.finer : pair.coarser]);
+        return sortKey(measured.items[column == 3 ? pair.finer : pair.coarser]);
     };
     tableRows(spots.size(), key, [&](std::size_t row) { spotRow(view, spots[row], commands); });
     ImGui::EndTable();
@@ -180,6 +184,7 @@ float skirtOf(const planet::EdgeGap& gap) {
 }
 
 void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& commands) {
+    goButton(view, gap.finer, gap.placeM, commands);
     cell(distanceText(gap.gapM));
     tooltip("Largest distance between the two edges at the same position.");
     cell(pixelsText(gap.facingPx, ""));
@@ -190,21 +195,20 @@ void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& comman
     tooltip("Skirt depth of the higher edge. Red: it does not reach the lower edge.");
     chunkCell(gap.finer, view, commands);
     chunkLink(gap.coarser, view, commands);
-    goButton(view, gap.finer, gap.placeM, commands);
 }
 
 void gapTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::EdgeGap>& gaps = view.cracks.measured->gaps;
     if (gaps.empty()) return wrappedText("All adjacent edges match.", palette().dim);
-    constexpr std::array columns = {TableColumn{"Gap", 0.9f}, TableColumn{"px", 0.7f},
-                                    TableColumn{"Skirt", 0.9f}, TableColumn{"Finer, coarser", 1.7f},
-                                    TableColumn{"##go", 0.5f}};
+    constexpr std::array columns = {TableColumn{"##go", 0.5f}, TableColumn{"Gap", 0.9f},
+                                    TableColumn{"px", 0.7f}, TableColumn{"Skirt", 0.9f},
+                                    TableColumn{"Finer, coarser", 1.7f}};
     if (!beginListTable("gaps", columns, 2 * gaps.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::EdgeGap& gap = gaps[row];
-        if (column == 0) return gap.gapM;
-        if (column == 1) return gap.facingPx;
-        if (column == 2) return static_cast<double>(skirtOf(gap));
+        if (column <= 1) return gap.gapM;
+        if (column == 2) return gap.facingPx;
+        if (column == 3) return static_cast<double>(skirtOf(gap));
         return sortKey(gap.finer);
     };
     tableRows(gaps.size(), key, [&](std::size_t row) { gapRow(view, gaps[row], commands); });

@@ -17,7 +17,9 @@ protected:
 
     void drive(const std::string& steps) {
         const std::string functions = R"sh(
-is_at() { [ "$(counter camera)" = "$1" ]; }
+# But for what each frame rounds.
+rounded() { echo "$1" | tr , "\n" | xargs printf "%.3f " | sed "s,-\(0\.000\),\1,g"; }
+is_at() { [ "$(rounded "$(counter camera)")" = "$(rounded "$1")" ]; }
 start=$(counter camera)
 # What "Go" has led to: the same chunks from another place.
 inspected() {
