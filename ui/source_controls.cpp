@@ -64,7 +64,8 @@ std::uint32_t newSeed() {
 bool seedControl(const TerrainField& field, TerrainSettings& settings) {
     auto seed = static_cast<std::uint32_t>(field.get(settings));
     labelledControl("Seed", std::string(field.about).c_str());
-    const float room = ImGui::CalcTextSize("New seed").x + 3 * ImGui::GetStyle().FramePadding.x;
+    const float room = ImGui::CalcTextSize("New seed").x + 2 * ImGui::GetStyle().FramePadding.x +
+                       ImGui::GetStyle().ItemSpacing.x + 1;
     ImGui::SetNextItemWidth(std::max(ImGui::GetFontSize() * 3, ImGui::GetContentRegionAvail().x - room));
     bool changed = ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed);
     noteItem("Seed");
