@@ -36,9 +36,9 @@ struct ScreenPoint {
 
 // One place as it was and as it is now.
 struct ComparedPlace {
-    glm::dvec2 px{0, 0};  // on screen, after
-    double jumpPx = 0;
-    bool inFront = false;  // before and after; else there is no jump
+    glm::dvec2 px{0, 0};       // on screen, after
+    glm::dvec2 movedPx{0, 0};  // from where it was before
+    bool inFront = false;      // before and after; else there is no jump
     bool counts = false;
     bool underSea = false;  // before and after
 };
@@ -62,7 +62,7 @@ bool isUnderSea(const Screen& screen, const glm::dvec3& pointM) {
 // Of a triangle, a corner of what the picture's border leaves.
 struct JumpCorner {
     glm::dvec2 px{0, 0};
-    double jumpPx = 0;
+    glm::dvec2 movedPx{0, 0};
 };
 
 // What lies on the near side of one border of the picture: side * px[axis] <= limit.
@@ -77,9 +77,26 @@ std::vector<JumpCorner> clippedAt(const std::vector<JumpCorner>& polygon, int ax
         if (fromBeyond <= 0) kept.push_back(from);
         if ((fromBeyond <= 0) == (toBeyond <= 0)) continue;
         const double share = fromBeyond / (fromBeyond - toBeyond);
-        kept.push_back({from.px + share * (to.px - from.px), std::lerp(from.jumpPx, to.jumpPx, share)});
+        kept.push_back(
+            {from.px + share * (to.px - from.px), from.movedPx + share * (to.movedPx - from.movedPx)});
     }
     return kept;
+}
+
+// The mean length over a triangle of a vector that is linear between its corners. Where corners move opposite
+// ways it is less than the mean of their lengths, so it is taken in the middles of smaller triangles.
+double meanLength(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    constexpr int along = 6;
+    double total = 0;
+    for (int row = 0; row < along; ++row) {
+        for (int i = 0; i < 2 * (along - row) - 1; ++i) {
+            const double third = i % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+            const double s = (i / 2 + third) / along;
+            const double t = (row + third) / along;
+            total += glm::length(a + s * (b - a) + t * (c - a));
+        }
+    }
+    return total / (along * along);
 }
 
 // Adds places up, one by one, and the triangles between them.
@@ -100,20 +117,21 @@ struct Sum {
         place.px = to.px;
         place.inFront = from.inFront && to.inFront;
         if (!place.inFront) return place;
-        place.jumpPx = glm::length(to.px - from.px);
+        place.movedPx = to.px - from.px;
+        const double jumpPx = glm::length(place.movedPx);
         place.underSea = isUnderSea(screen, beforeM) && isUnderSea(screen, afterM);
         if (!from.inPicture && !to.inPicture) return place;
         anyUnderSea |= place.underSea;
         place.counts = !place.underSea;
         if (!place.counts) return place;
         const double facingPx = screen.scalePx * glm::length(glm::normalize(after) - glm::normalize(before));
-        if (place.jumpPx > jump.largestPx || jump.places == 0) {
-            jump.largestPx = place.jumpPx;
+        if (jumpPx > jump.largestPx || jump.places == 0) {
+            jump.largestPx = jumpPx;
             jump.worstPlaceM = afterM;
             jump.worstChunk = chunk;
         }
         jump.largestFacingPx = std::max(jump.largestFacingPx, facingPx);
-        totalPx += place.jumpPx;
+        totalPx += jumpPx;
         ++jump.places;
         return place;
     }
@@ -125,7 +143,7 @@ struct Sum {
         };
         if (!all(&ComparedPlace::inFront) || all(&ComparedPlace::underSea)) return;
         std::array<JumpCorner, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) corners[i] = {places[i]->px, places[i]->jumpPx};
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = {places[i]->px, places[i]->movedPx};
         const glm::dvec2 half(0.5 * screen.view.widthPx, 0.5 * screen.view.heightPx);
         const bool inside = std::all_of(corners.begin(), corners.end(), [&](const JumpCorner& corner) {
             return std::abs(corner.px.x) <= half.x && std::abs(corner.px.y) <= half.y;
@@ -143,7 +161,7 @@ struct Sum {
         const glm::dvec2 ac = c.px - a.px;
         const double area = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);
         areaPx += area;
-        areaJumpPx += area * (a.jumpPx + b.jumpPx + c.jumpPx) / 3;
+        areaJumpPx += area * meanLength(a.movedPx, b.movedPx, c.movedPx);
     }
 
     SurfaceJump done() {

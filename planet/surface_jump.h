@@ -8,8 +8,8 @@
 // linear function of where points are, but across one triangle it hardly differs from one.
 //
 // The mean is over the screen area of the finer chunks as drawn after: their triangles are cut at the
-// picture's border, and the jump is linear between their corners. Of stitched edges it counts the grid points
-// alone.
+// picture's border, and where a point moves to is linear between their corners. Of stitched edges it counts
+// the grid points alone.
 //
 // A drawn sea is part of the surface: what lies below it is drawn at its level. Places that it covers before
 // and after do not count, neither for the largest jump nor for the mean.
