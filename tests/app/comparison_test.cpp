@@ -104,7 +104,7 @@ TEST_F(ComparisonTest, whatIsWrongIsToldByName) {
     plan.sides[1].chunkFile = bakeHills("moon.chk", 50'000);
     const auto moon = compareOverFlight(plan, [](double) { return true; });
     ASSERT_FALSE(moon);
-    EXPECT_THAT(moon.error().message, HasSubstr("B's 50000 m"));
+    EXPECT_THAT(moon.error().message, HasSubstr("that of B 50000 m"));
     EXPECT_FALSE(compareInPictures(plan, [](double) { return true; }));
 }
 
