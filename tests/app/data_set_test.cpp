@@ -23,7 +23,7 @@ TEST(DataSet, WhatIsNotThereIsAnError) {
     const planet::Result<DataSet> set = findDataSet("/nonexistent/earth.tif", {});
     ASSERT_FALSE(set);
     EXPECT_THAT(set.error().message,
-                testing::HasSubstr("/nonexistent/earth.tif: no such file; a chunk file"));
+                testing::HasSubstr("/nonexistent/earth.tif: no such file; expected a chunk file"));
 }
 
 TEST(DataSet, AChunkFileIsOpenedWhereItLies) {

@@ -109,7 +109,7 @@ TEST_F(LayerFile, HostileFilesAreToldByLineAndWhatWouldBeRight) {
     EXPECT_THAT(problemOf("[[layer]\n"), HasSubstr("not TOML"));
     std::string nine;
     for (int i = 0; i < 9; ++i) nine += "[[layer]]\n";
-    EXPECT_THAT(problemOf(nine), HasSubstr("9 layers; at most 8"));
+    EXPECT_THAT(problemOf(nine), HasSubstr("layer has 9 layers; expected at most 8"));
     const auto missing = loadLayerSet(folder_.path() / "nowhere.toml");
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("nowhere.toml"));

@@ -78,7 +78,7 @@ TEST(Screenshot, PicturesWithoutANoteAreRefusedWithWhatWouldBeRight) {
     const TemporaryFolder folder;
     ASSERT_TRUE(writePicture(smallPicture(), folder / "plain.png"));
     EXPECT_THAT(readScreenshotNote(folder / "plain.png").error().message,
-                HasSubstr("plain.png: holds no settings; a screenshot taken by Worldy"));
+                HasSubstr("plain.png: holds no settings; expected a screenshot taken by Worldy"));
     EXPECT_THAT(loadSettingsOfAnyKind(folder / "plain.png").error().message, HasSubstr("holds no settings"));
     std::ofstream(folder / "junk.png") << "no picture";
     EXPECT_THAT(readScreenshotNote(folder / "junk.png").error().message,

@@ -100,7 +100,7 @@ TEST(Settings, EveryFieldOfTheViewAndTheWorkspaceStandsInTheTable) {
     Settings counted;
     for (const Field& field : fieldsOf(counted))
         EXPECT_TRUE(names.insert(field.name()).second) << field.name();
-    EXPECT_EQ(names.size(), 2u + 9 + 5 + 8 + 5 + 12 + 14 + 13 + 8 + 5 + 5 + 11 + 7 + 7 + 2 * ui::panelCount +
+    EXPECT_EQ(names.size(), 2u + 9 + 5 + 8 + 5 + 12 + 14 + 14 + 8 + 5 + 5 + 11 + 7 + 7 + 2 * ui::panelCount +
                                 ui::dockCount + 3 + 4);
     for (std::size_t i = 0; i < names.size(); ++i) {
         Settings one;
@@ -163,7 +163,7 @@ TEST(Settings, NamesOfFormerVersionsAreUnderstood) {
     EXPECT_EQ(*loaded, wanted);
     EXPECT_EQ(settingsFromText("[view]\nskirts = true\n")->view.seams.mode, planet::SeamMode::Skirts);
     EXPECT_THAT(settingsErrorOf("[view]\nskirts = 1\n"),
-                HasSubstr("line 2: view.skirts is 1; true or false"));
+                HasSubstr("line 2: view.skirts is 1; expected true or false"));
     EXPECT_THAT(settingsErrorOf("[view]\ncolour_by = \"mood\"\n"), HasSubstr("view.colour_by is 'mood'"));
 }
 
@@ -184,18 +184,18 @@ TEST(Settings, ErrorsNameFileLineKeyAndWhatWouldBeRight) {
 }
 
 TEST(Settings, EveryKindOfWrongValueIsRefused) {
-    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = \"two\"\n"), HasSubstr("lod.tau_px is 'two'; a number"));
-    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = nan\n"), HasSubstr("lod.tau_px is nan; a number"));
-    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = [2]\n"), HasSubstr("; a number"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = \"two\"\n"), HasSubstr("lod.tau_px is 'two'; expected a number"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = nan\n"), HasSubstr("lod.tau_px is nan; expected a number"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = [2]\n"), HasSubstr("; expected a number"));
     EXPECT_THAT(settingsErrorOf("[paging]\nbudget_mb = 2.5\n"),
-                HasSubstr("paging.budget_mb is 2.5; a whole number"));
+                HasSubstr("paging.budget_mb is 2.5; expected a whole number"));
     EXPECT_THAT(settingsErrorOf("[paging]\nbudget_mb = 1\n"), HasSubstr("from 16 to 65536"));
     EXPECT_THAT(settingsErrorOf("[paging]\nloader_threads = 9999999999999\n"),
                 HasSubstr("paging.loader_threads"));
     EXPECT_THAT(settingsErrorOf("[bad_disk]\nseed = -1\n"),
-                HasSubstr("bad_disk.seed is -1; a whole number from 0"));
-    EXPECT_THAT(settingsErrorOf("[lod]\nmorph = 1\n"), HasSubstr("lod.morph is 1; true or false"));
-    EXPECT_THAT(settingsErrorOf("[data]\nset = 7\n"), HasSubstr("data.set is 7; a text in quotes"));
+                HasSubstr("bad_disk.seed is -1; expected a whole number from 0"));
+    EXPECT_THAT(settingsErrorOf("[lod]\nmorph = 1\n"), HasSubstr("lod.morph is 1; expected true or false"));
+    EXPECT_THAT(settingsErrorOf("[data]\nset = 7\n"), HasSubstr("data.set is 7; expected a text in quotes"));
     EXPECT_THAT(settingsErrorOf("[overlay]\ncolour_by = \"mood\"\n"),
                 HasSubstr("\"none\", \"level\", \"error\""));
     EXPECT_THAT(settingsErrorOf("[surface]\ncolour = 3\n"), HasSubstr("\"image\", \"ramp\""));
@@ -214,7 +214,7 @@ TEST(Settings, AWrongRampIsRefusedWithTheStopThatIsWrong) {
     EXPECT_THAT(ramp("[{ height_m = 1, colour = \"#102030\", more = 1 }]"),
                 HasSubstr("stop 1 is not a stop"));
     EXPECT_THAT(ramp("[" + good + "," + good + "]"),
-                HasSubstr("stop 2: height_m is 0; more than the 0 of the stop before"));
+                HasSubstr("stop 2: height_m is 0; expected more than the 0 of the stop before"));
     EXPECT_THAT(ramp("[{ height_m = nan, colour = \"#102030\" }]"), HasSubstr("stop 1: height_m is nan"));
     for (const char* colour : {"", "102030", "#10203", "#1020300", "#10203g", "#-10203", "#+10203", "red"}) {
         EXPECT_THAT(ramp(std::string("[{ height_m = 1, colour = \"") + colour + "\" }]"),
@@ -293,7 +293,7 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
     const std::vector<ui::SettingDifference> all = differences(here, there);
-    EXPECT_EQ(all.size(), 104u);
+    EXPECT_EQ(all.size(), 105u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;

@@ -196,7 +196,7 @@ TEST(ShotOptions, WrongAssignmentsAreErrors) {
         return options ? std::string("no error") : options.error().message;
     };
     EXPECT_THAT(errorOf("lod.tau_px=0"),
-                HasSubstr("--set lod.tau_px=0: lod.tau_px is 0; a number of pixels"));
+                HasSubstr("--set lod.tau_px=0: lod.tau_px is 0; expected a number of pixels"));
     EXPECT_THAT(errorOf("lod.tau=3"), HasSubstr("the nearest one is lod.tau_px"));
     EXPECT_THAT(errorOf(""), Not(HasSubstr("no error")));
 }

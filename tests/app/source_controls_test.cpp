@@ -31,7 +31,7 @@ TEST(SourceControls, TakeASourceApartAndPutItTogetherAgain) {
     EXPECT_EQ(sourceOf(edit), "noise:fbm,octaves=99");
     EXPECT_THAT(edit.problem, HasSubstr("octaves is 99"));
     setSource("/nonexistent.tif", edit);
-    EXPECT_THAT(edit.problem, HasSubstr("no such image"));
+    EXPECT_THAT(edit.problem, HasSubstr("No such image"));
     setSource("noise:fbm", edit);
     EXPECT_EQ(edit.problem, "");
 }

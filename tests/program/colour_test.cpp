@@ -130,7 +130,7 @@ TEST_F(ColourProgram, TheWindowDrawsACheckerWhereABlockIsDamagedAndGoesOn) {
                         "20\naltitude_m = 20000\npitch_deg = -88\n");
     const Ran ran = runInWindow(folder_, "planet.chk", R"sh(
 expect says 'planet.chk: the block of colour tile x_pos/0/0/0 is damaged'
-expect counts failed -eq 1; expect counts colour_tiles -gt 6
+expect counts failed_colours -eq 1; expect counts colour_tiles -gt 6
 broken=$(viewport)
 click "paging/Retry failed"; expect times_said 'colour tile x_pos/0/0/0 is damaged' 2
 settle; same "$broken" || echo "tried again it looks different"

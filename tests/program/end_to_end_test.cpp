@@ -284,7 +284,7 @@ TEST(Program, ASweepFliesAtEveryTauAndFindsOneForABudget) {
         EXPECT_GT(points[i]["worst_measured_px"], points[i - 1]["worst_measured_px"]);
     }
     EXPECT_TRUE(readPicture(folder.path() / "out.png"));
-    EXPECT_THAT(contentOf(folder.path() / "out.csv"), HasSubstr("\nadditive,17,16,"));
+    EXPECT_THAT(contentOf(folder.path() / "out.csv"), HasSubstr("\n1,additive,17,16,"));
 
     const double budget = points[1]["mean_triangles"];
     const Ran found = runWorldy(folder, common + fmt::format("--suggest triangles={}", budget));
