@@ -34,6 +34,9 @@ bool endsFrame(const std::vector<InputEvent>& frame, const InputEvent& next) {
         const bool begins = next.kind == InputKind::KeyDown || next.kind == InputKind::Text ||
                             next.kind == InputKind::ButtonDown;
         if (actsAlone(before) && begins) return true;
+        // A key or a button acts with the modifiers that are held at the end of its frame.
+        const bool acts = isButton(before) || (before.kind == InputKind::KeyDown && !isModifier(before.code));
+        if (acts && next.kind == InputKind::KeyUp && isModifier(next.code)) return true;
         // Ctrl may be pressed with a click, but what was written belongs before it.
         return isButton(before) ? next.kind == InputKind::KeyDown || next.kind == InputKind::Text
                                 : before.kind == InputKind::Text && isButton(next);

@@ -27,7 +27,8 @@ public:
 
     // Returns the events of the next frame, oldest first; the others wait. A key or a button changes once a
     // frame. A frame ends after a key that acts rather than writes (Enter, an arrow, one held with Ctrl), so
-    // that what is typed after it comes after what it does, and likewise between keys and mouse buttons.
+    // that what is typed after it comes after what it does, and likewise between keys and mouse buttons. A
+    // modifier that is released after a key was pressed is released in the next frame.
     std::vector<InputEvent> takeFrame();
 
 private:

@@ -47,6 +47,17 @@ TEST(InputQueue, keysPressedTogetherComeInOneFrame) {
     EXPECT_EQ(framesOf({down(GLFW_KEY_W), down(GLFW_KEY_A), down(GLFW_KEY_LEFT_SHIFT)}).size(), 1u);
 }
 
+TEST(InputQueue, aModifierIsHeldForTheFrameOfTheKeyOrButtonThatItWasPressedFor) {
+    const std::vector<InputEvent> ctrlA = {down(GLFW_KEY_LEFT_CONTROL), down('A', GLFW_MOD_CONTROL),
+                                           up(GLFW_KEY_LEFT_CONTROL), up('A')};
+    EXPECT_EQ(framesOf(ctrlA), (std::vector<Kinds>{{InputKind::KeyDown, InputKind::KeyDown},
+                                                   {InputKind::KeyUp, InputKind::KeyUp}}));
+    const std::vector<InputEvent> ctrlClick = {
+        down(GLFW_KEY_LEFT_CONTROL), {InputKind::ButtonDown, 0}, up(GLFW_KEY_LEFT_CONTROL)};
+    EXPECT_EQ(framesOf(ctrlClick),
+              (std::vector<Kinds>{{InputKind::KeyDown, InputKind::ButtonDown}, {InputKind::KeyUp}}));
+}
+
 TEST(InputQueue, aDoubleClickWithinAFrameKeepsBothClicks) {
     const InputEvent press{InputKind::ButtonDown, 0, 0, 0, {10, 20}};
     const InputEvent release{InputKind::ButtonUp, 0, 0, 0, {11, 20}};
