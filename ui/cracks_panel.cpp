@@ -64,8 +64,9 @@ bool foundRow(const char* name, const std::string& value, const char* explanatio
     tooltip(explanation);
     ImGui::TableNextColumn();
     const ImGuiStyle& style = ImGui::GetStyle();
-    const float wide =
-        ImGui::CalcTextSize((value + "Apply").c_str()).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    // Each text by itself, as each is rounded up: a row wider than this would widen the column every frame.
+    const float wide = ImGui::CalcTextSize(value.c_str()).x + style.ItemSpacing.x +
+                       ImGui::CalcTextSize("Apply").x + 2 * style.FramePadding.x;
     const float slack = ImGui::GetContentRegionAvail().x - wide;
     if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
     ImGui::TextUnformatted(value.c_str());
