@@ -541,7 +541,8 @@ TEST(TerrainText, DetailOfAFileNamesItSoThatItIsFoundAgain) {
 TEST(TerrainText, ErrorsTellWhatWouldBeRight) {
     EXPECT_THAT(errorOf("noise:rigded"), HasSubstr("nearest one is noise:ridged"));
     EXPECT_THAT(errorOf("noise:fbm,amplitud_m=3"), HasSubstr("nearest one is amplitude_m"));
-    EXPECT_THAT(errorOf("noise:fbm,octaves=99"), HasSubstr("octaves is 99; expected a whole number from 1 to 24"));
+    EXPECT_THAT(errorOf("noise:fbm,octaves=99"),
+                HasSubstr("octaves is 99; expected a whole number from 1 to 24"));
     EXPECT_THAT(errorOf("noise:fbm,octaves=2.5"), HasSubstr("whole number"));
     EXPECT_THAT(errorOf("noise:fbm,gain=nan"), HasSubstr("gain is nan"));
     EXPECT_THAT(errorOf("noise:fbm,gain=0.5x"), HasSubstr("gain is 0.5x; expected a number from 0 to 0.95"));

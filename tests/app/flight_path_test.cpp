@@ -119,7 +119,8 @@ TEST(FlightPath, ErrorsNameFileKeyAndWhatWouldBeRight) {
     const std::string good = keyText(0, 1, 2);
     EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)),
                 HasSubstr("path.toml: line 10: key 2: latitude_deg is 91"));
-    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)), HasSubstr("expected a number of degrees from -90 to 90"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)),
+                HasSubstr("expected a number of degrees from -90 to 90"));
     EXPECT_THAT(pathErrorOf(good + keyText(0, 0, 0)),
                 HasSubstr("key 2: time_s is 0; expected a time after key 1's 0"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));

@@ -184,7 +184,8 @@ TEST(Settings, ErrorsNameFileLineKeyAndWhatWouldBeRight) {
 }
 
 TEST(Settings, EveryKindOfWrongValueIsRefused) {
-    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = \"two\"\n"), HasSubstr("lod.tau_px is 'two'; expected a number"));
+    EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = \"two\"\n"),
+                HasSubstr("lod.tau_px is 'two'; expected a number"));
     EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = nan\n"), HasSubstr("lod.tau_px is nan; expected a number"));
     EXPECT_THAT(settingsErrorOf("[lod]\ntau_px = [2]\n"), HasSubstr("; expected a number"));
     EXPECT_THAT(settingsErrorOf("[paging]\nbudget_mb = 2.5\n"),
