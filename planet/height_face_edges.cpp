@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <span>
 #include <vector>
 
 #include "planet/face_fold.h"

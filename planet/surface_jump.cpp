@@ -90,8 +90,9 @@ double meanLength(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     double total = 0;
     for (int row = 0; row < along; ++row) {
         for (int i = 0; i < 2 * (along - row) - 1; ++i) {
+            const int column = i / 2;
             const double third = i % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
-            const double s = (i / 2 + third) / along;
+            const double s = (column + third) / along;
             const double t = (row + third) / along;
             total += glm::length(a + s * (b - a) + t * (c - a));
         }

@@ -12,7 +12,6 @@
 #include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
-#include "ui/widgets.h"
 
 namespace ui {
 
