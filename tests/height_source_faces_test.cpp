@@ -306,17 +306,19 @@ TEST(HeightSourceFaces, FacesThatDisagreeAlongAnEdgeAreRefused) {
 TEST(HeightSourceFaces, ASampleThatDisagreesIsFoundOnEveryEdge) {
     const TemporaryFolder folder;
     for (const Face planted : allFaces) {
-        for (const auto& [column, row, side] : {std::tuple{0, 3, "left column"},
-                                                {8, 3, "right column"},
-                                                {3, 0, "top row"},
-                                                {3, 8, "bottom row"}}) {
-            writeRawFaces(folder, "planted9", 9, [&](Face face, int atColumn, int atRow) {
-                return rough(9)(face, atColumn, atRow) +
-                       (face == planted && atColumn == column && atRow == row ? 500 : 0);
+        struct Place {
+            int column, row;
+            const char* side;
+        };
+        for (const Place& place : {Place{0, 3, "left column"}, Place{8, 3, "right column"},
+                                   Place{3, 0, "top row"}, Place{3, 8, "bottom row"}}) {
+            writeRawFaces(folder, "planted9", 9, [&](Face face, int column, int row) {
+                const bool isPlanted = face == planted && column == place.column && row == place.row;
+                return rough(9)(face, column, row) + (isPlanted ? 500 : 0);
             });
             EXPECT_THAT(errorOf(folder / "planted9"),
                         AllOf(HasSubstr("differ by up to 500 m"), HasSubstr("1 of 9 samples"),
-                              HasSubstr(std::string(side) + " of " + std::string(faceName(planted)))));
+                              HasSubstr(std::string(place.side) + " of " + std::string(faceName(planted)))));
         }
     }
 }
