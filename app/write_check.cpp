@@ -146,11 +146,12 @@ Result<void> checkApart(const fs::path& output, const FileIdentity& identity, co
         if (fileIdentityOf(file) != identity) continue;
         if (file == output) {
             return planet::badInput(fmt::format(
-                "{}: is read here and cannot be written too; expected another output file", output.string()));
+                "{}: is an input of this command and cannot be its output; expected another output file",
+                output.string()));
         }
-        return planet::badInput(
-            fmt::format("{}: is the same file as {}, which is read here; expected another output file",
-                        output.string(), file.string()));
+        return planet::badInput(fmt::format(
+            "{}: is the same file as {}, which is an input of this command; expected another output file",
+            output.string(), file.string()));
     }
     return {};
 }
@@ -205,7 +206,7 @@ Result<void> checkKinds(const std::vector<OutputFile>& outputs) {
         std::error_code status;
         if (output.path.empty() || !fs::is_regular_file(output.path, status)) continue;
         if (fs::file_size(output.path, status) == 0 || isOfKind(output.path, output.kind)) continue;
-        return planet::badInput(fmt::format("{}: is there and is not {}; expected another name",
+        return planet::badInput(fmt::format("{}: exists and is not {}; expected another name",
                                             output.path.string(), nameOf(output.kind)));
     }
     return {};

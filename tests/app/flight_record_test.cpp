@@ -672,7 +672,7 @@ TEST_F(FlightRecordTest, theFileThatARecordingNamesIsNotReplacedByTheReport) {
     options.report.file = copy;
     const planet::Result<bool> replayed = replayFlight(options);
     ASSERT_FALSE(replayed);
-    EXPECT_THAT(replayed.error().message, testing::HasSubstr("flown.chk: is read here"));
+    EXPECT_THAT(replayed.error().message, testing::HasSubstr("flown.chk: is an input of this command"));
     EXPECT_TRUE(planet::ChunkFile::open(copy));
 }
 

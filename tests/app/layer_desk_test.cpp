@@ -65,7 +65,7 @@ TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     fs::create_directories(desk.folders.own);
     std::ofstream(desk.folders.own / "flight.toml") << "[[key]]\ntime_s = 0\n";
     EXPECT_FALSE(saveAs(desk, "flight", layers));
-    EXPECT_THAT(desk.setProblem, HasSubstr("flight.toml: is there and is not a layer set"));
+    EXPECT_THAT(desk.setProblem, HasSubstr("flight.toml: exists and is not a layer set"));
     EXPECT_EQ(tests::contentOf(desk.folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
     ASSERT_TRUE(saveAs(desk, "fine", layers));
     EXPECT_EQ(desk.setProblem, "");

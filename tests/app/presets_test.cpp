@@ -125,7 +125,7 @@ TEST_F(Presets, fileThatIsNoPresetIsNotWrittenOver) {
     writeOwn("flight.toml", "[[key]]\ntime_s = 0\n");
     PresetShelf shelf(folders);
     EXPECT_THAT(shelf.save("flight", someView()).error().message,
-                HasSubstr("flight.toml: is there and is not a preset; expected another name"));
+                HasSubstr("flight.toml: exists and is not a preset; expected another name"));
     EXPECT_EQ(tests::contentOf(folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
 }
 

@@ -42,7 +42,7 @@ TEST(WriteCheck, outputThatIsAnInputIsRefusedUnderAnyOfItsNames) {
             ASSERT_FALSE(checked) << output;
             EXPECT_EQ(checked.error().kind, planet::ErrorKind::BadInput);
             EXPECT_THAT(checked.error().message, HasSubstr(output.string() + ": is "));
-            EXPECT_THAT(checked.error().message, HasSubstr("is read here"));
+            EXPECT_THAT(checked.error().message, HasSubstr("is an input of this command"));
         }
     }
 }
@@ -112,7 +112,7 @@ TEST(WriteCheck, fileOfAnotherKindIsReplacedOnlyWhenAskedFor) {
             EXPECT_TRUE(refused(kind)) << other << " as " << static_cast<int>(kind);
     }
     EXPECT_THAT(refusal(checkOutputs({{}, {{file, OutputKind::Json}}}, false)),
-                HasSubstr("file.png: is there and is not a JSON report; expected another name, or "
+                HasSubstr("file.png: exists and is not a JSON report; expected another name, or "
                           "--overwrite to replace it"));
 }
 

@@ -102,15 +102,15 @@ TEST_F(Overwrite, OutputsThatAreInputsAreRefused) {
                                 "compare s.chk --flight d.toml -o d.toml",
                                 "compare s.chk --with hard.chk --flight d.toml -o hard.chk",
                                 "compare s.chk --flight d.toml --settings-b own.toml -o own.toml"}) {
-        expectRefused(command, "is read here");
-        expectRefused(std::string(command) + " --overwrite", "is read here");
+        expectRefused(command, "is an input of this command");
+        expectRefused(std::string(command) + " --overwrite", "is an input of this command");
     }
 }
 
 TEST_F(Overwrite, ColourImageBesideTheFileIsAnInput) {
     fs::rename(path("c.jpg"), path("colour.jpg"));
-    expectRefused("shot s.chk -o colour.jpg", "colour.jpg: is read here");
-    expectRefused("bake x.tif -o colour.jpg --overwrite", "colour.jpg: is read here");
+    expectRefused("shot s.chk -o colour.jpg", "colour.jpg: is an input of this command");
+    expectRefused("bake x.tif -o colour.jpg --overwrite", "colour.jpg: is an input of this command");
 }
 
 TEST_F(Overwrite, FilesOfAnotherKindAreReplacedOnlyWithOverwrite) {
@@ -143,24 +143,24 @@ TEST_F(Overwrite, OutputsOfTheSameKindAreReplacedAsBefore) {
 TEST_F(Overwrite, FoldersOfOutputsKeepFilesOfOtherKinds) {
     fs::create_directory(path("made"));
     copy("d.toml", "made/earth.toml");
-    expectRefused("make-layers -o made --texels 16", "earth.toml: is there and is not a layer set");
+    expectRefused("make-layers -o made --texels 16", "earth.toml: exists and is not a layer set");
     fs::create_directory(path("pictures"));
     copy("s.chk", "pictures/difference.png");
-    expectRefused("compare s.chk --flight d.toml --pictures pictures", "difference.png: is there and is not");
+    expectRefused("compare s.chk --flight d.toml --pictures pictures", "difference.png: exists and is not");
     fs::create_directory(path("levels"));
     copy("s.chk", "levels/x_pos_level00.png");
-    expectRefused("bake x.tif -o o.chk --debug-levels levels", "x_pos_level00.png: is there and is not");
+    expectRefused("bake x.tif -o o.chk --debug-levels levels", "x_pos_level00.png: exists and is not");
 }
 
 TEST_F(Overwrite, ReplayKeepsTheFileThatWasFlownOver) {
     const Ran ran = run("replay d.toml -o d.toml");
     EXPECT_EQ(ran.exitCode, 2);
-    EXPECT_THAT(ran.errors, HasSubstr("d.toml: is read here"));
+    EXPECT_THAT(ran.errors, HasSubstr("d.toml: is an input of this command"));
 }
 
 TEST_F(Overwrite, WindowKeepsItsInputsToo) {
-    expectRefused("s.chk --item-map s.chk", "s.chk: is read here");
-    expectRefused("s.chk --item-map n.tif", "n.tif: is there and is not an item map");
+    expectRefused("s.chk --item-map s.chk", "s.chk: is an input of this command");
+    expectRefused("s.chk --item-map n.tif", "n.tif: exists and is not an item map");
 }
 
 TEST_F(Overwrite, ScreenshotThatBringsSettingsToTheWindowStaysAPicture) {
