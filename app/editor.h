@@ -31,7 +31,7 @@
 
 namespace worldy {
 
-// What inspecting a place has changed, to be given back.
+// The camera and the freezing of LOD as they were before a place was inspected.
 struct BeforeInspection {
     Camera camera;
     planet::View lodView;

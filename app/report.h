@@ -17,7 +17,7 @@ inline constexpr int schemaVersion = 1;
 // A file's name may be any bytes, and JSON is UTF-8: bytes that are not are replaced by U+FFFD.
 std::string jsonText(const nlohmann::ordered_json& report);
 
-// Where a command's report goes.
+// The destination of a command's report.
 struct ReportTo {
     bool json = false;             // printed as JSON, in place of the tables
     std::filesystem::path file{};  // written there as JSON too; empty: nowhere

@@ -24,7 +24,7 @@ std::string sweepCsv(std::span<const SweepPoint> points);
 std::string sweepJson(std::span<const SweepPoint> points, const std::string& file, const std::string& flight,
                       SweepCost cost);
 
-// What was suggested, a tau for each metric.
+// The suggested tau of each metric.
 std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, const std::string& file,
                             const std::string& flight);
 

@@ -83,7 +83,7 @@ void printHead() {
                "triangles", "chunks", "MiB", "frame ms", "bound", "measured", "p99", "violations");
 }
 
-// Where an eye stands in a chunk's bounds there is no useful bound.
+// There is no useful bound if the eye lies within a chunk's bounds.
 std::string boundText(double px) {
     return px < 1e5 ? fmt::format("{:.3f}", px) : fmt::format("{:.2e}", px);
 }

@@ -1,4 +1,4 @@
-// What the command line says of a view, and the settings that it turns into.
+// The options that describe a view, and the settings made from them.
 #pragma once
 
 #include <filesystem>

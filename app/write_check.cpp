@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// What tells two names of one file from two files.
+// Identifies a file by device and inode, so that two names of one file are equal.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;

@@ -28,7 +28,7 @@ void addLayerFiles(CommandFiles& files, const ui::ViewSettings& view) {
     }
 }
 
-// What a chunk file says that it was baked from, which a sweep bakes in other sizes.
+// The source that a chunk file names: a sweep bakes it again in other chunk sizes.
 fs::path sourceIn(const fs::path& chunkFile) {
     if (chunkFile.extension() != ".chk") return {};
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);

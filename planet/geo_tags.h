@@ -11,7 +11,7 @@
 
 namespace planet {
 
-// What a model coordinate is, x to the east and y to the north.
+// The kind of the model coordinates; x points east and y points north.
 enum class GeoModel : std::uint8_t {
     Degrees,  // longitude and latitude; also where the file does not say
     Metres,   // along the equator and the meridians of an equirectangular projection

@@ -44,7 +44,7 @@ enum class PopCause : std::uint8_t {
 inline constexpr std::size_t popCauseCount = 6;
 const char* popCauseName(PopCause cause);  // "camera moved"
 
-// What else the meter is told of a frame.
+// Further facts about a frame that the meter needs.
 struct PopConditions {
     bool cameraJumped = false;     // since the frame before, or is on its way to a flight
     std::optional<double> seaM{};  // level of a sea that is drawn as water, metres above the radius

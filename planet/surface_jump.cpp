@@ -177,7 +177,7 @@ struct Sum {
     }
 };
 
-// Where a vertex is drawn: at the sea's level where it lies below.
+// The drawn position of a vertex: a vertex below the sea's level is drawn at that level.
 glm::dvec3 aboveSea(const Screen& screen, const glm::dvec3& positionM) {
     const double radiusM = glm::length(positionM);
     if (!screen.seaRadiusM || radiusM >= *screen.seaRadiusM) return positionM;

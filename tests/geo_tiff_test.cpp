@@ -24,7 +24,7 @@ using ::testing::Not;
 
 constexpr double radPerDegree = 3.14159265358979323846 / 180;
 
-// What is written into the file; what is empty is left out.
+// The tags that are written into the file. Empty ones are left out.
 struct GeoTiff {
     int width = 0;
     int height = 0;

@@ -153,7 +153,7 @@ bool isMeasured(const CompareRow& row) {
 void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures, bool live, bool stale) {
     if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-    // As wide as their numbers.
+    // The columns are as wide as their numbers.
     for (const char* title : {"A", "B", "B / A"})
         ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableNextRow();

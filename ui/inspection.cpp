@@ -13,7 +13,7 @@ namespace ui {
 
 InspectPlace inspectionOf(const planet::View& lodView, const planet::View& measured, const glm::dvec3& placeM,
                           double radiusM) {
-    // What lies beyond the measured view's horizon is seen from above its own.
+    // A place beyond the measured view's horizon is seen from above that place.
     constexpr double leastSine = 0.15;
     const glm::dvec3 up = glm::normalize(placeM);
     const glm::dvec3 toEye = measured.eyeM - placeM;

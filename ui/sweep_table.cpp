@@ -32,7 +32,7 @@ std::string fine(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-// Where an eye stands in a chunk's bounds there is no useful bound.
+// There is no useful bound if the eye lies within a chunk's bounds.
 std::string bound(double px) {
     return px < 1e5 ? fine(px) : "none";
 }

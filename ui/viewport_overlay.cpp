@@ -206,7 +206,7 @@ void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const
 
 Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
     if (!planet) return {};
-    // Of all views: an observer with a level of detail of its own may draw finer chunks.
+    // The levels of all views: an observer with its own LOD may draw finer chunks.
     std::uint32_t deepest = 0;
     for (std::size_t view = 0; view < planet->viewCount(); ++view)
         deepest = std::max(deepest, planet->selection(view).counters.deepestLevel);

@@ -1,4 +1,4 @@
-// What the Cracks panel has found is set by its buttons.
+// The buttons of the Cracks panel apply the values that it has found.
 #include <gtest/gtest.h>
 
 #include <limits>
