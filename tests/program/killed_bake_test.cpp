@@ -21,6 +21,7 @@
 #include "planet/chunk_file.h"
 #include "tests/program/run_program.h"
 #include "tests/program/small_planet.h"
+#include "tests/sanitized.h"
 
 namespace worldy {
 namespace {
@@ -43,6 +44,15 @@ std::vector<std::string> namesIn(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder))
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
+    return names;
+}
+
+// Leaves out what the thread sanitizer's runtime makes in the folder of temporary files before main() begins
+// and removes at once: a kill in between leaves it there.
+std::vector<std::string> temporaryNamesIn(const fs::path& folder) {
+    std::vector<std::string> names = namesIn(folder);
+    if (tests::sanitized)
+        std::erase_if(names, [](const std::string& name) { return name.starts_with("tsan.rodata."); });
     return names;
 }
 
@@ -132,7 +142,7 @@ protected:
             EXPECT_THAT(names, ElementsAre(".a.chk.part", "a.chk"));
         else
             EXPECT_THAT(names, ElementsAre("a.chk"));
-        EXPECT_THAT(namesIn(folder_ / "tmp"), IsEmpty());
+        EXPECT_THAT(temporaryNamesIn(folder_ / "tmp"), IsEmpty());
         if (hasPart && part != new_) {
             EXPECT_FALSE(planet::ChunkFile::open(part_));
         }
@@ -144,7 +154,7 @@ protected:
         while (!bake.hasEnded()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         EXPECT_EQ(contentOf(file_), new_);
         EXPECT_THAT(namesIn(folder_ / "out"), ElementsAre("a.chk"));
-        EXPECT_THAT(namesIn(folder_ / "tmp"), IsEmpty());
+        EXPECT_THAT(temporaryNamesIn(folder_ / "tmp"), IsEmpty());
         putOldBack();
     }
 
