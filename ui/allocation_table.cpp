@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "ui/tables.h"
 #include "ui/text.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace ui {
@@ -99,54 +102,60 @@ std::string agoText(double seconds) {
     return seconds < 1 ? "now" : durationText(seconds) + " ago";
 }
 
-void rightCell(const std::string& text, bool dim) {
-    ImGui::TableNextColumn();
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-    if (dim)
-        ImGui::TextDisabled("%s", text.c_str());
-    else
-        ImGui::TextUnformatted(text.c_str());
-}
-
-// Titles over the first group alone.
-void drawGroup(const AllocationRow& row, bool withMark) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.group);
-    if (&row != &kindRows.front()) return;
-    rightCell("now", true);
-    if (withMark) rightCell("mark", true);
-    rightCell("change", true);
-}
-
 void drawRow(const AllocationRow& row, const AllocationsView& view, bool withMark) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", shownName(row).c_str());
+    cell(shownName(row), palette().dim);
     const std::string marked = allocationText(row, view.mark);
     tooltip(fmt::format("{} At the mark: {}.", row.explanation, marked).c_str());
-    rightCell(allocationText(row, *view.now), false);
-    if (withMark) rightCell(marked, true);
+    rightCell(allocationText(row, *view.now), palette().text);
     const std::string change = allocationChange(row, view.mark, *view.now);
-    rightCell(change, change == "=");
+    rightCell(change, change == "=" ? palette().dim : palette().text);
+    if (withMark) rightCell(marked, palette().dim);
 }
 
 void drawTable(const AllocationsView& view) {
-    const bool withMark = ImGui::GetContentRegionAvail().x > 26 * ImGui::GetFontSize();
-    const int columns = withMark ? 4 : 3;
-    if (!ImGui::BeginTable("allocations", columns)) return;
-    ImGui::TableSetupColumn("kind", ImGuiTableColumnFlags_WidthStretch, 1.6f);
-    for (int column = 1; column < columns; ++column)
-        ImGui::TableSetupColumn(nullptr, ImGuiTableColumnFlags_WidthFixed);
-    for (const AllocationRow& row : kindRows) {
-        if (row.group) drawGroup(row, withMark);
+    constexpr std::array columns = {
+        TableColumn{"Kind", 1.8f, nullptr, "Finished requests"},
+        TableColumn{"Now", 1, "Values in the last frame.", "1023 MiB"},
+        TableColumn{"Change", 1, "Now minus Mark. Sort by it to see what grows.", "+1023 MiB"},
+        TableColumn{"Mark", 1, "Values when Mark was pressed.", "1023 MiB"}};
+    const bool withMark = ImGui::GetContentRegionAvail().x > 28 * ImGui::GetFontSize();
+    const std::span<const TableColumn> shown = std::span(columns).first(withMark ? 4 : 3);
+    const auto groups = static_cast<std::size_t>(std::count_if(
+        kindRows.begin(), kindRows.end(), [](const AllocationRow& row) { return row.group != nullptr; }));
+    if (!beginListTable("allocations", shown, kindRows.size() + groups, kindRows.size() + groups + 1)) return;
+    const std::optional<TableSort> sort = chosenSort();
+    const auto key = [&](std::size_t row, std::size_t column) {
+        return allocationSortKey(row, static_cast<AllocationColumn>(column), view);
+    };
+    // Groups have headings only while their rows are together.
+    for (const std::size_t i : tableOrder(kindRows.size(), sort, key)) {
+        const AllocationRow& row = kindRows[i];
+        if (!sort && row.group) {
+            ImGui::TableNextRow();
+            cell(row.group);
+        }
+        ImGui::TableNextRow();
         drawRow(row, view, withMark);
     }
     ImGui::EndTable();
 }
 
 }  // namespace
+
+SortKey allocationSortKey(std::size_t row, AllocationColumn column, const AllocationsView& view) {
+    const AllocationRow& kind = kindRows[row];
+    switch (column) {
+        case AllocationColumn::Kind:
+            return shownName(kind);
+        case AllocationColumn::Now:
+            return kind.value(*view.now);
+        case AllocationColumn::Change:
+            return kind.value(*view.now) - kind.value(view.mark);
+        case AllocationColumn::Mark:
+            break;
+    }
+    return kind.value(view.mark);
+}
 
 std::span<const AllocationRow> allocationRows() {
     return kindRows;

@@ -1,11 +1,14 @@
 // The Frame panel's table of what the program holds: now, and against a mark, so that a leak shows.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
 #include "ui/allocations_view.h"
 #include "ui/commands.h"
+#include "ui/table_order.h"
 
 namespace ui {
 
@@ -17,6 +20,10 @@ struct AllocationRow {
     const char* group;  // a heading over the first of a group; null: goes on
 };
 std::span<const AllocationRow> allocationRows();
+
+// Sorts a row by a column of the table; view.now must be set.
+enum class AllocationColumn : std::uint8_t { Kind, Now, Change, Mark };
+SortKey allocationSortKey(std::size_t row, AllocationColumn column, const AllocationsView& view);
 
 std::string allocationText(const AllocationRow& row, const Allocations& held);
 // "+1.2 MiB", "-3", "=".

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "ui/tables.h"
@@ -122,25 +123,22 @@ void pictureControls(const CompareView& compare, CompareKnobs& knobs) {
     }
     if (knobs.mode == CompareMode::Flip)
         checkbox("Show B (F9)", knobs.showB, defaults.showB, "Off: shows A.");
-    if (!compare.difference || !beginValues("difference")) return;
-    const PictureDifferenceNow& now = *compare.difference;
-    const double share =
-        100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
-    valueRow("Pixels that differ", fmt::format("{} ({:.2g} %)", now.pixels, share),
-             "Pixels that differ by more than one 8-bit step in any channel, including lines and tints.");
-    valueRow("Largest difference", fmt::format("{} of 255", now.largestSteps),
-             "Largest difference of any pixel and channel.");
+    // The rows stay where nothing is counted, so that what lies below them does not move.
+    if (!compare.on || !beginValues("difference")) return;
+    std::string pixels = "not counted";
+    std::string largest = pixels;
+    if (compare.difference) {
+        const PictureDifferenceNow& now = *compare.difference;
+        const double share =
+            100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
+        pixels = fmt::format("{} ({:.2g} %)", now.pixels, share);
+        largest = fmt::format("{} of 255", now.largestSteps);
+    }
+    valueRow("Pixels that differ", pixels,
+             "Pixels that differ by more than one 8-bit step in any channel, including lines and tints. They "
+             "are not counted while a picture waits for its shaders or is not shown.");
+    valueRow("Largest difference", largest, "Largest difference of any pixel and channel.");
     endValues();
-}
-
-void rightAligned(const std::string& text, const ImVec4& colour, const char* explanation) {
-    ImGui::TableNextColumn();
-    const float slack = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-    tooltip(explanation);
 }
 
 bool isMeasured(const CompareRow& row) {
@@ -151,31 +149,30 @@ bool isMeasured(const CompareRow& row) {
 
 // live: the table of the view as it is, else that of a flight.
 void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures, bool live, bool stale) {
-    if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg)) return;
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-    // The columns are as wide as their numbers.
-    for (const char* title : {"A", "B", "B / A"})
-        ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    rightAligned("A", palette().accent, "The planet shown in the window.");
-    rightAligned("B", palette().warning, "The planet it is compared with.");
-    rightAligned("B / A", palette().dim, "Ratio B / A, or the difference B - A if one of them is 0.");
-    for (const CompareRow& row : compareRows()) {
-        if (!(live ? row.live : row.flight)) continue;
+    std::vector<CompareRow> rows;
+    std::copy_if(compareRows().begin(), compareRows().end(), std::back_inserter(rows),
+                 [&](const CompareRow& row) { return live ? row.live : row.flight; });
+    constexpr std::array columns = {
+        TableColumn{"Figure", 1.5f, nullptr, "Max drawn bound"},
+        TableColumn{"A", 1, "The planet shown in the window.", "1023 MiB"},
+        TableColumn{"B", 1, "The planet it is compared with.", "1023 MiB"},
+        TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-1023 MiB"}};
+    if (!beginListTable(id, columns, rows.size(), rows.size() + 1)) return;
+    const auto key = [&](std::size_t row, std::size_t column) {
+        return figureSortKey(rows[row], static_cast<FigureColumn>(column), figures);
+    };
+    tableRows(rows.size(), key, [&](std::size_t i) {
+        const CompareRow& row = rows[i];
         const auto& a = figures[0].*row.value;
         const auto& b = figures[1].*row.value;
         const ImVec4 colour = live && stale && isMeasured(row) ? palette().dim : palette().text;
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextColored(palette().dim, "%s", inFont(row.name).c_str());
-        ImGui::PopTextWrapPos();
+        cell(inFont(row.name), palette().dim);
         tooltip(row.explanation);
-        rightAligned(figureText(row, a), colour, row.explanation);
-        rightAligned(figureText(row, b), colour, row.explanation);
-        rightAligned(changeText(row, a, b), colour, row.explanation);
-    }
+        for (const std::string& text : {figureText(row, a), figureText(row, b), changeText(row, a, b)}) {
+            rightCell(text, colour);
+            tooltip(row.explanation);
+        }
+    });
     ImGui::EndTable();
 }
 

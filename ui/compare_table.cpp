@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "ui/glossary.h"
 #include "ui/text.h"
@@ -112,6 +113,26 @@ std::string changeText(const CompareRow& row, const std::optional<double>& a,
         return ratio < 0.1 ? fmt::format("x {:.2g}", ratio) : fmt::format("x {:.3g}", ratio);
     }
     return fmt::format("{}{}", *b > *a ? "+" : "-", textOf(row.unit, std::abs(*b - *a)));
+}
+
+SortKey figureSortKey(const CompareRow& row, FigureColumn column,
+                      const std::array<ComparedFigures, 2>& figures) {
+    constexpr double unknown = -1;
+    const auto& a = figures[0].*row.value;
+    const auto& b = figures[1].*row.value;
+    switch (column) {
+        case FigureColumn::Name:
+            return std::string(row.name);
+        case FigureColumn::A:
+            return a.value_or(unknown);
+        case FigureColumn::B:
+            return b.value_or(unknown);
+        case FigureColumn::Change:
+            break;
+    }
+    if (!a || !b) return unknown;
+    if (*a == *b) return 1.0;
+    return *a == 0 ? std::numeric_limits<double>::infinity() : *b / *a;
 }
 
 }  // namespace ui

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+
+#include "ui/table_order.h"
 
 namespace ui {
 
@@ -54,5 +57,11 @@ std::string figureText(const CompareRow& row, const std::optional<double>& value
 
 // What B is of A: "x 0.53", "=", or the difference "+12" where one of them is 0; "-" where one is not known.
 std::string changeText(const CompareRow& row, const std::optional<double>& a, const std::optional<double>& b);
+
+// Sorts a row of figures of A and B by a column of the table. Unknown figures come first. Rows sort by the
+// ratio B / A: 1 where both are equal, infinity where only A is 0.
+enum class FigureColumn : std::uint8_t { Name, A, B, Change };
+SortKey figureSortKey(const CompareRow& row, FigureColumn column,
+                      const std::array<ComparedFigures, 2>& figures);
 
 }  // namespace ui

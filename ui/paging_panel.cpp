@@ -139,59 +139,68 @@ void residentMemory(const EditorView& view) {
     if (hasColours) colourMemory(view);
 }
 
+double asNumber(std::uint64_t value) {
+    return static_cast<double>(value);
+}
 std::string countCell(std::uint64_t value) {
-    return countText(static_cast<double>(value));
+    return countText(asNumber(value));
 }
 std::string bytesCell(std::uint64_t value) {
-    return bytesText(static_cast<double>(value));
+    return bytesText(asNumber(value));
 }
 
-// textOf(counters) is the text of one kind's cell.
-template <class TextOf>
-void kindRow(const EditorView& view, const char* name, const TextOf& textOf, const char* explanation,
-             bool markFailures = false) {
-    ImGui::TableNextRow();
-    cell(name, palette().dim);
-    tooltip(explanation);
-    const auto kindCell = [&](const auto& counters) {
-        cell(textOf(counters), markFailures && counters.failed > 0 ? palette().bad : palette().text);
-        tooltip(explanation);
+struct KindTotals {
+    const char* kind;
+    std::uint64_t loaded, evicted, failed, bytesRead;
+    std::size_t resident;
+    std::uint32_t budgetWaits;
+};
+
+KindTotals totalsOf(const char* kind, const planet::PagingCounters& p) {
+    return {kind, p.loaded, p.evicted, p.failed, p.bytesRead, p.residentChunks, p.budgetWaits};
+}
+KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& p) {
+    return {kind, p.loaded, p.evicted, p.failed, p.bytesRead, p.residentTiles, p.budgetWaits};
+}
+
+void totalsByKind(const FrameStats& stats) {
+    const std::array kinds = {totalsOf("Heights", stats.paging), totalsOf("Colours", stats.colourPaging),
+                              totalsOf("Normals", stats.normalPaging)};
+    constexpr std::array columns = {
+        TableColumn{"Kind", 0.6f},
+        TableColumn{"Loaded", 0.6f, "Blocks read and made resident."},
+        TableColumn{
+            "Evicted", 0.6f,
+            "Loaded blocks that are no longer resident, to stay within the budget or dropped by hand."},
+        TableColumn{"Failed", 0.6f, "Failed reads, including those retried later."},
+        TableColumn{"Read", 0.7f,
+                    "Bytes read from the chunk file. Normals are derived from heights, which are read again "
+                    "for them.",
+                    "1023 MiB"},
+        TableColumn{
+            "Resident", 0.7f,
+            "Resident chunks and tiles of 256 x 256 texels; the six roots of each are always resident."},
+        TableColumn{"Over budget", 1,
+                    "Blocks requested in the last frame that do not fit into the budget or its share."}};
+    if (!beginListTable("kinds", columns, kinds.size(), 12, 1)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const KindTotals& of = kinds[row];
+        if (column == 0) return std::string(of.kind);
+        const std::array<double, 6> values = {asNumber(of.loaded),   asNumber(of.evicted),
+                                              asNumber(of.failed),   asNumber(of.bytesRead),
+                                              asNumber(of.resident), asNumber(of.budgetWaits)};
+        return values[column - 1];
     };
-    kindCell(view.stats.paging);
-    kindCell(view.stats.colourPaging);
-    kindCell(view.stats.normalPaging);
-}
-
-void totalsByKind(const EditorView& view) {
-    constexpr std::array columns = {TableColumn{"By kind", 1, nullptr, nullptr, false},
-                                    TableColumn{"Heights", 1, nullptr, nullptr, false},
-                                    TableColumn{"Colours", 1, nullptr, nullptr, false},
-                                    TableColumn{"Normals", 1, nullptr, nullptr, false}};
-    if (!beginListTable("kinds", columns, 7)) return;
-    kindRow(
-        view, "Loaded", [](const auto& paging) { return countCell(paging.loaded); },
-        "Blocks read and made resident.");
-    kindRow(
-        view, "Evicted", [](const auto& paging) { return countCell(paging.evicted); },
-        "Loaded blocks that are no longer resident, to stay within the budget or dropped by hand.");
-    kindRow(
-        view, "Failed", [](const auto& paging) { return countCell(paging.failed); },
-        "Failed reads, including those retried later.", true);
-    kindRow(
-        view, "Read", [](const auto& paging) { return bytesCell(paging.bytesRead); },
-        "Bytes read from the chunk file. Normals are derived from heights, which are read again for them.");
-    kindRow(
-        view, "Resident",
-        [](const auto& paging) {
-            if constexpr (requires { paging.residentTiles; })
-                return countCell(paging.residentTiles);
-            else
-                return countCell(paging.residentChunks);
-        },
-        "Resident chunks and tiles of 256 x 256 texels; the six roots of each are always resident.");
-    kindRow(
-        view, "Over budget", [](const auto& paging) { return countCell(paging.budgetWaits); },
-        "Blocks requested in the last frame that do not fit into the budget or its share.");
+    tableRows(kinds.size(), key, [&](std::size_t row) {
+        const KindTotals& of = kinds[row];
+        cell(of.kind, palette().dim);
+        cell(countCell(of.loaded));
+        cell(countCell(of.evicted));
+        cell(countCell(of.failed), of.failed > 0 ? palette().bad : palette().text);
+        cell(bytesCell(of.bytesRead));
+        cell(countCell(of.resident));
+        cell(countCell(of.budgetWaits), of.budgetWaits > 0 ? palette().warning : palette().text);
+    });
     ImGui::EndTable();
 }
 
@@ -204,7 +213,7 @@ void totals(const EditorView& view) {
     valueRow("Cancelled", countCell(p.cancelled),
              "Requests cancelled by the opposite request or no longer needed.");
     endValues();
-    totalsByKind(view);
+    totalsByKind(view.stats);
 }
 
 void seedKnob(std::uint32_t& seed) {

@@ -38,14 +38,15 @@ void precisionRows(const planet::VertexPrecision& p) {
              "from the planet's centre. x points to latitude 0, longitude 0.");
     valueRow("y", fmt::format("{:.4f} m", p.positionM.y), "y points to latitude 0, longitude 90° E.");
     valueRow("z", fmt::format("{:.4f} m", p.positionM.z), "z points to the north pole.");
-    valueRow("Camera-relative float error", errorText(p.shader.errorM),
-             "Error of the vertex shader's single-precision position, in millimetres: the same computation "
-             "in floats, relative to the camera and a nearby reference point.");
+    valueRow("Float error relative to the camera", errorText(p.shader.errorM),
+             "Camera-relative rendering: error of the vertex shader's single-precision position, in "
+             "millimetres. The same computation "
+             "is done in floats, relative to the camera and a nearby reference point.");
     valueRow("", errorPxText(p.shader.errorPx),
              "The error in screen space: K' |a/|a| - b/|b||, with a and b relative to the camera. Above "
              "about 0.5 px vertices jitter.",
              p.shader.errorPx > 0.5 ? &palette().bad : nullptr);
-    valueRow("Planet-origin float error", errorText(p.fromCentre.errorM),
+    valueRow("Float error relative to the centre", errorText(p.fromCentre.errorM),
              "For comparison: the error with float positions relative to the planet's centre minus a float "
              "camera position.");
     valueRow("", errorPxText(p.fromCentre.errorPx), "The error in screen space.",

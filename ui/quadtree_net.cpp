@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "ui/explanation_text.h"
 #include "ui/overlay_colours.h"
 
 namespace ui {
@@ -271,23 +272,50 @@ std::vector<std::pair<double, double>> borderPoints(int perSide) {
     return points;
 }
 
-void appendRows(const NetData& data, NodeIndex index, ChunkState above, const OpenChunks& open,
-                std::vector<TreeRow>& rows) {
+TreeRow residentRow(const NetData& data, NodeIndex index, ChunkState above, const OpenChunks& open) {
     const ChunkNode& node = data.tree.nodes[index];
     TreeRow row{.id = node.id, .node = index};
     row.state = stateBelow(above, data.visited[index]);
     row.epsPx = epsPxOf(data, node);
     row.canOpen = node.childrenState != planet::ChildrenState::None;
     row.open = row.canOpen && open.contains(node.id);
-    rows.push_back(row);
-    if (!row.open) return;
+    return row;
+}
+
+std::vector<TreeRow> childRows(const NetData& data, const TreeRow& parent, const OpenChunks& open) {
+    const ChunkNode& node = data.tree.nodes[parent.node];
     const bool resident = node.childrenState == planet::ChildrenState::Resident;
+    std::vector<TreeRow> rows;
     for (int q = 0; q < planet::quadrantCount; ++q) {
-        if (resident) {
-            appendRows(data, node.firstChild + static_cast<NodeIndex>(q), row.state, open, rows);
-        } else {
+        if (resident)
+            rows.push_back(
+                residentRow(data, node.firstChild + static_cast<NodeIndex>(q), parent.state, open));
+        else
             rows.push_back({.id = childOf(node.id, q), .state = missingChildrenState(node, data.loading)});
-        }
+    }
+    return rows;
+}
+
+SortKey sortKeyOf(const TreeRow& row, TreeColumn column) {
+    switch (column) {
+        case TreeColumn::Chunk:
+            return sortKey(row.id);
+        case TreeColumn::State:
+            return std::string(stateText(row.state));
+        case TreeColumn::Eps:
+            break;
+    }
+    return row.node == planet::noNode ? -1.0 : row.epsPx;
+}
+
+void appendRows(const NetData& data, const std::vector<TreeRow>& siblings, const OpenChunks& open,
+                const std::optional<TableSort>& sort, std::vector<TreeRow>& rows) {
+    const auto key = [&](std::size_t row, std::size_t column) {
+        return sortKeyOf(siblings[row], static_cast<TreeColumn>(column));
+    };
+    for (const std::size_t i : tableOrder(siblings.size(), sort, key)) {
+        rows.push_back(siblings[i]);
+        if (siblings[i].open) appendRows(data, childRows(data, siblings[i], open), open, sort, rows);
     }
 }
 
@@ -481,11 +509,13 @@ std::vector<glm::dvec3> footprintOf(const planet::View& view, double radiusM) {
     return outline;
 }
 
-std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open) {
+std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open,
+                              const std::optional<TableSort>& sort) {
+    std::vector<TreeRow> roots;
+    for (NodeIndex root = 0; root < planet::faceCount; ++root)
+        roots.push_back(residentRow(data, root, ChunkState::Resident, open));
     std::vector<TreeRow> rows;
-    for (NodeIndex root = 0; root < planet::faceCount; ++root) {
-        appendRows(data, root, ChunkState::Resident, open, rows);
-    }
+    appendRows(data, roots, open, sort, rows);
     return rows;
 }
 

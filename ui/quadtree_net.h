@@ -19,6 +19,7 @@
 #include "planet/chunk_explanation.h"
 #include "planet/planet.h"
 #include "ui/layout.h"
+#include "ui/table_order.h"
 
 namespace ui {
 
@@ -142,8 +143,11 @@ struct TreeRow {
     bool open = false;
 };
 using OpenChunks = std::unordered_set<planet::ChunkId>;
-// The roots, and below each chunk that is open its children.
-std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open);
+// Returns the roots, and below each chunk that is open its children. sort orders the roots, and the children
+// of each chunk, by a TreeColumn; without it they are in the order of the file.
+enum class TreeColumn : std::uint8_t { Chunk, State, Eps };
+std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open,
+                              const std::optional<TableSort>& sort = std::nullopt);
 // So that a row shows it.
 void openWayTo(const planet::ChunkId& id, OpenChunks& open);
 

@@ -11,6 +11,7 @@
 #include "ui/explanation_text.h"
 #include "ui/item_map.h"
 #include "ui/overlay_colours.h"
+#include "ui/tables.h"
 #include "ui/text.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -305,13 +306,13 @@ void treeRow(const EditorView& view, const TreeRow& row, QuadtreePanelState& sta
 }
 
 // Opens the way to a selection that was made elsewhere; the row to scroll to, or -1.
-int followSelection(const EditorView& view, const NetData& data, QuadtreePanelState& state,
-                    std::vector<TreeRow>& rows) {
+int followSelection(const EditorView& view, const NetData& data, const std::optional<TableSort>& sort,
+                    QuadtreePanelState& state, std::vector<TreeRow>& rows) {
     if (view.focus.selected == state.followed) return -1;
     state.followed = view.focus.selected;
     if (!state.followed) return -1;
     openWayTo(*state.followed, state.open);
-    rows = treeRows(data, state.open);
+    rows = treeRows(data, state.open, sort);
     const auto found =
         std::find_if(rows.begin(), rows.end(), [&](const TreeRow& row) { return row.id == *state.followed; });
     return found == rows.end() ? -1 : static_cast<int>(found - rows.begin());
@@ -319,17 +320,15 @@ int followSelection(const EditorView& view, const NetData& data, QuadtreePanelSt
 
 void treeList(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanelState& state,
               Commands& commands) {
-    constexpr ImGuiTableFlags flags =
-        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-    if (!ImGui::BeginTable("tree", 3, flags, size)) return;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    ImGui::TableSetupColumn("Chunk", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, 6.2f * ImGui::GetFontSize());
-    ImGui::TableSetupColumn(fmt::format("{} px", epsSymbol()).c_str(), ImGuiTableColumnFlags_WidthFixed,
-                            3.2f * ImGui::GetFontSize());
-    ImGui::TableHeadersRow();
-    std::vector<TreeRow> rows = treeRows(data, state.open);
-    const int goal = followSelection(view, data, state, rows);
+    const std::string eps = fmt::format("{} px", epsSymbol());
+    const std::array columns = {
+        TableColumn{"Chunk", 1.6f, "Sorting orders the chunks below each parent.", "+X/12/1234/1234"},
+        TableColumn{"State", 1.2f, nullptr, "not resident xx"},
+        TableColumn{eps.c_str(), 0.8f, "Predicted error of the chunk's own surface, in pixels."}};
+    if (!beginSizedTable("tree", columns, size)) return;
+    const std::optional<TableSort> sort = chosenSort();
+    std::vector<TreeRow> rows = treeRows(data, state.open, sort);
+    const int goal = followSelection(view, data, sort, state, rows);
     if (goal >= 0) {
         const float rowHeight = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
         ImGui::SetScrollY(std::max(0.0f, rowHeight * static_cast<float>(goal) - 0.4f * size.y));

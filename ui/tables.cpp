@@ -68,12 +68,16 @@ bool beginWideTable(const char* id, std::span<const TableColumn> columns, float 
 }
 
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
-                    std::size_t mostLines) {
+                    std::size_t mostLines, int frozenColumns) {
     const float lines = static_cast<float>(std::clamp<std::size_t>(rows + 1, 4, mostLines));
     const bool scrolls = neededWidth(columns) > ImGui::GetContentRegionAvail().x;
-    const float height =
-        lines * ImGui::GetTextLineHeightWithSpacing() + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
-    return beginTable(id, columns, 0, {0, height}, 0);
+    const float height = lines * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
+                         (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+    return beginTable(id, columns, 0, {0, height}, frozenColumns);
+}
+
+bool beginSizedTable(const char* id, std::span<const TableColumn> columns, ImVec2 size) {
+    return beginTable(id, columns, 0, size, 0);
 }
 
 std::optional<TableSort> chosenSort() {
@@ -90,6 +94,13 @@ void cell(const std::string& text) {
 
 void cell(const std::string& text, const ImVec4& colour) {
     ImGui::TableNextColumn();
+    ImGui::TextColored(colour, "%s", text.c_str());
+}
+
+void rightCell(const std::string& text, const ImVec4& colour) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
     ImGui::TextColored(colour, "%s", text.c_str());
 }
 

@@ -29,13 +29,16 @@ bool beginWideTable(const char* id, std::span<const TableColumn> columns, float 
                     int frozenColumns = 0);
 // Is as wide as the panel and as high as its rows, within limits; scrolls sideways like a wide table.
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
-                    std::size_t mostLines = 12);
+                    std::size_t mostLines = 12, int frozenColumns = 0);
+// Has the given size in pixels; scrolls sideways like a wide table.
+bool beginSizedTable(const char* id, std::span<const TableColumn> columns, ImVec2 size);
 
 // Returns the column the user sorts the begun table by; none: the given order.
 std::optional<TableSort> chosenSort();
 
 void cell(const std::string& text);
 void cell(const std::string& text, const ImVec4& colour);
+void rightCell(const std::string& text, const ImVec4& colour);
 
 namespace detail {
 

@@ -42,6 +42,25 @@ TEST(AllocationTable, TellsWhatHasChangedSinceTheMark) {
               static_cast<std::ptrdiff_t>(ui::allocationRows().size()) + 1);
 }
 
+TEST(AllocationTable, SortsByUnroundedValuesAndSignedChanges) {
+    ui::Allocations before, now;
+    before.heapBytes = 5 << 20;
+    now.heapBytes = (5 << 20) + 1;
+    before.threads = 7;
+    now.threads = 4;
+    const ui::AllocationsView view{now, before};
+    const auto key = [&](std::string_view name, ui::AllocationColumn column) {
+        const auto row = static_cast<std::size_t>(&rowNamed(name) - ui::allocationRows().data());
+        return ui::allocationSortKey(row, column, view);
+    };
+    using Column = ui::AllocationColumn;
+    EXPECT_EQ(key("Heap in use", Column::Change), ui::SortKey(1.0));
+    EXPECT_EQ(key("Threads", Column::Change), ui::SortKey(-3.0));
+    EXPECT_EQ(key("Threads", Column::Now), ui::SortKey(4.0));
+    EXPECT_EQ(key("Threads", Column::Mark), ui::SortKey(7.0));
+    EXPECT_EQ(key("Textures##objects", Column::Kind), ui::SortKey(std::string("Textures")));
+}
+
 TEST(AllocationTable, EachRowHasANameOfItsOwnAndSaysWhatItIs) {
     std::set<std::string_view> names;
     for (const ui::AllocationRow& row : ui::allocationRows()) {

@@ -198,5 +198,28 @@ TEST(CompareTable, sayWhatBIsOfA) {
     EXPECT_EQ(ui::figureText(triangles, 950), "950");
 }
 
+TEST(CompareTable, figuresSortByValueAndByTheRatioOfBToA) {
+    std::array<ui::ComparedFigures, 2> figures;
+    figures[0].chunks = 100;
+    figures[1].chunks = 50;
+    figures[0].late = 0;
+    figures[1].late = 3;
+    figures[0].switches = figures[1].switches = 0;
+    const auto key = [&](std::string_view name, ui::FigureColumn column) {
+        const auto rows = ui::compareRows();
+        const auto row =
+            std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
+        return ui::figureSortKey(*row, column, figures);
+    };
+    using Column = ui::FigureColumn;
+    EXPECT_EQ(key("Chunks", Column::A), ui::SortKey(100.0));
+    EXPECT_EQ(key("Chunks", Column::B), ui::SortKey(50.0));
+    EXPECT_EQ(key("Chunks", Column::Name), ui::SortKey(std::string("Chunks")));
+    EXPECT_EQ(key("Chunks", Column::Change), ui::SortKey(0.5));
+    EXPECT_EQ(key("Level changes", Column::Change), ui::SortKey(1.0));
+    EXPECT_GT(key("Late arrivals", Column::Change), ui::SortKey(1e300));
+    EXPECT_LT(key("Memory", Column::Change), key("Chunks", Column::Change));
+}
+
 }  // namespace
 }  // namespace worldy

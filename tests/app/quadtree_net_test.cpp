@@ -373,6 +373,28 @@ TEST(QuadtreeNet, TheTreeListNamesChildrenThatAreMissing) {
     EXPECT_FALSE(rows[1].canOpen);
 }
 
+TEST(QuadtreeNet, TheTreeListSortsTheRootsAndTheChildrenOfEachChunk) {
+    const Fixture fixture;
+    const NetData data = fixture.data();
+    const OpenChunks open = {{Face::PosZ, 0, 0, 0}};
+    const TableSort byEps{static_cast<std::size_t>(TreeColumn::Eps), true};
+    const auto rows = treeRows(data, open, byEps);
+    ASSERT_EQ(rows.size(), 10u);
+    std::vector<TreeRow> roots;
+    std::vector<TreeRow> children;
+    for (const TreeRow& row : rows) (row.id.level == 0 ? roots : children).push_back(row);
+    const auto isLarger = [](const TreeRow& a, const TreeRow& b) { return a.epsPx > b.epsPx; };
+    EXPECT_TRUE(std::is_sorted(roots.begin(), roots.end(), isLarger));
+    EXPECT_TRUE(std::is_sorted(children.begin(), children.end(), isLarger));
+    EXPECT_GT(roots.front().epsPx, roots.back().epsPx);
+    const auto parent = std::find_if(rows.begin(), rows.end(), [](const TreeRow& row) { return row.open; });
+    ASSERT_LT(parent, rows.end() - 4);
+    for (auto child = parent + 1; child != parent + 5; ++child) EXPECT_EQ(parentOf(child->id), parent->id);
+
+    const TableSort byChunk{static_cast<std::size_t>(TreeColumn::Chunk), true};
+    EXPECT_EQ(treeRows(data, open, byChunk).front().id, (ChunkId{Face::NegZ, 0, 0, 0}));
+}
+
 TEST(QuadtreeNet, ErrorsAreThoseOfTheSelection) {
     const Fixture fixture(4);
     const NetData data = fixture.data();
