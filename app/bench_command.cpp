@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -103,15 +104,18 @@ void print(const Section& section) {
     std::fflush(stdout);
 }
 
-Json jsonOf(const Spread& spread) {
-    return {{"median", spread.median}, {"minimum", spread.minimum}, {"maximum", spread.maximum}};
+Json jsonOf(const Spread& spread, bool isCount = false) {
+    const auto number = [&](double value) { return isCount ? Json(std::llround(value)) : Json(value); };
+    return {{"median", number(spread.median)},
+            {"minimum", number(spread.minimum)},
+            {"maximum", number(spread.maximum)}};
 }
 
 Json jsonOf(const Section& section) {
     Json rows = Json::array();
     for (const BenchRow& row : section.rows) {
         Json entry = {{"subject", row.subject}, {"quantity", row.quantity}, {"unit", row.unit}};
-        entry.update(jsonOf(row.value));
+        entry.update(jsonOf(row.value, row.unit.empty()));
         if (!row.yardstick.empty()) {
             entry["times"] = jsonOf(row.ratio);
             entry["times"]["of"] = row.yardstick;

@@ -29,7 +29,7 @@ inline constexpr double loadTimeoutS = 600;  // for all that a view wants
 struct BenchRow {
     std::string subject;   // "faces of 513, tau 2 px"
     std::string quantity;  // "frame"
-    std::string unit;      // "ms"
+    std::string unit;      // "ms"; empty: a count
     Spread value;
     // How many times the yardstick, round by round; 0 where this is the yardstick, or there is none.
     Spread ratio{};

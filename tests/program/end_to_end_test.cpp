@@ -314,7 +314,9 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     }
     std::map<std::string, double> triangles;
     for (const json& row : report["parts"]["lod"]) {
-        if (row["quantity"] == "triangles") triangles[row["subject"]] = row["median"];
+        if (row["quantity"] != "triangles") continue;
+        EXPECT_TRUE(row["median"].is_number_integer()) << row;
+        triangles[row["subject"]] = row["median"];
     }
     EXPECT_EQ(triangles["faces of 65, every leaf"], 6 * 64 * 64 * 2);
     EXPECT_LT(triangles["faces of 65, tau 1 px"], triangles["faces of 65, every leaf"]);
