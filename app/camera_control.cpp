@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 #include <optional>
 
 namespace worldy {
@@ -114,6 +115,8 @@ Camera fly(const Camera& camera, const Ground& ground, double forwardM, double r
 }
 
 Camera look(const Camera& camera, double rightRad, double upRad) {
+    // A still camera keeps every bit: measurements of its view stay current.
+    if (rightRad == 0 && upRad == 0) return camera;
     const glm::dvec3 up = glm::normalize(camera.eyeM);
     Camera turned = camera;
     turned.right = rotated(camera.right, up, -rightRad);
@@ -163,8 +166,11 @@ Camera keepInRange(const Camera& camera, const Ground& ground) {
     const double lowestM = ground.radiusM + ground.heightM + minGroundClearanceM;
     const double highestM = std::max(lowestM, (1 + maxAltitudeRadii) * ground.radiusM);
     const double distanceM = glm::length(camera.eyeM);
+    const double factor = std::clamp(distanceM, lowestM, highestM) / distanceM;
+    // A camera on a limit is off it by rounding alone, and stays.
+    if (std::abs(factor - 1) < 4 * std::numeric_limits<double>::epsilon()) return camera;
     Camera kept = camera;
-    kept.eyeM *= std::clamp(distanceM, lowestM, highestM) / distanceM;
+    kept.eyeM *= factor;
     return kept;
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -88,6 +89,28 @@ TEST(CameraRig, changingFromFlyToOrbitAndBackMovesNothing) {
     driver.settings.mode = ui::CameraMode::Fly;
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, before);
+}
+
+TEST(CameraRig, aStillCameraKeepsEveryBit) {
+    const std::array cameras = {cameraAt(20, 10, 14'016'200, 0, -90), cameraAt(27, 86, 50'000, 30, -35),
+                                cameraAt(-71, -133.3, 123.4, 211, 12),
+                                cameraAt(12.3, 45.6, -5000, 77, -89.9999)};
+    for (const ui::CameraMode mode : {ui::CameraMode::Fly, ui::CameraMode::Orbit}) {
+        for (const Camera& start : cameras) {
+            Driver driver;
+            driver.rig.camera = start;
+            driver.around = smoothPlanet(1234.5);
+            driver.settings.mode = mode;
+            ASSERT_TRUE(driver.frame());
+            const Camera first = driver.rig.camera;
+            for (int frame = 0; frame < 100; ++frame) {
+                ASSERT_TRUE(driver.frame());
+                ASSERT_EQ(driver.rig.camera.eyeM, first.eyeM) << frame;
+                ASSERT_EQ(driver.rig.camera.right, first.right) << frame;
+                ASSERT_EQ(driver.rig.camera.back, first.back) << frame;
+            }
+        }
+    }
 }
 
 TEST(CameraRig, orbitKeepsThePivotInTheMiddleAndItsDistance) {
