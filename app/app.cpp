@@ -79,6 +79,7 @@ int runWindow(Window& window, const AppOptions& options, DataSet data, const Ope
     window.setTitle(fmt::format("{} - Worldy", ui::sourceName(data.source)));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data), options.shaderFolder, log);
+    session.shaderWorker = window.makeShaderWorker();
     Editor editor = openEditor(open.settings, log);
     editor.itemMapFile = options.itemMapFile;
     auto last = std::chrono::steady_clock::now();

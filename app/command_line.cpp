@@ -132,7 +132,7 @@ void addBench(CLI::App& command, BenchOptions& options) {
         ->check(oneOf(benchParts));
 }
 
-// What a sweep's options are before they are understood.
+// A sweep's options as they are written, before they are parsed.
 struct SweepTexts {
     std::string cost = "triangles";
     std::string goal;
@@ -181,7 +181,7 @@ void addPops(CLI::App& command, PopsOptions& options) {
     command.add_option("FILE", options.file, "Chunk file")->required();
 }
 
-// What the sides of a comparison are told beyond what both are, as it is written: A and B.
+// The settings that only one side of a comparison gets, as they are written: A and B.
 struct SideTexts {
     std::filesystem::path settingsFile;
     std::vector<std::string> assignments;
@@ -349,7 +349,7 @@ Result<void> finish(ReplayOptions& options, const SharedTexts& texts) {
     return {};
 }
 
-// Of a check: whether all is well.
+// Returns the exit code of a check by whether it found no problem.
 int exitCodeOf(const Result<bool>& result) {
     if (!result) return reportError(result.error());
     return *result ? exitOk : exitCheckFailed;

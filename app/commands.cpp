@@ -425,16 +425,7 @@ void CommandHandler::operator()(const ui::CopyCommandLine&) const {
 }
 
 void CommandHandler::operator()(const ui::TakeScreenshot& command) const {
-    if (command.withPanels) {
-        editor.screenshotPending = true;
-        return;
-    }
-    const PlanetPicture& shown =
-        editor.viewport.main.shown() ? editor.viewport.main : editor.viewport.observer;
-    const planet::gl::RenderTarget* target = shown.shownTarget();
-    if (!target) return;
-    const Picture picture{target->widthPx(), target->heightPx(), target->readRgb()};
-    keepScreenshot(picture, session, editor, log);
+    editor.screenshotPending = command;
 }
 
 void CommandHandler::operator()(const ui::GoBackToPop& command) const {
@@ -464,7 +455,18 @@ void obey(const ui::Commands& commands, Window& window, Session& session, Editor
     for (const ui::Command& command : commands) obeyOne(handler, command, ui::CommandKinds{});
 }
 
-void keepScreenshot(const Picture& picture, const Session& session, Editor& editor, const Log& log) {
+void keepScreenshot(const Window& window, const Session& session, Editor& editor, const Log& log) {
+    if (!editor.screenshotPending) return;
+    const Scene* const scene = shownScene(session);
+    const Scene* const other = editor.compare.other ? &editor.compare.other->planet.scene : nullptr;
+    if ((scene && scene->drawn.standIn) || (other && other->drawn.standIn)) return;
+    const bool withPanels = std::exchange(editor.screenshotPending, std::nullopt)->withPanels;
+    const PlanetPicture& shown =
+        editor.viewport.main.shown() ? editor.viewport.main : editor.viewport.observer;
+    const planet::gl::RenderTarget* target = shown.shownTarget();
+    if (!withPanels && !target) return;
+    const Picture picture =
+        withPanels ? window.readPicture() : Picture{target->widthPx(), target->heightPx(), target->readRgb()};
     ScreenshotNote note;
     note.version = WORLDY_VERSION;
     note.settings = settingsText(editor.settings);

@@ -7,7 +7,8 @@ namespace worldy {
 
 void obey(const ui::Commands& commands, Window& window, Session& session, Editor& editor, Log& log);
 
-// Writes what a picture shows into a new file, with the settings that made it.
-void keepScreenshot(const Picture& picture, const Session& session, Editor& editor, const Log& log);
+// Writes the screenshot that was asked for, if any, into a new file, with the settings that made it. To be
+// called with the frame drawn but not yet shown; waits for a frame that shows what the settings say.
+void keepScreenshot(const Window& window, const Session& session, Editor& editor, const Log& log);
 
 }  // namespace worldy

@@ -136,10 +136,7 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
         editor.message = {"The file cannot be baked", session.problem->message,
                           "The planet that is open stays. Correct the file, or open another one."};
     advanceSweep(editor.sweep, log);
-    if (reloadChangedShaders(session, log) && editor.compare.other) {
-        const auto reloaded = editor.compare.other->planet.scene.renderer.reloadShaders();
-        if (!reloaded) log->error("B: {}", reloaded.error().message);
-    }
+    reloadChangedShaders(session, log);
     ui::FrameStats stats;
     if (Scene* scene = shownScene(session))
         stats = runPlanet(*scene, pixelRatio, editor, log, secondsSinceLast, commands);
@@ -158,10 +155,7 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     stats.panelsMs = panelWatch.elapsedMs();
     ui::collectItems(nullptr);
 
-    window.endFrame([&] {
-        if (std::exchange(editor.screenshotPending, false))
-            keepScreenshot(window.readPicture(), session, editor, log);
-    });
+    window.endFrame([&] { keepScreenshot(window, session, editor, log); });
     stats.panelsGpuMs = window.panelsGpuMs();
     stats.presentMs = window.presentMs();
     stats.frameMs = 1000 * secondsSinceLast;
@@ -170,7 +164,7 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     watchAllocations(session, editor);
     ++editor.frames;
     if (!editor.itemMapFile.empty())
-        writeItemMap(editor.itemMapFile, items, countersOf(session, editor, stats));
+        writeItemMap(editor.itemMapFile, items, countersOf(session, editor, stats, window.queuedInput()));
 }
 
 }  // namespace worldy

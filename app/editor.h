@@ -81,11 +81,11 @@ struct Editor {
     PresetShelf presets{presetFolders()};
     Bookmarks bookmarks;
     std::vector<std::filesystem::path> flights;
-    std::vector<std::filesystem::path> recent;       // as kept
-    std::vector<std::filesystem::path> recentShown;  // those that are there
-    bool screenshotPending = false;                  // with panels: once they are drawn
-    std::filesystem::path itemMapFile;               // where to write where controls are; empty: nowhere
-    std::uint64_t frames = 0;                        // run so far
+    std::vector<std::filesystem::path> recent;            // as kept
+    std::vector<std::filesystem::path> recentShown;       // those that are there
+    std::optional<ui::TakeScreenshot> screenshotPending;  // once a frame is drawn as it is set
+    std::filesystem::path itemMapFile;                    // where to write where controls are; empty: nowhere
+    std::uint64_t frames = 0;                             // run so far
     FlightDesk desk;
     SweepDesk sweep;
     CompareDesk compare;

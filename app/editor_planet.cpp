@@ -305,6 +305,11 @@ void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selectio
 ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
                          ui::Commands& commands) {
     meetPlanet(scene, editor, log);
+    // A frame that is paused steps nothing, but draws.
+    scene.drawCpuMs = 0;
+    scene.drawn = {};
+    editor.viewport.shaderWait =
+        editor.screenshotPending ? planet::gl::ShaderWait::UntilReady : planet::gl::ShaderWait::Never;
     if (!editor.desk.replay) giveSettings(scene, editor, log);
     placeCameras(scene, pixelRatio, editor);
     const bool stepOne = std::exchange(editor.stepOneFrame, false);
@@ -326,7 +331,8 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     drawMainPicture(scene, pixelRatio, editor, log);
     const bool counting = editor.settings.view.compare.mode == ui::CompareMode::Difference ||
                           isShown(editor, ui::PanelId::Compare);
-    drawCompared(editor.compare, editor.viewport, editor.settings.view, editor.focus, counting, log);
+    drawCompared(editor.compare, editor.viewport, editor.settings.view, editor.focus,
+                 counting && !scene.drawn.standIn, log);
     drawObserverPicture(scene, pixelRatio, editor, log);
     const ui::CrackKnobs& cracks = editor.settings.view.cracks;
     const auto every = static_cast<std::uint64_t>(cracks.everyFrames);

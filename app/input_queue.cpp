@@ -26,11 +26,16 @@ bool changesState(const InputEvent& event) {
     return event.kind != InputKind::Text && event.kind != InputKind::KeyRepeat;
 }
 
-bool endsFrame(const std::vector<InputEvent>& frame, const InputEvent& next) {
+bool writesOnly(const InputEvent& event) {
+    return !isButton(event) && event.code < GLFW_KEY_ESCAPE && !actsAlone(event);
+}
+
+bool endsFrame(const std::vector<InputEvent>& frame, const InputEvent& next, bool textFieldIsEdited) {
     return std::any_of(frame.begin(), frame.end(), [&](const InputEvent& before) {
-        if (changesState(before) && changesState(next) && isButton(before) == isButton(next) &&
-            before.code == next.code)
-            return true;
+        const bool sameKeyOrButton = changesState(before) && changesState(next) &&
+                                     isButton(before) == isButton(next) && before.code == next.code;
+        const bool typed = textFieldIsEdited && writesOnly(before) && writesOnly(next);
+        if (sameKeyOrButton && !typed) return true;
         const bool begins = next.kind == InputKind::KeyDown || next.kind == InputKind::Text ||
                             next.kind == InputKind::ButtonDown;
         if (actsAlone(before) && begins) return true;
@@ -45,9 +50,9 @@ bool endsFrame(const std::vector<InputEvent>& frame, const InputEvent& next) {
 
 }  // namespace
 
-std::vector<InputEvent> InputQueue::takeFrame() {
+std::vector<InputEvent> InputQueue::takeFrame(bool textFieldIsEdited) {
     std::vector<InputEvent> frame;
-    while (!waiting_.empty() && !endsFrame(frame, waiting_.front())) {
+    while (!waiting_.empty() && !endsFrame(frame, waiting_.front(), textFieldIsEdited)) {
         frame.push_back(waiting_.front());
         waiting_.pop_front();
     }

@@ -3,6 +3,7 @@
 // would be lost. No GLFW calls; one thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <glm/vec2.hpp>
@@ -28,8 +29,11 @@ public:
     // Returns the events of the next frame, oldest first; the others wait. A key or a button changes once a
     // frame. A frame ends after a key that acts rather than writes (Enter, an arrow, one held with Ctrl), so
     // that what is typed after it comes after what it does, and likewise between keys and mouse buttons. A
-    // modifier that is released after a key was pressed is released in the next frame.
-    std::vector<InputEvent> takeFrame();
+    // modifier that is released after a key was pressed is released in the next frame. While a text field is
+    // edited, keys that write a character need no frame of their own, so that typing never lags behind slow
+    // frames: the field reads the characters, not the keys.
+    std::vector<InputEvent> takeFrame(bool textFieldIsEdited = false);
+    std::size_t size() const { return waiting_.size(); }
 
 private:
     std::deque<InputEvent> waiting_;

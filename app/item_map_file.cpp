@@ -9,7 +9,8 @@
 
 namespace worldy {
 
-std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats) {
+std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats,
+                                std::size_t queuedInput) {
     const planet::PagingCounters& paging = stats.paging;
     const planet::SelectionCounters& selection = stats.selection;
     std::vector<Counter> counters;
@@ -17,6 +18,9 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
         counters.push_back({name, fmt::format("{}", value)});
     };
     add("frame", editor.frames);
+    add("queued_input", queuedInput);
+    const ui::FrameStats* const b = editor.compare.other ? &editor.compare.other->stats : nullptr;
+    add("stand_in", stats.render.standIn || (b && b->render.standIn) ? 1 : 0);
     add("drawn", selection.drawn);
     add("triangles", stats.selection.triangles());
     add("waiting", selection.waiting);

@@ -21,8 +21,10 @@ struct Counter {
     std::string value;
 };
 
-// After a frame: the number of frames so far, what this one counted, the selection and the camera.
-std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats);
+// After a frame: the number of frames so far, what this one counted, the selection and the camera, and the
+// events of keys and buttons that wait for the next frames.
+std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats,
+                                std::size_t queuedInput);
 
 // A script may read it at any time, so it is renamed into place.
 void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPlace> items,

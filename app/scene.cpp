@@ -192,7 +192,7 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(settings.surface.exaggeration);
     auto renderer = planet::gl::ChunkRenderer::create(
-        {(*planet)->shape(), (*planet)->slotCapacity(), config.shaderFolder});
+        {(*planet)->shape(), (*planet)->slotCapacity(), config.shaderFolder, config.programs});
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
     scene.identity = std::make_shared<const int>(0);
@@ -339,14 +339,15 @@ void stepScene(Scene& scene, const planet::View& lodView, const planet::View& ob
 }
 
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
-               std::size_t selection, std::span<const planet::gl::ChunkTint> tints) {
+               std::size_t selection, std::span<const planet::gl::ChunkTint> tints,
+               planet::gl::ShaderWait wait) {
     drawItems(scene, renderView, settings, scene.planet->selection(selection).draw,
-              settings.seams.mode == planet::SeamMode::Stitched, tints);
+              settings.seams.mode == planet::SeamMode::Stitched, tints, wait);
 }
 
 void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& asked,
                std::span<const planet::DrawItem> items, bool stitched,
-               std::span<const planet::gl::ChunkTint> tints) {
+               std::span<const planet::gl::ChunkTint> tints, planet::gl::ShaderWait wait) {
     const ui::ViewSettings settings = afforded(scene, asked);
     const Stopwatch watch;
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
@@ -355,13 +356,15 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     followColours(scene);
     followNormals(scene);
     followClipmap(scene, settings);
-    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render, items));
+    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render, items),
+                        wait);
     scene.drawCpuMs += watch.elapsedMs();
     const planet::gl::RenderCounters& counters = scene.renderer.counters();
     scene.drawn.chunks += counters.chunks;
     scene.drawn.groundTriangles += counters.groundTriangles;
     scene.drawn.skirtTriangles += counters.skirtTriangles;
     scene.drawn.uploads += counters.uploads;
+    scene.drawn.standIn |= counters.standIn;
     scene.drawn.chunksMs += counters.chunksMs;
     scene.drawn.skyMs += counters.skyMs;
     scene.drawn.shadowsMs += counters.shadowsMs;

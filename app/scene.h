@@ -48,8 +48,9 @@ struct Scene {
 
 struct SceneConfig {
     std::filesystem::path chunkFile;
-    std::filesystem::path shaderFolder{};  // empty: the shaders built in
-    const Picture* colour = nullptr;       // none: a ramp by height
+    std::filesystem::path shaderFolder{};                   // empty: the shaders built in
+    const Picture* colour = nullptr;                        // none: a ramp by height
+    std::shared_ptr<planet::gl::ChunkPrograms> programs{};  // as of RendererConfig
 };
 
 planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSettings& settings);
@@ -91,7 +92,8 @@ planet::UploadChunk uploadInto(Scene& scene);
 
 // Draws a selection of the last step, with a tint for each of its items or none, into what is bound.
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
-               std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {});
+               std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {},
+               planet::gl::ShaderWait wait = planet::gl::ShaderWait::UntilReady);
 
 // What has gone wrong since this was asked last, each once: blocks that could not be read, layers without
 // their textures, what the context has no memory for.
@@ -100,7 +102,8 @@ std::vector<std::string> takeProblems(Scene& scene);
 // The same for any chunks whose slots hold them.
 void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
                std::span<const planet::DrawItem> items, bool stitched,
-               std::span<const planet::gl::ChunkTint> tints = {});
+               std::span<const planet::gl::ChunkTint> tints = {},
+               planet::gl::ShaderWait wait = planet::gl::ShaderWait::UntilReady);
 
 // What is settled for a picture or a measurement has long done so by then.
 inline constexpr double settleTimeoutS = 120;

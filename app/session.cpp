@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using planet::Result;
+using planet::gl::ChunkPrograms;
 
 // What a file tells of its bake. Its compression level is not in it, nor is its source's path.
 ui::BakeRequest requestOf(const planet::PlanetShape& shape) {
@@ -57,11 +58,16 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
 
 Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::ViewSettings& settings,
                               const Log& log) {
+    if (!session.programs) {
+        Result<ChunkPrograms> programs = ChunkPrograms::build(session.shaderFolder, session.shaderWorker);
+        if (!programs) return tl::unexpected(programs.error());
+        session.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
+    }
     const bool sameColour = data.colourImage == session.colourFile;
     std::optional<Picture> fresh = sameColour ? std::nullopt : readColour(data.colourImage, log);
     const std::optional<Picture>& colour = sameColour ? session.colour : fresh;
-    Result<Scene> scene =
-        openScene({data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr}, settings);
+    Result<Scene> scene = openScene(
+        {data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr, session.programs}, settings);
     if (!scene) return tl::unexpected(scene.error());
     if (!sameColour) session.colour = std::move(fresh);
     session.colourFile = data.colourImage;
@@ -368,8 +374,8 @@ Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const
     } else if (data.colourImage == session.colourFile) {
         colour = session.colour;
     }
-    Result<Scene> scene =
-        openScene({data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr}, settings);
+    Result<Scene> scene = openScene(
+        {data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr, session.programs}, settings);
     if (!scene) return tl::unexpected(scene.error());
     return openedAs(data, std::move(*scene));
 }
@@ -454,18 +460,16 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     return view;
 }
 
-bool reloadChangedShaders(Session& session, const Log& log) {
-    if (!session.open || session.shaderFolder.empty()) return false;
+void reloadChangedShaders(Session& session, const Log& log) {
+    if (!session.open || session.shaderFolder.empty()) return;
     const fs::file_time_type newest = newestIn(session.shaderFolder);
-    if (newest == session.shadersChanged) return false;
+    if (newest == session.shadersChanged) return;
     session.shadersChanged = newest;
-    Result<void> reloaded = session.open->scene.renderer.reloadShaders();
-    if (reloaded && session.previous) reloaded = session.previous->scene.renderer.reloadShaders();
+    const Result<void> reloaded = session.open->scene.renderer.reloadShaders();
     if (reloaded)
         log->info("Shaders of {} reloaded", session.shaderFolder.string());
     else
         log->error("{}", reloaded.error().message);
-    return reloaded.has_value();
 }
 
 }  // namespace worldy

@@ -16,6 +16,8 @@
 #include "app/scene.h"
 #include "app/source_preview.h"
 #include "app/worlds.h"
+#include "planet/gl/chunk_programs.h"
+#include "planet/gl/gl_worker.h"
 #include "ui/editor_view.h"
 
 namespace worldy {
@@ -52,6 +54,11 @@ struct Session {
     DataSet data;                        // what is shown, or is to be
     std::filesystem::path shaderFolder;  // empty: the shaders built in
     std::filesystem::file_time_type shadersChanged{};
+    // Compiles shaders off the frame; null: frames wait for them.
+    std::shared_ptr<planet::gl::GlWorker> shaderWorker;
+    // The session's planets share these programs, so opening another planet compiles nothing. Null until the
+    // first planet is opened.
+    std::shared_ptr<planet::gl::ChunkPrograms> programs;
     std::optional<Picture> colour;
     std::filesystem::path colourFile;              // where it comes from
     std::optional<OpenPlanet> open;                // none until the first data set is there
@@ -115,7 +122,7 @@ const Scene* shownScene(const Session& session);
 ui::BakeView bakeViewOf(const Session& session);
 ui::DataView dataViewOf(const Session& session, std::span<const std::filesystem::path> recent);
 
-// Compiles the shaders of the folder again once one of them has changed. True: other renderers should too.
-bool reloadChangedShaders(Session& session, const Log& log);
+// Compiles the shaders of the folder again once one of them has changed, for all planets of the session.
+void reloadChangedShaders(Session& session, const Log& log);
 
 }  // namespace worldy

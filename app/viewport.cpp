@@ -68,9 +68,10 @@ void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const
     if (!fitTarget(picture, content.view, log)) return;
     picture.target->bind();
     if (content.kept)
-        drawItems(scene, content.view, settings, content.kept->items, content.kept->stitched, content.tints);
+        drawItems(scene, content.view, settings, content.kept->items, content.kept->stitched, content.tints,
+                  viewport.shaderWait);
     else
-        drawScene(scene, content.view, settings, content.selection, content.tints);
+        drawScene(scene, content.view, settings, content.selection, content.tints, viewport.shaderWait);
     planet::gl::DebugLines* lines = linesOf(viewport, log);
     if (lines && !settings.overlay.cube) {
         const planet::gl::Projection& projection = scene.renderer.projection();

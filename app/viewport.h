@@ -41,6 +41,9 @@ struct Viewport {
     PlanetPicture observer;
     std::optional<planet::gl::DebugLines> lines{};
     bool linesFailed = false;  // told once
+    // Pictures are drawn in each frame, so one may show other settings until its shaders are compiled; not
+    // one that is kept.
+    planet::gl::ShaderWait shaderWait = planet::gl::ShaderWait::Never;
 };
 
 void layOut(Viewport& viewport, const ui::Rect& rect, ui::ObserverMode observer);

@@ -59,11 +59,20 @@ GLFWwindow* createWindow(const WindowConfig& config) {
     return nullptr;
 }
 
+// The context has the window's version, since createWindow's hints still hold.
+GLFWwindow* createHiddenWindow(GLFWwindow* sharing) {
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow* window = glfwCreateWindow(1, 1, "Worldy's shaders", nullptr, sharing);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+    return window;
+}
+
 }  // namespace
 
 // GLFW itself and the one window, ended together and in order.
 struct Window::Glfw {
     GLFWwindow* window = nullptr;
+    GLFWwindow* besides = nullptr;  // never shown: its context shares the window's objects
     InputQueue input;
     std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in the frame
     std::vector<KeyPress> pressedKeys;
@@ -72,6 +81,7 @@ struct Window::Glfw {
     static Glfw& of(GLFWwindow* handle) { return *static_cast<Glfw*>(glfwGetWindowUserPointer(handle)); }
 
     ~Glfw() {
+        if (besides) glfwDestroyWindow(besides);
         if (window) glfwDestroyWindow(window);
         glfwTerminate();
     }
@@ -118,7 +128,9 @@ void Window::Glfw::listen() {
 
 std::optional<glm::dvec2> Window::Glfw::giveInput() {
     std::optional<glm::dvec2> pointer;
-    for (const InputEvent& event : input.takeFrame()) {
+    // The field may have been left in the last frame, which WantTextInput tells one frame later.
+    const bool textFieldIsEdited = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
+    for (const InputEvent& event : input.takeFrame(textFieldIsEdited)) {
         switch (event.kind) {
             case InputKind::Text:
                 ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned int>(event.code));
@@ -152,6 +164,7 @@ tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
             fmt::format("this display has no OpenGL 3.3 core profile ({}); a newer graphics driver is needed",
                         glfwProblem())});
     }
+    window.glfw_->besides = createHiddenWindow(window.glfw_->window);
     glfwSetWindowSizeLimits(window.glfw_->window, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window.glfw_->window);
     glfwSwapInterval(1);
@@ -212,6 +225,17 @@ void Window::setClipboard(const std::string& text) const {
     glfwSetClipboardString(glfw_->window, text.c_str());
 }
 
+std::shared_ptr<planet::gl::GlWorker> Window::makeShaderWorker() const {
+    GLFWwindow* const besides = glfw_->besides;
+    if (!besides) return nullptr;
+    return std::make_shared<planet::gl::GlWorker>(
+        planet::gl::SharedContext{[besides] {
+                                      glfwMakeContextCurrent(besides);
+                                      return glfwGetCurrentContext() == besides;
+                                  },
+                                  [] { glfwMakeContextCurrent(nullptr); }});
+}
+
 void Window::setTitle(const std::string& title) const {
     glfwSetWindowTitle(glfw_->window, title.c_str());
 }
@@ -264,6 +288,10 @@ void Window::endFrame(const std::function<void()>& drawn) {
 
 const std::vector<KeyPress>& Window::pressedKeys() const {
     return glfw_->pressedKeys;
+}
+
+std::size_t Window::queuedInput() const {
+    return glfw_->input.size();
 }
 
 const std::vector<std::filesystem::path>& Window::droppedFiles() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/picture.h"
+#include "planet/gl/gl_worker.h"
 #include "planet/gl/gpu_timer.h"
 #include "planet/result.h"
 #include "ui/layout.h"
@@ -57,12 +58,18 @@ public:
     // The keys that went down or repeat in this frame, the same that ImGui sees: input is handed out frame by
     // frame (app/input_queue.h), so a key that is released before a slow frame begins is seen too.
     const std::vector<KeyPress>& pressedKeys() const;
+    // Events of keys and buttons that wait for the next frames.
+    std::size_t queuedInput() const;
     // What was dropped onto the window since the frame before.
     const std::vector<std::filesystem::path>& droppedFiles() const;
 
     // Between two frames: fonts and colours, where they or the monitor's scale have changed.
     void setTheme(ui::Theme theme, double scale);
     void setClipboard(const std::string& text) const;
+
+    // A thread that compiles shaders for this window's context; null where the driver has no second context
+    // for it. It must end before the window.
+    std::shared_ptr<planet::gl::GlWorker> makeShaderWorker() const;
 
     // What the default framebuffer shows, before endFrame's swap of the next frame: rows from the top, sRGB.
     Picture readPicture() const;

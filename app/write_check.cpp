@@ -63,7 +63,7 @@ std::string startOf(const fs::path& file, std::size_t bytes) {
 
 constexpr std::size_t lookedAtBytes = 4096;
 
-// Of any version.
+// The file may be of any version.
 bool isChunkFile(const fs::path& file) {
     constexpr std::size_t magicBytes = 8;
     const auto header = planet::headerBytes({}, 0);

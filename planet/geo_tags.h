@@ -22,7 +22,7 @@ struct GeoPlacement {
     GeoModel model = GeoModel::Degrees;
     std::string modelText;       // "projected coordinates, EPSG 32633", for messages
     double metresPerDegree = 0;  // of Metres
-    // Of the centre of the sample at (column, row): x = x[0] + x[1] column + x[2] row, likewise y.
+    // Maps a sample's (column, row) to its centre: x = x[0] + x[1] column + x[2] row, likewise y.
     std::array<double, 3> x{};
     std::array<double, 3> y{};
 };

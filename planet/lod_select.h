@@ -108,7 +108,7 @@ struct LevelSeam {
     Edge edge = Edge::West;  // of the finer one
 };
 
-// What became of a visited node.
+// The result of visiting a node.
 enum class NodeFate : std::uint8_t { Drawn, Split, CulledFrustum, CulledHorizon };
 struct VisitedNode {
     NodeIndex node = noNode;

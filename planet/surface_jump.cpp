@@ -255,7 +255,7 @@ SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const D
     const int cells = chunkCells(shape);
     Sum sum{screen};
     if (before.stitched || after.stitched) {
-        // What else of the chunk morphs in these rows is no doing of the edge's.
+        // Other vertices of the chunk that morph in these rows do so without the edge.
         const auto index = static_cast<std::size_t>(edge);
         DrawnChunk edgeAfter = before;
         edgeAfter.stitched = after.stitched;

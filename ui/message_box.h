@@ -1,4 +1,4 @@
-// What the application tells the user in front of all else: an error, which stays until it is closed, and a
+// Messages in front of everything else: an error, which stays until it is closed, and a
 // confirmation, which goes by itself.
 #pragma once
 

@@ -231,6 +231,8 @@ void pushClip(const Rect& rect) {
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
     std::vector<ViewportBadge> badges;
+    if (view.stats.render.standIn)
+        badges.push_back({"Compiling shaders: not drawn as set", palette().warning});
     if (view.framesPaused) badges.push_back({"Paused, F6 steps (F5)", palette().warning});
     if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 
+#include "planet/gl/chunk_grid.h"
 #include "planet/gl/frame_uniforms.h"
 
 namespace planet::gl {
@@ -55,6 +57,22 @@ void ChunkInstances::fill(const PoolLayout& layout, std::span<const DrawItem> it
         instances_.back().slot = packedPlace(layout, item.slot);
         instances_.back().beside.fill(noSlot);
     }
+}
+
+void describeChunkVertices(const Buffer& gridVertices, const Buffer& instances) {
+    const auto byteOffset = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
+    constexpr GLsizei stride = sizeof(ChunkInstance);
+    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
+    glVertexAttribIPointer(0, 4, GL_UNSIGNED_BYTE, sizeof(GridVertex), nullptr);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
+    glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, faceAndLevel)));
+    glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, beside)));
+    glVertexAttribPointer(3, 2, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, skirtDepthM)));
+    glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(ChunkInstance, tint)));
+    glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, edgeMorph)));
+    glVertexAttribIPointer(6, 4, GL_UNSIGNED_BYTE, stride, byteOffset(offsetof(ChunkInstance, coarserBy)));
+    for (GLuint attribute = 0; attribute <= 6; ++attribute) glEnableVertexAttribArray(attribute);
+    for (GLuint attribute = 1; attribute <= 6; ++attribute) glVertexAttribDivisor(attribute, 1);
 }
 
 int slidingSwitches(std::span<const DrawItem> items, bool stitched) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planet/gl/chunk_renderer.h"
+#include "planet/gl/gl_objects.h"
 #include "planet/gl/height_pool.h"
 
 namespace planet::gl {
@@ -43,6 +44,10 @@ private:
     std::vector<ChunkInstance> instances_;
     DrawnSlots drawnSlots_;
 };
+
+// Tells the vertex array that is bound where shaders/chunk.vert finds its inputs: a GridVertex a vertex, a
+// ChunkInstance an instance.
+void describeChunkVertices(const Buffer& gridVertices, const Buffer& instances);
 
 // The switches for what vertices do beside standing where their heights say.
 int slidingSwitches(std::span<const DrawItem> items, bool stitched);

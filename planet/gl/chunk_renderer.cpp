@@ -20,6 +20,7 @@
 #include "planet/gl/colour_clipmap.h"
 #include "planet/gl/colour_image.h"
 #include "planet/gl/detail_noise.h"
+#include "planet/gl/drawing_state.h"
 #include "planet/gl/frame_uniforms.h"
 #include "planet/gl/gl_objects.h"
 #include "planet/gl/gpu_memory.h"
@@ -91,11 +92,26 @@ bool cellsAreSmall(const PlanetShape& shape, const View& view, std::span<const D
     return true;
 }
 
+// The variant that follows once chunks begin to morph, or no longer do: a flight goes from one to the other
+// and back.
+int otherSliding(int variant) {
+    if ((variant & switchMorph) != 0) return variant & ~(switchSlide | switchMorph | switchGather);
+    return variant | switchSlide | switchMorph | ((variant & switchSlide) != 0 ? switchGather : 0);
+}
+
 const void* byteOffset(std::size_t offset) {
     return reinterpret_cast<const void*>(offset);
 }
 
 }  // namespace
+
+// The programs of one picture; null: what it would draw is left out.
+struct DrawnWith {
+    const Program* chunk = nullptr;
+    const Program* depth = nullptr;
+    const Program* sky = nullptr;
+    bool standIn = false;
+};
 
 struct ChunkRenderer::State {
     RendererConfig config;
@@ -104,9 +120,10 @@ struct ChunkRenderer::State {
     Projection projection;
     HeightPool pool;
     std::vector<std::int16_t> highestSteps;  // of each slot
-    ChunkPrograms programs;
+    std::shared_ptr<ChunkPrograms> programs;
     Program capture;  // made when first asked for, for one variant
     int captureVariant = 0;
+    int captureReloads = 0;  // ChunkPrograms::reloads() when it was made
     Texture noise;
     VertexArray chunkArray, skyArray;
     Buffer gridVertices, gridIndices, instances, frame, layersFrame, clipmapFrame, seaFrame, shadowsFrame;
@@ -130,9 +147,8 @@ struct ChunkRenderer::State {
     GpuTimer chunksTimer, skyTimer, shadowsTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
-    State(const RendererConfig& from, HeightPool heightPool, ChunkPrograms built, LayerTextures checker);
+    State(const RendererConfig& from, HeightPool heightPool, LayerTextures checker);
     void makeGrid();
-    void describeVertices();
     double highestRadiusM(std::span<const DrawItem> items) const;
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
     int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
@@ -144,25 +160,24 @@ struct ChunkRenderer::State {
     bool drawsShadows(const RenderSettings& settings) const;
     bool makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items);
     void drawShadows(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-                     int variant);
+                     const Program& program);
+    DrawnWith programsFor(int variant, bool physicalSky) const;
+    DrawnWith programsAtHand(int variant, bool physicalSky) const;
     void fillFrame(const View& view, const RenderSettings& settings);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
     bool drawsNormals(const RenderSettings& settings) const;
     void bindInputs() const;
-    void beginDepth() const;
-    void endDepth() const;
-    void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program& program);
+    void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program* program);
     void drawSky(const Program& program) const;
 };
 
-ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, ChunkPrograms built,
-                            LayerTextures checker)
+ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, LayerTextures checker)
     : config(from),
       capabilities(findCapabilities()),
       pool(std::move(heightPool)),
       highestSteps(from.slotCapacity, std::numeric_limits<std::int16_t>::min()),
-      programs(std::move(built)),
+      programs(from.programs),
       noise(detailNoiseTexture()),
       chunkArray(makeVertexArray()),
       skyArray(makeVertexArray()),
@@ -194,23 +209,8 @@ void ChunkRenderer::State::makeGrid() {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gridIndices.name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indexBytes), grid.indices.data(),
                  GL_STATIC_DRAW);
-    describeVertices();
+    describeChunkVertices(gridVertices, instances);
     glBindVertexArray(0);
-}
-
-void ChunkRenderer::State::describeVertices() {
-    constexpr GLsizei stride = sizeof(ChunkInstance);
-    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
-    glVertexAttribIPointer(0, 4, GL_UNSIGNED_BYTE, sizeof(GridVertex), nullptr);
-    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
-    glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, faceAndLevel)));
-    glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, beside)));
-    glVertexAttribPointer(3, 2, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, skirtDepthM)));
-    glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(ChunkInstance, tint)));
-    glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, edgeMorph)));
-    glVertexAttribIPointer(6, 4, GL_UNSIGNED_BYTE, stride, byteOffset(offsetof(ChunkInstance, coarserBy)));
-    for (GLuint attribute = 0; attribute <= 6; ++attribute) glEnableVertexAttribArray(attribute);
-    for (GLuint attribute = 1; attribute <= 6; ++attribute) glVertexAttribDivisor(attribute, 1);
 }
 
 // Of the highest ground drawn, metres from the planet's centre.
@@ -348,21 +348,6 @@ void ChunkRenderer::State::bindInputs() const {
     glBindTexture(GL_TEXTURE_2D_ARRAY, pool.texture());
 }
 
-void ChunkRenderer::State::beginDepth() const {
-    if (projection.reversedZ) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(projection.reversedZ ? GL_GEQUAL : GL_LEQUAL);
-    glClearDepth(projection.reversedZ ? 0 : 1);
-}
-
-void ChunkRenderer::State::endDepth() const {
-    if (projection.reversedZ) glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
-    glClearDepth(1);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_DEPTH_TEST);
-}
-
 bool ChunkRenderer::State::drawsShadows(const RenderSettings& settings) const {
     return settings.lighting && !settings.cube && isUsed(settings.light.shadows.use, capabilities.software);
 }
@@ -379,7 +364,7 @@ bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::s
         return static_cast<double>(item.distanceM) < wanted.reachM;
     };
     if (!std::any_of(items.begin(), items.end(), isNear)) return false;
-    // What could not be made is not tried again in each frame.
+    // Maps that could not be made are not tried again in each frame.
     if (shadowsAskedPx != wanted.mapSizePx) {
         shadows.reset();
         shadowsAskedPx = wanted.mapSizePx;
@@ -393,7 +378,7 @@ bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::s
 
 // The same ground as seen from the sun, once a cascade.
 void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawItem> items,
-                                       const RenderSettings& settings, int variant) {
+                                       const RenderSettings& settings, const Program& program) {
     double nearestM = settings.light.shadows.reachM;
     for (const DrawItem& item : items) nearestM = std::min(nearestM, static_cast<double>(item.distanceM));
     const double least = 1e-6 * config.shape.radiusM;
@@ -403,7 +388,6 @@ void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawIte
     const ShadowUniforms told = shadowUniforms(cascades, settings.light.shadows.softness, shadows->sizePx());
     glBindBuffer(GL_UNIFORM_BUFFER, shadowsFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(told), &told, GL_STREAM_DRAW);
-    const Program& program = programs.depth(variant);
     const KeepFramebuffers keep;
     glUseProgram(program.name());
     glBindVertexArray(chunkArray.name());
@@ -422,14 +406,14 @@ void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawIte
 }
 
 void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const RenderSettings& settings,
-                                      const Program& program) {
+                                      const Program* program) {
     const bool skirts =
         std::any_of(items.begin(), items.end(), [](const DrawItem& item) { return item.skirtDepthM > 0; });
     const GLsizei first = settings.skirtPaint == SkirtPaint::LoudAlone ? gridIndexCount : 0;
     const GLsizei indexCount = (skirts ? allIndexCount : gridIndexCount) - first;
     const auto chunks = static_cast<GLsizei>(items.size());
     glEnable(GL_CULL_FACE);
-    glUseProgram(program.name());
+    glUseProgram(program ? program->name() : 0);
     glBindVertexArray(chunkArray.name());
     if (chunks > 0 && indexCount > 0) {
         glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT,
@@ -455,14 +439,17 @@ Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
     if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
     Result<HeightPool> pool = HeightPool::create(config.slotCapacity, chunkSize(config.shape));
     if (!pool) return tl::unexpected(pool.error());
-    Result<ChunkPrograms> programs = ChunkPrograms::build(config.shaderFolder, std::array{0});
-    if (!programs) return tl::unexpected(programs.error());
+    RendererConfig own = config;
+    if (!own.programs) {
+        Result<ChunkPrograms> programs = ChunkPrograms::build(config.shaderFolder);
+        if (!programs) return tl::unexpected(programs.error());
+        own.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
+    }
     Result<LayerTextures> checker = LayerTextures::create({}, checkerSize);
     if (!checker) return tl::unexpected(checker.error());
     std::unique_ptr<State> state;
-    const bool made = hasRoomFor([&] {
-        state = std::make_unique<State>(config, std::move(*pool), std::move(*programs), std::move(*checker));
-    });
+    const bool made =
+        hasRoomFor([&] { state = std::make_unique<State>(own, std::move(*pool), std::move(*checker)); });
     if (!made) return badInput("this OpenGL context has no memory for what chunks are drawn with");
     return ChunkRenderer(std::move(state));
 }
@@ -493,7 +480,7 @@ void ChunkRenderer::setShape(const PlanetShape& shape) {
 }
 
 Result<void> ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
-    return ColourImage::create(rgb, width, height, state_->programs.faceImage().name())
+    return ColourImage::create(rgb, width, height, state_->programs->faceImage().name())
         .map([this](ColourImage image) { state_->image = std::move(image); });
 }
 
@@ -528,7 +515,7 @@ Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finest
     State& state = *state_;
     assert(state.clipmap);
     Result<void> moved =
-        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs.clipmapFill().name());
+        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs->clipmapFill().name());
     if (!moved) {
         state.clipmap.reset();
         return moved;
@@ -567,16 +554,50 @@ void ChunkRenderer::setAirInBackground(bool inBackground) {
 }
 
 Result<void> ChunkRenderer::reloadShaders() {
-    Result<ChunkPrograms> programs =
-        ChunkPrograms::build(state_->config.shaderFolder, state_->programs.variants());
-    if (!programs) return tl::unexpected(programs.error());
-    state_->programs = std::move(*programs);
-    state_->capture = Program();
-    return {};
+    return state_->programs->reload();
+}
+
+DrawnWith ChunkRenderer::State::programsFor(int variant, bool physicalSky) const {
+    const bool shadowed = (variant & switchShadows) != 0;
+    return {&programs->program({ProgramUse::Chunk, variant}),
+            shadowed ? &programs->program(depthKey(variant)) : nullptr,
+            &programs->program(skyKey(physicalSky)), false};
+}
+
+// Returns the programs that are ready, and the most similar ones in place of the others, which it orders.
+DrawnWith ChunkRenderer::State::programsAtHand(int variant, bool physicalSky) const {
+    programs->takeOrdered();
+    const bool shadowed = (variant & switchShadows) != 0;
+    std::vector<ProgramKey> wanted = {{ProgramUse::Chunk, variant}, skyKey(physicalSky)};
+    if (shadowed) wanted.push_back(depthKey(variant));
+    std::vector<ProgramKey> next = {{ProgramUse::Chunk, otherSliding(variant)}};
+    if (shadowed) next.push_back(depthKey(otherSliding(variant)));
+    std::optional<DrawingState> state;
+    const auto order = [&](const std::vector<ProgramKey>& keys, Urgency urgency) {
+        for (const ProgramKey& key : keys) {
+            if (programs->ready(key) || programs->isOrdered(key)) continue;
+            if (!state) state = currentDrawingState(projection.reversedZ);
+            programs->order(key, *state, urgency);
+        }
+    };
+    order(wanted, Urgency::Now);
+    DrawnWith with{programs->ready(wanted[0]), shadowed ? programs->ready(wanted[2]) : nullptr,
+                   programs->ready(wanted[1]), false};
+    if (with.chunk && with.sky && (with.depth || !shadowed)) {
+        order(next, Urgency::Later);
+        return with;
+    }
+    with.standIn = true;
+    const bool withoutShadows = shadowed && !with.depth;
+    if (!with.chunk || withoutShadows)
+        with.chunk = programs->nearest(withoutShadows ? variant & ~switchShadows : variant);
+    if (!with.sky) with.sky = programs->ready(skyKey(false));
+    return with;
 }
 
 void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-                         std::span<const ChunkTint> tints, std::span<const DrawItem> shadowCasters) {
+                         std::span<const ChunkTint> tints, std::span<const DrawItem> shadowCasters,
+                         ShaderWait wait) {
     State& state = *state_;
     state.projection = state.chooseProjection(view, items);
     const bool shadowed = state.makeShadowMaps(settings, items);
@@ -586,8 +607,12 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.bindInputs();
     const int variant =
         state.chooseVariant(view, items, settings, !tints.empty(), shadowed ? switchShadows : 0);
+    const bool physicalSky = state.airIsPhysical(settings);
+    const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
+    const DrawnWith with =
+        mayStandIn ? state.programsAtHand(variant, physicalSky) : state.programsFor(variant, physicalSky);
     state.shadowsTimer.begin();
-    if (shadowed) state.drawShadows(view, items, settings, variant);
+    if (with.depth) state.drawShadows(view, items, settings, *with.depth);
     state.shadowsTimer.end();
 
     state.chunksTimer.begin();
@@ -596,14 +621,14 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
     glClearColor(0, 0, 0, 1);
-    state.beginDepth();
+    beginDepthTest(state.projection.reversedZ);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    state.drawChunks(items, settings, state.programs.chunk(variant));
+    state.drawChunks(with.chunk ? items : std::span<const DrawItem>(), settings, with.chunk);
     state.chunksTimer.end();
     state.skyTimer.begin();
-    state.drawSky(state.programs.sky(state.airIsPhysical(settings)));
+    if (with.sky) state.drawSky(*with.sky);
     state.skyTimer.end();
-    state.endDepth();
+    endDepthTest(state.projection.reversedZ);
     glBindVertexArray(0);
     glUseProgram(0);
 
@@ -611,6 +636,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.counters.skyMs = state.skyTimer.lastMs();
     state.counters.shadowsMs = shadowed ? state.shadowsTimer.lastMs() : 0;
     state.counters.uploads = std::exchange(state.uploads, 0);
+    state.counters.standIn = with.standIn;
 }
 
 Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& view,
@@ -618,12 +644,14 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
                                                                   const RenderSettings& settings) {
     State& state = *state_;
     const int variant = state.chooseVariant(view, items, settings, false) & ~switchSeaSurface;
-    if (state.capture.name() == 0 || state.captureVariant != variant) {
+    if (state.capture.name() == 0 || state.captureVariant != variant ||
+        state.captureReloads != state.programs->reloads()) {
         const std::array<const char*, 1> captured = {"surface"};
-        Result<Program> program = state.programs.capturing(variant, captured);
+        Result<Program> program = state.programs->capturing(variant, captured);
         if (!program) return tl::unexpected(program.error());
         state.capture = std::move(*program);
         state.captureVariant = variant;
+        state.captureReloads = state.programs->reloads();
     }
     state.fillInstances(items, {}, settings.stitched);
     state.fillFrame(view, settings);

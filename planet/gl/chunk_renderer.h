@@ -27,6 +27,11 @@
 
 namespace planet::gl {
 
+class ChunkPrograms;
+
+// Whether a draw waits for programs that are not ready, or draws with others until they are.
+enum class ShaderWait : std::uint8_t { UntilReady, Never };
+
 // A colour laid over a chunk's finished picture, unlit and in front of the air: sRGB and opacity, [0, 255].
 // At 255 the pixels are exactly this colour; at 0 they stay as they are.
 struct ChunkTint {
@@ -90,6 +95,9 @@ struct RenderCounters {
     double skyMs = 0;
     double shadowsMs = 0;
     std::uint32_t uploads = 0;  // chunks uploaded since the draw before
+    // Other programs than the settings want were drawn with, or none, since those wanted are still being
+    // compiled (ShaderWait::Never): the picture does not show what it is set to show.
+    bool standIn = false;
 
     std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
 };
@@ -130,6 +138,9 @@ struct RendererConfig {
     PlanetShape shape;
     std::uint32_t slotCapacity = 0;      // Planet::slotCapacity()
     std::filesystem::path shaderFolder;  // read instead of the shaders built in; empty: built in
+    // Shared with other renderers, so that none waits for what another one has compiled; the folder is theirs
+    // then. None: the renderer's own.
+    std::shared_ptr<ChunkPrograms> programs{};
 };
 
 class ChunkRenderer {
@@ -189,9 +200,12 @@ public:
     // included. It needs a depth buffer; with reversedZ a float one pays. Leaves depth, culling and clip
     // control as a new context has them. Skirts are drawn where an item's skirt has a depth. Tints: one an
     // item, or none. shadowCasters: chunks that are not drawn but throw shadows (shadow_cascades.h); not
-    // looked at where drawsShadows() says no.
+    // looked at where drawsShadows() says no. ShaderWait::Never, where the programs have a worker: the
+    // programs that the settings want are compiled in the background. Until they are ready the most similar
+    // ones draw, or nothing is drawn; RenderCounters::standIn tells.
     void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-              std::span<const ChunkTint> tints = {}, std::span<const DrawItem> shadowCasters = {});
+              std::span<const ChunkTint> tints = {}, std::span<const DrawItem> shadowCasters = {},
+              ShaderWait wait = ShaderWait::UntilReady);
     // Whether the ground's shadows, or the sea's surface, would be drawn.
     bool drawsShadows(const RenderSettings& settings) const;
     bool drawsSeaSurface(const RenderSettings& settings) const;

@@ -52,7 +52,8 @@ std::vector<Candidate> findDisplays() {
     return candidates;
 }
 
-EGLContext createContext(EGLDisplay display, EGLConfig config, ContextVersion version, bool debug) {
+EGLContext createContext(EGLDisplay display, EGLConfig config, ContextVersion version, bool debug,
+                         EGLContext shared = EGL_NO_CONTEXT) {
     const std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
                                               version.major,
                                               EGL_CONTEXT_MINOR_VERSION,
@@ -62,11 +63,12 @@ EGLContext createContext(EGLDisplay display, EGLConfig config, ContextVersion ve
                                               EGL_CONTEXT_OPENGL_DEBUG,
                                               debug ? EGL_TRUE : EGL_FALSE,
                                               EGL_NONE};
-    return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    return eglCreateContext(display, config, shared, attributes.data());
 }
 
 struct Opened {
     EGLContext context = EGL_NO_CONTEXT;
+    EGLConfig config = nullptr;
     std::string problem;
 };
 
@@ -74,24 +76,24 @@ Opened openOn(EGLDisplay display, const OffscreenSettings& settings) {
     EGLint major = 0;
     EGLint minor = 0;
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor))
-        return {EGL_NO_CONTEXT, "cannot be initialised"};
+        return {EGL_NO_CONTEXT, nullptr, "cannot be initialised"};
     if (major == 1 && minor < 5)
-        return {EGL_NO_CONTEXT, fmt::format("has EGL {}.{}, needs 1.5", major, minor)};
+        return {EGL_NO_CONTEXT, nullptr, fmt::format("has EGL {}.{}, needs 1.5", major, minor)};
     if (!hasWord(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
-        return {EGL_NO_CONTEXT, "lacks EGL_KHR_surfaceless_context"};
-    if (!eglBindAPI(EGL_OPENGL_API)) return {EGL_NO_CONTEXT, "has OpenGL ES only"};
+        return {EGL_NO_CONTEXT, nullptr, "lacks EGL_KHR_surfaceless_context"};
+    if (!eglBindAPI(EGL_OPENGL_API)) return {EGL_NO_CONTEXT, nullptr, "has OpenGL ES only"};
     // Nothing is drawn to a surface of EGL's own, so any config will do, and none is asked for surfaces.
     const std::array<EGLint, 5> wanted = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!eglChooseConfig(display, wanted.data(), &config, 1, &count) || count == 0)
-        return {EGL_NO_CONTEXT, "has no config for OpenGL"};
+        return {EGL_NO_CONTEXT, nullptr, "has no config for OpenGL"};
     for (const ContextVersion& version : versions) {
         if (settings.highest < version) continue;
         const EGLContext context = createContext(display, config, version, settings.debug);
-        if (context != EGL_NO_CONTEXT) return {context, {}};
+        if (context != EGL_NO_CONTEXT) return {context, config, {}};
     }
-    return {EGL_NO_CONTEXT, "has no OpenGL core profile of version 3.3 or higher"};
+    return {EGL_NO_CONTEXT, nullptr, "has no OpenGL core profile of version 3.3 or higher"};
 }
 
 }  // namespace
@@ -113,6 +115,8 @@ Result<OffscreenContext> OffscreenContext::create(const OffscreenSettings& setti
         OffscreenContext context;
         context.display_ = candidate.display;
         context.context_ = opened.context;
+        context.config_ = opened.config;
+        context.debug_ = settings.debug;
         context.makeCurrent();
         glGetIntegerv(GL_MAJOR_VERSION, &context.version_.major);
         glGetIntegerv(GL_MINOR_VERSION, &context.version_.minor);
@@ -125,12 +129,16 @@ Result<OffscreenContext> OffscreenContext::create(const OffscreenSettings& setti
 OffscreenContext::OffscreenContext(OffscreenContext&& other) noexcept
     : display_(other.display_),
       context_(std::exchange(other.context_, nullptr)),
+      config_(other.config_),
+      debug_(other.debug_),
       version_(other.version_),
       renderer_(std::move(other.renderer_)) {}
 
 OffscreenContext& OffscreenContext::operator=(OffscreenContext&& other) noexcept {
     std::swap(display_, other.display_);
     std::swap(context_, other.context_);
+    std::swap(config_, other.config_);
+    std::swap(debug_, other.debug_);
     std::swap(version_, other.version_);
     std::swap(renderer_, other.renderer_);
     return *this;
@@ -144,8 +152,26 @@ OffscreenContext::~OffscreenContext() {
     eglDestroyContext(display_, context_);
 }
 
-void OffscreenContext::makeCurrent() const {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+Result<OffscreenContext> OffscreenContext::sharing() const {
+    eglBindAPI(EGL_OPENGL_API);
+    OffscreenContext context;
+    context.context_ = createContext(display_, config_, version_, debug_, context_);
+    if (context.context_ == EGL_NO_CONTEXT)
+        return badInput("this driver does not share objects between OpenGL contexts");
+    context.display_ = display_;
+    context.config_ = config_;
+    context.debug_ = debug_;
+    context.version_ = version_;
+    context.renderer_ = renderer_;
+    return context;
+}
+
+bool OffscreenContext::makeCurrent() const {
+    return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+}
+
+void OffscreenContext::release() const {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 }  // namespace planet::gl

@@ -26,11 +26,15 @@ public:
     // Core profile, the highest version from settings.highest down to 3.3 that there is. Tries Mesa without a
     // surface first, then EGL's devices. The Error says what each lacks.
     static Result<OffscreenContext> create(const OffscreenSettings& settings = {});
+    // A second one, whose programs, textures and buffers are those of this one too; it is current nowhere.
+    Result<OffscreenContext> sharing() const;
     OffscreenContext(OffscreenContext&& other) noexcept;
     OffscreenContext& operator=(OffscreenContext&& other) noexcept;
     ~OffscreenContext();
 
-    void makeCurrent() const;
+    bool makeCurrent() const;
+    // Leaves the calling thread without a current context.
+    void release() const;
 
     ContextVersion version() const { return version_; }
     const std::string& renderer() const { return renderer_; }  // the driver's name for itself
@@ -40,6 +44,8 @@ private:
 
     void* display_ = nullptr;  // EGLDisplay, shared by all contexts of this process on it
     void* context_ = nullptr;  // EGLContext
+    void* config_ = nullptr;   // EGLConfig
+    bool debug_ = false;
     ContextVersion version_;
     std::string renderer_;
 };

@@ -93,6 +93,27 @@ TEST(InputQueue, ctrlAndClickComeInOneFrameButTypedTextComesBeforeTheClick) {
     EXPECT_EQ(framesOf({press, down('5'), text('5')}).size(), 2u);
 }
 
+TEST(InputQueue, textTypedIntoAFieldNeedsOneFrame) {
+    InputQueue queue;
+    for (int i = 0; i < 30; ++i) {
+        for (const InputEvent& event : {down('5'), text('5'), up('5')}) queue.add(event);
+    }
+    EXPECT_EQ(queue.size(), 90u);
+    EXPECT_EQ(queue.takeFrame(true).size(), 90u);
+    EXPECT_EQ(queue.size(), 0u);
+}
+
+TEST(InputQueue, keysThatActInATextFieldKeepTheirFrames) {
+    InputQueue queue;
+    for (const InputEvent& event :
+         {down(GLFW_KEY_BACKSPACE), up(GLFW_KEY_BACKSPACE), down('A', GLFW_MOD_CONTROL), up('A')})
+        queue.add(event);
+    EXPECT_EQ(queue.takeFrame(true).size(), 1u);
+    EXPECT_EQ(queue.takeFrame(true).size(), 2u);
+    EXPECT_EQ(queue.takeFrame(true).size(), 1u);
+    EXPECT_TRUE(queue.empty());
+}
+
 TEST(InputQueue, repeatsOfAHeldKeyWaitForNothing) {
     const InputEvent repeat{InputKind::KeyRepeat, GLFW_KEY_DOWN};
     EXPECT_EQ(framesOf({down(GLFW_KEY_DOWN), repeat, repeat}).size(), 1u);

@@ -35,8 +35,9 @@ hidden() { [ -z "$(place "$1")" ]; }
 counter() { awk -F'\t' -v n="counter/$1" '$1 == n {print $2; exit}' items.txt 2>/dev/null; }
 # counts drawn -gt 100
 counts() { [ "$(counter "$1")" "$2" "$3" ]; }
-# Waits until all that was done by now has come to be seen: frames that began after it have ended.
-frames() { set -- $(($(counter frame) + ${1:-3})); until_true counts frame -ge $1; }
+# Waits until all that was done by now has come to be seen: frames that began after it have ended, and no key or button
+# waits for its frame.
+frames() { set -- $(($(counter frame) + ${1:-3})) ${1:-3}; until_true counts frame -ge $1 || return 1; counts queued_input -eq 0 || frames $2; }
 at() { set -- $(place "$1") $2 $3; awk -v x=$1 -v y=$2 -v w=$3 -v h=$4 -v a=$5 -v b=$6 'BEGIN {printf "%d %d", x + a * w, y + b * h}'; }
 # Where it comes to rest: panels may still be making room.
 at_rest() { local was="$(place "$1")"; frames 2 && [ "$was" = "$(place "$1")" ]; }
@@ -74,7 +75,7 @@ picture() { set -- $(place "$1"); import -window root -crop "$(($3 * 6 / 10))x$(
 viewport() { picture viewport/picture; }
 differs() { [ "$(viewport)" != "$1" ]; }
 same() { [ "$(viewport)" = "$1" ]; }
-loaded() { counts queued -eq 0 && counts loading -eq 0; }
+loaded() { counts queued -eq 0 && counts loading -eq 0 && counts stand_in -eq 0; }
 still() { set -- "$(viewport)"; frames 4; [ "$1" = "$(viewport)" ]; }
 settled() { loaded && still; }
 settle() { frames 4; until_true settled || echo 'the planet does not settle'; }
