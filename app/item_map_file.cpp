@@ -73,10 +73,13 @@ void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPla
         text += fmt::format("{}\t{:.0f}\t{:.0f}\t{:.0f}\t{:.0f}\n", item.name, item.rect.x, item.rect.y,
                             item.rect.width, item.rect.height);
     }
-    const std::filesystem::path unfinished = file.string() + ".part";
-    std::ofstream(unfinished) << text;
     std::error_code status;
-    std::filesystem::rename(unfinished, file, status);
+    // A symbolic link stays one.
+    const std::filesystem::path followed = std::filesystem::weakly_canonical(file, status);
+    const std::filesystem::path& target = status ? file : followed;
+    const std::filesystem::path unfinished = target.string() + ".part";
+    std::ofstream(unfinished) << text;
+    std::filesystem::rename(unfinished, target, status);
 }
 
 }  // namespace worldy
