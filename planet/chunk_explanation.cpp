@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "planet/select/screen_error.h"
+
 namespace planet {
 
 namespace {

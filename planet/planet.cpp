@@ -95,7 +95,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
     if (!room) return tl::unexpected(room.error());
     auto tree = makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots));
     if (!tree) return tl::unexpected(namingFile(source.file.get(), std::move(tree.error())));
-    auto state = std::make_unique<State>();
+    auto state = std::make_unique<PlanetState>();
     state->settings = settings;
     state->file = std::move(source.file);
     state->tree = std::move(*tree);
@@ -131,7 +131,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
     return std::unique_ptr<Planet>(new Planet(std::move(state)));
 }
 
-Planet::Planet(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Planet::Planet(std::unique_ptr<PlanetState> state) : state_(std::move(state)) {}
 Planet::~Planet() = default;
 
 void Planet::step(const View& lodView, const LodSettings& settings, const UploadChunk& upload) {
@@ -145,18 +145,18 @@ void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload) {
 }
 
 void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload, double elapsedS) {
-    state_->lastStep = State::Clock::now();
+    state_->lastStep = PlanetState::Clock::now();
     state_->step(views, upload, elapsedS, elapsedS);
 }
 
 // Seconds since this was asked last.
-double Planet::State::clockS() {
+double PlanetState::clockS() {
     const Clock::time_point now = Clock::now();
     return std::chrono::duration<double>(now - std::exchange(lastStep, now)).count();
 }
 
-void Planet::State::step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
-                         double fadeElapsedS) {
+void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
+                       double fadeElapsedS) {
     assert(!inputs.empty() && inputs.size() <= maxViews && std::isfinite(elapsedS) && elapsedS >= 0);
     ++frame;
     changed = false;
@@ -222,7 +222,7 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
     double leftS = timeoutS;
     double stepS = 0;
     while (true) {
-        state_->lastStep = State::Clock::now();
+        state_->lastStep = PlanetState::Clock::now();
         state_->step(views, upload, stepS, std::numeric_limits<double>::infinity());
         if (settled()) return true;
         const PagerStatus status = state_->pager->status();
@@ -241,7 +241,7 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
 // What the budget has no room for can still come while a block is resident that no view uses, or that yields
 // to it, for that block will be dropped.
 bool Planet::settled() const {
-    const State& state = *state_;
+    const PlanetState& state = *state_;
     const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
     return state.frame > 0 && !state.changed && state.pager->status().idle() &&
            (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome &&
@@ -249,7 +249,7 @@ bool Planet::settled() const {
 }
 
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
-    State& state = *state_;
+    PlanetState& state = *state_;
     if (settings == state.settings) return false;
     if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
     const Result<Room> room = roomFor(state.tree.storedShape, state.colour, settings);
@@ -280,7 +280,7 @@ void Planet::dropAll() {
 }
 
 void Planet::startAnew() {
-    state_->lastStep = State::Clock::now();
+    state_->lastStep = PlanetState::Clock::now();
     state_->startAnew();
     state_->count();
 }

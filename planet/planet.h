@@ -9,171 +9,33 @@
 // All calls from one thread; the loader threads are its own.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "planet/bad_disk.h"
-#include "planet/block_failures.h"
-#include "planet/chunk_file.h"
-#include "planet/chunk_tree.h"
-#include "planet/lod_select.h"
-#include "planet/pager.h"
-#include "planet/paging_queue.h"
-#include "planet/result.h"
-#include "planet/tile_select.h"
-#include "planet/tile_tree.h"
+#include "planet/base/file_calls.h"
+#include "planet/base/result.h"
+#include "planet/format/chunk_file.h"
+#include "planet/paging/block_failures.h"
+#include "planet/paging/pager.h"
+#include "planet/paging/paging_queue.h"
+#include "planet/paging/paging_types.h"
+#include "planet/planet_types.h"
+#include "planet/select/lod_types.h"
+#include "planet/select/tile_select.h"
+#include "planet/sphere/planet_shape.h"
+#include "planet/sphere/view.h"
+#include "planet/tree/chunk_tree.h"
+#include "planet/tree/tile_tree.h"
 
 namespace planet {
 
-struct PagingSettings {
-    std::size_t budgetBytes =
-        256u << 20;            // for resident chunks, CPU and GPU together; smaller: coarser when it is full
-    int loaderThreads = 1;     // [1, maxLoaderThreads]
-    double uploadLimitMs = 4;  // >= 0, of a frame, for making loaded chunks drawable; at least one block is
-    bool paused = false;       // loaders take nothing but what loadOne() lets through
-    BadDiskSettings badDisk{};
-    // How often a block that could not be read is asked for again by itself, and how long after the first
-    // failure; after each further one twice as long. What is read and wrong is not.
-    RetryRules retry{};
-    // Of a planet with colours: the share of the budget that is for their tiles, [0.01, 0.9]; larger: sharper
-    // colours, and coarser ground when the budget is full.
-    double colourShare = 0.25;
-    std::uint32_t maxColourTiles = 2048;  // that the renderer's pool can hold at most
-    // Tiles of normals (normal_tile.h), where the heights fill any. Off: no memory is taken, and no view has
-    // them.
-    bool normals = false;
-    // What they and the heights kept to derive them take of the budget that colours leave, [0.01, 0.9];
-    // larger: finer light on coarse chunks, and coarser ground when the budget is full. Where it is too
-    // little for any there are none, and takeProblems() says so.
-    double normalShare = 0.2;
-    std::uint32_t maxNormalTiles = 2048;  // as of colours
-    // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS, and a block arrives in
-    // the first step at or past its end; uploadLimitMs does not hold. The same steps, settings and calls then
-    // give the same selections, requests and arrivals, bit for bit, on any machine.
-    PagingTime time = PagingTime::Clock;
-
-    bool operator==(const PagingSettings&) const = default;
-};
-
-// One of the views that share a planet.
-struct ViewInput {
-    View lodView;
-    LodSettings lod;
-    double priorityFactor = 1;  // of its requests against the other views'; > 0
-    TileSettings colours{};
-    TileSettings normals{};
-};
-
-enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };
-// How a request ended. A block that is asked for again after it has failed is another request.
-struct PagingEvent {
-    ChunkId parent;  // of the block
-    BlockKind kind = BlockKind::Heights;
-    PagingOutcome outcome = PagingOutcome::Loaded;
-    double atS = 0;                // seconds since the planet was opened
-    double waitedS = 0;            // since it was first asked for
-    double readS = 0;              // reading and decoding, a bad disk's waiting included
-    std::uint32_t bytes = 0;       // read
-    std::uint32_t timesAsked = 1;  // over 1: merged
-    double priority = 0;
-    PagingType type = PagingType::PageIn;  // only of Cancelled may be either
-};
-
-// What the loaders did to the requests in one step or one call between steps: all about paging that a clock
-// decides, and what was asked for.
-struct PagingMoves {
-    struct Arrival {
-        BlockId block;
-        PagingOutcome outcome = PagingOutcome::Loaded;  // Cancelled: thrown away
-        bool badData = false;  // Failed by what was read, not by reading: not to be asked for again
-
-        bool operator==(const Arrival&) const = default;
-    };
-    bool gaveUp = false;           // the paging's time changed: what was being read went back into the queue
-    std::vector<BlockId> taken{};  // after that, by loaders, in order
-    std::vector<Arrival> arrived{};    // after that, in order
-    std::vector<BlockId> requested{};  // at the end
-
-    bool operator==(const PagingMoves&) const = default;
-};
-
-// Totals since the file was opened, unless said otherwise. Requests are counted over all kinds of blocks;
-// loaded, evicted, failed and bytesRead of heights alone, since TilePagingCounters has those of each kind of
-// tiles. Of each kind loaded - evicted blocks are resident now, checker patterns in place of failed ones
-// apart.
-struct PagingCounters {
-    std::uint64_t requested = 0;       // page-ins put into the queue
-    std::uint64_t merged = 0;          // asked again while queued
-    std::uint64_t cancelled = 0;       // taken back by the opposite request, no longer wanted, or thrown away
-    std::uint64_t loaded = 0;          // blocks of heights read and made resident
-    double loadSeconds = 0;            // spent on reading and decoding blocks of any kind, over all threads
-    std::uint64_t evicted = 0;         // blocks of heights paged out
-    std::uint64_t failed = 0;          // reads of heights that failed
-    std::uint64_t bytesRead = 0;       // from the file, for blocks of heights
-    std::uint32_t failedForGood = 0;   // blocks of any kind, now: not requested again until told to
-    std::uint32_t awaitingRetry = 0;   // other blocks of any kind, now, whose last read failed
-    std::uint32_t queued = 0;          // now
-    std::uint32_t loading = 0;         // now being read, or read and waiting for their upload
-    std::uint32_t budgetWaits = 0;     // blocks wanted last step that the budget has no room for
-    std::size_t residentChunks = 0;    // now
-    std::size_t residentBytesCpu = 0;  // now
-    std::size_t residentBytesGpu = 0;  // now: heights in the pool that hold a resident chunk
-};
-
-// The same of one kind of tiles, colours or normals.
-struct TilePagingCounters {
-    std::uint64_t loaded = 0;        // blocks read and made resident
-    std::uint64_t evicted = 0;       // loaded blocks that are no longer resident
-    std::uint64_t failed = 0;        // reads that failed
-    std::uint64_t bytesRead = 0;     // from the file; for normals the heights that they are derived from
-    std::uint32_t budgetWaits = 0;   // blocks wanted last step that the share has no room for
-    std::size_t residentTiles = 0;   // now
-    std::uint32_t tileCapacity = 0;  // 0: off, or no room for any
-};
-
-// What a pool of tiles has to do to keep up with a step, in order.
-struct TileChange {
-    bool beginsAnew = false;          // every slot is empty, as when the planet was opened
-    std::optional<ChunkId> gone{};    // the tiles under this one are no longer resident
-    std::uint32_t firstSlot = 0;      // of those that have arrived
-    std::vector<TileData> arrived{};  // a root alone, or four siblings in slots one after the other
-};
-
-// What each stage of the last step took, milliseconds.
-struct StageTimes {
-    double uploadMs = 0;
-    double selectMs = 0;
-    double pagingMs = 0;  // page-out and requests
-};
-
-// Makes one chunk's heights drawable: chunkVertexCount steps into a slot below slotCapacity().
-using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
-
-// For whom nothing is drawn.
-inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
-
-// What a planet is made of: a chunk file, or for tests and generated planets anything that acts like one.
-struct PlanetSource {
-    PlanetShape shape;
-    std::int16_t minStep = 0;  // over the whole planet
-    std::int16_t maxStep = 0;
-    std::array<ChunkData, faceCount> roots;  // in face order
-    LoadChildren loadChildren;
-    // Colours: none without a pyramid.
-    std::optional<ColourPyramid> colour{};
-    std::array<TileData, faceCount> colourRoots{};
-    LoadColours loadColours{};
-    std::vector<std::string> problems{};    // that it is opened in spite of, for takeProblems()
-    std::shared_ptr<const ChunkFile> file;  // what the above comes from; null where there is no file
-};
+struct PlanetState;  // planet_state.h
 
 class Planet {
 public:
@@ -304,10 +166,9 @@ public:
     const View& lodView(std::size_t view = 0) const;
 
 private:
-    struct State;
-    explicit Planet(std::unique_ptr<State> state);
+    explicit Planet(std::unique_ptr<PlanetState> state);
     bool settleSimulated(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
-    std::unique_ptr<State> state_;
+    std::unique_ptr<PlanetState> state_;
 };
 
 }  // namespace planet

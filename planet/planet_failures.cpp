@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planet/planet.h"
 #include "planet/planet_state.h"
 
 namespace planet {
@@ -16,11 +17,11 @@ constexpr std::size_t mostProblemsKept = 1000;
 
 }  // namespace
 
-void Planet::State::tell(std::string problem) {
+void PlanetState::tell(std::string problem) {
     if (problems.size() < mostProblemsKept) problems.push_back(std::move(problem));
 }
 
-std::optional<double> Planet::State::untilRetryS() const {
+std::optional<double> PlanetState::untilRetryS() const {
     std::optional<double> first;
     for (const BlockFailures* known : {&failures, &colours.failures, &normals.failures}) {
         const std::optional<double> atS = known->nextRetryS();
@@ -30,7 +31,7 @@ std::optional<double> Planet::State::untilRetryS() const {
     return first;
 }
 
-void Planet::State::retryAll() {
+void PlanetState::retryAll() {
     failures.clear();
     for (ChunkNode& node : tree.nodes) {
         if (node.childrenState == ChildrenState::Failed || node.childrenState == ChildrenState::AwaitingRetry)
@@ -40,7 +41,7 @@ void Planet::State::retryAll() {
     normals.retryAll();
 }
 
-void Planet::State::retryOne(const BlockId& block) {
+void PlanetState::retryOne(const BlockId& block) {
     if (block.kind != BlockKind::Heights) return tilesOf(block.kind).retryOne(block.parent);
     failures.forget(block.parent);
     const NodeIndex node = findNode(tree, block.parent);
@@ -50,7 +51,7 @@ void Planet::State::retryOne(const BlockId& block) {
         changeState(state, ChildrenState::Absent);
 }
 
-void Planet::State::forgetFailures() {
+void PlanetState::forgetFailures() {
     failures.clear();
     colours.failures.clear();
     normals.failures.clear();
@@ -65,7 +66,7 @@ std::vector<FailedBlock> Planet::failedBlocks() const {
 }
 
 void Planet::retryFailed() {
-    State& state = *state_;
+    PlanetState& state = *state_;
     state.changed = true;
     state.retryAll();
     if (state.normals.isOn() && state.deriveNormalRoots()) beginNormalsAnew();

@@ -1,6 +1,7 @@
 // Opening a planet from a chunk file: all that the run time needs of the file itself.
 #include <fmt/format.h>
 
+#include "planet/planet.h"
 #include "planet/planet_state.h"
 
 namespace planet {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planet/planet_state.h"
+#include "planet/select/lod_select.h"
 
 namespace planet {
 
@@ -94,7 +95,7 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, c
     return all;
 }
 
-void Planet::State::select(double fadeElapsedS) {
+void PlanetState::select(double fadeElapsedS) {
     for (PlanetView& view : views) {
         selectChunks(tree, view.input.lodView, view.input.lod, view.selection, fadeElapsedS);
         selectTiles(colours.tree, tree, view.input.lodView, view.input.colours, view.input.lod, view.colours);
@@ -102,7 +103,7 @@ void Planet::State::select(double fadeElapsedS) {
     }
 }
 
-void Planet::State::uploadFinished(const UploadChunk& upload) {
+void PlanetState::uploadFinished(const UploadChunk& upload) {
     const Clock::time_point start = Clock::now();
     if (frame == 1) {
         for (NodeIndex root = 0; root < faceCount; ++root) {
@@ -116,7 +117,7 @@ void Planet::State::uploadFinished(const UploadChunk& upload) {
     } while (settings.time != PagingTime::Clock || msSince(start) < settings.uploadLimitMs);
 }
 
-void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
+void PlanetState::finish(FinishedLoad&& load, const UploadChunk& upload) {
     if (load.request.kind == BlockKind::Heights)
         paging.bytesRead += load.bytes;
     else
@@ -156,7 +157,7 @@ void Planet::State::finish(FinishedLoad&& load, const UploadChunk& upload) {
     note(load.request, PagingOutcome::Loaded, &load);
 }
 
-void Planet::State::finishTiles(FinishedLoad&& load) {
+void PlanetState::finishTiles(FinishedLoad&& load) {
     TilePaging& tiles = tilesOf(load.request.kind);
     if (!load.block) {
         const bool badData = load.block.error().kind == ErrorKind::BadInput;
@@ -168,7 +169,7 @@ void Planet::State::finishTiles(FinishedLoad&& load) {
     note(load.request, PagingOutcome::Loaded, &load);
 }
 
-void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, Error error) {
+void PlanetState::fail(NodeIndex parent, const FinishedLoad& load, Error error) {
     const bool badData = error.kind == ErrorKind::BadInput;
     const bool forGood = failures.failed(load.request.parent, std::move(error), sinceAnewS, settings.retry);
     changeState(tree.nodes[parent].childrenState,
@@ -178,14 +179,14 @@ void Planet::State::fail(NodeIndex parent, const FinishedLoad& load, Error error
 }
 
 // One that is tried again is not worth a line in a log yet.
-void Planet::State::noteFailure(const FinishedLoad& load, const BlockFailures& known, bool badData) {
+void PlanetState::noteFailure(const FinishedLoad& load, const BlockFailures& known, bool badData) {
     const ChunkId& parent = load.request.parent;
     if (known.isForGood(parent)) tell(known.messageOf(parent));
     if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Failed, badData});
     note(load.request, PagingOutcome::Failed, &load);
 }
 
-void Planet::State::throwAway(const FinishedLoad& load) {
+void PlanetState::throwAway(const FinishedLoad& load) {
     if (keepsMoves) moves.arrived.push_back({load.request.block(), PagingOutcome::Cancelled});
     ++thrownAway;
     note(load.request, PagingOutcome::Cancelled, &load);
@@ -193,7 +194,7 @@ void Planet::State::throwAway(const FinishedLoad& load) {
 
 // Keeps the page-outs what they are meant to be: the blocks that are out of use by all views, the longest
 // unused first and of those the deepest, so that children go before their parents.
-void Planet::State::markUsed(PagingQueue& queue) {
+void PlanetState::markUsed(PagingQueue& queue) {
     std::vector<NodeIndex> before;
     before.swap(watched);
     usedChunks = 0;
@@ -238,7 +239,7 @@ void Planet::State::markUsed(PagingQueue& queue) {
 }
 
 // Page-ins for what the views lack, the most wanted first, as far as there is room for them.
-void Planet::State::request(PagingQueue& queue) {
+void PlanetState::request(PagingQueue& queue) {
     wanted = mergeRequests(
         views, [](const PlanetView& view) -> auto& { return view.selection.requests; });
     const std::vector<MergedRequest> wantedColours = mergeRequests(
@@ -273,8 +274,7 @@ void Planet::State::request(PagingQueue& queue) {
     requestTiles(queue, normals, wantedNormals);
 }
 
-void Planet::State::renew(PagingQueue& queue, const std::vector<MergedRequest>& pending,
-                          BlockKind kind) const {
+void PlanetState::renew(PagingQueue& queue, const std::vector<MergedRequest>& pending, BlockKind kind) const {
     for (const MergedRequest& one : pending) {
         if (!queue.find({one.parentId, kind})) continue;
         queue.submit({.parent = one.parentId,
@@ -285,8 +285,8 @@ void Planet::State::renew(PagingQueue& queue, const std::vector<MergedRequest>& 
     }
 }
 
-void Planet::State::requestTiles(PagingQueue& queue, TilePaging& tiles,
-                                 const std::vector<MergedRequest>& wantedTiles) {
+void PlanetState::requestTiles(PagingQueue& queue, TilePaging& tiles,
+                               const std::vector<MergedRequest>& wantedTiles) {
     if (!tiles.isOn()) return;
     const std::vector<MergedRequest> splits = mergeRequests(
         views, [&](const PlanetView& view) -> auto& { return view.tiles(tiles.kind).splits; });
@@ -298,7 +298,7 @@ void Planet::State::requestTiles(PagingQueue& queue, TilePaging& tiles,
 }
 
 // Undoes what request did for a page-in that no loader has taken.
-void Planet::State::withdraw(const PagingRequest& request) {
+void PlanetState::withdraw(const PagingRequest& request) {
     if (request.kind != BlockKind::Heights) {
         tilesOf(request.kind).withdraw(request.parent);
         return note(request, PagingOutcome::Cancelled);
@@ -310,7 +310,7 @@ void Planet::State::withdraw(const PagingRequest& request) {
 
 // Free slots first, then those of the block that is out of use longest, then those promised to a page-in that
 // is wanted less.
-bool Planet::State::promiseRoom(PagingQueue& queue, double priority) {
+bool PlanetState::promiseRoom(PagingQueue& queue, double priority) {
     if (freeSlots.size() <= promised && !evictOne(queue)) {
         const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Heights);
         if (!least || least->priority >= priority) return false;
@@ -320,7 +320,7 @@ bool Planet::State::promiseRoom(PagingQueue& queue, double priority) {
     return true;
 }
 
-bool Planet::State::evictOne(PagingQueue& queue) {
+bool PlanetState::evictOne(PagingQueue& queue) {
     while (const PagingRequest* oldest = queue.best(PagingType::PageOut)) {
         const NodeIndex parent = findNode(tree, oldest->parent);
         const NodeIndex first = tree.nodes[parent].firstChild;
@@ -336,7 +336,7 @@ bool Planet::State::evictOne(PagingQueue& queue) {
 }
 
 // Also ends the page-out that may be pending. Leaves what is watched as it is.
-void Planet::State::evict(PagingQueue& queue, NodeIndex parent) {
+void PlanetState::evict(PagingQueue& queue, NodeIndex parent) {
     PagingRequest request{.parent = tree.nodes[parent].id, .type = PagingType::PageOut, .askedAtS = nowS};
     if (auto pending = queue.pop(request.parent)) request = std::move(*pending);
     assert(request.type == PagingType::PageOut);
@@ -353,7 +353,7 @@ void Planet::State::evict(PagingQueue& queue, NodeIndex parent) {
 // Evens out the errors of views that the budget cannot pay for: without this, what came first would stay fine
 // and what came closer since would stay coarse. A block that several views split is worth what it is worth to
 // the one that wants it most.
-void Planet::State::chooseYielding() {
+void PlanetState::chooseYielding() {
     if (paging.budgetWaits == 0 || hasBlocksOutOfUse()) return;
     std::vector<MergedRequest> least = mergeRequests(
         views, [](const PlanetView& view) -> auto& { return view.selection.splits; });
@@ -373,7 +373,7 @@ void Planet::State::chooseYielding() {
 }
 
 // Not in the step that chose them, whose draw lists they are in.
-void Planet::State::dropYielding() {
+void PlanetState::dropYielding() {
     if (yielding.empty()) return;
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
@@ -384,7 +384,7 @@ void Planet::State::dropYielding() {
 }
 
 // Not while anything below is resident or on its way.
-bool Planet::State::mayBeEvicted(NodeIndex firstChild) const {
+bool PlanetState::mayBeEvicted(NodeIndex firstChild) const {
     const auto begin = tree.nodes.begin() + firstChild;
     return std::none_of(begin, begin + quadrantCount, [](const ChunkNode& node) {
         return node.childrenState == ChildrenState::Resident ||
@@ -393,17 +393,17 @@ bool Planet::State::mayBeEvicted(NodeIndex firstChild) const {
 }
 
 // A freed node has no parent, and only roots have none else, which are never watched.
-void Planet::State::forgetGone() {
+void PlanetState::forgetGone() {
     std::erase_if(watched, [&](NodeIndex index) { return tree.nodes[index].parent == noNode; });
 }
 
-bool Planet::State::isOver(std::size_t blocks) const {
+bool PlanetState::isOver(std::size_t blocks) const {
     return (tree.residentChunks - faceCount) / quadrantCount + promised > blocks;
 }
 
 // What no view uses goes first, then the requests that are wanted least, then what was used longest ago, and
 // where even that is held up by the loads below it, those loads.
-void Planet::State::shrinkTo(PagingQueue& queue, std::size_t blocks) {
+void PlanetState::shrinkTo(PagingQueue& queue, std::size_t blocks) {
     evictLeastUsed(queue, blocks, frame);
     while (isOver(blocks)) {
         const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Heights);
@@ -419,7 +419,7 @@ void Planet::State::shrinkTo(PagingQueue& queue, std::size_t blocks) {
 
 // Drops blocks last used before a frame until there are few enough or no more such blocks: the longest unused
 // first, of those the deepest. In rounds, since dropping a block can free the one above it.
-void Planet::State::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore) {
+void PlanetState::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore) {
     if (!isOver(blocks)) return;
     struct Candidate {
         NodeIndex parent;
@@ -450,7 +450,7 @@ void Planet::State::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::
 
 // Only with no page-in of chunks queued: what is requested then is being read, or has been and is not yet
 // resident.
-void Planet::State::abandonLoads() {
+void PlanetState::abandonLoads() {
     for (ChunkNode& node : tree.nodes) {
         if (node.childrenState == ChildrenState::Requested)
             changeState(node.childrenState, ChildrenState::Absent);
@@ -459,7 +459,7 @@ void Planet::State::abandonLoads() {
     promised = 0;
 }
 
-void Planet::State::dropTiles(PagingQueue& queue, TilePaging& tiles) {
+void PlanetState::dropTiles(PagingQueue& queue, TilePaging& tiles) {
     if (!tiles.isOn()) return;
     while (const PagingRequest* pending = queue.worst(PagingType::PageIn, tiles.kind))
         note(*queue.cancel(pending->block()), PagingOutcome::Cancelled);
@@ -467,7 +467,7 @@ void Planet::State::dropTiles(PagingQueue& queue, TilePaging& tiles) {
     tiles.begin(tiles.tileCapacity, sinceAnewS);
 }
 
-void Planet::State::resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity) {
+void PlanetState::resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity) {
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
         dropTiles(queue, tiles);
@@ -476,8 +476,8 @@ void Planet::State::resizeTiles(TilePaging& tiles, std::uint32_t tileCapacity) {
     afterDrops();
 }
 
-void Planet::State::beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes,
-                                 const std::string& problem) {
+void PlanetState::beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes,
+                               const std::string& problem) {
     if (pager) resizeTiles(normals, 0);
     if (!problem.empty() && problem != normalProblem) tell(problem);
     normalProblem = problem;
@@ -490,7 +490,7 @@ void Planet::State::beginNormals(std::uint32_t tileCapacity, std::size_t heightB
     if (pager) afterDrops();
 }
 
-bool Planet::State::deriveNormalRoots() {
+bool PlanetState::deriveNormalRoots() {
     bool any = false;
     for (TileData& root : normals.roots) {
         if (!root.texels.empty()) continue;
@@ -506,7 +506,7 @@ bool Planet::State::deriveNormalRoots() {
 }
 
 // The lowest slots, in the order of the tree.
-void Planet::State::renumber() {
+void PlanetState::renumber() {
     std::uint32_t next = faceCount;
     forEachNode(tree, [&](NodeIndex, const ChunkNode& node) {
         if (node.childrenState != ChildrenState::Resident) return;
@@ -516,7 +516,7 @@ void Planet::State::renumber() {
     assert(freeSlots.size() >= promised);
 }
 
-void Planet::State::resize(std::uint32_t newCapacity) {
+void PlanetState::resize(std::uint32_t newCapacity) {
     slotCapacity = newCapacity;
     const std::size_t blocks = (slotCapacity - faceCount) / quadrantCount;
     pager->withQueue([&](PagingQueue& queue) {
@@ -527,7 +527,7 @@ void Planet::State::resize(std::uint32_t newCapacity) {
     afterDrops();
 }
 
-void Planet::State::dropEverything() {
+void PlanetState::dropEverything() {
     forgetFailures();
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
@@ -545,7 +545,7 @@ void Planet::State::dropEverything() {
 }
 
 // First what is queued, so that no loader takes it; then what is being read.
-void Planet::State::startAnew() {
+void PlanetState::startAnew() {
     pager->withQueue([&](PagingQueue& queue) {
         for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame)) {
             withdraw(request);
@@ -587,7 +587,7 @@ void Planet::State::startAnew() {
 }
 
 // Reads that were given up before their end. Nothing else can have asked for their blocks meanwhile.
-void Planet::State::putBack(std::vector<PagingRequest> givenUp) {
+void PlanetState::putBack(std::vector<PagingRequest> givenUp) {
     if (keepsMoves) moves = {.gaveUp = true};
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
@@ -603,13 +603,13 @@ void Planet::State::putBack(std::vector<PagingRequest> givenUp) {
 }
 
 // The selections, which hold nodes and slots, must not outlive what was dropped or moved between steps.
-void Planet::State::afterDrops() {
+void PlanetState::afterDrops() {
     yielding.clear();
     forgetGone();
     if (frame > 0) select(0);
 }
 
-void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load) {
+void PlanetState::note(const PagingRequest& request, PagingOutcome outcome, const FinishedLoad* load) {
     PagingEvent event;
     event.parent = request.parent;
     event.kind = request.kind;
@@ -627,12 +627,12 @@ void Planet::State::note(const PagingRequest& request, PagingOutcome outcome, co
     if (history.size() > eventsKept) history.pop_front();
 }
 
-void Planet::State::noteTaken(const PagingQueue& queue) {
+void PlanetState::noteTaken(const PagingQueue& queue) {
     const std::vector<BlockId> taken = pager->takeTaken(queue);
     if (keepsMoves) moves.taken.insert(moves.taken.end(), taken.begin(), taken.end());
 }
 
-void Planet::State::count() {
+void PlanetState::count() {
     const auto counters = pager->readQueue([](const PagingQueue& queue) { return queue.counters(); });
     const PagerStatus status = pager->status();
     paging.queued = status.queued;

@@ -9,15 +9,23 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "planet/elapsed.h"
-#include "planet/normal_tile.h"
-#include "planet/planet.h"
-#include "planet/tile_paging.h"
+#include "planet/base/elapsed.h"
+#include "planet/paging/block_failures.h"
+#include "planet/paging/normal_tile.h"
+#include "planet/paging/pager.h"
+#include "planet/paging/paging_queue.h"
+#include "planet/paging/paging_types.h"
+#include "planet/paging/tile_paging.h"
+#include "planet/planet_types.h"
+#include "planet/select/tile_select.h"
+#include "planet/tree/chunk_tree.h"
 
 namespace planet {
 
@@ -38,7 +46,7 @@ struct PlanetView {
 // What is wrong with chunks whose checksums match, with the name of the file that they come from, if any.
 Error namingFile(const ChunkFile* file, Error error);
 
-struct Planet::State {
+struct PlanetState {
     using Clock = std::chrono::steady_clock;
 
     PagingSettings settings;

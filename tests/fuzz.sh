@@ -80,5 +80,5 @@ figures | tee "$root/figures"
 [ -n "$(ls "$root/found")" ] || { ! grep -qv '^0$' "$root"/logs/*.status; exit; }
 echo
 echo "What was found lies in $root/found; to see it again: $root/NAME_fuzz $root/found/NAME-..."
-echo "Mend it, and make a named test of it in tests/hostile_file_test.cpp or tests/app/hostile_text_test.cpp."
+echo "Mend it, and make a named test of it in tests/planet/format/hostile_file_test.cpp or tests/app/settings/hostile_text_test.cpp."
 exit 1

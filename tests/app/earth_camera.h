@@ -1,8 +1,8 @@
 // A camera over a planet of the Earth's size.
 #pragma once
 
-#include "app/camera_control.h"
-#include "planet/planet_shape.h"
+#include "app/scene/camera_control.h"
+#include "planet/sphere/planet_shape.h"
 
 namespace worldy {
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/session.h"
-#include "planet/gl/offscreen_context.h"
-#include "tests/temporary_folder.h"
+#include "app/editor/session.h"
+#include "planet/gl/device/offscreen_context.h"
+#include "tests/support/temporary_folder.h"
 
 namespace worldy::test {
 

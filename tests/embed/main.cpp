@@ -1,7 +1,7 @@
 // Draws a baked planet in a window of one's own: all that a program needs to embed planet and planet_gl.
 // Usage: embed FILE.chk [FRAMES]
 #include <GLFW/glfw3.h>
-#include <planet/gl/chunk_renderer.h>
+#include <planet/gl/draw/chunk_renderer.h>
 #include <planet/planet.h>
 
 #include <cstdio>

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
-#include "planet/chunk_tree.h"
-#include "planet/colour_report.h"
-#include "planet/file_report.h"
-#include "tests/chunk_blocks.h"
+#include "planet/bake/colour_report.h"
+#include "planet/bake/file_report.h"
+#include "planet/tree/chunk_tree.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/support/chunk_blocks.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "planet/colour_tile.h"
-#include "planet/height_codec.h"
+#include "planet/format/colour_tile.h"
+#include "planet/format/height_codec.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Flights as TOML: one that is read can be flown, and keeps to its keys.
-#include "app/flight_path.h"
+#include "app/flight/flight_path_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 // Recorded flights. An input is a file, or, where it does not begin as one, the content of one: compressing
 // and checking it would keep all but the first from being reached.
-#include "app/flight_record.h"
+#include "app/flight/flight_record.h"
 
 #include <cmath>
 
+#include "app/flight/flight_path_file.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "planet/result.h"
+#include "planet/base/result.h"
 
 // Given by libFuzzer: changes bytes in place, and returns how many there are now.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t maxSize);

@@ -1,7 +1,7 @@
 // Layer sets: what is read is written again as the same set, and its weights are weights.
-#include "app/layer_file.h"
-#include "planet/layer_place.h"
-#include "planet/layer_set.h"
+#include "app/settings/layer_file.h"
+#include "planet/surface/layer_place.h"
+#include "planet/surface/layer_set.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "planet/height_source_kinds.h"
+#include "planet/source/height_source_kinds.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

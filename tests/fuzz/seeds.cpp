@@ -9,15 +9,17 @@
 #include <iterator>
 #include <string>
 
-#include "app/flight_record.h"
-#include "app/layer_file.h"
-#include "app/settings.h"
-#include "planet/bake.h"
-#include "planet/colour_source.h"
-#include "planet/height_codec.h"
-#include "planet/view.h"
-#include "tests/chunk_blocks.h"
-#include "tests/earth_windows.h"
+#include "app/flight/flight_record.h"
+#include "app/settings/layer_file.h"
+#include "app/settings/settings_text.h"
+#include "planet/bake/bake.h"
+#include "planet/bake/colour_tile_sampling.h"
+#include "planet/format/height_codec.h"
+#include "planet/source/colour_source.h"
+#include "planet/source/height_source.h"
+#include "planet/sphere/view.h"
+#include "tests/support/chunk_blocks.h"
+#include "tests/support/earth_windows.h"
 
 namespace {
 

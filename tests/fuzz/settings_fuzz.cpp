@@ -1,5 +1,5 @@
 // Settings files and presets: what is read is written again as the same settings.
-#include "app/settings.h"
+#include "app/settings/settings_text.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -10,10 +10,10 @@
 #include <iterator>
 #include <vector>
 
-#include "planet/chunk_file.h"
-#include "planet/chunk_file_format.h"
-#include "planet/height_codec.h"
-#include "planet/little_endian.h"
+#include "planet/base/little_endian.h"
+#include "planet/format/chunk_file.h"
+#include "planet/format/chunk_file_format.h"
+#include "planet/format/height_codec.h"
 
 namespace {
 

@@ -8,8 +8,9 @@ cd "$(dirname "$0")/../.."
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 sources="tests/machine/read_whole_file.cpp"
-for part in chunk_file chunk_file_format height_codec height_prediction height_residual_coder colour_tile chunk_id \
-    cube_sphere face_fold file_calls open_file; do
+for part in format/chunk_file format/chunk_file_format format/height_codec format/height_prediction \
+    format/height_residual_coder format/colour_tile sphere/chunk_id sphere/cube_sphere sphere/face_fold base/file_calls \
+    base/open_file; do
     sources="$sources planet/$part.cpp"
 done
 libraries="-lfmt -lxxhash -lzstd -lsquish"

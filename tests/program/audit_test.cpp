@@ -4,8 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "planet/chunk_file.h"
-#include "planet/chunk_file_format.h"
+#include "planet/format/chunk_file.h"
+#include "planet/format/chunk_file_format.h"
 #include "tests/program/small_planet.h"
 
 namespace worldy {

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "planet/chunk_file_format.h"
+#include "planet/format/chunk_file_format.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
 

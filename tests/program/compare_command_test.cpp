@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/picture.h"
+#include "app/base/picture.h"
 #include "tests/program/small_planet.h"
 
 namespace worldy {

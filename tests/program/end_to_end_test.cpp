@@ -7,8 +7,8 @@
 #include <numeric>
 #include <set>
 
-#include "app/picture.h"
-#include "planet/gl/offscreen_context.h"
+#include "app/base/picture.h"
+#include "planet/gl/device/offscreen_context.h"
 #include "tests/program/small_planet.h"
 
 namespace worldy {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/flight_record.h"
+#include "app/flight/flight_record.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
 

@@ -18,10 +18,10 @@
 #include <thread>
 #include <vector>
 
-#include "planet/chunk_file.h"
+#include "planet/format/chunk_file.h"
 #include "tests/program/run_program.h"
 #include "tests/program/small_planet.h"
-#include "tests/sanitized.h"
+#include "tests/support/sanitized.h"
 
 namespace worldy {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
-#include "app/picture.h"
-#include "app/screenshot.h"
+#include "app/base/picture.h"
+#include "app/settings/screenshot.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
 

@@ -1,0 +1,59 @@
+#include "app/base/log.h"
+
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+
+#include <ctime>
+#include <utility>
+
+namespace worldy {
+
+namespace {
+
+ui::LogLevel levelOf(spdlog::level::level_enum level) {
+    if (level >= spdlog::level::err) return ui::LogLevel::Error;
+    if (level == spdlog::level::warn) return ui::LogLevel::Warning;
+    return level == spdlog::level::info ? ui::LogLevel::Info : ui::LogLevel::Debug;
+}
+
+std::string clockText(spdlog::log_clock::time_point time) {
+    const std::time_t seconds = spdlog::log_clock::to_time_t(time);
+    std::tm local{};
+    localtime_r(&seconds, &local);
+    return fmt::format("{:02}:{:02}:{:02}", local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+}  // namespace
+
+class Log::Sink : public spdlog::sinks::base_sink<std::mutex> {
+public:
+    std::vector<ui::LogLine> takeLines() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(lines_, {});
+    }
+
+private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        if (lines_.size() >= keptLines) lines_.erase(lines_.begin());
+        lines_.push_back({levelOf(message.level), clockText(message.time),
+                          std::string(message.payload.data(), message.payload.size())});
+    }
+    void flush_() override {}
+
+    std::vector<ui::LogLine> lines_;
+};
+
+Log::Log() : sink_(std::make_shared<Sink>()) {
+    const auto terminal = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+    terminal->set_pattern("worldy: %^%l%$: %v");
+    logger_ = std::make_shared<spdlog::logger>("worldy", spdlog::sinks_init_list{terminal, sink_});
+    logger_->set_level(spdlog::level::debug);
+    terminal->set_level(spdlog::level::info);
+}
+
+void Log::moveNewLines(std::deque<ui::LogLine>& lines) {
+    for (ui::LogLine& line : sink_->takeLines()) lines.push_back(std::move(line));
+    while (lines.size() > keptLines) lines.pop_front();
+}
+
+}  // namespace worldy

@@ -1,0 +1,151 @@
+#include "app/base/toml_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace worldy {
+
+namespace {
+
+constexpr std::uintmax_t mostTomlBytes = 16u << 20;
+
+std::string wanted(std::string_view kind, const NumberRange& range) {
+    const std::string unit = range.unit.empty() ? std::string() : fmt::format(" of {}", range.unit);
+    return fmt::format("expected {}{} from {} to {}", kind, unit, range.min, range.max);
+}
+
+tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, std::string_view name,
+                                    const toml::node& node, const std::string& right) {
+    return planet::badInput(
+        fmt::format("{}: {} is {}; {}", placeOf(file, node), name, shownValue(node), right));
+}
+
+// Bytes that follow a first byte in UTF-8, and the least code point that may need as many; no count where
+// the byte is none to begin with.
+struct Utf8Start {
+    int following = -1;
+    std::uint32_t bits = 0;
+    std::uint32_t least = 0;
+};
+Utf8Start utf8Start(unsigned char byte) {
+    if (byte < 0x80) return {0, byte, 0};
+    if ((byte & 0xE0u) == 0xC0u) return {1, byte & 0x1Fu, 0x80};
+    if ((byte & 0xF0u) == 0xE0u) return {2, byte & 0x0Fu, 0x800};
+    if ((byte & 0xF8u) == 0xF0u) return {3, byte & 0x07u, 0x10000};
+    return {};
+}
+
+// A key's parts become tables in one another, and are let go of one in another too: a million of them would
+// overflow the stack. All dots of a line are counted, since a part in quotes may hold anything but a line's
+// end.
+constexpr std::size_t mostDotsALine = 5000;
+
+// The first line with more, 0 where there is none. A row of dots counts as one.
+std::size_t lineOfEndlessKey(std::string_view text) {
+    std::size_t line = 1, dots = 0;
+    char before = 0;  // but spaces
+    for (const char letter : text) {
+        if (letter == '.' && before != '.' && ++dots > mostDotsALine) return line;
+        if (letter != ' ' && letter != '\t') before = letter;
+        if (letter != '\n') continue;
+        ++line;
+        dots = 0;
+    }
+    return 0;
+}
+
+}  // namespace
+
+bool isUtf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const Utf8Start start = utf8Start(static_cast<unsigned char>(text[i++]));
+        if (start.following < 0 || i + static_cast<std::size_t>(start.following) > text.size()) return false;
+        std::uint32_t point = start.bits;
+        for (int k = 0; k < start.following; ++k) {
+            const auto byte = static_cast<unsigned char>(text[i++]);
+            if ((byte & 0xC0u) != 0x80u) return false;
+            point = (point << 6) | (byte & 0x3Fu);
+        }
+        if (point < start.least || point > 0x10FFFF || (point >= 0xD800 && point < 0xE000)) return false;
+    }
+    return true;
+}
+
+std::string shownValue(const toml::node& node) {
+    std::ostringstream text;
+    node.visit([&](const auto& value) { text << value; });
+    return text.str().substr(0, 60);
+}
+
+std::string placeOf(const std::filesystem::path& file, const toml::node& node) {
+    if (node.source().begin.line == 0) return file.string();
+    return fmt::format("{}: line {}", file.string(), node.source().begin.line);
+}
+
+planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(path, status)) {
+        return planet::ioError(fmt::format("{}: no such file; give the path of a TOML file", path.string()));
+    }
+    if (const std::uintmax_t bytes = std::filesystem::file_size(path, status);
+        !status && bytes > mostTomlBytes) {
+        return planet::badInput(fmt::format("{}: is {} bytes large; expected at most {} for a TOML file",
+                                            path.string(), bytes, mostTomlBytes));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    std::stringstream text;
+    text << stream.rdbuf();
+    if (!stream)
+        return planet::ioError(fmt::format("{}: cannot be read; check its permissions", path.string()));
+    return parseTomlText(text.str(), path);
+}
+
+planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place) {
+    if (const std::size_t line = lineOfEndlessKey(text); line > 0) {
+        return planet::badInput(fmt::format("{}: line {}: has more than {} dots; expected several lines",
+                                            place.string(), line, mostDotsALine));
+    }
+    try {
+        return toml::parse(text, place.string());
+    } catch (const toml::parse_error& error) {
+        return planet::badInput(fmt::format("{}: line {}: not TOML: {}; see toml.io for the syntax",
+                                            place.string(), error.source().begin.line, error.description()));
+    }
+}
+
+planet::Result<double> readNumber(const std::filesystem::path& file, std::string_view name,
+                                  const toml::node& node, const NumberRange& range) {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value) || *value < range.min || *value > range.max) {
+        return wrong(file, name, node, wanted("a number", range));
+    }
+    return *value;
+}
+
+planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std::string_view name,
+                                         const toml::node& node, const NumberRange& range) {
+    const std::optional<std::int64_t> value = node.value_exact<std::int64_t>();
+    if (!value || static_cast<double>(*value) < range.min || static_cast<double>(*value) > range.max) {
+        return wrong(file, name, node, wanted("a whole number", range));
+    }
+    return *value;
+}
+
+planet::Result<bool> readBool(const std::filesystem::path& file, std::string_view name,
+                              const toml::node& node) {
+    const std::optional<bool> value = node.value_exact<bool>();
+    if (!value) return wrong(file, name, node, "expected true or false");
+    return *value;
+}
+
+planet::Result<std::string> readText(const std::filesystem::path& file, std::string_view name,
+                                     const toml::node& node) {
+    const std::optional<std::string> value = node.value_exact<std::string>();
+    if (!value) return wrong(file, name, node, "expected a text in quotes");
+    return *value;
+}
+
+}  // namespace worldy

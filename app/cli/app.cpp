@@ -1,0 +1,155 @@
+#include "app/cli/app.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "app/base/exit_code.h"
+#include "app/base/message.h"
+#include "app/base/places.h"
+#include "app/cli/shot_command.h"
+#include "app/data/bake_progress.h"
+#include "app/editor/editor.h"
+#include "app/editor/window.h"
+#include "app/settings/screenshot.h"
+#include "app/settings/settings_text.h"
+#include "planet/source/height_source.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+struct OpenSettings {
+    Settings settings;
+    fs::path file;
+    std::string textBefore;  // what the file would hold unchanged
+    bool mayBeSaved = true;  // not over a file that could not be read
+};
+
+// A file that the user names must be good; their own may be bad, which is told and gets over with defaults.
+Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
+    OpenSettings open;
+    const bool named = !options.settingsFile.empty();
+    open.file = named ? options.settingsFile : configFolder() / "settings.toml";
+    std::error_code status;
+    if (named || fs::exists(open.file, status)) {
+        Result<Settings> loaded = named ? loadSettingsOfAnyKind(open.file) : loadSettings(open.file);
+        if (!loaded && named) return tl::unexpected(loaded.error());
+        if (loaded)
+            open.settings = *loaded;
+        else
+            log->warn("{}; using the defaults and leaving the file unchanged", loaded.error().message);
+        // A screenshot brings settings and stays the picture that it is.
+        open.mayBeSaved = loaded.has_value() && !isPng(open.file);
+    }
+    open.textBefore = settingsText(open.settings);
+    return open;
+}
+
+void saveIfChanged(const OpenSettings& open, const Settings& now, const Log& log) {
+    if (!open.mayBeSaved || settingsText(now) == open.textBefore) return;
+    if (const Result<void> saved = saveSettings(now, open.file); !saved)
+        log->error("{}", saved.error().message);
+}
+
+Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& settings) {
+    const bool fromSettings = options.file.empty() && !settings.dataSet.empty();
+    const fs::path named = !options.file.empty() ? options.file
+                           : fromSettings        ? fs::path(settings.dataSet)
+                                                 : earthElevation();
+    // A picture that was chosen for it is what its tiles are made of too.
+    const bool ownPicture = fromSettings && !settings.colourImage.empty();
+    Result<DataSet> set =
+        findDataSet(named, {}, {}, ownPicture ? std::optional(fs::path(settings.colourImage)) : std::nullopt);
+    if (set && ownPicture) set->colourImage = settings.colourImage;
+    return set;
+}
+
+// Bad data is told before a window opens for it.
+Result<void> checkDataSet(const DataSet& set) {
+    if (set.needsBake) return planet::openHeightSource(set.source, {}).map([](const auto&) {});
+    return planet::ChunkFile::open(set.chunkFile).map([](const auto&) {});
+}
+
+int runWindow(Window& window, const AppOptions& options, DataSet data, const OpenSettings& open, Log& log) {
+    window.setTitle(fmt::format("{} - Worldy", ui::sourceName(data.source)));
+    log->info("{}", window.openGlText());
+    Session session = startSession(std::move(data), options.shaderFolder, log);
+    session.shaderWorker = window.makeShaderWorker();
+    Editor editor = openEditor(open.settings, log);
+    editor.itemMapFile = options.itemMapFile;
+    auto last = std::chrono::steady_clock::now();
+    while (!window.closing()) {
+        const auto now = std::chrono::steady_clock::now();
+        runFrame(window, session, editor, log, std::chrono::duration<double>(now - last).count());
+        last = now;
+    }
+    endFlights(session, editor, log);
+    editor.settings.windowWidthPx = static_cast<int>(window.width());
+    editor.settings.windowHeightPx = static_cast<int>(window.height());
+    saveIfChanged(open, editor.settings, log);
+    if (shownScene(session)) return exitOk;
+    if (session.bake) return exitCancelled;
+    if (!session.problem) return exitOk;
+    return session.problem->kind == planet::ErrorKind::Cancelled ? exitCancelled : exitBadInput;
+}
+
+Result<void> bakeIfNeeded(const DataSet& data) {
+    if (!data.needsBake) return {};
+    std::error_code status;
+    fs::create_directories(data.chunkFile.parent_path(), status);
+    return planet::openHeightSource(data.source, {})
+        .and_then([&](const planet::HeightSource& source) {
+            return bakeOnTerminal(source, data.settings, data.chunkFile, JobColour{data.bakedColour, true});
+        })
+        .map([](const auto&) {});
+}
+
+// Writes the first view that the window would have shown. It lies beside the bakes, since Worldy overwrites
+// it each time and the current folder may be a checkout.
+Result<void> writeFirstView(const AppOptions& options, const DataSet& data, const Settings& settings) {
+    if (Result<void> baked = bakeIfNeeded(data); !baked) return baked;
+    ShotOptions shot;
+    shot.file = data.chunkFile;
+    shot.output = cacheFolder() / "worldy-first-view.png";
+    std::error_code status;
+    fs::create_directories(shot.output.parent_path(), status);
+    shot.shaderFolder = options.shaderFolder;
+    shot.colourImage = data.colourImage;
+    shot.size = {settings.windowWidthPx, settings.windowHeightPx};
+    shot.view = settings.view;
+    if (settings.camera.altitudeM != 0) shot.camera = settings.camera;
+    return takeShot(shot);
+}
+
+}  // namespace
+
+int runApp(const AppOptions& options) {
+    Log log;
+    const Result<OpenSettings> open = openSettings(options, log);
+    if (!open) return reportError(open.error());
+    const Result<DataSet> data = chosenDataSet(options, open->settings);
+    if (!data) return reportError(data.error());
+    if (const Result<void> good = checkDataSet(*data); !good) return reportError(good.error());
+
+    std::error_code status;
+    fs::create_directories(configFolder(), status);
+    auto window = Window::open({open->settings.windowWidthPx, open->settings.windowHeightPx,
+                                configFolder() / "imgui.ini", open->settings.workspace.theme,
+                                open->settings.workspace.scale});
+    if (window) return runWindow(*window, options, *data, *open, log);
+    if (window.error().problem == WindowProblem::NoOpenGl) {
+        return reportError({planet::ErrorKind::BadInput, window.error().message});
+    }
+    printMessage("worldy: no display ({}); writing a picture of the first view instead\n",
+                 window.error().message);
+    const Result<void> written = writeFirstView(options, *data, open->settings);
+    return written ? exitOk : reportError(written.error());
+}
+
+}  // namespace worldy

@@ -1,0 +1,136 @@
+#include "app/cli/bake_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/base/message.h"
+#include "app/base/report.h"
+#include "app/data/bake_progress.h"
+#include "app/data/worlds.h"
+#include "planet/source/colour_source.h"
+#include "planet/source/terrain.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+double bitsPerSample(const planet::BakeReport& report) {
+    return report.samples == 0 ? 0
+                               : 8.0 * static_cast<double>(report.fileBytes - report.colourBytes) /
+                                     static_cast<double>(report.samples);
+}
+
+void printJson(const planet::HeightSource& source, const BakeOptions& options,
+               const planet::BakeReport& report) {
+    const nlohmann::ordered_json json = {{"source", source.description},
+                                         {"output", options.output.string()},
+                                         {"face_size", planet::faceCells(report.shape) + 1},
+                                         {"chunk_size", planet::chunkSize(report.shape)},
+                                         {"levels", planet::leafLevel(report.shape) + 1},
+                                         {"radius_m", report.shape.radiusM},
+                                         {"quantum_m", report.shape.quantumM},
+                                         {"samples", report.samples},
+                                         {"chunks", report.chunks},
+                                         {"file_bytes", report.fileBytes},
+                                         {"bits_per_sample", bitsPerSample(report)},
+                                         {"missing_samples", report.missingSamples},
+                                         {"root_delta_c_m", report.largestDeltaCM},
+                                         {"root_tight_m", report.largestDeltaTightM},
+                                         {"colour_tiles", report.colourTiles},
+                                         {"colour_bytes", report.colourBytes},
+                                         {"seconds", report.seconds}};
+    fmt::print("{}", jsonText(json));
+}
+
+void printText(const planet::HeightSource& source, const BakeOptions& options,
+               const planet::BakeReport& report) {
+    fmt::print("{}\n", source.description);
+    fmt::print("{}: {} levels, {} chunks of {} x {}, faces of {} x {}\n", options.output.string(),
+               planet::leafLevel(report.shape) + 1, report.chunks, planet::chunkSize(report.shape),
+               planet::chunkSize(report.shape), planet::faceCells(report.shape) + 1,
+               planet::faceCells(report.shape) + 1);
+    fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
+               ui::bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
+               ui::durationText(report.seconds));
+    if (report.colourTiles > 0) {
+        fmt::print("{} tiles of colour, {}\n", report.colourTiles,
+                   ui::bytesText(static_cast<double>(report.colourBytes)));
+    }
+    fmt::print("largest error of a root: delta_c {}, tight {}\n",
+               ui::distanceText(static_cast<double>(report.largestDeltaCM)),
+               ui::distanceText(static_cast<double>(report.largestDeltaTightM)));
+}
+
+void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {
+    if (report.missingSamples > 0) {
+        printMessage("worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
+                     report.missingSamples, options.sourceSettings.fillM);
+    }
+}
+
+void printField(const planet::TerrainField& field, const planet::TerrainSettings& defaults) {
+    fmt::print("    {:<14} {:>8} {:<10} {} to {}{}\n", field.name, fmt::format("{}", field.get(defaults)),
+               field.unit, field.least, field.most, field.whole ? ", whole" : "");
+}
+
+// The worlds, and the kinds of made terrain with their settings.
+void printPresets() {
+    fmt::print("Presets: worldy bake preset:NAME -o OUT.chk\n");
+    for (const ui::World& world : worlds()) {
+        const planet::BakeSettings& settings = world.request.settings;
+        fmt::print("  {:<16} {}\n{:19}{}, radius {} km{}\n", world.name, world.about, "",
+                   world.request.source.string(), settings.radiusM / 1000,
+                   settings.faceSize ? fmt::format(", faces of {}", *settings.faceSize) : "");
+    }
+    fmt::print("\nMade terrain: worldy bake KIND,NAME=VALUE,... -o OUT.chk; defaults and ranges are\n");
+    for (const planet::TerrainKind& kind : planet::terrainKinds()) {
+        const bool isDetail = kind.name == "detail";
+        fmt::print("  {:<16} {}\n", isDetail ? "detail:...,of=" : kind.name, kind.about);
+        for (const planet::TerrainField& field : kind.fields) printField(field, kind.defaults);
+    }
+}
+
+// The settings and the source that is meant, detail added.
+planet::Result<NamedSource> sourceFrom(const BakeOptions& options) {
+    planet::Result<NamedSource> named = sourceNamed(options.source, options.settings);
+    if (!named) return named;
+    if (options.radiusM) named->settings.radiusM = *options.radiusM;
+    if (!options.detail) return named;
+    const std::string knobs = options.detail->empty() ? "" : *options.detail + ",";
+    const std::string text = fmt::format("detail:{}of={}", knobs, named->source.string());
+    const planet::Result<planet::TerrainSource> good = planet::terrainFromText(text);
+    if (!good) return tl::unexpected(good.error());
+    named->source = text;
+    return named;
+}
+
+}  // namespace
+
+planet::Result<void> runBake(const BakeOptions& options) {
+    if (options.listPresets) {
+        printPresets();
+        return {};
+    }
+    const planet::Result<NamedSource> named = sourceFrom(options);
+    if (!named) return tl::unexpected(named.error());
+    const planet::Result<planet::HeightSource> source =
+        planet::openHeightSource(named->source, options.sourceSettings);
+    if (!source) return tl::unexpected(source.error());
+    std::optional<planet::ColourSource> colour;
+    if (!options.colour.empty()) {
+        planet::Result<planet::ColourSource> opened = planet::openColourSource(options.colour);
+        if (!opened) return tl::unexpected(opened.error());
+        colour = *std::move(opened);
+    }
+    const planet::Result<planet::BakeReport> report =
+        bakeOnTerminal(*source, named->settings, options.output, colour ? &*colour : nullptr);
+    if (!report) return tl::unexpected(report.error());
+    printWarnings(options, *report);
+    (options.json ? printJson : printText)(*source, options, *report);
+    return {};
+}
+
+}  // namespace worldy

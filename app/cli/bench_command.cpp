@@ -1,0 +1,231 @@
+#include "app/cli/bench_command.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "app/base/places.h"
+#include "app/base/report.h"
+#include "app/cli/bench_parts.h"
+#include "app/data/bake_progress.h"
+#include "planet/gl/device/offscreen_context.h"
+#include "ui/model/own_colour.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::Result;
+
+class ScratchFolder {
+public:
+    static Result<ScratchFolder> create() {
+        std::error_code problem;
+        std::string name = (std::filesystem::temp_directory_path(problem) / "worldy-bench-XXXXXX").string();
+        if (problem || mkdtemp(name.data()) == nullptr)
+            return planet::ioError(fmt::format("{}: no folder can be made there for the bakes", name));
+        return ScratchFolder(name);
+    }
+    ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    ScratchFolder& operator=(ScratchFolder&&) = delete;
+    ~ScratchFolder() {
+        std::error_code ignored;
+        if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
+    std::filesystem::path path_;
+};
+
+// What the figures were taken on.
+struct Machine {
+    std::string processor;
+    unsigned threads = 0;
+    std::string renderer;
+};
+
+std::string processorName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        constexpr std::string_view key = "model name\t: ";
+        if (line.starts_with(key)) return line.substr(key.size());
+    }
+    return "unknown";
+}
+
+Result<Machine> lookAtMachine() {
+    const auto context = planet::gl::OffscreenContext::create();
+    if (!context) return tl::unexpected(context.error());
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return Machine{processorName(), std::thread::hardware_concurrency(), renderer ? renderer : "unknown"};
+}
+
+struct Section {
+    const char* name;   // in the JSON
+    const char* title;  // of the table
+    std::vector<BenchRow> rows;
+};
+
+// Enough digits to compare, and no more.
+std::string figure(double value) {
+    if (value >= 1000) return fmt::format("{:.0f}", value);
+    if (value >= 100) return fmt::format("{:.1f}", value);
+    return fmt::format("{:.3f}", value);
+}
+
+std::string spreadText(const Spread& spread) {
+    if (spread.minimum == spread.maximum) return figure(spread.median);
+    return fmt::format("{} ({}..{})", figure(spread.median), figure(spread.minimum), figure(spread.maximum));
+}
+
+void print(const Section& section) {
+    fmt::print("\n{}\n", section.title);
+    for (const BenchRow& row : section.rows) {
+        const std::string ratio =
+            row.yardstick.empty() ? "" : fmt::format("{} x {}", spreadText(row.ratio), row.yardstick);
+        fmt::print("  {:<44}{:<16}{:>28} {:<11}{}\n", row.subject, row.quantity, spreadText(row.value),
+                   row.unit, ratio);
+    }
+    std::fflush(stdout);
+}
+
+Json jsonOf(const Spread& spread, bool isCount = false) {
+    const auto number = [&](double value) { return isCount ? Json(std::llround(value)) : Json(value); };
+    return {{"median", number(spread.median)},
+            {"minimum", number(spread.minimum)},
+            {"maximum", number(spread.maximum)}};
+}
+
+Json jsonOf(const Section& section) {
+    Json rows = Json::array();
+    for (const BenchRow& row : section.rows) {
+        Json entry = {{"subject", row.subject}, {"quantity", row.quantity}, {"unit", row.unit}};
+        entry.update(jsonOf(row.value, row.unit.empty()));
+        if (!row.yardstick.empty()) {
+            entry["times"] = jsonOf(row.ratio);
+            entry["times"]["of"] = row.yardstick;
+        }
+        rows.push_back(std::move(entry));
+    }
+    return rows;
+}
+
+Json jsonOf(const BenchOptions& options, const std::string& source, const Machine& machine,
+            const std::vector<Section>& sections) {
+    Json report = {{"source", source},
+                   {"rounds", options.rounds},
+                   {"width_px", options.size.widthPx},
+                   {"height_px", options.size.heightPx},
+                   {"machine",
+                    {{"processor", machine.processor},
+                     {"threads", machine.threads},
+                     {"gl_renderer", machine.renderer}}}};
+    for (const Section& section : sections) report["parts"][section.name] = jsonOf(section);
+    return report;
+}
+
+Result<std::vector<BenchPlanet>> bakePlanets(const planet::HeightSource& source, const BenchOptions& options,
+                                             const std::filesystem::path& folder) {
+    std::vector<BenchPlanet> planets;
+    for (const int faceSize : options.faceSizes) {
+        planet::BakeSettings settings;
+        settings.faceSize = faceSize;
+        const BenchPlanet planet{faceSize, folder / fmt::format("faces{}.chk", faceSize)};
+        const auto report = bakeOnTerminal(source, settings, planet.chunkFile);
+        if (!report) return tl::unexpected(report.error());
+        planets.push_back(planet);
+    }
+    return planets;
+}
+
+bool isWanted(const BenchOptions& options, std::string_view part) {
+    return options.parts.empty() ||
+           std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
+}
+
+BenchRows benchLod(const std::vector<BenchPlanet>& planets, const BenchOptions& options) {
+    std::vector<BenchRow> all;
+    for (const BenchPlanet& planet : planets) {
+        BenchRows rows = benchLodAgainstLeaves(planet, options);
+        if (!rows) return rows;
+        all.insert(all.end(), rows->begin(), rows->end());
+    }
+    return all;
+}
+
+struct Part {
+    const char* name;  // of benchParts
+    const char* title;
+    std::function<BenchRows()> measure;
+};
+
+// All of them; what they take must outlive them.
+std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSource& source,
+                          const std::vector<BenchPlanet>& planets, const std::filesystem::path& folder) {
+    const auto largest = [&]() -> const BenchPlanet& { return planets.back(); };
+    return {
+        {"lod", "LOD against drawing every leaf, the same camera",
+         [&] { return benchLod(planets, options); }},
+        {"dynamic", "The whole planet pass against a static draw of the very same triangles",
+         [&, largest] { return benchDynamicAgainstStatic(largest(), options); }},
+        {"selection", "Selection", [&, largest] { return benchSelection(largest(), options); }},
+        {"page_in", "Page-in against a plain loop", [&, largest] { return benchPageIn(largest(), options); }},
+        {"bake", "Bake against reading the source and zstd -1",
+         [&] { return benchBake(source, planets.front().faceSize, options, folder); }},
+        {"file_size", "File size against the finest heights alone",
+         [&, largest] { return benchFileSize(largest(), folder); }},
+        {"colours", "Page-in of colours against a plain loop",
+         [&] {
+             return benchColours(
+                 ui::ownColourImage(options.source.empty() ? earthElevation() : options.source), options,
+                 folder);
+         }},
+    };
+}
+
+}  // namespace
+
+Result<void> runBench(const BenchOptions& options) {
+    const Result<planet::HeightSource> source = planet::openHeightSource(
+        options.source.empty() ? earthElevation() : options.source, options.sourceSettings);
+    if (!source) return tl::unexpected(source.error());
+    const Result<Machine> machine = lookAtMachine();
+    if (!machine) return tl::unexpected(machine.error());
+    const Result<ScratchFolder> folder = ScratchFolder::create();
+    if (!folder) return tl::unexpected(folder.error());
+    // Colours have planets of their own.
+    const bool onlyColours =
+        !options.parts.empty() && std::all_of(options.parts.begin(), options.parts.end(),
+                                              [](const std::string& part) { return part == "colours"; });
+    const auto planets = onlyColours ? Result<std::vector<BenchPlanet>>(std::vector<BenchPlanet>{})
+                                     : bakePlanets(*source, options, folder->path());
+    if (!planets) return tl::unexpected(planets.error());
+    if (!options.report.json)
+        fmt::print("{}\n{}, {} threads; {}\n{} rounds: median (lowest..highest)\n", source->description,
+                   machine->processor, machine->threads, machine->renderer, options.rounds);
+
+    std::vector<Section> sections;
+    for (const Part& part : partsOf(options, *source, *planets, folder->path())) {
+        if (!isWanted(options, part.name)) continue;
+        BenchRows rows = part.measure();
+        if (!rows) return tl::unexpected(rows.error());
+        sections.push_back({part.name, part.title, std::move(*rows)});
+        if (!options.report.json) print(sections.back());
+    }
+    return writeReport(options.report, jsonOf(options, source->description, *machine, sections));
+}
+
+}  // namespace worldy

@@ -1,0 +1,31 @@
+// The options of worldy bench, shared by the command and its parts.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/base/report.h"
+#include "app/settings/camera_text.h"
+#include "planet/source/height_source.h"
+
+namespace worldy {
+
+inline constexpr std::array<std::string_view, 7> benchParts = {"lod",  "dynamic",   "selection", "page_in",
+                                                               "bake", "file_size", "colours"};
+
+struct BenchOptions {
+    std::filesystem::path
+        source;  // an elevation image or cube faces; empty: the Earth that comes with Worldy
+    planet::HeightSourceSettings sourceSettings;
+    std::vector<int> faceSizes = {513, 4097};  // samples a side of the planets that are baked and drawn
+    std::vector<double> tausPx = {1, 2, 4};
+    int rounds = 5;  // each draws, reads or bakes everything once, in turn; [1, 1000]
+    PictureSize size;
+    std::vector<std::string> parts;  // of benchParts; empty: all
+    ReportTo report;
+};
+
+}  // namespace worldy

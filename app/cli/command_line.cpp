@@ -1,0 +1,530 @@
+#include "app/cli/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "app/base/exit_code.h"
+#include "app/cli/app.h"
+#include "app/cli/audit_command.h"
+#include "app/cli/bake_command.h"
+#include "app/cli/bench_command.h"
+#include "app/cli/command_options.h"
+#include "app/cli/compare_command.h"
+#include "app/cli/costs_command.h"
+#include "app/cli/cracks_command.h"
+#include "app/cli/file_commands.h"
+#include "app/cli/fly_command.h"
+#include "app/cli/pops_command.h"
+#include "app/cli/replay_command.h"
+#include "app/cli/shot_command.h"
+#include "app/cli/sweep_command.h"
+#include "app/cli/write_plan.h"
+#include "app/data/layer_materials.h"
+#include "app/settings/camera_text.h"
+#include "app/settings/view_options.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+template <std::size_t count>
+CLI::IsMember oneOf(const std::array<std::string_view, count>& names) {
+    return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+void addBake(CLI::App& command, BakeOptions& options) {
+    planet::BakeSettings& settings = options.settings;
+    command.add_option("SOURCE", options.source,
+                       "Elevation image, one of six cube faces or their common stem, procedural terrain "
+                       "(noise:ridged,seed=7), or a preset (preset:moon)");
+    command.add_flag("--list-presets", options.listPresets,
+                     "List the presets and the settings of procedural terrain instead of baking");
+    command
+        .add_flag("--detail", options.detail,
+                  "Add fractal detail below the source's resolution; --detail=strength=0.8,octaves=4 sets "
+                  "its parameters")
+        ->type_name("PARAMETERS");
+    command.add_option("--face-size", settings.faceSize,
+                       "Samples per face side, 2^n + 1 (the source's resolution)");
+    command.add_option("--chunk-size", settings.chunkSize, "Vertices per chunk side: 17, 33, 65 or 129 (33)")
+        ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
+    command.add_option("--radius", options.radiusM, "Planet radius, metres (the preset's, or 6371000)")
+        ->check(number(1e-3, 1e9));
+    command
+        .add_option("--quantum", settings.quantumM,
+                    "Quantisation step of stored heights, metres (the source's step)")
+        ->check(number(1e-9, 1e6));
+    command.add_option("--threads", settings.threads, "Threads; 0: one per core (0)")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--compression-level", settings.compressionLevel,
+                    fmt::format("Compression level, from {} (largest file) to {} (slowest bake) ({})",
+                                planet::minCompressionLevel, planet::maxCompressionLevel,
+                                planet::defaultCompressionLevel))
+        ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
+    command.add_option("--debug-levels", settings.debugLevelsFolder,
+                       "Also write each level of each face as PNG to this folder");
+    command.add_option("--colour", options.colour,
+                       "Colour image of the whole planet, or of six cube faces, to bake into the file");
+    command.add_option("--colour-face-size", settings.colour.faceSize,
+                       "Colour texels per face side, 2^n + 1, at least 257 (the image's resolution)");
+    const std::map<std::string, planet::ColourFormat> formats = {
+        {"bc1", planet::ColourFormat::Bc1}, {"lossless", planet::ColourFormat::Lossless}};
+    command
+        .add_option("--colour-format", settings.colour.format,
+                    "Colour format: bc1 (0.5 bytes per texel) or lossless (bc1)")
+        ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
+        ->option_text("bc1|lossless");
+}
+
+void addMakeLayers(CLI::App& command, MakeLayersOptions& options) {
+    command.add_option("--texels", options.texels, "Texels per side, a power of two (512)")
+        ->check(CLI::IsMember(std::vector<int>{16, 32, 64, 128, 256, 512, 1024, 2048, 4096}));
+    command.add_option("--seed", options.seed, "Seed of the textures (1)");
+}
+
+void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--samples", options.samples, "Multisampling, samples per pixel (4)")
+        ->check(CLI::Range(1, 16));
+    command.add_flag("--wireframe", view.wireframe, "Draw triangle edges");
+    command.add_flag("--no-skirts", view.noSkirts, "Draw no skirts, short for --set seams.mode=none");
+    command.add_flag("--cube", view.cube, "Draw the unprojected cube");
+    command
+        .add_option("--colour-by", view.colourBy,
+                    fmt::format("Quantity that tints chunks: {} (none)", fmt::join(colourByNames, ", ")))
+        ->check(oneOf(colourByNames));
+    command.add_option("--surface", view.surface, "Ground colour: image or ramp (image)")
+        ->check(oneOf(surfaceNames));
+    command.add_option("--colour-image", options.colourImage,
+                       "Colour image of the planet (colour.jpg beside FILE)");
+    command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
+}
+
+void addFly(CLI::App& command, FlyOptions& options) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
+}
+
+void addBench(CLI::App& command, BenchOptions& options) {
+    command.add_option("SOURCE", options.source, "Elevation image or cube faces (the Earth)");
+    command
+        .add_option("--faces", options.faceSizes,
+                    "Samples per face side, 2^n + 1, of the planets to bake (513 4097)")
+        ->check(CLI::Range(33, 32769));
+    command.add_option("--rounds", options.rounds, "Measurements of each, in alternation (5)")
+        ->check(CLI::Range(1, 1000));
+    command
+        .add_option("--parts", options.parts,
+                    fmt::format("Parts to measure: {} (all)", fmt::join(benchParts, ", ")))
+        ->check(oneOf(benchParts));
+}
+
+// A sweep's options as they are written, before they are parsed.
+struct SweepTexts {
+    std::string cost = "triangles";
+    std::string goal;
+    std::vector<std::string> metrics;
+};
+constexpr std::array<std::string_view, 3> sweepCostNames = {"triangles", "frame_ms", "memory_mib"};
+
+void addSweep(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
+    command.add_option("FILE", options.file, "Chunk file, or a source to bake for each chunk size")
+        ->required();
+    command.add_option("--chunk", options.chunkSizes, "Vertices per chunk side (33)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
+    command.add_option("--metric", texts.metrics, "Error metrics: additive, tight (both)")
+        ->delimiter(',')
+        ->check(oneOf(errorMetricNames));
+    command.add_option("--cost", texts.cost, "Cost: triangles, frame_ms or memory_mib (triangles)")
+        ->check(oneOf(sweepCostNames));
+    command.add_option("--suggest", texts.goal,
+                       "Find the tau that meets triangles=N, frame_ms=N, memory_mib=N or error_px=N instead");
+    command.add_option("--plot", options.plotOutput, "Plot to write, .png");
+}
+
+void addCracks(CLI::App& command, CracksOptions& options, ViewTexts& view) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--seams", view.seams, "Crack treatment: none, skirts or stitched (skirts)")
+        ->check(CLI::IsMember({"none", "skirts", "stitched"}));
+    command.add_flag(
+        "--find-depth", options.findDepth,
+        "Also find the smallest skirt depth and the smallest automatic factor that leave no uncovered pixel");
+    command.add_option(
+        "--mark", options.markedPicture,
+        "Picture to write of the view with the most uncovered pixels, with cracks marked, .png");
+    command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
+}
+
+void addCosts(CLI::App& command, CostsOptions& options) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--rounds", options.rounds, "Number of measurements of each (5)")
+        ->check(CLI::Range(1, 1000));
+    command.add_option("--colour-image", options.colourImage,
+                       "Colour image of the planet (colour.jpg beside FILE)");
+}
+
+void addPops(CLI::App& command, PopsOptions& options) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+}
+
+// The settings that only one side of a comparison gets, as they are written: A and B.
+struct SideTexts {
+    std::filesystem::path settingsFile;
+    std::vector<std::string> assignments;
+};
+using CompareTexts = std::array<SideTexts, 2>;
+
+void addCompare(CLI::App& command, CompareOptions& options, CompareTexts& texts) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--with", options.fileOfB, "Chunk file of B (FILE)");
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const char letter = i == 0 ? 'a' : 'b';
+        const char* const side = i == 0 ? "A" : "B";
+        command.add_option(fmt::format("--settings-{}", letter), texts[i].settingsFile,
+                           fmt::format("Settings of {}: a settings file, a preset, or a screenshot", side));
+        command
+            .add_option(fmt::format("--set-{}", letter), texts[i].assignments,
+                        fmt::format("Any setting of {}, for example lod.tau_px=3; may be repeated", side))
+            ->type_name("NAME=VALUE")
+            ->expected(1)
+            ->take_all()
+            ->allow_extra_args(false);
+    }
+    command.add_option(
+        "--pictures", options.pictures,
+        "Folder for pictures of the frame that differs most: side_by_side.png, difference.png");
+}
+
+void addAudit(CLI::App& command, AuditOptions& options, std::string& metric) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--metric", metric, "Error metric for selection and prediction: additive or tight")
+        ->check(oneOf(errorMetricNames));
+}
+
+void addReplay(CLI::App& command, ReplayOptions& options) {
+    command.add_option("FLIGHT", options.flight, "Recorded flight, .flight")->required();
+    command.add_option("FILE", options.file, "Chunk file (the one it was recorded over)");
+    const auto set = [&options](ReplayPaging paging) {
+        return [&options, paging](std::int64_t) { options.paging = paging; };
+    };
+    CLI::Option* simulated = command.add_flag_function(
+        "--simulated", set(ReplayPaging::Simulated),
+        "Blocks arrive according to the recorded fault-injection settings and seed, in simulated time");
+    command
+        .add_flag_function("--as-recorded", set(ReplayPaging::AsRecorded),
+                           "Blocks arrive in their recorded frames (default)")
+        ->excludes(simulated);
+}
+
+void addFile(CLI::App& command, FileCommandOptions& options) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+}
+
+void addVerify(CLI::App& command, FileCommandOptions& options) {
+    addFile(command, options);
+    command.add_option("--source", options.source,
+                       "Also compare it with the source it was baked from, given with the same options");
+    command.add_option("--colour", options.colour,
+                       "Also compare its colours with the image they were baked from");
+}
+
+void addProbe(CLI::App& command, FileCommandOptions& options) {
+    addFile(command, options);
+    command.add_option("LATITUDE", options.latitudeDeg, "Latitude, degrees north")
+        ->required()
+        ->check(number(-90, 90));
+    command.add_option("LONGITUDE", options.longitudeDeg, "Longitude, degrees east")
+        ->required()
+        ->check(number(-360, 360));
+}
+
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code status;
+    return a == b || std::filesystem::equivalent(a, b, status);
+}
+
+planet::ErrorMetric metricOf(const std::string& name) {
+    return name == errorMetricNames[0] ? planet::ErrorMetric::Additive : planet::ErrorMetric::Tight;
+}
+
+// Copies the shared options into those that the command's own have a place for. The settings come back for
+// what else a command wants of them.
+template <typename Options>
+Result<Settings> takeShared(const CommandSpec& spec, const SharedTexts& texts, Options& options) {
+    if constexpr (requires { options.report; }) options.report = {texts.json, texts.output};
+    if constexpr (requires { options.json; }) options.json = texts.json;
+    if constexpr (requires { options.output; }) options.output = texts.output;
+    if constexpr (requires { options.worst; }) options.worst = texts.worst;
+    if constexpr (requires { options.sourceSettings; }) options.sourceSettings = texts.source;
+    if constexpr (requires { options.sampling; }) {
+        options.flight = texts.flight;
+        const bool given = texts.sampling.frames || texts.sampling.stepS;
+        options.sampling = given ? texts.sampling : spec.sampling;
+    }
+    if constexpr (requires { options.tausPx; }) {
+        if (!texts.tausPx.empty()) options.tausPx = texts.tausPx;
+    }
+    if constexpr (requires { options.size; }) {
+        const Result<PictureSize> size = pictureSizeFromText(texts.view.size);
+        if (!size) return tl::unexpected(size.error());
+        options.size = *size;
+    }
+    Result<Settings> settings = settingsFrom(texts.view);
+    if (!settings) return settings;
+    if constexpr (requires { options.view; }) options.view = settings->view;
+    if constexpr (requires { options.start; }) options.start = settings->camera;
+    for (const std::string& text : texts.cameras) {
+        const Result<planet::CameraPose> pose = poseFromText(text);
+        if (!pose) return tl::unexpected(pose.error());
+        if constexpr (requires { options.cameras; })
+            options.cameras.push_back(*pose);
+        else if constexpr (requires { options.camera; })
+            options.camera = *pose;
+    }
+    return settings;
+}
+
+Result<void> finish(ShotOptions& options, const Settings& settings) {
+    // The settings' picture belongs to the settings' data set.
+    const bool sameData = settings.dataSet.empty() || sameFile(settings.dataSet, options.file);
+    if (options.colourImage.empty() && sameData) options.colourImage = settings.colourImage;
+    return {};
+}
+
+Result<void> finish(BakeOptions& options) {
+    // A flag without a value reads "true".
+    if (options.detail == "true") options.detail->clear();
+    if (options.listPresets) return {};
+    if (options.source.empty()) return planet::badInput("SOURCE is required; see worldy bake --help");
+    if (options.output.empty()) return planet::badInput("--output is required; see worldy bake --help");
+    return {};
+}
+
+Result<void> finish(SweepOptions& options, const SweepTexts& texts) {
+    options.cost = static_cast<SweepCost>(
+        std::find(sweepCostNames.begin(), sweepCostNames.end(), texts.cost) - sweepCostNames.begin());
+    if (!texts.metrics.empty()) options.metrics.clear();
+    for (const std::string& name : texts.metrics) options.metrics.push_back(metricOf(name));
+    if (texts.goal.empty()) return {};
+    return tauGoalFromText(texts.goal).map([&](const TauGoal& goal) { options.goal = goal; });
+}
+
+// Each side begins with what both are told; its own settings file takes the place of theirs.
+Result<void> finish(CompareOptions& options, const SharedTexts& shared, const CompareTexts& sides) {
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        ViewTexts texts = shared.view;
+        if (!sides[i].settingsFile.empty()) texts.settingsFile = sides[i].settingsFile;
+        texts.assignments.insert(texts.assignments.end(), sides[i].assignments.begin(),
+                                 sides[i].assignments.end());
+        const Result<Settings> settings = settingsFrom(texts);
+        if (!settings) return tl::unexpected(settings.error());
+        options.settings[i] = settings->view;
+    }
+    return {};
+}
+
+Result<void> finish(AuditOptions& options, const std::string& metric) {
+    if (!metric.empty()) options.metric = metricOf(metric);
+    return {};
+}
+
+Result<void> finish(ReplayOptions& options, const SharedTexts& texts) {
+    if (texts.view.tauPx) options.assignments.push_back(fmt::format("lod.tau_px={}", *texts.view.tauPx));
+    options.assignments.insert(options.assignments.end(), texts.view.assignments.begin(),
+                               texts.view.assignments.end());
+    return {};
+}
+
+// Returns the exit code of a check by whether it found no problem.
+int exitCodeOf(const Result<bool>& result) {
+    if (!result) return reportError(result.error());
+    return *result ? exitOk : exitCheckFailed;
+}
+
+int exitCodeOf(const Result<void>& result) {
+    return result ? exitOk : reportError(result.error());
+}
+
+// All options, and where what was given goes. The parser points into it, so it stays where it is.
+struct CommandLine {
+    CLI::App app{
+        "Worldy shows, tunes and measures planets drawn with chunked level of detail.\nWithout a command it "
+        "opens a window with FILE, or with the Earth.",
+        "worldy"};
+    AppOptions window;
+    BakeOptions bake;
+    FileCommandOptions file;
+    ShotOptions shot;
+    FlyOptions fly;
+    BenchOptions bench;
+    SweepOptions sweep;
+    SweepTexts sweepTexts;
+    CracksOptions cracks;
+    CostsOptions costs;
+    PopsOptions pops;
+    AuditOptions audit;
+    std::string auditMetric;
+    ReplayOptions replay;
+    CompareOptions compare;
+    CompareTexts compareTexts;
+    MakeLayersOptions makeLayers;
+    std::map<std::string_view, SharedTexts> shared;  // by command; nodes of a map stay where they are
+    std::vector<std::filesystem::path> moreInputs;   // that the command reads besides what its options name
+
+    CommandLine() {
+        app.set_version_flag("--version", "worldy " WORLDY_VERSION);
+        app.add_option("FILE", window.file,
+                       "Chunk file (.chk), elevation image, cube faces, procedural terrain (noise:ridged) or "
+                       "preset (preset:moon) to show");
+        app.add_option("--settings", window.settingsFile, "Settings file to use instead of the user's");
+        app.add_option("--shaders", window.shaderFolder,
+                       "Folder to read the shaders from; changes are reloaded");
+        app.add_option(
+            "--item-map", window.itemMapFile,
+            "Keep writing the positions of all controls and the counters to this file, for scripts");
+        std::map<std::string_view, CLI::App*> commands;
+        for (const CommandSpec& spec : commandSpecs())
+            commands[spec.name] = &addCommand(app, spec, shared[spec.name]);
+        const auto at = [&](std::string_view name) -> CLI::App& { return *commands.at(name); };
+        addBake(at("bake"), bake);
+        addFile(at("info"), file);
+        addVerify(at("verify"), file);
+        addProbe(at("probe"), file);
+        addShot(at("shot"), shot, shared["shot"].view);
+        addFly(at("fly"), fly);
+        addBench(at("bench"), bench);
+        addSweep(at("sweep"), sweep, sweepTexts);
+        addCracks(at("cracks"), cracks, shared["cracks"].view);
+        addCosts(at("costs"), costs);
+        addPops(at("pops"), pops);
+        addAudit(at("audit"), audit, auditMetric);
+        addReplay(at("replay"), replay);
+        addCompare(at("compare"), compare, compareTexts);
+        addMakeLayers(at("make-layers"), makeLayers);
+        app.require_subcommand(0, 1);
+    }
+    // The shared options of a command go into its own, which come back with the settings.
+    template <typename Options>
+    Result<Settings> take(std::string_view name, Options& options) const {
+        return takeShared(commandSpec(name), shared.at(name), options);
+    }
+
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+};
+
+planet::Error errorOf(const CLI::ParseError& error) {
+    return {planet::ErrorKind::BadInput, fmt::format("{}; see worldy --help", error.what())};
+}
+
+}  // namespace
+
+Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments) {
+    CommandLine line;
+    try {
+        line.app.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const CLI::ParseError& error) {
+        return tl::unexpected(errorOf(error));
+    }
+    if (!line.app.got_subcommand("shot"))
+        return planet::badInput("not a worldy shot command; expected worldy shot FILE -o PICTURE");
+    return line.take("shot", line.shot)
+        .and_then([&](const Settings& settings) { return finish(line.shot, settings); })
+        .map([&] { return line.shot; });
+}
+
+namespace {
+
+int runCommand(int argumentCount, const char* const* arguments) {
+    if (const Result<void> good = checkSpellings({arguments, static_cast<std::size_t>(argumentCount)}); !good)
+        return reportError(good.error());
+    CommandLine line;
+    const CLI::App& app = line.app;
+    try {
+        line.app.parse(argumentCount, arguments);
+    } catch (const CLI::ParseError& error) {
+        return error.get_exit_code() == 0 ? app.exit(error) : reportError(errorOf(error));
+    }
+    // A command's options, complete; what it would write is checked; then it runs.
+    const auto command = [&line](std::string_view name, auto& options, auto run, auto prepare) {
+        return [&line, name, &options, run, prepare] {
+            return exitCodeOf(line.take(name, options).and_then(prepare).and_then([&] {
+                using Ran = decltype(run(options));
+                if constexpr (requires { filesOf(options); }) {
+                    const SharedTexts& texts = line.shared.at(name);
+                    CommandFiles files = filesOf(options);
+                    addInputs(files, texts.view);
+                    files.inputs.insert(files.inputs.end(), line.moreInputs.begin(), line.moreInputs.end());
+                    if (const Result<void> safe = checkOutputs(files, texts.overwrite); !safe)
+                        return Ran(tl::unexpected(safe.error()));
+                }
+                return run(options);
+            }));
+        };
+    };
+    const auto ready = [](const Settings&) { return Result<void>(); };
+    const std::vector<std::pair<const char*, std::function<int()>>> commands = {
+        {"bake", command("bake", line.bake, runBake, [&](const Settings&) { return finish(line.bake); })},
+        {"info", command("info", line.file, runInfo, ready)},
+        {"verify", command("verify", line.file, runVerify, ready)},
+        {"probe", command("probe", line.file, runProbe, ready)},
+        {"replay", command("replay", line.replay, replayFlight,
+                           [&](const Settings&) { return finish(line.replay, line.shared.at("replay")); })},
+        {"shot", command("shot", line.shot, takeShot,
+                         [&](const Settings& settings) { return finish(line.shot, settings); })},
+        {"fly", command("fly", line.fly, flyPath, ready)},
+        {"sweep", command("sweep", line.sweep, runSweep,
+                          [&](const Settings&) { return finish(line.sweep, line.sweepTexts); })},
+        {"bench", command("bench", line.bench, runBench, ready)},
+        {"cracks", command("cracks", line.cracks, runCracks, ready)},
+        {"costs", command("costs", line.costs, runCosts, ready)},
+        {"pops", command("pops", line.pops, runPops, ready)},
+        {"audit", command("audit", line.audit, runAudit,
+                          [&](const Settings&) { return finish(line.audit, line.auditMetric); })},
+        {"compare", command("compare", line.compare, runCompare,
+                            [&](const Settings&) {
+                                for (const SideTexts& side : line.compareTexts)
+                                    line.moreInputs.push_back(side.settingsFile);
+                                return finish(line.compare, line.shared.at("compare"), line.compareTexts);
+                            })},
+        {"make-layers", command("make-layers", line.makeLayers, makeLayers, ready)},
+    };
+    for (const auto& [name, run] : commands) {
+        if (app.got_subcommand(name)) return run();
+    }
+    const CommandFiles files = filesOf(line.window);
+    const Result<void> safe = checkNotInputs(files).and_then([&] { return checkKinds(files.outputs); });
+    if (!safe) return reportError(safe.error());
+    return runApp(line.window);
+}
+
+}  // namespace
+
+int runCommandLine(int argumentCount, const char* const* arguments) {
+    occupyStandardStreams();
+    try {
+        return afterStandardOutput(runCommand(argumentCount, arguments));
+    } catch (const std::system_error&) {
+        // fmt::print throws where standard output takes no more.
+        if (std::ferror(stdout) == 0) throw;
+        return afterStandardOutput(exitBadInput);
+    }
+}
+
+}  // namespace worldy

@@ -1,0 +1,72 @@
+// The options that several commands share. Each means the same in every command that takes it; the table says
+// which command takes which, and the parser's options are made from it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/flight/flight_path.h"
+#include "app/settings/view_options.h"
+#include "planet/source/height_source.h"
+
+namespace worldy {
+
+// Sets of shared options, as bits.
+namespace takes {
+inline constexpr unsigned json = 1u << 0;        // --json
+inline constexpr unsigned output = 1u << 1;      // -o, --output, and --overwrite
+inline constexpr unsigned mustOutput = 1u << 2;  // the same, required
+inline constexpr unsigned flight = 1u << 3;      // --flight, --frames, --step-s
+inline constexpr unsigned mustFlight = 1u << 4;  // the same, --flight required
+inline constexpr unsigned camera = 1u << 5;      // --camera
+inline constexpr unsigned cameras = 1u << 6;     // --camera, which may be repeated
+inline constexpr unsigned size = 1u << 7;        // --size
+inline constexpr unsigned tau = 1u << 8;         // --tau, one tolerance
+inline constexpr unsigned taus = 1u << 9;        // --tau, a list of them
+inline constexpr unsigned set = 1u << 10;        // --set
+inline constexpr unsigned view = 1u << 11;       // --settings, --layers, --budget, --no-culling, --fov
+inline constexpr unsigned worst = 1u << 12;      // --worst
+inline constexpr unsigned source = 1u << 13;     // --metres-per-unit and what else says how a source is read
+}  // namespace takes
+
+struct CommandSpec {
+    const char* name;
+    const char* about;
+    unsigned takes;
+    const char* output = "";       // what -o names
+    FlightSampling sampling{};     // of a flight, where neither --frames nor --step-s is given
+    const char* defaultTaus = "";  // of a list
+    const char* worst = "";        // what --worst counts
+};
+
+std::span<const CommandSpec> commandSpecs();
+const CommandSpec& commandSpec(std::string_view name);
+
+// The shared options of one command as they are written.
+struct SharedTexts {
+    bool json = false;
+    std::filesystem::path output;
+    bool overwrite = false;  // outputs may replace files of other kinds
+    std::filesystem::path flight;
+    FlightSampling sampling;
+    std::vector<double> tausPx;  // of a list
+    std::vector<std::string> cameras;
+    int worst = 20;
+    ViewTexts view;
+    planet::HeightSourceSettings source;
+};
+
+// Adds the command with the shared options that the table gives it. The texts must outlive the app.
+CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts);
+
+// An Error for a spelling that is no longer taken; it says the one that is. The program's name comes first.
+planet::Result<void> checkSpellings(std::span<const char* const> arguments);
+
+// A number in a closed range; CLI11's own lets "nan" through.
+CLI::Validator number(double min, double max, bool zeroToo = true);
+
+}  // namespace worldy

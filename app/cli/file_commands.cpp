@@ -1,0 +1,255 @@
+#include "app/cli/file_commands.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/base/interrupt.h"
+#include "app/base/message.h"
+#include "app/base/report.h"
+#include "app/data/worlds.h"
+#include "planet/bake/colour_report.h"
+#include "planet/bake/file_report.h"
+#include "planet/format/chunk_file.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::ChunkFile;
+using planet::Result;
+
+using ColourLevels = std::vector<planet::ColourLevelReport>;
+
+std::string_view formatName(planet::ColourFormat format) {
+    return format == planet::ColourFormat::Bc1 ? "bc1" : "lossless";
+}
+
+Json colourJson(const planet::ColourPyramid& colour, const ColourLevels& levels) {
+    Json json = {{"source", colour.source},
+                 {"format", formatName(colour.format)},
+                 {"face_size", (planet::colourTileCells << colour.leafLevel) + 1},
+                 {"levels", Json::array()}};
+    for (const planet::ColourLevelReport& level : levels)
+        json["levels"].push_back({{"level", level.level}, {"tiles", level.tiles}, {"bytes", level.bytes}});
+    return json;
+}
+
+void printColour(const planet::ColourPyramid& colour, const ColourLevels& levels) {
+    const int size = (planet::colourTileCells << colour.leafLevel) + 1;
+    fmt::print("\ncolours: {}, {}, faces of {} x {}\n", colour.source, formatName(colour.format), size, size);
+    fmt::print("{:>5}{:>10}{:>12}\n", "level", "tiles", "size");
+    for (const planet::ColourLevelReport& level : levels) {
+        fmt::print("{:>5}{:>10}{:>12}\n", level.level, level.tiles,
+                   ui::bytesText(static_cast<double>(level.bytes)));
+    }
+}
+
+Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
+    const planet::ChunkFileInfo& info = file.info();
+    Json json = {{"file", file.name()},
+                 {"source", info.source},
+                 {"face_size", planet::faceCells(info.shape) + 1},
+                 {"chunk_size", planet::chunkSize(info.shape)},
+                 {"radius_m", info.shape.radiusM},
+                 {"quantum_m", info.shape.quantumM},
+                 {"min_height_m", planet::heightM(info.shape, info.minStep)},
+                 {"max_height_m", planet::heightM(info.shape, info.maxStep)},
+                 {"missing_samples", info.missingSamples},
+                 {"file_bytes", report.fileBytes},
+                 {"finest_samples", report.finestSamples},
+                 {"bits_per_sample", report.bitsPerFinestSample},
+                 {"levels", Json::array()}};
+    for (const planet::LevelReport& level : report.levels) {
+        json["levels"].push_back({{"level", level.level},
+                                  {"chunks", level.chunks},
+                                  {"bytes", level.bytes},
+                                  {"min_delta_m", level.minDeltaM},
+                                  {"median_delta_m", level.medianDeltaM},
+                                  {"p99_delta_m", level.p99DeltaM},
+                                  {"max_delta_m", level.maxDeltaM},
+                                  {"mean_delta_m", level.meanDeltaM},
+                                  {"mean_tight_m", level.meanTightM},
+                                  {"max_tight_m", level.maxTightM}});
+    }
+    return json;
+}
+
+void printInfo(const ChunkFile& file, const planet::FileReport& report) {
+    const planet::ChunkFileInfo& info = file.info();
+    const planet::PlanetShape& shape = info.shape;
+    fmt::print("{}\n", file.name());
+    fmt::print("  source           {}\n", info.source);
+    fmt::print("  radius           {} m\n", shape.radiusM);
+    fmt::print("  heights          {} to {} m in steps of {} m\n", planet::heightM(shape, info.minStep),
+               planet::heightM(shape, info.maxStep), shape.quantumM);
+    fmt::print("  faces            {0} x {0} samples\n", planet::faceCells(shape) + 1);
+    fmt::print("  chunks           {0} x {0} vertices\n", planet::chunkSize(shape));
+    fmt::print("  finest samples   {}, {} of the source without data\n", report.finestSamples,
+               info.missingSamples);
+    fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
+               ui::bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
+    fmt::print("{:>29}{:>14}{:>56}{:>14}\n", "", "delta_c, m:", "", "tight, m:");
+    fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size",
+               "smallest", "median", "99th perc.", "largest", "mean", "mean", "largest");
+    for (const planet::LevelReport& level : report.levels) {
+        fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n",
+                   level.level, level.chunks, ui::bytesText(static_cast<double>(level.bytes)),
+                   level.minDeltaM, level.medianDeltaM, level.p99DeltaM, level.maxDeltaM, level.meanDeltaM,
+                   level.meanTightM, level.maxTightM);
+    }
+}
+
+std::string problemsText(std::uint64_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "problem" : "problems");
+}
+
+void printVerified(const FileCommandOptions& options, const planet::VerifyReport& report,
+                   const planet::ColourVerifyReport& colours) {
+    std::vector<std::string> problems = report.problems;
+    problems.insert(problems.end(), colours.problems.begin(), colours.problems.end());
+    if (options.json) {
+        const Json json = {{"file", options.file.string()},
+                           {"chunks", report.chunks},
+                           {"edges", report.edges},
+                           {"leaf_samples", report.leafSamples},
+                           {"colour_tiles", colours.tiles},
+                           {"colour_edges", colours.edges},
+                           {"colour_tiles_compared", colours.compared},
+                           {"problem_count", report.problemCount + colours.problemCount},
+                           {"problems", problems}};
+        fmt::print("{}", jsonText(json));
+        return;
+    }
+    for (const std::string& problem : problems) fmt::print("{}\n", problem);
+    fmt::print("{}: {} chunks and {} shared edges checked, {} samples compared with the source, {}\n",
+               options.file.string(), report.chunks, report.edges, report.leafSamples,
+               problemsText(report.problemCount));
+    if (colours.tiles > 0) {
+        fmt::print("{}: {} tiles of colour and {} shared edges checked, {} compared with the image, {}\n",
+                   options.file.string(), colours.tiles, colours.edges, colours.compared,
+                   problemsText(colours.problemCount));
+    }
+}
+
+Result<planet::ColourVerifyReport> verifyColoursOf(const ChunkFile& file, const FileCommandOptions& options,
+                                                   const InterruptWatch& watch) {
+    if (!file.info().colour) {
+        if (options.colour.empty()) return planet::ColourVerifyReport();
+        return planet::badInput(fmt::format("{}: has no colours to compare with {}; bake it with --colour",
+                                            options.file.string(), options.colour.string()));
+    }
+    std::optional<planet::ColourSource> source;
+    if (!options.colour.empty()) {
+        Result<planet::ColourSource> opened = planet::openColourSource(options.colour);
+        if (!opened) return tl::unexpected(opened.error());
+        source = *std::move(opened);
+    }
+    return planet::verifyColours(file, source ? &*source : nullptr, [&] { return !watch.interrupted(); });
+}
+
+Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& report) {
+    Json json = {{"file", options.file.string()},
+                 {"latitude_deg", options.latitudeDeg},
+                 {"longitude_deg", options.longitudeDeg},
+                 {"face", planet::faceName(report.place.face)},
+                 {"u", report.place.u},
+                 {"v", report.place.v},
+                 {"height_m", report.heightM},
+                 {"chunks", Json::array()}};
+    for (const planet::ProbeChunk& chunk : report.chain) {
+        const planet::OrientedBox& box = chunk.bounds.box;
+        json["chunks"].push_back({{"id", planet::toString(chunk.id)},
+                                  {"delta_c_m", chunk.deltaCM},
+                                  {"tight_m", chunk.deltaTightM},
+                                  {"height_m", chunk.heightM},
+                                  {"min_height_m", chunk.minHeightM},
+                                  {"max_height_m", chunk.maxHeightM},
+                                  {"box_centre_m", {box.centreM.x, box.centreM.y, box.centreM.z}},
+                                  {"box_half_size_m", {box.halfSizeM.x, box.halfSizeM.y, box.halfSizeM.z}}});
+    }
+    return json;
+}
+
+void printProbe(const FileCommandOptions& options, const planet::ProbeReport& report) {
+    fmt::print("{}: {} lies at {:.3f} m, on {} at u {:.6f}, v {:.6f}\n\n", options.file.string(),
+               ui::placeText(options.latitudeDeg, options.longitudeDeg), report.heightM,
+               planet::faceName(report.place.face), report.place.u, report.place.v);
+    fmt::print("{:24}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "chunk", "delta_c, m", "tight, m", "height, m",
+               "lowest, m", "highest, m");
+    for (const planet::ProbeChunk& chunk : report.chain) {
+        fmt::print("{:24}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n", planet::toString(chunk.id),
+                   chunk.deltaCM, chunk.deltaTightM, chunk.heightM, chunk.minHeightM, chunk.maxHeightM);
+    }
+}
+
+}  // namespace
+
+Result<void> runInfo(const FileCommandOptions& options) {
+    const Result<ChunkFile> file = ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    const Result<planet::FileReport> report = planet::reportFile(*file);
+    if (!report) return tl::unexpected(report.error());
+    const auto& colour = file->info().colour;
+    const Result<ColourLevels> colourLevels = colour ? planet::reportColours(*file) : ColourLevels();
+    if (!colourLevels) return tl::unexpected(colourLevels.error());
+    if (options.json) {
+        Json json = infoJson(*file, *report);
+        if (colour) json["colour"] = colourJson(*colour, *colourLevels);
+        fmt::print("{}", jsonText(json));
+        return {};
+    }
+    printInfo(*file, *report);
+    if (colour) printColour(*colour, *colourLevels);
+    return {};
+}
+
+Result<bool> runVerify(const FileCommandOptions& options) {
+    const Result<ChunkFile> file = ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    std::optional<planet::HeightSource> source;
+    if (!options.source.empty()) {
+        const Result<NamedSource> named = sourceNamed(options.source, {});
+        if (!named) return tl::unexpected(named.error());
+        Result<planet::HeightSource> opened = planet::openHeightSource(named->source, options.sourceSettings);
+        if (!opened) return tl::unexpected(opened.error());
+        source = std::move(*opened);
+    }
+    const InterruptWatch watch;
+    const Result<planet::VerifyReport> report =
+        planet::verifyFile(*file, source ? &*source : nullptr,
+                           [&](std::uint64_t, std::uint64_t) { return !watch.interrupted(); });
+    if (!report) return tl::unexpected(report.error());
+    const Result<planet::ColourVerifyReport> colours = verifyColoursOf(*file, options, watch);
+    if (!colours) return tl::unexpected(colours.error());
+    printVerified(options, *report, *colours);
+    const std::uint64_t problems = report->problemCount + colours->problemCount;
+    if (problems == 0) return true;
+    printMessage("worldy: {}: {} found, 0 expected; bake the file again\n", options.file.string(),
+                 problemsText(problems));
+    return false;
+}
+
+Result<void> runProbe(const FileCommandOptions& options) {
+    const Result<ChunkFile> file = ChunkFile::open(options.file);
+    if (!file) return tl::unexpected(file.error());
+    const Result<planet::ProbeReport> report = planet::probeFile(
+        *file,
+        {glm::radians(options.latitudeDeg), glm::radians(std::remainder(options.longitudeDeg, 360.0))});
+    if (!report) return tl::unexpected(report.error());
+    if (options.json)
+        fmt::print("{}", jsonText(probeJson(options, *report)));
+    else
+        printProbe(options, *report);
+    return {};
+}
+
+}  // namespace worldy

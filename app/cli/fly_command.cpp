@@ -1,0 +1,176 @@
+#include "app/cli/fly_command.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/base/interrupt.h"
+#include "app/base/message.h"
+#include "app/base/report.h"
+#include "app/base/stopwatch.h"
+#include "app/flight/flight_path.h"
+#include "app/flight/flight_path_file.h"
+#include "app/scene/frame_report.h"
+#include "app/scene/offscreen.h"
+#include "planet/base/percentile.h"
+#include "ui/model/glossary.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::Result;
+
+constexpr int mostFlownFrames = 1'000'000;
+
+struct FlownFrame {
+    double timeS = 0;
+    planet::CameraPose pose;
+    bool lifted = false;
+    ui::FrameStats stats;
+};
+
+// What the summary tells of, by its name in the JSON.
+struct Quantity {
+    const char* name;
+    double (*of)(const ui::FrameStats&);
+};
+using Stats = ui::FrameStats;
+constexpr std::array<Quantity, 24> quantities = {{
+    {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
+    {"culled",
+     [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
+    {"drawn_chunks", [](const Stats& s) { return double{1} * s.selection.drawn; }},
+    {ui::terms::groundTriangles.key,
+     [](const Stats& s) { return static_cast<double>(s.selection.groundTriangles); }},
+    {ui::terms::skirtTriangles.key,
+     [](const Stats& s) { return static_cast<double>(s.selection.skirtTriangles); }},
+    {ui::terms::triangles.key, [](const Stats& s) { return static_cast<double>(s.selection.triangles()); }},
+    {"waiting", [](const Stats& s) { return double{1} * s.selection.waiting; }},
+    {"worst_eps_px", [](const Stats& s) { return static_cast<double>(s.selection.worstEpsPx); }},
+    {"worst_drawn_bound_px",
+     [](const Stats& s) { return static_cast<double>(s.selection.worstDrawnBoundPx); }},
+    {"queued", [](const Stats& s) { return double{1} * s.paging.queued; }},
+    {"resident_bytes_cpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesCpu); }},
+    {"resident_bytes_gpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesGpu); }},
+    {"bytes_read", [](const Stats& s) { return static_cast<double>(ui::bytesReadOf(s)); }},
+    {"upload_ms", [](const Stats& s) { return s.stages.uploadMs; }},
+    {"select_ms", [](const Stats& s) { return s.stages.selectMs; }},
+    {"paging_ms", [](const Stats& s) { return s.stages.pagingMs; }},
+    {"draw_cpu_ms", [](const Stats& s) { return s.drawCpuMs; }},
+    {"draw_gpu_ms", [](const Stats& s) { return s.render.chunksMs + s.render.skyMs + s.render.shadowsMs; }},
+    {"chunks_gpu_ms", [](const Stats& s) { return s.render.chunksMs; }},
+    {"sky_gpu_ms", [](const Stats& s) { return s.render.skyMs; }},
+    {"frame_ms", [](const Stats& s) { return s.frameMs; }},
+    {"colour_tile_bytes", [](const Stats& s) { return static_cast<double>(s.gpuMemory.colourTiles); }},
+    {"clipmap_bytes", [](const Stats& s) { return static_cast<double>(s.gpuMemory.colourClipmap); }},
+    {"clipmap_texels", [](const Stats& s) { return static_cast<double>(s.clipmap.filledTexels); }},
+}};
+
+// Times and pixels are measures; all else is counted, and so is each percentile of it.
+bool isCount(const Quantity& quantity) {
+    const std::string_view name = quantity.name;
+    return !name.ends_with("_ms") && !name.ends_with("_px");
+}
+
+struct Spread {
+    double median = 0;
+    double percentile99 = 0;
+    double maximum = 0;
+};
+
+Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity) {
+    std::vector<double> values;
+    for (const FlownFrame& frame : frames) values.push_back(quantity.of(frame.stats));
+    return {planet::percentileOf(values, 0.5), planet::percentileOf(values, 0.99),
+            planet::percentileOf(values, 1)};
+}
+
+// elapsedS: of the flight, since the frame before.
+Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS, double elapsedS,
+                            const ui::ViewSettings& settings) {
+    Scene& scene = offscreen.scene;
+    const double radiusM = scene.planet->shape().radiusM;
+    const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
+    const Camera camera = keepInRange(wanted, groundBelow(scene, wanted.eyeM));
+    const planet::View view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
+                                     offscreen.target.heightPx());
+    const Stopwatch watch;
+    stepScene(scene, view, settings, elapsedS);
+    if (const Result<void> drawn = drawAndFinish(offscreen, view, settings); !drawn)
+        return tl::unexpected(drawn.error());
+    FlownFrame frame{timeS, planet::poseFromView(view, radiusM), camera.eyeM != wanted.eyeM, statsOf(scene)};
+    frame.stats.frameMs = watch.elapsedMs();
+    return frame;
+}
+
+Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector<FlownFrame>& frames) {
+    Json report = {{"flight", path.name},
+                   {"file", options.file.string()},
+                   {"frames", frames.size()},
+                   {"width_px", options.size.widthPx},
+                   {"height_px", options.size.heightPx},
+                   {"tau_px", options.view.lod.tauPx},
+                   {"budget_mb", options.view.paging.budgetMB}};
+    for (const Quantity& quantity : quantities) {
+        const Spread spread = spreadOf(frames, quantity);
+        const auto figure = [&](double value) {
+            return isCount(quantity) ? Json(std::llround(value)) : Json(value);
+        };
+        report["summary"][quantity.name] = {{"median", figure(spread.median)},
+                                            {"p99", figure(spread.percentile99)},
+                                            {"maximum", figure(spread.maximum)}};
+    }
+    report["frame"] = Json::array();
+    for (const FlownFrame& frame : frames) {
+        Json entry = {{"time_s", frame.timeS}, {"camera", poseJson(frame.pose)}, {"lifted", frame.lifted}};
+        entry.update(statsJson(frame.stats));
+        report["frame"].push_back(std::move(entry));
+    }
+    return report;
+}
+
+void printSummary(const FlightPath& path, const std::vector<FlownFrame>& frames) {
+    fmt::print("{}: {} frames over {:.0f} s\n\n{:20}{:>16}{:>16}{:>16}\n", path.name, frames.size(),
+               durationS(path), "", "median", "99th percentile", "maximum");
+    for (const Quantity& quantity : quantities) {
+        const Spread s = spreadOf(frames, quantity);
+        const int digits = isCount(quantity) ? 0 : 3;
+        fmt::print("{:20}{:16.{}f}{:16.{}f}{:16.{}f}\n", quantity.name, s.median, digits, s.percentile99,
+                   digits, s.maximum, digits);
+    }
+}
+
+}  // namespace
+
+Result<void> flyPath(const FlyOptions& options) {
+    const Result<FlightPath> path = loadFlightPath(options.flight);
+    if (!path) return tl::unexpected(path.error());
+    const Result<FlightFrames> moments = framesOf(*path, options.sampling, mostFlownFrames);
+    if (!moments) return tl::unexpected(moments.error());
+    const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};
+    Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
+    if (!offscreen) return tl::unexpected(offscreen.error());
+
+    // As in a window where one looks at the first view before one flies off: not with the root chunks alone.
+    settleAt(*offscreen, path->keys.front().pose, options.view);
+    const InterruptWatch watch;
+    std::vector<FlownFrame> frames;
+    for (int i = 0; i < moments->count; ++i) {
+        if (watch.interrupted()) return planet::cancelled();
+        const Result<FlownFrame> frame =
+            flyFrame(*offscreen, *path, moments->timeS(i), i > 0 ? moments->stepS : 0, options.view);
+        if (!frame) return tl::unexpected(frame.error());
+        frames.push_back(*frame);
+    }
+    for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
+    if (!options.report.json) printSummary(*path, frames);
+    return writeReport(options.report, jsonOf(options, *path, frames));
+}
+
+}  // namespace worldy

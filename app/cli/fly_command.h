@@ -1,0 +1,25 @@
+// worldy fly: flies a recorded path without a display, as fast as the frames come, and reports what each did.
+#pragma once
+
+#include <filesystem>
+
+#include "app/base/report.h"
+#include "app/flight/flight_path.h"
+#include "app/settings/camera_text.h"
+#include "ui/model/view_settings.h"
+
+namespace worldy {
+
+struct FlyOptions {
+    std::filesystem::path file;
+    std::filesystem::path flight;  // .toml, or a recorded .flight
+    FlightSampling sampling;
+    ReportTo report;
+    std::filesystem::path shaderFolder;
+    PictureSize size;
+    ui::ViewSettings view;
+};
+
+planet::Result<void> flyPath(const FlyOptions& options);
+
+}  // namespace worldy

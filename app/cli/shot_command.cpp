@@ -1,0 +1,86 @@
+#include "app/cli/shot_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/base/message.h"
+#include "app/base/picture.h"
+#include "app/base/report.h"
+#include "app/scene/frame_report.h"
+#include "app/scene/offscreen.h"
+#include "app/settings/screenshot.h"
+#include "app/settings/settings_text.h"
+#include "app/settings/shot_line.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+Result<void> writeShot(const Picture& picture, const planet::CameraPose& pose, const ShotOptions& options) {
+    if (options.output.extension() != ".png") return writePicture(picture, options.output);
+    std::error_code status;
+    const std::filesystem::path file = std::filesystem::absolute(options.file, status);
+    Settings settings;
+    settings.view = options.view;
+    settings.dataSet = file.string();
+    settings.colourImage = options.colourImage.empty()
+                               ? std::string()
+                               : std::filesystem::absolute(options.colourImage, status).string();
+    const std::string line = shotLine(file, pose, options.size, options.view, settings.colourImage);
+    return writeScreenshot(picture, options.output, {settingsText(settings), pose, file, line, {}});
+}
+
+void printReport(const Offscreen& offscreen, const SettledView& view, const ShotOptions& options) {
+    const planet::Selection& selection = offscreen.scene.planet->selection();
+    const ui::FrameStats stats = statsOf(offscreen.scene);
+    if (options.json) {
+        nlohmann::ordered_json report = {
+            {"output", options.output.string()},     {"width_px", options.size.widthPx},
+            {"height_px", options.size.heightPx},    {"tau_px", options.view.lod.tauPx},
+            {"fov_deg", options.view.camera.fovDeg}, {"settled", view.settled},
+            {"camera", poseJson(view.pose)},         {"levels", levelHistogram(selection)}};
+        nlohmann::ordered_json drawn = statsJson(stats);
+        // Of a run of frames, and there was one.
+        drawn.erase("frame_ms");
+        for (const char* key : {"draw_gpu_ms", "chunks_gpu_ms", "sky_gpu_ms"}) drawn.erase(key);
+        report.update(drawn);
+        fmt::print("{}", jsonText(report));
+        return;
+    }
+    fmt::print("{}: {} chunks, {} triangles, worst eps {:.2f} px, worst drawn bound {:.2f} px, {} read\n",
+               options.output.string(), stats.selection.drawn,
+               ui::countText(static_cast<double>(stats.selection.triangles())), stats.selection.worstEpsPx,
+               stats.selection.worstDrawnBoundPx, ui::bytesText(static_cast<double>(ui::bytesReadOf(stats))));
+}
+
+}  // namespace
+
+Result<void> takeShot(const ShotOptions& options) {
+    const Result<std::optional<Picture>> colour = colourPictureOf(options.file, options.colourImage);
+    if (!colour) return tl::unexpected(colour.error());
+    const SceneConfig config{options.file, options.shaderFolder, *colour ? &**colour : nullptr};
+    Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, options.samples);
+    if (!offscreen) return tl::unexpected(offscreen.error());
+
+    const double radiusM = offscreen->scene.planet->shape().radiusM;
+    const SettledView view =
+        settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), options.view);
+    if (view.lifted) {
+        printMessage("worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
+                     view.pose.altitudeM, minGroundClearanceM);
+    }
+    if (!view.settled) printMessage("worldy: not everything was loaded in time; the picture may be coarse\n");
+    const Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view);
+    for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
+    if (!drawn) return drawn;
+    if (Result<void> written = writeShot(readPicture(*offscreen), view.pose, options); !written)
+        return written;
+    printReport(*offscreen, view, options);
+    return {};
+}
+
+}  // namespace worldy

@@ -1,0 +1,186 @@
+#include "app/cli/write_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/base/places.h"
+#include "app/data/data_set.h"
+#include "app/settings/layer_file.h"
+#include "app/settings/view_options.h"
+#include "planet/format/chunk_file.h"
+#include "planet/sphere/cube_sphere.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The textures of its layers, and the set's file.
+void addLayerFiles(CommandFiles& files, const ui::ViewSettings& view) {
+    const ui::LayerSettings& layers = view.surface.layers;
+    const fs::path folder = layerFolderOf(layers.file);
+    files.inputs.emplace_back(layers.file);
+    for (const planet::TextureLayer& layer : layers.set.layers) {
+        for (const std::string& texture : {layer.albedo, layer.normal, layer.roughness}) {
+            if (!texture.empty()) files.inputs.push_back(folder / texture);
+        }
+    }
+}
+
+// The source that a chunk file names: a sweep bakes it again in other chunk sizes.
+fs::path sourceIn(const fs::path& chunkFile) {
+    if (chunkFile.extension() != ".chk") return {};
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    return file ? sourceOf(file->info()) : fs::path();
+}
+
+// The images of a folder that --debug-levels would replace. How many levels there will be is not known yet.
+void addLevelImages(CommandFiles& files, const fs::path& folder) {
+    std::error_code status;
+    if (folder.empty()) return;
+    for (fs::directory_iterator entry(folder, status), end; !status && entry != end;
+         entry.increment(status)) {
+        const std::string name = entry->path().filename().string();
+        const bool wouldBe =
+            std::any_of(planet::allFaces.begin(), planet::allFaces.end(), [&](planet::Face face) {
+                return name.starts_with(fmt::format("{}_level", planet::faceName(face))) &&
+                       name.ends_with(".png");
+            });
+        if (wouldBe) files.outputs.push_back({entry->path(), OutputKind::PngImage});
+    }
+}
+
+}  // namespace
+
+CommandFiles filesOf(const AppOptions& options) {
+    CommandFiles files;
+    addSource(files, options.file);
+    files.inputs.insert(files.inputs.end(), {options.settingsFile, options.shaderFolder});
+    files.outputs = {{options.itemMapFile, OutputKind::ItemMap}};
+    return files;
+}
+
+CommandFiles filesOf(const AuditOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.flight);
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
+CommandFiles filesOf(const BakeOptions& options) {
+    CommandFiles files;
+    addSource(files, options.source);
+    addSource(files, options.colour);
+    files.outputs = {{options.output, OutputKind::ChunkFile}};
+    addLevelImages(files, options.settings.debugLevelsFolder);
+    return files;
+}
+
+CommandFiles filesOf(const BenchOptions& options) {
+    CommandFiles files;
+    addSource(files, options.source.empty() ? earthElevation() : options.source);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
+CommandFiles filesOf(const CompareOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    addChunkFile(files, options.fileOfB);
+    files.inputs.push_back(options.flight);
+    for (const ui::ViewSettings& view : options.settings) addLayerFiles(files, view);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    if (options.pictures.empty()) return files;
+    for (const char* name : {"side_by_side.png", "difference.png"})
+        files.outputs.push_back({options.pictures / name, OutputKind::Picture});
+    return files;
+}
+
+CommandFiles filesOf(const CostsOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.colourImage);
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
+CommandFiles filesOf(const CracksOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.report.file, OutputKind::Json}, {options.markedPicture, OutputKind::Picture}};
+    return files;
+}
+
+CommandFiles filesOf(const FlyOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
+CommandFiles filesOf(const MakeLayersOptions& options) {
+    CommandFiles files;
+    for (const std::string_view material : planet::materialNames) {
+        for (const char* what : {"albedo", "normal", "roughness"}) {
+            files.outputs.push_back(
+                {options.output / fmt::format("{}_{}.png", material, what), OutputKind::PngImage});
+        }
+    }
+    for (const char* name : {"earth.toml", "two_layer_height_blend.toml"})
+        files.outputs.push_back({options.output / name, OutputKind::LayerSet});
+    return files;
+}
+
+CommandFiles filesOf(const PopsOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.flight);
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
+CommandFiles filesOf(const ReplayOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.flight);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
+CommandFiles filesOf(const ShotOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.insert(files.inputs.end(), {options.colourImage, options.shaderFolder});
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.output, OutputKind::Picture}};
+    return files;
+}
+
+CommandFiles filesOf(const SweepOptions& options) {
+    CommandFiles files;
+    addSource(files, options.file);
+    addSource(files, sourceIn(options.file));
+    files.inputs.push_back(options.flight);
+    addLayerFiles(files, options.view);
+    const fs::path& table = options.report.file;
+    files.outputs = {{table, table.extension() == ".csv" ? OutputKind::Csv : OutputKind::Json},
+                     {options.plotOutput, OutputKind::Picture}};
+    return files;
+}
+
+void addInputs(CommandFiles& files, const ViewTexts& texts) {
+    files.inputs.insert(files.inputs.end(), {texts.settingsFile, texts.layerSet});
+}
+
+}  // namespace worldy

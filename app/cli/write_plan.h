@@ -1,0 +1,40 @@
+// The files that each command reads and writes, as its options name them (app/write_check.h).
+#pragma once
+
+#include "app/cli/app.h"
+#include "app/cli/audit_command.h"
+#include "app/cli/bake_command.h"
+#include "app/cli/bench_command.h"
+#include "app/cli/compare_command.h"
+#include "app/cli/costs_command.h"
+#include "app/cli/cracks_command.h"
+#include "app/cli/fly_command.h"
+#include "app/cli/pops_command.h"
+#include "app/cli/replay_command.h"
+#include "app/cli/shot_command.h"
+#include "app/cli/sweep_command.h"
+#include "app/data/layer_materials.h"
+#include "app/data/write_check.h"
+#include "app/settings/view_options.h"
+
+namespace worldy {
+
+CommandFiles filesOf(const AppOptions& options);
+CommandFiles filesOf(const AuditOptions& options);
+CommandFiles filesOf(const BakeOptions& options);
+CommandFiles filesOf(const BenchOptions& options);
+CommandFiles filesOf(const CompareOptions& options);
+CommandFiles filesOf(const CostsOptions& options);
+CommandFiles filesOf(const CracksOptions& options);
+CommandFiles filesOf(const FlyOptions& options);
+CommandFiles filesOf(const MakeLayersOptions& options);
+CommandFiles filesOf(const PopsOptions& options);
+// Without the chunk file of the recording, which is known once that is read.
+CommandFiles filesOf(const ReplayOptions& options);
+CommandFiles filesOf(const ShotOptions& options);
+CommandFiles filesOf(const SweepOptions& options);
+
+// Adds the files that the texts name.
+void addInputs(CommandFiles& files, const ViewTexts& texts);
+
+}  // namespace worldy

@@ -1,0 +1,79 @@
+#include "app/data/bake_progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+#include "app/base/interrupt.h"
+#include "app/base/message.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+std::string progressText(const planet::BakeProgress& progress, double share) {
+    return fmt::format("{:3.0f} %  {} of {} samples  {} samples/s  {} left", 100 * share,
+                       ui::countText(static_cast<double>(progress.samplesDone)),
+                       ui::countText(static_cast<double>(progress.samplesTotal)),
+                       ui::countText(progress.samplesPerS), ui::durationText(progress.remainingS));
+}
+
+}  // namespace
+
+TerminalProgress::TerminalProgress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+TerminalProgress::~TerminalProgress() {
+    if (lineOpen_) printMessage("\n");
+}
+
+void TerminalProgress::show(const planet::BakeProgress& progress) {
+    if (progress.samplesTotal == 0) return;
+    const double share =
+        static_cast<double>(progress.samplesDone) / static_cast<double>(progress.samplesTotal);
+    if (terminal_) {
+        printMessage("\r\033[K{}", progressText(progress, share));
+        std::fflush(stderr);
+        lineOpen_ = true;
+        return;
+    }
+    const int tenths = static_cast<int>(10 * share);
+    if (tenths <= tenthsShown_) return;
+    printMessage("{}\n", progressText(progress, share));
+    tenthsShown_ = tenths;
+}
+
+planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
+                                                  const planet::BakeSettings& settings,
+                                                  const std::filesystem::path& output,
+                                                  const planet::ColourSource* colour) {
+    const InterruptWatch watch;
+    TerminalProgress line;
+    const auto show = [&](const planet::BakeProgress& progress) {
+        line.show(progress);
+        return !watch.interrupted();
+    };
+    return planet::bake(source, settings, output, show, colour);
+}
+
+planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
+                                                  const planet::BakeSettings& settings,
+                                                  const std::filesystem::path& output,
+                                                  const JobColour& colour) {
+    const InterruptWatch watch;
+    std::string problem;
+    planet::Result<planet::BakeReport> report = [&] {
+        TerminalProgress line;
+        const auto show = [&](const planet::BakeProgress& progress) {
+            line.show(progress);
+            return !watch.interrupted();
+        };
+        return bakeWithColour(source, settings, output, show, colour, problem);
+    }();
+    if (!problem.empty()) printMessage("worldy: {}; baked without colours\n", problem);
+    return report;
+}
+
+}  // namespace worldy

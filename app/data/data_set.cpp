@@ -1,0 +1,150 @@
+#include "app/data/data_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "app/base/places.h"
+#include "app/data/worlds.h"
+#include "planet/format/chunk_file.h"
+#include "planet/source/height_source.h"
+#include "planet/source/terrain.h"
+#include "ui/model/own_colour.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// FNV-1a. Names a file; nothing relies on it being hard to forge.
+std::uint64_t hashOf(const std::string& text) {
+    std::uint64_t hash = 0xCBF29CE484222325u;
+    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3u;
+    return hash;
+}
+
+// A file's name holds 255 bytes, and the source's own may fill them. Cuts no UTF-8 letter in two.
+std::string shortened(const std::string& name) {
+    std::size_t length = std::min<std::size_t>(name.size(), 80);
+    while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0u) == 0x80u)
+        --length;
+    return name.substr(0, length);
+}
+
+// What a bake of the Earth that comes with Worldy says of its source.
+constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
+
+// A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
+fs::path colourImageOf(const fs::path& chunkFile) {
+    const fs::path beside = ui::colourImageBeside(chunkFile);
+    if (!beside.empty()) return beside;
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    if (!file) return {};
+    if (file->info().source == ourEarth) return ui::colourImageBeside(earthElevation());
+    const fs::path source = sourceOf(file->info());
+    return source.empty() ? fs::path() : ui::ownColourImage(source);
+}
+
+// A file tells the name of the image that its colours were made of, and not where it lay.
+fs::path bakedColourOf(const fs::path& chunkFile, const fs::path& colourImage) {
+    if (colourImage.empty()) return {};
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    if (!file || !file->info().colour) return {};
+    const bool isIt = file->info().colour->source.starts_with(colourImage.filename().string() + ",");
+    return isIt ? colourImage : fs::path();
+}
+
+// Empty for the defaults, so that their bakes keep their names. Memory for the source changes nothing.
+std::string identityOf(const planet::HeightSourceSettings& settings) {
+    const auto text = [](const planet::HeightSourceSettings& s) {
+        return fmt::format(" s{} {} {} {} {} {} {} {} {}", s.metresPerUnit, s.offsetM,
+                           s.noDataValue.has_value(), s.noDataValue.value_or(0), s.fillM,
+                           s.rawSize.value_or(0), s.rawBits.value_or(0), s.rawSigned, s.rawBigEndian);
+    };
+    const std::string identity = text(settings);
+    return identity == text({}) ? std::string() : identity;
+}
+
+// Path, size and time of change of each.
+std::string identityOf(const std::vector<fs::path>& files) {
+    std::string identity;
+    for (const fs::path& file : files) {
+        std::error_code status;
+        identity += fmt::format("|{}|{}|{}", fs::absolute(file, status).lexically_normal().string(),
+                                fs::file_size(file, status),
+                                fs::last_write_time(file, status).time_since_epoch().count());
+    }
+    return identity;
+}
+
+// Empty without colours, so that bakes without keep their names.
+std::string identityOf(const fs::path& colour, const planet::ColourBakeSettings& settings) {
+    if (colour.empty()) return {};
+    return fmt::format(" colours {} {}{}", static_cast<int>(settings.format), settings.faceSize.value_or(0),
+                       identityOf(planet::heightSourceFiles(colour).files));
+}
+
+// Whether a file and its root chunks can be read: what a planet needs to open.
+bool opensWhole(const fs::path& chunkFile) {
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    return file && std::all_of(planet::allFaces.begin(), planet::allFaces.end(),
+                               [&](planet::Face face) { return file->readRoot(face).has_value(); });
+}
+
+}  // namespace
+
+fs::path sourceOf(const planet::ChunkFileInfo& info) {
+    const bool made = planet::isTerrainText(info.source) && planet::heightSourceExists(info.source);
+    return made ? fs::path(info.source) : fs::path();
+}
+
+fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settings,
+                      const planet::HeightSourceSettings& sourceSettings, const fs::path& colour) {
+    std::string identity =
+        fmt::format("{} {} {} {} {}", planet::chunkFileVersion, settings.faceSize.value_or(0),
+                    settings.chunkSize, settings.radiusM, settings.quantumM.value_or(0));
+    if (settings.compressionLevel != planet::defaultCompressionLevel)
+        identity += fmt::format(" c{}", settings.compressionLevel);
+    identity += identityOf(sourceSettings);
+    const planet::HeightSourceFiles sourceFiles = planet::heightSourceFiles(source);
+    identity += identityOf(sourceFiles.files);
+    identity += " placed";  // bakes made before the tags of a GeoTIFF were read are not taken
+    if (planet::isTerrainText(source))
+        identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
+    identity += identityOf(colour, settings.colour);
+    return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem), hashOf(identity));
+}
+
+planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,
+                                    const planet::HeightSourceSettings& sourceSettings,
+                                    const std::optional<fs::path>& colour) {
+    const planet::Result<NamedSource> source = sourceNamed(named, settings);
+    if (!source) return tl::unexpected(source.error());
+    if (planet::isTerrainText(source->source)) {
+        // A bad text says itself what would be right.
+        if (const auto good = planet::terrainFromText(source->source); !good)
+            return tl::unexpected(good.error());
+    } else if (planet::heightSourceFiles(source->source).files.empty()) {
+        return planet::badInput(
+            fmt::format("{}: no such file; expected a chunk file (.chk), an elevation image, one of six cube "
+                        "faces, a terrain as noise:ridged or a preset as preset:moon",
+                        named.string()));
+    } else if (named.extension() == ".chk") {
+        DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageOf(named)};
+        set.bakedColour = bakedColourOf(named, colour.value_or(set.colourImage));
+        return set;
+    }
+    DataSet set{.source = source->source,
+                .chunkFile = {},
+                .colourImage = ui::ownColourImage(source->source),
+                .settings = source->settings};
+    set.bakedColour = colour.value_or(set.colourImage);
+    set.chunkFile = cachedBakeOf(set.source, set.settings, sourceSettings, set.bakedColour);
+    set.needsBake = !opensWhole(set.chunkFile);
+    return set;
+}
+
+}  // namespace worldy

@@ -1,0 +1,223 @@
+#include "app/data/write_check.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/data/worlds.h"
+#include "app/settings/layer_file.h"
+#include "app/settings/screenshot.h"
+#include "app/settings/settings_text.h"
+#include "planet/format/chunk_file_format.h"
+#include "planet/source/height_source.h"
+#include "ui/model/own_colour.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+// Identifies a file by device and inode, so that two names of one file are equal.
+struct FileIdentity {
+    dev_t device = 0;
+    ino_t inode = 0;
+
+    bool operator==(const FileIdentity&) const = default;
+};
+
+// None of a file that is not there.
+std::optional<FileIdentity> fileIdentityOf(const fs::path& path) {
+    struct stat status {};
+    if (path.empty() || ::stat(path.c_str(), &status) != 0) return std::nullopt;
+    return FileIdentity{status.st_dev, status.st_ino};
+}
+
+// The files in a folder, or the path itself.
+std::vector<fs::path> filesIn(const fs::path& path) {
+    std::error_code status;
+    if (!fs::is_directory(path, status)) return {path};
+    std::vector<fs::path> files;
+    for (fs::recursive_directory_iterator entry(path, status), end; !status && entry != end;
+         entry.increment(status))
+        files.push_back(entry->path());
+    return files;
+}
+
+std::string startOf(const fs::path& file, std::size_t bytes) {
+    std::string start(bytes, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(start.data(), static_cast<std::streamsize>(bytes));
+    start.resize(static_cast<std::size_t>(stream.gcount()));
+    return start;
+}
+
+constexpr std::size_t lookedAtBytes = 4096;
+
+// The file may be of any version.
+bool isChunkFile(const fs::path& file) {
+    constexpr std::size_t magicBytes = 8;
+    const auto header = planet::headerBytes({}, 0);
+    const std::string start = startOf(file, magicBytes);
+    return start.size() == magicBytes && std::memcmp(start.data(), header.data(), magicBytes) == 0;
+}
+
+bool isJson(const fs::path& file) {
+    const std::string start = startOf(file, lookedAtBytes);
+    const std::size_t first = start.find_first_not_of(" \t\r\n");
+    return first != std::string::npos && start[first] == '{' && start.find('\0') == std::string::npos;
+}
+
+// A first line of at least two names.
+bool isCsv(const fs::path& file) {
+    const std::string start = startOf(file, lookedAtBytes);
+    const std::string_view line = std::string_view(start).substr(0, start.find_first_of("\r\n"));
+    const auto mayStandInName = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == ' ' || c == ',';
+    };
+    return line.find(',') != std::string_view::npos && std::all_of(line.begin(), line.end(), mayStandInName);
+}
+
+bool isOwnPicture(const fs::path& file) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.string());
+    OIIO::geterror();  // kept for the next failure if nobody takes it
+    if (!input || !output) return false;
+    const OIIO::ImageSpec& spec = input->spec();
+    return spec.nchannels == 3 && std::string_view(input->format_name()) == output->format_name();
+}
+
+bool isOfKind(const fs::path& file, OutputKind kind) {
+    switch (kind) {
+        case OutputKind::ChunkFile:
+            return isChunkFile(file);
+        case OutputKind::Json:
+            return isJson(file);
+        case OutputKind::Csv:
+            return isCsv(file);
+        case OutputKind::Picture:
+            return isOwnPicture(file);
+        case OutputKind::PngImage:
+            return isPng(file);
+        case OutputKind::LayerSet:
+            return loadLayerSet(file).has_value();
+        case OutputKind::Preset:
+            return loadViewPart(file).has_value();
+        case OutputKind::ItemMap:
+            return startOf(file, 8) == "counter/";
+    }
+    return false;
+}
+
+std::string_view nameOf(OutputKind kind) {
+    switch (kind) {
+        case OutputKind::ChunkFile:
+            return "a chunk file";
+        case OutputKind::Json:
+            return "a JSON report";
+        case OutputKind::Csv:
+            return "a CSV table";
+        case OutputKind::Picture:
+            return "an RGB picture in the format that its name says";
+        case OutputKind::PngImage:
+            return "a PNG image";
+        case OutputKind::LayerSet:
+            return "a layer set";
+        case OutputKind::Preset:
+            return "a preset";
+        case OutputKind::ItemMap:
+            return "an item map";
+    }
+    return "";
+}
+
+Result<void> checkApart(const fs::path& output, const FileIdentity& identity, const fs::path& input) {
+    for (const fs::path& file : filesIn(input)) {
+        if (fileIdentityOf(file) != identity) continue;
+        if (file == output) {
+            return planet::badInput(fmt::format(
+                "{}: is an input of this command and cannot be its output; expected another output file",
+                output.string()));
+        }
+        return planet::badInput(fmt::format(
+            "{}: is the same file as {}, which is an input of this command; expected another output file",
+            output.string(), file.string()));
+    }
+    return {};
+}
+
+// The name without links, of files that are not there yet too.
+fs::path canonicalOf(const fs::path& path) {
+    constexpr int mostLinks = 40;  // as the kernel follows
+    std::error_code status;
+    fs::path target = fs::absolute(path, status);
+    for (int i = 0; i < mostLinks && fs::is_symlink(target, status); ++i)
+        target = target.parent_path() / fs::read_symlink(target, status);
+    const fs::path canonical = fs::weakly_canonical(target, status);
+    return status ? path : canonical;
+}
+
+}  // namespace
+
+void addSource(CommandFiles& files, const fs::path& source) {
+    if (source.empty()) return;
+    const Result<NamedSource> named = sourceNamed(source, {});
+    const fs::path path = named ? named->source : source;
+    for (const fs::path& file : planet::heightSourceFiles(path).files) files.inputs.push_back(file);
+    files.inputs.push_back(ui::ownColourImage(path));
+}
+
+void addChunkFile(CommandFiles& files, const fs::path& chunkFile) {
+    if (chunkFile.empty()) return;
+    files.inputs.push_back(chunkFile);
+    files.inputs.push_back(ui::colourImageBeside(chunkFile));
+}
+
+Result<void> checkNotInputs(const CommandFiles& files) {
+    for (auto output = files.outputs.begin(); output != files.outputs.end(); ++output) {
+        if (output->path.empty()) continue;
+        for (auto other = files.outputs.begin(); other != output; ++other) {
+            if (canonicalOf(other->path) != canonicalOf(output->path) || other->path.empty()) continue;
+            return planet::badInput(fmt::format("{}: is the name of two outputs; expected a file for each",
+                                                output->path.string()));
+        }
+        const std::optional<FileIdentity> identity = fileIdentityOf(output->path);
+        if (!identity) continue;
+        for (const fs::path& input : files.inputs) {
+            if (input.empty()) continue;
+            if (Result<void> apart = checkApart(output->path, *identity, input); !apart) return apart;
+        }
+    }
+    return {};
+}
+
+Result<void> checkKinds(const std::vector<OutputFile>& outputs) {
+    for (const OutputFile& output : outputs) {
+        std::error_code status;
+        if (output.path.empty() || !fs::is_regular_file(output.path, status)) continue;
+        if (fs::file_size(output.path, status) == 0 || isOfKind(output.path, output.kind)) continue;
+        return planet::badInput(fmt::format("{}: exists and is not {}; expected another name",
+                                            output.path.string(), nameOf(output.kind)));
+    }
+    return {};
+}
+
+Result<void> checkOutputs(const CommandFiles& files, bool overwrite) {
+    if (Result<void> apart = checkNotInputs(files); !apart || overwrite) return apart;
+    return checkKinds(files.outputs).map_error([](planet::Error error) {
+        error.message += ", or --overwrite to replace it";
+        return error;
+    });
+}
+
+}  // namespace worldy

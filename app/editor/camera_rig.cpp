@@ -1,0 +1,297 @@
+#include "app/editor/camera_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "app/base/places.h"
+#include "app/flight/flight_path_file.h"
+#include "app/flight/flight_record.h"
+#include "planet/measure/pick.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double joinFlightS = 1.5;
+constexpr double lowestOrbitRad = 0.02;  // above the pivot's horizon
+constexpr double nearestOrbitM = 4;
+
+// Level again, with the view's direction kept. Straight up and down any right vector is level.
+Camera levelled(Camera camera) {
+    camera.back = glm::normalize(camera.back);
+    const glm::dvec3 up = glm::normalize(camera.eyeM);
+    glm::dvec3 right = glm::cross(up, camera.back);
+    if (glm::length(right) < 1e-9) right = camera.right - glm::dot(camera.right, camera.back) * camera.back;
+    camera.right = glm::normalize(glm::dot(right, camera.right) < 0 ? -right : right);
+    return camera;
+}
+
+bool touched(const PointerInput& pointer, const HeldKeys& keys) {
+    const bool moved =
+        pointer.dragPx != glm::dvec2(0, 0) || pointer.lookPx != glm::dvec2(0, 0) || pointer.wheelNotches != 0;
+    return moved || keys.forward != 0 || keys.right != 0 || keys.up != 0 || keys.lookRight != 0 ||
+           keys.lookUp != 0;
+}
+
+void flyFrame(CameraRig& rig, const Surroundings& around, const planet::View& view,
+              const PointerInput& pointer, const HeldKeys& keys, double seconds) {
+    const Ground ground = around.groundBelow(rig.camera.eyeM);
+    Camera camera = drag(rig.camera, ground, view, pointer.dragPx);
+    const double radAPx = 1 / planet::screenScalePx(view);
+    camera = look(camera, pointer.lookPx.x * radAPx, -pointer.lookPx.y * radAPx);
+    if (pointer.wheelNotches != 0) {
+        camera = approach(camera, ground, rayThrough(view, pointer.positionPx), pointer.wheelNotches);
+    }
+    camera = moveByKeys(camera, ground, keys, rig.speedFactor, seconds);
+    rig.camera = keepInRange(camera, around.groundBelow(camera.eyeM));
+}
+
+// Looking at the sky there is still something to turn about: the ground below.
+glm::dvec3 pivotFor(const Camera& camera, const Surroundings& around) {
+    if (const std::optional<glm::dvec3> hit = around.hit(camera.eyeM, -camera.back)) return *hit;
+    const Ground ground = around.groundBelow(camera.eyeM);
+    return (ground.radiusM + ground.heightM) * glm::normalize(camera.eyeM);
+}
+
+// A share of the distance to the pivot; the view's direction stays.
+Camera dolly(const Camera& camera, const glm::dvec3& pivotM, double factor) {
+    const glm::dvec3 offset = camera.eyeM - pivotM;
+    const double distanceM = glm::length(offset);
+    Camera moved = camera;
+    moved.eyeM =
+        pivotM + offset * (std::max(distanceM * factor, std::min(nearestOrbitM, distanceM)) / distanceM);
+    return levelled(moved);
+}
+
+// A camera that the ground has lifted, or that is too far out, looks at the same point of it as before.
+Camera keepOrbitInRange(const Camera& camera, const glm::dvec3& pivotM, const Surroundings& around) {
+    Camera kept = keepInRange(camera, around.groundBelow(camera.eyeM));
+    const glm::dvec3 before = camera.eyeM - pivotM;
+    const glm::dvec3 after = kept.eyeM - pivotM;
+    const glm::dvec3 axis = glm::cross(before, after);
+    const double sine = glm::length(axis);
+    if (kept.eyeM == camera.eyeM || sine == 0) return kept;
+    const double angleRad = std::atan2(sine, glm::dot(before, after));
+    kept.back = rotated(kept.back, axis / sine, angleRad);
+    kept.right = rotated(kept.right, axis / sine, angleRad);
+    return levelled(kept);
+}
+
+void orbitFrame(CameraRig& rig, const Surroundings& around, const planet::View& view,
+                const PointerInput& pointer, const HeldKeys& keys, double seconds) {
+    if (!rig.pivotM) rig.pivotM = pivotFor(rig.camera, around);
+    if (pointer.lookPx != glm::dvec2(0, 0)) {
+        const Ground ground = around.groundBelow(rig.camera.eyeM);
+        rig.camera = drag(rig.camera, ground, view, pointer.lookPx);
+        rig.pivotM = pivotFor(rig.camera, around);
+    }
+    // The viewport's height is half a turn.
+    const double radAPx = glm::radians(180.0) / std::max(view.heightPx, 1);
+    const double keyRad = glm::radians(60.0) * seconds;
+    const double turnRad = -pointer.dragPx.x * radAPx + (keys.right + keys.lookRight) * keyRad;
+    const double upRad = pointer.dragPx.y * radAPx + (keys.up + keys.lookUp) * keyRad;
+    Camera camera = rig.camera;
+    if (turnRad != 0 || upRad != 0) camera = orbit(camera, *rig.pivotM, turnRad, upRad);
+    const double nearer = pointer.wheelNotches + 6 * keys.forward * rig.speedFactor * seconds;
+    if (nearer != 0) camera = dolly(camera, *rig.pivotM, std::pow(0.85, nearer));
+    rig.camera = keepOrbitInRange(camera, *rig.pivotM, around);
+}
+
+void followFrame(CameraRig& rig, const Surroundings& around, double seconds) {
+    FollowedFlight& flight = *rig.flight;
+    const double radiusM = around.groundBelow(rig.camera.eyeM).radiusM;
+    if (flight.from) {
+        rig.jumped = true;
+        flight.joinedShare = std::min(flight.joinedShare + seconds / joinFlightS, 1.0);
+        if (flight.joinedShare >= 1) flight.from.reset();
+    } else if (!flight.paused) {
+        const double lengthS = durationS(flight.path);
+        const double startS = flight.path.keys.front().timeS + flight.timeS;
+        rig.jumped |= jumpsBetween(flight.path, startS, startS + seconds);
+        flight.timeS += seconds;
+        if (flight.timeS > lengthS) {
+            flight.timeS = std::fmod(flight.timeS, lengthS);
+            rig.jumped = true;
+        }
+    }
+    const double start = flight.path.keys.front().timeS;
+    Camera camera = cameraFromPose(poseAt(flight.path, start + flight.timeS), radiusM);
+    if (flight.from) {
+        const double t = flight.joinedShare;
+        camera = blend(*flight.from, camera, t * t * (3 - 2 * t));
+    }
+    rig.camera = keepInRange(camera, around.groundBelow(camera.eyeM));
+}
+
+// The flight that the settings name, loaded where it is not yet.
+planet::Result<void> joinFlight(CameraRig& rig, ui::CameraSettings& settings) {
+    if (!rig.flight || rig.flight->file != settings.flight) {
+        planet::Result<FlightPath> path = loadFlightPath(settings.flight);
+        if (!path) return tl::unexpected(path.error());
+        rig.flight = FollowedFlight{settings.flight, std::move(*path), 0, false, std::nullopt, 0};
+    }
+    rig.flight->from = rig.camera;
+    rig.flight->joinedShare = 0;
+    return {};
+}
+
+planet::Result<void> changeMode(CameraRig& rig, ui::CameraSettings& settings) {
+    const bool otherFlight =
+        settings.mode == ui::CameraMode::FollowFlight && rig.flight && rig.flight->file != settings.flight;
+    if (settings.mode == rig.mode && !otherFlight) return {};
+    rig.pivotM.reset();
+    planet::Result<void> joined;
+    if (settings.mode == ui::CameraMode::FollowFlight) joined = joinFlight(rig, settings);
+    if (!joined) settings.mode = ui::CameraMode::Fly;
+    rig.mode = settings.mode;
+    return joined;
+}
+
+double headingRadOf(const Camera& camera, const glm::dvec3& north, const glm::dvec3& east) {
+    return std::atan2(-glm::dot(camera.right, north), glm::dot(camera.right, east));
+}
+
+}  // namespace
+
+Surroundings surroundingsOf(const Scene& scene) {
+    return {[&scene](const glm::dvec3& eyeM) { return groundBelow(scene, eyeM); },
+            [&scene](const glm::dvec3& eyeM, const glm::dvec3& direction) -> std::optional<glm::dvec3> {
+                const auto hit = planet::pickSurface(scene.planet->tree(), scene.planet->selection().draw,
+                                                     eyeM, direction);
+                return hit ? std::optional(hit->positionM) : std::nullopt;
+            }};
+}
+
+Camera orbit(const Camera& camera, const glm::dvec3& pivotM, double aroundRad, double upRad) {
+    const glm::dvec3 zenith = glm::normalize(pivotM);
+    const glm::dvec3 offset = camera.eyeM - pivotM;
+    const double distanceM = glm::length(offset);
+    if (distanceM == 0) return camera;
+    const double elevation = std::asin(std::clamp(glm::dot(offset, zenith) / distanceM, -1.0, 1.0));
+    const double wanted = std::clamp(elevation + upRad, std::min(elevation, lowestOrbitRad),
+                                     std::max(elevation, glm::radians(90.0)));
+    // Right over the pivot every level axis would do; the camera's own keeps the picture upright.
+    glm::dvec3 axis = glm::cross(zenith, offset);
+    axis = glm::length(axis) > 1e-6 * distanceM ? glm::normalize(axis) : camera.right;
+    const auto turned = [&](const glm::dvec3& vector) {
+        return rotated(rotated(vector, axis, -(wanted - elevation)), zenith, aroundRad);
+    };
+    return levelled({pivotM + turned(offset), turned(camera.right), turned(camera.back)});
+}
+
+Camera blend(const Camera& from, const Camera& to, double share) {
+    const glm::dvec3 a = glm::normalize(from.eyeM);
+    const glm::dvec3 b = glm::normalize(to.eyeM);
+    glm::dvec3 axis = glm::cross(a, b);
+    const double angleRad = std::atan2(glm::length(axis), glm::dot(a, b));
+    // Opposite places have no shortest way; any will do.
+    if (glm::length(axis) < 1e-12) axis = from.right;
+    axis = glm::normalize(axis);
+    const glm::dvec3 up = rotated(a, axis, share * angleRad);
+
+    // Heading and pitch against frames that go along: north is where the way leads.
+    const auto pitchRad = [](const Camera& camera, const glm::dvec3& vertical) {
+        return std::asin(std::clamp(-glm::dot(camera.back, vertical), -1.0, 1.0));
+    };
+    const double fromHeading = headingRadOf(from, glm::cross(axis, a), -axis);
+    const double toHeading = headingRadOf(to, glm::cross(axis, b), -axis);
+    const double heading = fromHeading + share * std::remainder(toHeading - fromHeading, glm::radians(360.0));
+    const double pitch = (1 - share) * pitchRad(from, a) + share * pitchRad(to, b);
+    const glm::dvec3 north = glm::cross(axis, up);
+    const glm::dvec3 east = -axis;
+    const glm::dvec3 level = std::cos(heading) * north + std::sin(heading) * east;
+    Camera camera;
+    camera.eyeM = std::pow(glm::length(from.eyeM), 1 - share) * std::pow(glm::length(to.eyeM), share) * up;
+    camera.right = std::cos(heading) * east - std::sin(heading) * north;
+    camera.back = -(std::cos(pitch) * level + std::sin(pitch) * up);
+    return camera;
+}
+
+planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, const planet::View& view,
+                                const PointerInput& pointer, const HeldKeys& keys, double seconds,
+                                ui::CameraSettings& settings) {
+    if (rig.mode == ui::CameraMode::FollowFlight && settings.mode == rig.mode && touched(pointer, keys))
+        settings.mode = ui::CameraMode::Fly;
+    const planet::Result<void> changed = changeMode(rig, settings);
+    switch (rig.mode) {
+        case ui::CameraMode::Fly:
+            flyFrame(rig, around, view, pointer, keys, seconds);
+            break;
+        case ui::CameraMode::Orbit:
+            orbitFrame(rig, around, view, pointer, keys, seconds);
+            break;
+        case ui::CameraMode::FollowFlight:
+            followFrame(rig, around, seconds);
+            break;
+    }
+    return changed;
+}
+
+void placeRig(CameraRig& rig, const Camera& camera, ui::CameraSettings& settings) {
+    rig.camera = camera;
+    rig.jumped = true;
+    rig.pivotM.reset();
+    if (settings.mode == ui::CameraMode::FollowFlight) settings.mode = ui::CameraMode::Fly;
+}
+
+planet::Result<void> startFlight(CameraRig& rig, const fs::path& file, ui::CameraSettings& settings) {
+    planet::Result<FlightPath> path = loadFlightPath(file);
+    if (!path) return tl::unexpected(path.error());
+    rig.flight = FollowedFlight{file, std::move(*path), 0, false, rig.camera, 0};
+    rig.mode = ui::CameraMode::FollowFlight;
+    rig.pivotM.reset();
+    settings.mode = ui::CameraMode::FollowFlight;
+    settings.flight = file.string();
+    return {};
+}
+
+void moveFlight(CameraRig& rig, double timeS) {
+    if (!rig.flight) return;
+    rig.flight->timeS = std::clamp(timeS, 0.0, durationS(rig.flight->path));
+    rig.flight->from.reset();
+    rig.jumped = true;
+}
+
+bool takeJump(CameraRig& rig) {
+    return std::exchange(rig.jumped, false);
+}
+
+void pauseFlight(CameraRig& rig, bool paused) {
+    if (rig.flight) rig.flight->paused = paused;
+}
+
+std::vector<fs::path> availableFlights() {
+    std::vector<fs::path> flights;
+    for (const fs::path& folder : {dataFolder() / "flights", configFolder() / "flights"}) {
+        std::error_code status;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
+            if (entry.path().extension() == ".toml" || isFlightRecord(entry.path()))
+                flights.push_back(entry.path());
+        }
+    }
+    std::sort(flights.begin(), flights.end(),
+              [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
+    return flights;
+}
+
+ui::CameraView cameraViewOf(const CameraRig& rig, const Ground& ground,
+                            std::span<const ui::Bookmark> bookmarks, std::span<const fs::path> flights) {
+    ui::CameraView view;
+    view.pose = poseOf(rig.camera, ground.radiusM);
+    view.heightAboveGroundM = heightAboveGroundM(rig.camera, ground);
+    view.speedFactor = rig.speedFactor;
+    view.bookmarks = bookmarks;
+    view.flights = flights;
+    if (rig.flight && rig.mode == ui::CameraMode::FollowFlight) {
+        const FollowedFlight& flight = *rig.flight;
+        view.flight = ui::FlightView{flight.path.name, flight.timeS, durationS(flight.path), flight.paused};
+    }
+    return view;
+}
+
+}  // namespace worldy

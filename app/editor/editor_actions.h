@@ -1,0 +1,32 @@
+// Actions on the editor's state that several of its parts share. Main thread.
+#pragma once
+
+#include <string>
+
+#include "app/base/log.h"
+#include "app/editor/editor_state.h"
+#include "app/scene/scene.h"
+#include "ui/shell/message_box.h"
+
+namespace worldy {
+
+// Forgets the LOD changes measured so far. To be called when the planet starts again or a replay goes back:
+// the difference from the frame before is then no change of level.
+void forgetChanges(Editor& editor);
+
+// Moves the camera and freezes LOD at lodView; pauses a replay instead of freezing. Needs a rig.
+void inspect(Editor& editor, const Camera& camera, const planet::View& lodView);
+// Restores the camera and LOD from before the first inspect(); does nothing if there was none.
+void endInspection(Editor& editor);
+
+inline constexpr double confirmationS = 5;  // how long one is shown
+// Reports in the log, and for some seconds in the viewport, that a request is done.
+void confirm(Editor& editor, const Log& log, const std::string& text);
+// Reports in the log and in a message box why a request failed, and what to do about it.
+void tellError(Editor& editor, const Log& log, ui::Message message);
+
+// Ends the replay, if one runs, and restores the settings and the camera from before it. scene: null if its
+// planet is gone.
+void endReplay(Editor& editor, Scene* scene);
+
+}  // namespace worldy

@@ -1,0 +1,16 @@
+// The planet's part of a frame of the window: cameras move, chunks are chosen and loaded, pictures are drawn.
+#pragma once
+
+#include "app/base/log.h"
+#include "app/editor/editor_state.h"
+#include "app/scene/scene.h"
+#include "ui/model/commands.h"
+#include "ui/model/frame_stats.h"
+
+namespace worldy {
+
+// Returns what it counted and timed. Appends what the pointer does to chunks.
+ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
+                         ui::Commands& commands);
+
+}  // namespace worldy

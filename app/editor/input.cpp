@@ -1,0 +1,67 @@
+#include "app/editor/input.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+namespace worldy {
+
+namespace {
+
+double axis(int more, int less) {
+    return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
+}
+
+// By the character, since + and - lie elsewhere on other keyboards.
+int speedSteps() {
+    int steps = 0;
+    for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
+        if (letter == '+' || letter == '=') ++steps;
+        if (letter == '-') --steps;
+    }
+    return steps;
+}
+
+glm::dvec2 dragOf(ImGuiMouseButton button) {
+    if (!ImGui::IsMouseDown(button)) return {0, 0};
+    const ImVec2 delta = ImGui::GetIO().MouseDelta;
+    return {static_cast<double>(delta.x), static_cast<double>(delta.y)};
+}
+
+// Let go where it went down, so that a drag selects nothing.
+bool clickedInPlace() {
+    if (!ImGui::IsItemHovered() || !ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return false;
+    const float most = ImGui::GetIO().MouseDragThreshold * ImGui::GetIO().MouseDragThreshold;
+    return ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < most;
+}
+
+}  // namespace
+
+KeyInput readKeys() {
+    KeyInput keys;
+    if (ImGui::GetIO().WantTextInput || ImGui::GetIO().KeyCtrl) return keys;
+    keys.held = {.forward = axis(GLFW_KEY_W, GLFW_KEY_S),
+                 .right = axis(GLFW_KEY_D, GLFW_KEY_A),
+                 .up = axis(GLFW_KEY_E, GLFW_KEY_Q),
+                 .lookRight = axis(GLFW_KEY_L, GLFW_KEY_J),
+                 .lookUp = axis(GLFW_KEY_I, GLFW_KEY_K)};
+    keys.speedSteps = speedSteps();
+    return keys;
+}
+
+PointerInput readPointer(float pixelRatio) {
+    PointerInput input;
+    const ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 corner = ImGui::GetItemRectMin();
+    const double ratio = static_cast<double>(pixelRatio);
+    input.over = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    input.positionPx = ratio * glm::dvec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
+    if (ImGui::IsItemHovered()) input.wheelNotches = static_cast<double>(io.MouseWheel);
+    input.clicked = clickedInPlace();
+    input.doubleClicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (!ImGui::IsItemActive()) return input;
+    input.dragPx = ratio * dragOf(ImGuiMouseButton_Left);
+    input.lookPx = ratio * dragOf(ImGuiMouseButton_Right);
+    return input;
+}
+
+}  // namespace worldy

@@ -1,0 +1,85 @@
+#include "app/editor/item_map_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "app/settings/camera_text.h"
+
+namespace worldy {
+
+std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats,
+                                std::size_t queuedInput) {
+    const planet::PagingCounters& paging = stats.paging;
+    const planet::SelectionCounters& selection = stats.selection;
+    std::vector<Counter> counters;
+    const auto add = [&](const std::string& name, const auto& value) {
+        counters.push_back({name, fmt::format("{}", value)});
+    };
+    add("frame", editor.frames);
+    add("queued_input", queuedInput);
+    const ui::FrameStats* const b = editor.compare.other ? &editor.compare.other->stats : nullptr;
+    add("stand_in", stats.render.standIn || (b && b->render.standIn) ? 1 : 0);
+    add("drawn", selection.drawn);
+    add("triangles", stats.selection.triangles());
+    add("waiting", selection.waiting);
+    add("deepest", selection.deepestLevel);
+    add("widest_seam", selection.widestSeam);
+    add("resident", paging.residentChunks);
+    add("queued", paging.queued);
+    add("loading", paging.loading);
+    add("requested", paging.requested);
+    const auto addTotals = [&](const std::string& kind, const auto& totals) {
+        add("loaded_" + kind, totals.loaded);
+        add("evicted_" + kind, totals.evicted);
+        add("failed_" + kind, totals.failed);
+    };
+    addTotals("heights", paging);
+    addTotals("colours", stats.colourPaging);
+    addTotals("normals", stats.normalPaging);
+    add("failed_for_good", paging.failedForGood);
+    add("awaiting_retry", paging.awaitingRetry);
+    add("colour_tiles", stats.colourPaging.residentTiles);
+    add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
+    if (const Scene* scene = shownScene(session); scene && editor.rig) {
+        const double radiusM = scene->planet->shape().radiusM;
+        add("camera", cameraText(poseOf(editor.rig->camera, radiusM)));
+        add("chunk_size", planet::chunkSize(scene->planet->shape()));
+        add("file", scene->planet->file().name());
+    }
+    add("lod_frozen", editor.lodFrozen ? 1 : 0);
+    add("recorded", editor.desk.recorder ? editor.desk.recorder->encoded().frames() : 0);
+    add("replayed", editor.desk.replay ? editor.desk.replay->replay.next() : 0);
+    add("different", editor.desk.replay ? editor.desk.replay->replay.framesDifferent() : 0);
+    const CompareDesk& compare = editor.compare;
+    add("compared", compare.other ? 1 : 0);
+    add("triangles_b", compare.other ? compare.other->stats.selection.triangles() : 0);
+    add("pixels_differ", compare.difference ? static_cast<long long>(compare.difference->pixels) : -1);
+    add("compare_flown", compare.flown ? 1 : 0);
+    add("baking", session.bake ? 1 : 0);
+    add("sweeping", editor.sweep.job ? 1 : 0);
+    add("swept", editor.sweep.table ? editor.sweep.table->points.size() : 0);
+    add("suggested", editor.sweep.suggestions.size());
+    return counters;
+}
+
+void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPlace> items,
+                  std::span<const Counter> counters) {
+    std::string text;
+    for (const Counter& counter : counters)
+        text += fmt::format("counter/{}\t{}\n", counter.name, counter.value);
+    for (const ui::ItemPlace& item : items) {
+        text += fmt::format("{}\t{:.0f}\t{:.0f}\t{:.0f}\t{:.0f}\n", item.name, item.rect.x, item.rect.y,
+                            item.rect.width, item.rect.height);
+    }
+    std::error_code status;
+    // A symbolic link stays one.
+    const std::filesystem::path followed = std::filesystem::weakly_canonical(file, status);
+    const std::filesystem::path& target = status ? file : followed;
+    const std::filesystem::path unfinished = target.string() + ".part";
+    std::ofstream(unfinished) << text;
+    std::filesystem::rename(unfinished, target, status);
+}
+
+}  // namespace worldy

@@ -1,0 +1,162 @@
+#include "app/editor/presets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/base/output_file.h"
+#include "app/base/places.h"
+#include "app/base/toml_file.h"
+#include "app/data/write_check.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+constexpr std::size_t maxNameBytes = 60;
+constexpr std::string_view presetEnding = ".toml";
+
+// Letters of the alphabet alone: enough to keep two files apart where names do not tell case.
+std::string lowered(std::string_view text) {
+    std::string lower(text);
+    for (char& letter : lower) {
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    }
+    return lower;
+}
+
+bool isControl(char letter) {
+    return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F;
+}
+
+tl::unexpected<planet::Error> wrongName(std::string_view name, std::string_view why) {
+    return planet::badInput(fmt::format("\"{:.80}\" is not a valid preset name: {}", name, why));
+}
+
+}  // namespace
+
+PresetFolders presetFolders() {
+    return {dataFolder() / "presets", configFolder() / "presets"};
+}
+
+Result<void> checkPresetName(std::string_view name) {
+    if (name.empty()) return planet::badInput("A preset needs a name; expected letters, digits and spaces");
+    if (name.size() > maxNameBytes)
+        return wrongName(name, fmt::format("it is longer than {} bytes", maxNameBytes));
+    if (!isUtf8(name)) return wrongName("?", "it is not UTF-8");
+    if (std::any_of(name.begin(), name.end(), isControl)) return wrongName("?", "it has control characters");
+    if (name.find_first_of("/\\:*?\"<>|") != std::string_view::npos)
+        return wrongName(name, "it must not contain / \\ : * ? \" < > or |");
+    if (std::string_view(". ").find(name.front()) != std::string_view::npos ||
+        std::string_view(". ").find(name.back()) != std::string_view::npos) {
+        return wrongName(name, "it must not begin or end with a dot or a space");
+    }
+    return {};
+}
+
+PresetShelf::PresetShelf(PresetFolders folders) : folders_(std::move(folders)) {
+    reload();
+}
+
+void PresetShelf::reload() {
+    presets_.clear();
+    viewsOf_.reset();
+    readFolder(folders_.shipped, true);
+    readFolder(folders_.own, false);
+    std::stable_sort(presets_.begin(), presets_.end(), [](const Preset& a, const Preset& b) {
+        return std::pair(!a.shipped, lowered(a.name)) < std::pair(!b.shipped, lowered(b.name));
+    });
+}
+
+void PresetShelf::readFolder(const fs::path& folder, bool shipped) {
+    std::error_code status;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
+        const std::string file = entry.path().filename().string();
+        // What is hidden is a file half written, or an editor's own.
+        if (!file.ends_with(presetEnding) || file.starts_with('.') || !isUtf8(file)) continue;
+        const std::string name = file.substr(0, file.size() - presetEnding.size());
+        Result<ViewPart> part = loadViewPart(entry.path());
+        if (const Preset* same = find(name); same && same->shipped) {
+            part = planet::badInput(
+                fmt::format("{}: a built-in preset has that name; rename the file", entry.path().string()));
+        }
+        presets_.push_back({name, entry.path(), shipped, std::move(part)});
+    }
+}
+
+std::span<const ui::PresetView> PresetShelf::views(const ui::ViewSettings& now) {
+    if (viewsOf_ == now) return views_;
+    viewsOf_ = now;
+    views_.clear();
+    for (const Preset& preset : presets_) {
+        ui::PresetView view{preset.name, preset.file, {}, {}, preset.shipped};
+        if (preset.part)
+            view.differences = differences(now, *preset.part);
+        else
+            view.problem = preset.part.error().message;
+        views_.push_back(std::move(view));
+    }
+    return views_;
+}
+
+const PresetShelf::Preset* PresetShelf::find(std::string_view name) const {
+    const auto found = std::find_if(presets_.begin(), presets_.end(), [&](const Preset& preset) {
+        return lowered(preset.name) == lowered(name);
+    });
+    return found == presets_.end() ? nullptr : &*found;
+}
+
+Result<const PresetShelf::Preset*> PresetShelf::existing(std::string_view name) const {
+    const auto found = std::find_if(presets_.begin(), presets_.end(),
+                                    [&](const Preset& preset) { return preset.name == name; });
+    if (found != presets_.end()) return &*found;
+    return planet::badInput(fmt::format("There is no preset \"{:.80}\" in {} or {}", name,
+                                        folders_.own.string(), folders_.shipped.string()));
+}
+
+Result<ui::ViewSettings> PresetShelf::load(std::string_view name, const ui::ViewSettings& now) const {
+    // Resetting works without the data folder too.
+    if (name == defaultPreset && !find(name)) return ui::ViewSettings{};
+    return existing(name).and_then([&](const Preset* preset) {
+        return preset->part.map([&](const ViewPart& part) { return applied(part, now); });
+    });
+}
+
+Result<void> PresetShelf::save(std::string_view name, const ui::ViewSettings& settings) {
+    if (Result<void> good = checkPresetName(name); !good) return good;
+    const Preset* present = find(name);
+    if (present && present->shipped)
+        return wrongName(name, "a built-in preset has that name and cannot be replaced");
+    std::error_code status;
+    fs::create_directories(folders_.own, status);
+    // One that differs in case alone is written over under the name that it has.
+    const fs::path file =
+        present ? present->file : folders_.own / (std::string(name) + std::string(presetEnding));
+    // Else a flight, say, that was put into the folder would be lost.
+    if (Result<void> kind = checkKinds({{file, OutputKind::Preset}}); !kind) return kind;
+    Result<void> written = writeTextFile(file, viewSettingsText(settings));
+    reload();
+    return written;
+}
+
+Result<void> PresetShelf::remove(std::string_view name) {
+    const Result<const Preset*> preset = existing(name);
+    if (!preset) return tl::unexpected(preset.error());
+    if ((*preset)->shipped) {
+        return planet::badInput(
+            fmt::format("The preset \"{}\" is built-in and cannot be deleted", (*preset)->name));
+    }
+    const fs::path file = (*preset)->file;
+    std::error_code status;
+    fs::remove(file, status);
+    reload();
+    if (status)
+        return planet::ioError(fmt::format("{}: cannot be deleted: {}", file.string(), status.message()));
+    return {};
+}
+
+}  // namespace worldy

@@ -1,0 +1,475 @@
+#include "app/editor/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "planet/source/terrain.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+using planet::gl::ChunkPrograms;
+
+// What a file tells of its bake. Its compression level is not in it, nor is its source's path.
+ui::BakeRequest requestOf(const planet::PlanetShape& shape) {
+    ui::BakeRequest request;
+    request.settings.faceSize = planet::faceCells(shape) + 1;
+    request.settings.chunkSize = planet::chunkSize(shape);
+    request.settings.radiusM = shape.radiusM;
+    request.settings.quantumM = shape.quantumM;
+    return request;
+}
+
+// Its own tiles of colour.
+void addColours(const planet::ChunkFileInfo& info, const DataSet& data, ui::BakeRequest& request) {
+    if (!info.colour) return;
+    request.settings.colour.format = info.colour->format;
+    request.settings.colour.faceSize = (planet::colourTileCells << info.colour->leafLevel) + 1;
+    request.colour = data.bakedColour;
+}
+
+// A colour image that cannot be read is told; the planet is then coloured by height.
+std::optional<Picture> readColour(const fs::path& file, const Log& log) {
+    if (file.empty()) return std::nullopt;
+    Result<Picture> colour = readPlanetPicture(file);
+    if (colour) return std::move(*colour);
+    log->warn("{}", colour.error().message);
+    return std::nullopt;
+}
+
+// What is known of a planet that was just opened.
+OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
+    // As stored; the planet's own shape has the exaggeration counted in.
+    const planet::PlanetShape shape = scene.planet->file().info().shape;
+    OpenPlanet open{data, requestOf(shape), false, false, std::move(scene)};
+    open.scene.renderer.setAirInBackground(true);
+    open.baked.source =
+        data.source != data.chunkFile ? data.source : sourceOf(open.scene.planet->file().info());
+    open.sourceIsThere = planet::heightSourceExists(open.baked.source);
+    addColours(open.scene.planet->file().info(), data, open.baked);
+    return open;
+}
+
+Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::ViewSettings& settings,
+                              const Log& log) {
+    if (!session.programs) {
+        Result<ChunkPrograms> programs = ChunkPrograms::build(session.shaderFolder, session.shaderWorker);
+        if (!programs) return tl::unexpected(programs.error());
+        session.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
+    }
+    const bool sameColour = data.colourImage == session.colourFile;
+    std::optional<Picture> fresh = sameColour ? std::nullopt : readColour(data.colourImage, log);
+    const std::optional<Picture>& colour = sameColour ? session.colour : fresh;
+    Result<Scene> scene = openScene(
+        {data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr, session.programs}, settings);
+    if (!scene) return tl::unexpected(scene.error());
+    if (!sameColour) session.colour = std::move(fresh);
+    session.colourFile = data.colourImage;
+    OpenPlanet open = openedAs(data, std::move(*scene));
+    const planet::ChunkFile& file = open.scene.planet->file();
+    log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
+              ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
+    log->debug("Depth buffer: {}", open.scene.renderer.capabilities().reversedZ
+                                       ? "float, reversed Z"
+                                       : "non-reversed, near plane follows the ground");
+    return open;
+}
+
+void show(Session& session, OpenPlanet&& open, bool keepOld) {
+    session.showsPrevious = false;
+    session.previous.reset();
+    if (keepOld && session.open) session.previous.emplace(std::move(*session.open));
+    session.data = open.data;
+    session.data.needsBake = false;
+    session.open.emplace(std::move(open));
+    session.problem.reset();
+}
+
+void fail(Session& session, const planet::Error& error, const Log& log) {
+    log->error("{}", error.message);
+    session.problem = error;
+}
+
+// Nobody waits for it any more; it is let go once it has ended.
+void retireBake(Session& session, const Log& log) {
+    if (!session.bake) return;
+    if (!session.bake->stopping())
+        log->warn("The bake of {} was cancelled", session.bake->data.source.string());
+    if (session.bake->job) {
+        session.bake->job->cancel();
+        session.ending.push_back(std::move(session.bake->job));
+    }
+    session.bake.reset();
+}
+
+void beginBake(Session& session, SessionBake&& bake, const Log& log) {
+    log->info("Baking {} into {}", bake.data.source.string(), bake.data.chunkFile.string());
+    session.bakeProblem.reset();
+    session.bake.emplace(std::move(bake));
+}
+
+// Two bakes must not write the same file, and one that was cancelled may still be at it.
+void launchWaitingBake(Session& session) {
+    std::erase_if(session.ending, [](const auto& job) { return job->takeResult().has_value(); });
+    if (!session.bake || session.bake->job || !session.ending.empty()) return;
+    const SessionBake& bake = *session.bake;
+    std::error_code status;
+    fs::create_directories(bake.data.chunkFile.parent_path(), status);
+    session.bake->job =
+        std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings, bake.request.settings,
+                                  bake.data.chunkFile, JobColour{bake.data.bakedColour, bake.colourMayFail});
+}
+
+void failBake(Session& session, const SessionBake& bake, const planet::Error& error, const Log& log) {
+    const bool cancelled = error.kind == planet::ErrorKind::Cancelled;
+    log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}",
+             cancelled ? "The bake was cancelled" : error.message);
+    session.bakeProblem = error;
+    if (bake.needed) session.problem = error;
+}
+
+void finishBake(Session& session, const ui::ViewSettings& settings, const Log& log) {
+    if (!session.bake || !session.bake->job) return;
+    const std::optional<Result<planet::BakeReport>> result = session.bake->job->takeResult();
+    if (!result) return;
+    SessionBake bake = std::move(*session.bake);
+    session.bake.reset();
+    if (!*result) return failBake(session, bake, result->error(), log);
+    const planet::BakeReport& report = **result;
+    log->info("Baked: {} samples in {}, {}", ui::countText(static_cast<double>(report.samples)),
+              ui::durationText(report.seconds), ui::bytesText(static_cast<double>(report.fileBytes)));
+    session.bakeReport = report;
+    const std::string colourProblem = bake.job->colourProblem();
+    if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);
+    bake.data.needsBake = false;
+    Result<OpenPlanet> open = openPlanet(session, bake.data, settings, log);
+    if (!open) return failBake(session, bake, open.error(), log);
+    open->baked = bake.request;
+    open->baked.settings.faceSize = planet::faceCells(report.shape) + 1;
+    open->baked.settings.quantumM = report.shape.quantumM;
+    open->baked.colour.clear();
+    addColours(open->scene.planet->file().info(), open->data, open->baked);
+    open->compressionKnown = true;
+    open->sourceIsThere = planet::heightSourceExists(bake.request.source);
+    show(session, std::move(*open), bake.forComparison);
+}
+
+void advanceEstimate(SessionEstimate& estimate) {
+    if (estimate.job) {
+        const std::optional<Result<planet::BakeEstimate>> result = estimate.job->takeResult();
+        if (!result) return;
+        estimate.job.reset();
+        // A newer question makes this answer worthless.
+        if (!estimate.next) {
+            estimate.result = *result ? std::optional(**result) : std::nullopt;
+            estimate.problem = *result ? std::string() : result->error().message;
+        }
+    }
+    if (!estimate.next) return;
+    const ui::BakeRequest request = *std::exchange(estimate.next, std::nullopt);
+    estimate.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings,
+                                                 request.colour);
+}
+
+void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
+    if (!open) return;
+    for (const std::string& problem : takeProblems(open->scene)) log->error("{}", problem);
+}
+
+fs::file_time_type newestIn(const fs::path& folder) {
+    fs::file_time_type newest = fs::file_time_type::min();  // today is negative on some clocks
+    std::error_code status;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
+        newest = std::max(newest, entry.last_write_time(status));
+    }
+    return newest;
+}
+
+std::string messageOf(const planet::Error& error) {
+    return error.kind == planet::ErrorKind::Cancelled ? "The bake was cancelled." : error.message;
+}
+
+std::string summaryOf(const OpenPlanet& open) {
+    const planet::ChunkFile& file = open.scene.planet->file();
+    return fmt::format("{} vertices, {} samples, {}", planet::chunkSize(file.info().shape),
+                       planet::faceCells(file.info().shape) + 1,
+                       ui::bytesText(static_cast<double>(file.sizeBytes())));
+}
+
+planet::Error missingSource(const fs::path& source) {
+    if (planet::isTerrainText(source)) {
+        if (const auto good = planet::terrainFromText(source); !good) return good.error();
+    }
+    return {planet::ErrorKind::BadInput, fmt::format("{}: no such source; expected an elevation image, one "
+                                                     "of six cube faces or a terrain as noise:ridged",
+                                                     source.string())};
+}
+
+planet::Error missingColour(const fs::path& image) {
+    return {
+        planet::ErrorKind::BadInput,
+        fmt::format("{}: no such colour image; expected an equirectangular image or one of six cube faces",
+                    image.string())};
+}
+
+// What a request would make, and whether all that it is made of is there.
+Result<DataSet> dataSetOf(const ui::BakeRequest& request) {
+    if (!planet::heightSourceExists(request.source)) return tl::unexpected(missingSource(request.source));
+    if (!request.colour.empty() && !planet::heightSourceExists(request.colour))
+        return tl::unexpected(missingColour(request.colour));
+    return findDataSet(request.source, request.settings, request.sourceSettings, request.colour);
+}
+
+bool samePlace(const fs::path& a, const fs::path& b) {
+    std::error_code status;
+    return fs::absolute(a, status).lexically_normal() == fs::absolute(b, status).lexically_normal();
+}
+
+}  // namespace
+
+Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log) {
+    Session session;
+    session.data = std::move(data);
+    session.shaderFolder = shaderFolder;
+    if (!shaderFolder.empty()) session.shadersChanged = newestIn(shaderFolder);
+    if (session.data.needsBake) startBake(session, log);
+    return session;
+}
+
+bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& settings, const Log& log) {
+    const Result<DataSet> data = findDataSet(file, {});
+    if (!data) {
+        fail(session, data.error(), log);
+        return false;
+    }
+    if (data->needsBake) {
+        const bool underWay = session.bake && !session.bake->stopping() &&
+                              samePlace(session.bake->data.chunkFile, data->chunkFile);
+        if (underWay) return true;
+        retireBake(session, log);
+        SessionBake bake;
+        bake.request.source = data->source;
+        bake.request.settings = data->settings;
+        bake.request.colour = data->bakedColour;
+        bake.colourMayFail = true;
+        bake.data = *data;
+        bake.needed = true;
+        session.problem.reset();
+        if (!session.open) session.data = *data;
+        beginBake(session, std::move(bake), log);
+        return true;
+    }
+    Result<OpenPlanet> open = openPlanet(session, *data, settings, log);
+    if (!open) {
+        fail(session, open.error(), log);
+        return false;
+    }
+    retireBake(session, log);
+    show(session, std::move(*open), false);
+    return true;
+}
+
+void startBake(Session& session, const ui::BakeRequest& request, const Log& log) {
+    if (session.bake && !session.bake->stopping()) {
+        log->warn("A bake is already running; cancel it or wait until it ends");
+        return;
+    }
+    const Result<DataSet> found = dataSetOf(request);
+    if (!found) {
+        log->error("{}", found.error().message);
+        session.bakeProblem = found.error();
+        return;
+    }
+    retireBake(session, log);
+    SessionBake bake;
+    bake.request = request;
+    bake.data = *found;
+    // A picture that was chosen for this source stays.
+    if (samePlace(session.data.source, request.source)) bake.data.colourImage = session.data.colourImage;
+    bake.forComparison = true;
+    bake.needed = !session.open;
+    if (bake.needed) session.problem.reset();
+    beginBake(session, std::move(bake), log);
+}
+
+void startBake(Session& session, const Log& log) {
+    ui::BakeRequest request;
+    request.source = session.data.source;
+    request.settings = session.data.settings;
+    request.colour = session.data.bakedColour;
+    startBake(session, request, log);
+    if (session.bake) session.bake->colourMayFail = true;
+}
+
+void openBake(Session& session, const ui::BakeRequest& request, const fs::path& chunkFile,
+              const ui::ViewSettings& settings, const Log& log) {
+    if (session.bake && !session.bake->stopping()) {
+        log->warn("A bake is running; cancel it or wait until it ends");
+        return;
+    }
+    DataSet data = session.data;
+    data.chunkFile = chunkFile;
+    if (!request.source.empty()) data.source = request.source;
+    Result<OpenPlanet> open = openPlanet(session, data, settings, log);
+    if (!open && planet::heightSourceExists(request.source)) return startBake(session, request, log);
+    if (!open) {
+        log->error("{}", open.error().message);
+        return;
+    }
+    const bool sourceIsThere = planet::heightSourceExists(request.source);
+    open->baked.source = request.source;
+    open->baked.sourceSettings = request.sourceSettings;
+    open->sourceIsThere = sourceIsThere;
+    show(session, std::move(*open), true);
+}
+
+void cancelBake(Session& session) {
+    if (!session.bake) return;
+    if (session.bake->job) return session.bake->job->cancel();
+    session.bakeProblem = planet::cancelled().value();
+    if (session.bake->needed) session.problem = session.bakeProblem;
+    session.bake.reset();
+}
+
+void advanceSession(Session& session, const ui::ViewSettings& settings, const Log& log) {
+    finishBake(session, settings, log);
+    launchWaitingBake(session);
+    advanceEstimate(session.estimate);
+    advancePreview(session.preview);
+    if (!session.open && !session.bake && !session.problem) {
+        Result<OpenPlanet> open = openPlanet(session, session.data, settings, log);
+        if (open)
+            show(session, std::move(*open), false);
+        else
+            fail(session, open.error(), log);
+    }
+    tellProblems(session.open, log);
+    tellProblems(session.previous, log);
+}
+
+void showPreviousBake(Session& session, bool shown) {
+    session.showsPrevious = shown && session.previous;
+}
+
+void dismissPreviousBake(Session& session) {
+    session.showsPrevious = false;
+    session.previous.reset();
+}
+
+Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const ui::ViewSettings& settings) {
+    if (data.needsBake) {
+        return planet::badInput(
+            fmt::format("{}: is not baked yet; open it once in the window", data.source.string()));
+    }
+    std::optional<Picture> colour;
+    // Without its picture it is coloured by height.
+    if (data.colourImage != session.colourFile && !data.colourImage.empty()) {
+        if (Result<Picture> read = readPlanetPicture(data.colourImage)) colour = std::move(*read);
+    } else if (data.colourImage == session.colourFile) {
+        colour = session.colour;
+    }
+    Result<Scene> scene = openScene(
+        {data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr, session.programs}, settings);
+    if (!scene) return tl::unexpected(scene.error());
+    return openedAs(data, std::move(*scene));
+}
+
+Result<OpenPlanet> openBeside(const Session& session, const fs::path& file,
+                              const ui::ViewSettings& settings) {
+    const Result<DataSet> data = findDataSet(file, {});
+    if (!data) return tl::unexpected(data.error());
+    return openBeside(session, *data, settings);
+}
+
+void exchangeShown(Session& session, OpenPlanet& other, const Log& log) {
+    std::swap(session.showsPrevious ? *session.previous : *session.open, other);
+    const DataSet& shown = shownPlanet(session)->data;
+    if (!session.showsPrevious) session.data = shown;
+    if (shown.colourImage == session.colourFile) return;
+    session.colour = readColour(shown.colourImage, log);
+    session.colourFile = shown.colourImage;
+}
+
+void requestEstimate(Session& session, const ui::BakeRequest& request) {
+    session.estimate.next = request;
+    session.estimate.result.reset();
+    session.estimate.problem.clear();
+    if (session.estimate.job) session.estimate.job->cancel();
+}
+
+const OpenPlanet* shownPlanet(const Session& session) {
+    if (session.showsPrevious && session.previous) return &*session.previous;
+    return session.open ? &*session.open : nullptr;
+}
+
+Scene* shownScene(Session& session) {
+    return const_cast<Scene*>(shownScene(std::as_const(session)));
+}
+
+const Scene* shownScene(const Session& session) {
+    const OpenPlanet* open = shownPlanet(session);
+    return open ? &open->scene : nullptr;
+}
+
+ui::BakeView bakeViewOf(const Session& session) {
+    ui::BakeView view;
+    if (const OpenPlanet* open = shownPlanet(session)) {
+        view.current = open->baked;
+        view.compressionKnown = open->compressionKnown;
+        view.canBake = open->sourceIsThere;
+        const std::optional<planet::ColourPyramid>& colour = open->scene.planet->colour();
+        if (colour && open->baked.colour.empty()) view.lostColours = colour->source;
+    } else {
+        view.current.source = session.data.source;
+        view.canBake = planet::heightSourceExists(view.current.source);
+    }
+    if (session.bake) {
+        view.running = session.bake->request;
+        view.stopping = session.bake->stopping();
+        if (session.bake->job) view.progress = session.bake->job->progress();
+    }
+    if (session.bakeProblem) view.lastProblem = messageOf(*session.bakeProblem);
+    view.lastReport = session.bakeReport;
+    view.estimating = session.estimate.job || session.estimate.next;
+    view.estimate = session.estimate.result;
+    view.estimateProblem = session.estimate.problem;
+    view.worlds = session.worlds;
+    view.preview = previewViewOf(session.preview);
+    return view;
+}
+
+ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent) {
+    ui::DataView view;
+    const OpenPlanet* open = shownPlanet(session);
+    const DataSet& data = open ? open->data : session.data;
+    view.name = ui::sourceName(data.source);
+    view.source = data.source;
+    view.chunkFile = data.chunkFile;
+    view.hasColourImage = open && open->scene.hasColourImage;
+    view.hasPreviousBake = session.previous.has_value();
+    view.showsPreviousBake = session.showsPrevious;
+    if (session.previous) view.previousName = summaryOf(*session.previous);
+    if (session.problem) view.problem = messageOf(*session.problem);
+    view.recent = recent;
+    return view;
+}
+
+void reloadChangedShaders(Session& session, const Log& log) {
+    if (!session.open || session.shaderFolder.empty()) return;
+    const fs::file_time_type newest = newestIn(session.shaderFolder);
+    if (newest == session.shadersChanged) return;
+    session.shadersChanged = newest;
+    const Result<void> reloaded = session.open->scene.renderer.reloadShaders();
+    if (reloaded)
+        log->info("Shaders of {} reloaded", session.shaderFolder.string());
+    else
+        log->error("{}", reloaded.error().message);
+}
+
+}  // namespace worldy

@@ -1,0 +1,144 @@
+#include "app/editor/undo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "app/settings/settings_text.h"
+#include "ui/model/text.h"
+
+namespace worldy {
+
+namespace {
+
+std::vector<ui::SettingDifference> differencesOf(const ui::ViewSettings& before,
+                                                 const ui::ViewSettings& after) {
+    Settings here, there;
+    here.view = before;
+    there.view = after;
+    return differences(here, there);
+}
+
+// How names of settings end in their units.
+struct UnitEnding {
+    std::string_view ending;
+    std::string_view unit;
+};
+constexpr std::array<UnitEnding, 7> unitEndings = {{
+    {"_px", " px"},
+    {"_mb_s", " MB/s"},
+    {"_mb", " MiB"},
+    {"_ms", " ms"},
+    {"_deg", " deg"},
+    {"_m", " m"},
+    {"_s", " s"},
+}};
+
+std::string nameOf(const ui::SettingDifference& difference) {
+    std::string_view key = difference.setting;
+    key.remove_prefix(key.find('.') + 1);
+    std::string_view unit;
+    for (const UnitEnding& ending : unitEndings) {
+        if (!key.ends_with(ending.ending)) continue;
+        key.remove_suffix(ending.ending.size());
+        unit = ending.unit;
+        break;
+    }
+    std::string words(key);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    if (difference.there == "true") return words + " on";
+    if (difference.there == "false") return words + " off";
+    // A ramp or a file's path would fill the menu.
+    if (difference.here.size() > 24 || difference.there.size() > 24) return words;
+    const auto [here, there] = ui::shortNumberTexts(difference.here, difference.there);
+    return fmt::format("{} {} -> {}{}", words, here, there, unit);
+}
+
+std::string nameOf(const std::vector<ui::SettingDifference>& found) {
+    return found.size() == 1 ? nameOf(found.front()) : fmt::format("{} settings", found.size());
+}
+
+}  // namespace
+
+std::string changeName(const ui::ViewSettings& before, const ui::ViewSettings& after) {
+    return nameOf(differencesOf(before, after));
+}
+
+void UndoHistory::record(const ui::ViewSettings& before, const ui::ViewSettings& after, bool held,
+                         double timeS) {
+    if (before != after) {
+        std::vector<std::string> settings;
+        for (const ui::SettingDifference& difference : differencesOf(before, after))
+            settings.push_back(difference.setting);
+        const bool inTime = !held && timeS - lastChangeS_ <= undoMergeS;
+        const bool grows =
+            open_ && done_.back().after == before && (held_ || (inTime && done_.back().settings == settings));
+        if (grows) {
+            done_.back().after = after;
+        } else {
+            close();
+            push({before, after, {}, std::move(settings)});
+            open_ = true;
+            held_ = held;
+        }
+        lastChangeS_ = timeS;
+    }
+    // A control may change its value in the very frame in which it is let go.
+    if (held_ ? !held : timeS - lastChangeS_ > undoMergeS) close();
+}
+
+void UndoHistory::add(const ui::ViewSettings& before, const ui::ViewSettings& after, std::string name) {
+    close();
+    if (before == after) return;
+    push({before, after, std::move(name), {}});
+    undone_.clear();
+}
+
+void UndoHistory::push(Step step) {
+    done_.push_back(std::move(step));
+    if (done_.size() > maxUndoSteps) done_.pop_front();
+}
+
+void UndoHistory::close() {
+    if (!open_) return;
+    if (done_.back().before == done_.back().after)
+        done_.pop_back();
+    else
+        undone_.clear();
+    open_ = held_ = false;
+}
+
+std::optional<ui::ViewSettings> UndoHistory::undo() {
+    close();
+    if (done_.empty()) return std::nullopt;
+    undone_.push_back(std::move(done_.back()));
+    done_.pop_back();
+    return undone_.back().before;
+}
+
+std::optional<ui::ViewSettings> UndoHistory::redo() {
+    close();
+    if (undone_.empty()) return std::nullopt;
+    done_.push_back(std::move(undone_.back()));
+    undone_.pop_back();
+    return done_.back().after;
+}
+
+std::string UndoHistory::undoName() const {
+    const auto step = std::find_if(done_.rbegin(), done_.rend(),
+                                   [](const Step& candidate) { return candidate.before != candidate.after; });
+    if (step == done_.rend()) return {};
+    return step->name.empty() ? changeName(step->before, step->after) : step->name;
+}
+
+std::string UndoHistory::redoName() const {
+    const bool clears = open_ && done_.back().before != done_.back().after;
+    if (undone_.empty() || clears) return {};
+    const Step& step = undone_.back();
+    return step.name.empty() ? changeName(step.before, step.after) : step.name;
+}
+
+}  // namespace worldy

@@ -1,0 +1,350 @@
+#include "app/editor/window.h"
+
+#include <epoxy/gl.h>
+// After epoxy, which brings the GL declarations.
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "app/base/stopwatch.h"
+#include "app/editor/input_queue.h"
+#include "ui/kit/theme.h"
+
+namespace worldy {
+
+namespace {
+
+std::string glfwProblem() {
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description ? description : "unknown";
+}
+
+struct WindowSize {
+    int width, height;
+};
+
+// No larger than the screen has room for: kept sizes may come from another one.
+WindowSize fittingSize(const WindowConfig& config) {
+    WindowSize size{config.widthPx, config.heightPx};
+    if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor()) {
+        WindowSize room{};
+        glfwGetMonitorWorkarea(monitor, nullptr, nullptr, &room.width, &room.height);
+        if (room.width > 0 && room.height > 0) {
+            size = {std::min(size.width, room.width), std::min(size.height, room.height)};
+        }
+    }
+    return size;
+}
+
+GLFWwindow* createWindow(const WindowConfig& config) {
+    const WindowSize size = fittingSize(config);
+    constexpr std::array<std::array<int, 2>, 2> versions = {{{4, 5}, {3, 3}}};
+    for (const auto& [major, minor] : versions) {
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+        GLFWwindow* window = glfwCreateWindow(size.width, size.height, "Worldy", nullptr, nullptr);
+        if (window) return window;
+    }
+    return nullptr;
+}
+
+// The context has the window's version, since createWindow's hints still hold.
+GLFWwindow* createHiddenWindow(GLFWwindow* sharing) {
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow* window = glfwCreateWindow(1, 1, "Worldy's shaders", nullptr, sharing);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+    return window;
+}
+
+}  // namespace
+
+// GLFW itself and the one window, ended together and in order.
+struct Window::Glfw {
+    GLFWwindow* window = nullptr;
+    GLFWwindow* besides = nullptr;  // never shown: its context shares the window's objects
+    InputQueue input;
+    std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in the frame
+    std::vector<KeyPress> pressedKeys;
+    std::vector<std::filesystem::path> droppedFiles;
+
+    static Glfw& of(GLFWwindow* handle) { return *static_cast<Glfw*>(glfwGetWindowUserPointer(handle)); }
+
+    ~Glfw() {
+        if (besides) glfwDestroyWindow(besides);
+        if (window) glfwDestroyWindow(window);
+        glfwTerminate();
+    }
+
+    void listen();
+    // Gives ImGui the events of the next frame. Returns where the pointer was if a button changed.
+    std::optional<glm::dvec2> giveInput();
+};
+
+namespace {
+
+int glfwAction(InputKind kind) {
+    if (kind == InputKind::KeyRepeat) return GLFW_REPEAT;
+    return kind == InputKind::KeyUp ? GLFW_RELEASE : GLFW_PRESS;
+}
+
+}  // namespace
+
+void Window::Glfw::listen() {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
+        const InputKind kind = action == GLFW_PRESS     ? InputKind::KeyDown
+                               : action == GLFW_RELEASE ? InputKind::KeyUp
+                                                        : InputKind::KeyRepeat;
+        of(handle).input.add({kind, key, scancode, modifiers});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* handle, int button, int action, int modifiers) {
+        glm::dvec2 pointer{0, 0};
+        glfwGetCursorPos(handle, &pointer.x, &pointer.y);
+        const InputKind kind = action == GLFW_PRESS ? InputKind::ButtonDown : InputKind::ButtonUp;
+        of(handle).input.add({kind, button, 0, modifiers, pointer});
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* handle, unsigned int letter) {
+        of(handle).input.add({InputKind::Text, static_cast<int>(letter)});
+    });
+    glfwSetDropCallback(window, [](GLFWwindow* handle, int count, const char** files) {
+        of(handle).droppedFiles.assign(files, files + count);
+    });
+    glfwSetScrollCallback(window, ImGui_ImplGlfw_ScrollCallback);
+    glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
+    glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
+}
+
+std::optional<glm::dvec2> Window::Glfw::giveInput() {
+    std::optional<glm::dvec2> pointer;
+    // The field may have been left in the last frame, which WantTextInput tells one frame later.
+    const bool textFieldIsEdited = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
+    for (const InputEvent& event : input.takeFrame(textFieldIsEdited)) {
+        switch (event.kind) {
+            case InputKind::Text:
+                ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned int>(event.code));
+                break;
+            case InputKind::ButtonDown:
+            case InputKind::ButtonUp:
+                pointer = event.pointer;
+                buttonsDown.at(static_cast<std::size_t>(event.code)) = event.kind == InputKind::ButtonDown;
+                break;
+            case InputKind::KeyDown:
+            case InputKind::KeyRepeat:
+                pressedKeys.push_back({event.code, event.modifiers});
+                [[fallthrough]];
+            case InputKind::KeyUp:
+                ImGui_ImplGlfw_KeyCallback(window, event.code, event.scancode, glfwAction(event.kind),
+                                           event.modifiers);
+                break;
+        }
+    }
+    return pointer;
+}
+
+tl::expected<Window, WindowFailure> Window::open(const WindowConfig& config) {
+    if (!glfwInit()) return tl::unexpected(WindowFailure{WindowProblem::NoDisplay, glfwProblem()});
+    Window window;
+    window.glfw_ = std::make_unique<Glfw>();
+    window.glfw_->window = createWindow(config);
+    if (!window.glfw_->window) {
+        return tl::unexpected(WindowFailure{
+            WindowProblem::NoOpenGl,
+            fmt::format("this display has no OpenGL 3.3 core profile ({}); a newer graphics driver is needed",
+                        glfwProblem())});
+    }
+    window.glfw_->besides = createHiddenWindow(window.glfw_->window);
+    glfwSetWindowSizeLimits(window.glfw_->window, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwMakeContextCurrent(window.glfw_->window);
+    glfwSwapInterval(1);
+    window.startImGui(config);
+    return window;
+}
+
+Window::Window(Window&& other) noexcept
+    : glfw_(std::move(other.glfw_)),
+      imguiFile_(std::move(other.imguiFile_)),
+      imguiStarted_(std::exchange(other.imguiStarted_, false)),
+      theme_(other.theme_),
+      appliedScale_(other.appliedScale_),
+      panelsTimer_(std::move(other.panelsTimer_)) {
+    if (imguiStarted_) ImGui::GetIO().IniFilename = imguiFile_.c_str();
+}
+
+Window::~Window() {
+    if (!imguiStarted_) return;
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+// Where ImGui's units are already scaled to pixels, the font must not be scaled a second time.
+float Window::contentScale() const {
+    float scale = 1;
+    glfwGetWindowContentScale(glfw_->window, &scale, nullptr);
+    return std::clamp(scale / pixelRatio(), 0.5f, 4.0f);
+}
+
+void Window::startImGui(const WindowConfig& config) {
+    ImGui::CreateContext();
+    imguiStarted_ = true;
+    imguiFile_ = config.imguiFile.string();
+    ImGui::GetIO().IniFilename = imguiFile_.c_str();
+    // A table that is let go while its panel is hidden comes back a frame too narrow.
+    ImGui::GetIO().ConfigMemoryCompactTimer = -1;
+    ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
+    glfw_->listen();
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    panelsTimer_.emplace();
+    setTheme(config.theme, config.scale);
+}
+
+void Window::setTheme(ui::Theme theme, double scale) {
+    const float wanted = contentScale() * static_cast<float>(scale);
+    if (theme == theme_ && wanted == appliedScale_) return;
+    const bool first = appliedScale_ == 0;  // the first frame makes the font's texture itself
+    theme_ = theme;
+    appliedScale_ = wanted;
+    if (!first) ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ui::applyTheme(theme, wanted);
+    if (!first) ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Window::setClipboard(const std::string& text) const {
+    glfwSetClipboardString(glfw_->window, text.c_str());
+}
+
+std::shared_ptr<planet::gl::GlWorker> Window::makeShaderWorker() const {
+    GLFWwindow* const besides = glfw_->besides;
+    if (!besides) return nullptr;
+    return std::make_shared<planet::gl::GlWorker>(
+        planet::gl::SharedContext{[besides] {
+                                      glfwMakeContextCurrent(besides);
+                                      return glfwGetCurrentContext() == besides;
+                                  },
+                                  [] { glfwMakeContextCurrent(nullptr); }});
+}
+
+void Window::setTitle(const std::string& title) const {
+    glfwSetWindowTitle(glfw_->window, title.c_str());
+}
+
+bool Window::closing() const {
+    return glfwWindowShouldClose(glfw_->window) != 0;
+}
+
+void Window::close() const {
+    glfwSetWindowShouldClose(glfw_->window, GLFW_TRUE);
+}
+
+void Window::beginFrame(double waitS) const {
+    glfw_->pressedKeys.clear();
+    glfw_->droppedFiles.clear();
+    if (waitS > 0 && glfw_->input.empty())
+        glfwWaitEventsTimeout(waitS);
+    else
+        glfwPollEvents();
+    const std::optional<glm::dvec2> pointer = glfw_->giveInput();
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    // ImGui's backend asks for the buttons and the pointer as they are now, which may be later than the
+    // event.
+    ImGuiIO& io = ImGui::GetIO();
+    std::copy_n(glfw_->buttonsDown.begin(), std::size(io.MouseDown), std::begin(io.MouseDown));
+    if (pointer) io.MousePos = {static_cast<float>(pointer->x), static_cast<float>(pointer->y)};
+    ImGui::NewFrame();
+}
+
+void Window::endFrame(const std::function<void()>& drawn) {
+    ImGui::Render();
+    int widthPx = 0, heightPx = 0;
+    glfwGetFramebufferSize(glfw_->window, &widthPx, &heightPx);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, widthPx, heightPx);
+    // What docks and pictures lie on, cleared at once: filled window by window it costs a processor much of a
+    // frame.
+    const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+    glClearColor(ground.x, ground.y, ground.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    panelsTimer_->begin();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    panelsTimer_->end();
+    drawn();
+    const Stopwatch present;
+    glfwSwapBuffers(glfw_->window);
+    presentMs_ = present.elapsedMs();
+}
+
+const std::vector<KeyPress>& Window::pressedKeys() const {
+    return glfw_->pressedKeys;
+}
+
+std::size_t Window::queuedInput() const {
+    return glfw_->input.size();
+}
+
+const std::vector<std::filesystem::path>& Window::droppedFiles() const {
+    return glfw_->droppedFiles;
+}
+
+Picture Window::readPicture() const {
+    Picture picture;
+    glfwGetFramebufferSize(glfw_->window, &picture.width, &picture.height);
+    const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
+    std::vector<std::uint8_t> upsideDown(rowBytes * static_cast<std::size_t>(picture.height));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, upsideDown.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    picture.rgb.reserve(upsideDown.size());
+    for (auto row = upsideDown.end(); row != upsideDown.begin();) {
+        row -= static_cast<std::ptrdiff_t>(rowBytes);
+        picture.rgb.insert(picture.rgb.end(), row, row + static_cast<std::ptrdiff_t>(rowBytes));
+    }
+    return picture;
+}
+
+double Window::panelsGpuMs() {
+    return panelsTimer_->lastMs();
+}
+
+double Window::presentMs() const {
+    return presentMs_;
+}
+
+float Window::width() const {
+    int width = 0;
+    glfwGetWindowSize(glfw_->window, &width, nullptr);
+    return static_cast<float>(width);
+}
+
+float Window::height() const {
+    int height = 0;
+    glfwGetWindowSize(glfw_->window, nullptr, &height);
+    return static_cast<float>(height);
+}
+
+float Window::pixelRatio() const {
+    int widthPx = 0;
+    glfwGetFramebufferSize(glfw_->window, &widthPx, nullptr);
+    return std::max(static_cast<float>(widthPx), 1.0f) / std::max(width(), 1.0f);
+}
+
+std::string Window::openGlText() const {
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const int version = epoxy_gl_version();
+    return fmt::format("OpenGL {}.{}, {}", version / 10, version % 10, renderer ? renderer : "unknown");
+}
+
+}  // namespace worldy

@@ -1,0 +1,175 @@
+#include "app/flight/flight_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "planet/sphere/cube_sphere.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+using Pose = planet::CameraPose;
+
+double degreesBetween(double fromDeg, double toDeg) {
+    return std::remainder(toDeg - fromDeg, 360.0);
+}
+
+glm::dvec3 slerp(const glm::dvec3& from, const glm::dvec3& to, double t) {
+    const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+    if (angle < 1e-9) return glm::normalize(from + t * (to - from));
+    return glm::normalize((std::sin((1 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle));
+}
+
+// The tangent vector at a place whose great circle leads to another, as long as the arc.
+glm::dvec3 arcTowards(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 along = to - glm::dot(from, to) * from;
+    const double sine = glm::length(along);
+    if (sine < 1e-12) return {0, 0, 0};
+    return along / sine * std::atan2(sine, glm::dot(from, to));
+}
+
+glm::dvec3 along(const glm::dvec3& from, const glm::dvec3& arc) {
+    const double angle = glm::length(arc);
+    if (angle < 1e-12) return from;
+    return std::cos(angle) * from + std::sin(angle) * (arc / angle);
+}
+
+// Of the whole way, or of what lies between jumps.
+bool isEnd(const std::vector<FlightKey>& keys, std::size_t i) {
+    return i == 0 || i + 1 == keys.size() || keys[i].jumpedTo || keys[i + 1].jumpedTo;
+}
+
+// The velocity over the ground at a key, radians a second; none at the ends.
+glm::dvec3 velocityAt(const std::vector<FlightKey>& keys, std::size_t i) {
+    if (isEnd(keys, i)) return {0, 0, 0};
+    const glm::dvec3 here = directionOf(keys[i]);
+    const glm::dvec3 span =
+        arcTowards(here, directionOf(keys[i + 1])) - arcTowards(here, directionOf(keys[i - 1]));
+    return span / (keys[i + 1].timeS - keys[i - 1].timeS);
+}
+
+// A Catmull-Rom curve as cubic Bezier arcs on the sphere, built by de Casteljau's scheme from great-circle
+// steps (Shoemake, "Animating rotation with quaternion curves", 1985).
+glm::dvec3 directionAt(const std::vector<FlightKey>& keys, std::size_t i, double t) {
+    const double third = (keys[i + 1].timeS - keys[i].timeS) / 3;
+    const glm::dvec3 a = directionOf(keys[i]);
+    const glm::dvec3 d = directionOf(keys[i + 1]);
+    const glm::dvec3 b = along(a, third * velocityAt(keys, i));
+    const glm::dvec3 c = along(d, -third * velocityAt(keys, i + 1));
+    const glm::dvec3 ab = slerp(a, b, t), bc = slerp(b, c, t), cd = slerp(c, d, t);
+    return slerp(slerp(ab, bc, t), slerp(bc, cd, t), t);
+}
+
+using ValueOfKey = std::function<double(std::size_t)>;
+
+// Slope at a key that lets no cubic overshoot it (Fritsch and Butland, 1984).
+double slopeAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std::size_t i) {
+    if (isEnd(keys, i)) return 0;
+    const double before = (value(i) - value(i - 1)) / (keys[i].timeS - keys[i - 1].timeS);
+    const double after = (value(i + 1) - value(i)) / (keys[i + 1].timeS - keys[i].timeS);
+    return before * after <= 0 ? 0 : 2 * before * after / (before + after);
+}
+
+double valueAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std::size_t i, double t) {
+    const double span = keys[i + 1].timeS - keys[i].timeS;
+    const double from = value(i), to = value(i + 1);
+    const double fromSlope = span * slopeAt(keys, value, i), toSlope = span * slopeAt(keys, value, i + 1);
+    const double t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * from + (t3 - 2 * t2 + t) * fromSlope + (3 * t2 - 2 * t3) * to +
+           (t3 - t2) * toSlope;
+}
+
+}  // namespace
+
+glm::dvec3 directionOf(const FlightKey& key) {
+    return planet::directionFromGeographic(
+        {glm::radians(key.pose.latitudeDeg), glm::radians(key.pose.longitudeDeg)});
+}
+
+double durationS(const FlightPath& path) {
+    return path.keys.back().timeS - path.keys.front().timeS;
+}
+
+bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds) {
+    constexpr double spanS = 0.1;
+    constexpr double mostArcRad = glm::radians(5.0);
+    const double arcRad = std::atan2(glm::length(glm::cross(fromM, toM)), glm::dot(fromM, toM));
+    const auto heightM = [&](const glm::dvec3& eyeM) {
+        return std::max(glm::length(eyeM) - radiusM, radiusM / 1000);
+    };
+    const double low = std::min(heightM(fromM), heightM(toM));
+    const double high = std::max(heightM(fromM), heightM(toM));
+    const double spans = std::max(seconds / spanS, 1.0);
+    return arcRad > spans * mostArcRad || std::log(high / low) > spans * std::log(10) ||
+           arcRad * radiusM > spans * 10 * high;
+}
+
+bool jumpsBetween(const FlightPath& path, double fromS, double toS) {
+    return std::any_of(path.keys.begin(), path.keys.end(), [&](const FlightKey& key) {
+        return key.jumpedTo && key.timeS > fromS && key.timeS <= toS;
+    });
+}
+
+Result<int> flightViews(const FlightPath& path, double stepS, int most) {
+    const double steps = std::floor(durationS(path) / stepS + 1e-9);
+    if (!(steps < most)) {
+        return planet::badInput(
+            fmt::format("--step-s: {} s over a flight of {} s are more than {} views; expected a longer step",
+                        stepS, durationS(path), most));
+    }
+    return static_cast<int>(steps) + 1;
+}
+
+FlightFrames evenFrames(const FlightPath& path, int count) {
+    return {path.keys.front().timeS, count > 1 ? durationS(path) / (count - 1) : 0, count};
+}
+
+Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& sampling, int most) {
+    if (!sampling.stepS) {
+        const int count = sampling.frames.value_or(1);
+        if (count > most)
+            return planet::badInput(
+                fmt::format("--frames: {} are too many; expected at most {}", count, most));
+        return evenFrames(path, count);
+    }
+    return flightViews(path, *sampling.stepS, most).map([&](int count) {
+        return FlightFrames{path.keys.front().timeS, *sampling.stepS, count};
+    });
+}
+
+Pose poseAt(const FlightPath& path, double timeS) {
+    const std::vector<FlightKey>& keys = path.keys;
+    const double time = std::clamp(timeS, keys.front().timeS, keys.back().timeS);
+    const auto after = std::upper_bound(keys.begin() + 1, keys.end() - 1, time,
+                                        [](double value, const FlightKey& key) { return value < key.timeS; });
+    const std::size_t i = static_cast<std::size_t>(after - keys.begin()) - 1;
+    const double share = (time - keys[i].timeS) / (keys[i + 1].timeS - keys[i].timeS);
+    const double t = keys[i + 1].jumpedTo ? std::floor(share) : share;
+
+    // Headings counted on from key to key, each the shorter way from the one before.
+    std::vector<double> headings = {keys.front().pose.headingDeg};
+    for (std::size_t k = 1; k < keys.size(); ++k) {
+        headings.push_back(headings.back() + degreesBetween(headings.back(), keys[k].pose.headingDeg));
+    }
+    const auto logAltitude = [&](std::size_t k) { return std::log(keys[k].pose.altitudeM); };
+    const auto heading = [&](std::size_t k) { return headings[k]; };
+    const auto pitch = [&](std::size_t k) { return keys[k].pose.pitchDeg; };
+
+    const planet::Geographic place = planet::geographicFromDirection(directionAt(keys, i, t));
+    Pose pose;
+    pose.latitudeDeg = glm::degrees(place.latitudeRad);
+    pose.longitudeDeg = glm::degrees(place.longitudeRad);
+    pose.altitudeM = std::exp(valueAt(keys, logAltitude, i, t));
+    pose.headingDeg = std::fmod(valueAt(keys, heading, i, t) + 720, 360.0);
+    pose.pitchDeg = valueAt(keys, pitch, i, t);
+    return pose;
+}
+
+}  // namespace worldy

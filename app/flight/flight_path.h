@@ -1,0 +1,66 @@
+// A flight: camera keys, and a smooth path through them. Pure functions, any thread.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/sphere/view.h"
+
+namespace worldy {
+
+struct FlightKey {
+    double timeS = 0;  // strictly increasing from key to key
+    planet::CameraPose pose;
+    bool jumpedTo =
+        false;  // the pose of the key before is held until then, and the camera is put here at once
+};
+
+struct FlightPath {
+    std::string name;
+    std::vector<FlightKey> keys;  // at least two
+};
+
+// Returns the unit vector from the planet's centre towards the place of a key.
+glm::dvec3 directionOf(const FlightKey& key);
+
+// Returns the seconds from the first key to the last.
+double durationS(const FlightPath& path);
+
+// Returns true if a camera comes from one place to another faster than any flight: within a tenth of a second
+// over 5 degrees of arc, ten times as high or as low, or ten times as far as it is high. Close to the ground
+// its height says little. Eyes: metres from the planet's centre; seconds >= 0.
+bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds);
+// Returns true if the path jumps at a time in (fromS, toS].
+bool jumpsBetween(const FlightPath& path, double fromS, double toS);
+
+// Returns the number of views of a flight, one every stepS seconds from its first key to its last. The Error
+// is that of --step-s: more than `most` views.
+planet::Result<int> flightViews(const FlightPath& path, double stepS, int most);
+
+// Where along a flight a command samples it: a number of frames, evenly spread from the first key to the
+// last, or one frame every so many seconds. One of the two is given.
+struct FlightSampling {
+    std::optional<int> frames{};    // >= 1
+    std::optional<double> stepS{};  // > 0
+};
+struct FlightFrames {
+    double startS = 0;
+    double stepS = 0;  // 0 where there is one frame
+    int count = 1;
+
+    double timeS(int frame) const { return startS + frame * stepS; }
+};
+// Chooses the frames. The Error is that of --frames or --step-s: more than `most` frames.
+planet::Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& sampling, int most);
+FlightFrames evenFrames(const FlightPath& path, int count);
+inline constexpr int mostFlightViews = 100'000;  // each of which is settled and measured
+
+// Returns the pose at a time, held at the ends. Over the ground it follows great-circle arcs blended to a
+// smooth curve; altitude goes by its logarithm and, like heading and pitch, never overshoots a key; heading
+// turns the shorter way.
+planet::CameraPose poseAt(const FlightPath& path, double timeS);
+
+}  // namespace worldy

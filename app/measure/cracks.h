@@ -1,0 +1,44 @@
+// The cracks instrument over an open planet: what the panel and `worldy cracks` share. Wants the scene's GL
+// context current.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "ui/model/cracks_view.h"
+
+namespace worldy {
+
+// Of the last selection, as the view sees it and the settings draw it. The picture on the cube is never
+// measured: its chunks are taken as on the sphere.
+planet::Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& view,
+                                                   const ui::ViewSettings& settings);
+
+// The smallest skirts of the last selection, drawn unstitched, that leave none of the cracks found open, but
+// none smaller than those given: over a flight the largest of all frames is what the flight needs.
+planet::Result<ui::SmallestSkirts> smallestSkirts(Scene& scene, const planet::View& view,
+                                                  const ui::CrackMeasurement& measured,
+                                                  const ui::SmallestSkirts& atLeast = {});
+
+// What the window remembers of the instrument.
+struct CrackInstrument {
+    std::optional<ui::CrackMeasurement> measured;
+    std::vector<planet::DrawItem> drawn;  // that it is of
+    std::optional<ui::SmallestSkirts> smallest;
+};
+
+// On an Error it stays as it was.
+planet::Result<void> measureNow(CrackInstrument& instrument, Scene& scene, const planet::View& view,
+                                const ui::ViewSettings& settings);
+// Of what was measured; nothing where it is no longer what is drawn.
+planet::Result<void> findSmallestNow(CrackInstrument& instrument, Scene& scene, const planet::View& view,
+                                     const ui::ViewSettings& settings);
+ui::CracksView cracksViewOf(const CrackInstrument& instrument, const Scene& scene, const planet::View& view,
+                            const ui::ViewSettings& settings);
+
+// Paints the crack pixels into a picture of the same view: leaking ones and those that skirts hide, each in
+// its colour, with a dark rim so that single pixels are found.
+void markCracks(const planet::gl::CrackMap& map, Picture& picture);
+
+}  // namespace worldy

@@ -1,0 +1,27 @@
+// The window's precision probe: at the vertex under the pointer, and at the worst of the selected chunk.
+#pragma once
+
+#include <optional>
+
+#include "app/scene/scene.h"
+#include "planet/measure/pick.h"
+#include "ui/model/probe_view.h"
+
+namespace worldy {
+
+// What selection 0 draws, through a view.
+struct ProbeInput {
+    const planet::ChunkTree& tree;
+    const planet::Selection& selection;
+    const planet::View& view;
+    const planet::gl::Projection& projection;  // that the last picture was drawn with
+    bool stitched = false;
+};
+
+// The vertex nearest to the hit.
+ui::ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit);
+
+// None where the chunk is not drawn.
+std::optional<ui::ProbedVertex> probeWorst(const ProbeInput& input, const planet::ChunkId& chunk);
+
+}  // namespace worldy

@@ -1,0 +1,154 @@
+#include "app/measure/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <variant>
+
+#include "app/base/report.h"
+#include "app/settings/settings.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::Result;
+
+constexpr double knownTo = 1.02;  // a suggested tau, as a factor
+
+// Counts are whole numbers and on_front is a truth value, in both tables.
+using Cell = std::variant<double, std::uint64_t, bool>;
+
+struct Column {
+    const char* name;
+    Cell (*of)(const SweepPoint&);
+};
+constexpr std::array<Column, 16> columns = {{
+    {"chunk_size", [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.chunkSize); }},
+    {"tau_px", [](const SweepPoint& p) -> Cell { return p.tauPx; }},
+    {"mean_ground_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanGroundTriangles; }},
+    {"mean_skirt_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanSkirtTriangles; }},
+    {"mean_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanTriangles; }},
+    {"most_triangles",
+     [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.figures.mostTriangles); }},
+    {"mean_chunks", [](const SweepPoint& p) -> Cell { return p.figures.meanChunks; }},
+    {"most_resident_mib", [](const SweepPoint& p) -> Cell { return p.figures.mostResidentMiB; }},
+    {"median_frame_ms", [](const SweepPoint& p) -> Cell { return p.figures.medianFrameMs; }},
+    {"worst_eps_px", [](const SweepPoint& p) -> Cell { return p.figures.worstEpsPx; }},
+    {"worst_drawn_bound_px", [](const SweepPoint& p) -> Cell { return p.figures.worstDrawnBoundPx; }},
+    {"worst_measured_px", [](const SweepPoint& p) -> Cell { return p.figures.worstMeasuredPx; }},
+    {"p99_measured_px", [](const SweepPoint& p) -> Cell { return p.figures.p99MeasuredPx; }},
+    {"worst_screen_px", [](const SweepPoint& p) -> Cell { return p.figures.worstScreenPx; }},
+    {"violations", [](const SweepPoint& p) -> Cell { return p.figures.violations; }},
+    {"on_front", [](const SweepPoint& p) -> Cell { return p.onFront; }},
+}};
+
+std::string_view metricName(planet::ErrorMetric metric) {
+    return errorMetricNames[static_cast<std::size_t>(metric)];
+}
+
+}  // namespace
+
+std::string sweepCsv(std::span<const SweepPoint> points) {
+    std::string text = "schema_version,metric";
+    for (const Column& column : columns) text += fmt::format(",{}", column.name);
+    for (const SweepPoint& point : points) {
+        text += fmt::format("\n{},{}", schemaVersion, metricName(point.metric));
+        for (const Column& column : columns)
+            text += std::visit([](auto value) { return fmt::format(",{}", value); }, column.of(point));
+    }
+    return text + "\n";
+}
+
+std::string sweepJson(std::span<const SweepPoint> points, const std::string& file, const std::string& flight,
+                      SweepCost cost) {
+    Json report = {{"file", file}, {"flight", flight}, {"cost", costName(cost)}};
+    report["frames"] = points.empty() ? 0 : points.front().figures.frames;
+    report["points"] = Json::array();
+    for (const SweepPoint& point : points) {
+        Json entry = {{"metric", metricName(point.metric)}};
+        for (const Column& column : columns)
+            std::visit([&](auto value) { entry[column.name] = value; }, column.of(point));
+        report["points"].push_back(std::move(entry));
+    }
+    return jsonText(report);
+}
+
+std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, const std::string& file,
+                            const std::string& flight) {
+    Json report = {{"file", file}, {"flight", flight}, {"suggestions", Json::array()}};
+    for (const ui::SweepSuggestion& one : suggestions) {
+        const TauGoal& goal = one.goal;
+        report["suggestions"].push_back(
+            {{"metric", metricName(one.metric)},
+             {"chunk_size", one.chunkSize},
+             {"tau_px", one.found.tauPx},
+             {"limited", goal.limitsError ? "worst_measured_px" : costName(goal.cost)},
+             {"limit", goal.limit},
+             {"value", one.found.value},
+             {"met", one.found.met},
+             {"flights", one.found.flown}});
+    }
+    return jsonText(report);
+}
+
+Result<TauGoal> tauGoalFromText(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const std::string_view name = std::string_view(text).substr(0, equals);
+    TauGoal goal;
+    constexpr std::array<std::string_view, 4> names = {"triangles", "frame_ms", "memory_mib", "error_px"};
+    const auto found = std::find(names.begin(), names.end(), name);
+    const std::string_view value =
+        equals == std::string::npos ? std::string_view() : std::string_view(text).substr(equals + 1);
+    const auto parsed = std::from_chars(value.data(), value.data() + value.size(), goal.limit);
+    const bool whole = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
+    if (found == names.end() || !whole || !std::isfinite(goal.limit) || goal.limit <= 0) {
+        return planet::badInput(fmt::format(
+            "--suggest {}: one of triangles=N, frame_ms=N, memory_mib=N, error_px=N with N over 0 is right",
+            text));
+    }
+    goal.limitsError = name == "error_px";
+    if (!goal.limitsError) goal.cost = static_cast<SweepCost>(found - names.begin());
+    return goal;
+}
+
+int mostSuggestFlights() {
+    const double range = std::log(ui::largestTauPx / ui::smallestTauPx);
+    return 2 + static_cast<int>(std::ceil(std::log2(range / std::log(knownTo))));
+}
+
+Result<TauSuggestion> suggestTau(const TauGoal& goal, const MeasureTau& measure) {
+    TauSuggestion best;
+    // Goals are kept on one side of some tau: an error by small ones, a cost by large ones.
+    double keeps = goal.limitsError ? ui::smallestTauPx : ui::largestTauPx;
+    double breaks = goal.limitsError ? ui::largestTauPx : ui::smallestTauPx;
+    const auto tryTau = [&](double tauPx) -> Result<bool> {
+        const Result<double> value = measure(tauPx);
+        if (!value) return tl::unexpected(value.error());
+        ++best.flown;
+        const bool met = *value <= goal.limit;
+        if (met || best.flown == 1) best = {tauPx, *value, met, best.flown};
+        return met;
+    };
+    const Result<bool> possible = tryTau(keeps);
+    if (!possible) return tl::unexpected(possible.error());
+    if (!*possible) return best;
+    const Result<bool> easy = tryTau(breaks);
+    if (!easy) return tl::unexpected(easy.error());
+    if (*easy) return best;
+    while (std::max(keeps / breaks, breaks / keeps) > knownTo) {
+        const double middle = std::sqrt(keeps * breaks);
+        const Result<bool> met = tryTau(middle);
+        if (!met) return tl::unexpected(met.error());
+        (*met ? keeps : breaks) = middle;
+    }
+    return best;
+}
+
+}  // namespace worldy

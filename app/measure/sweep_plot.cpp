@@ -1,0 +1,174 @@
+#include "app/measure/sweep_plot.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "app/settings/settings.h"
+#include "ui/model/plot_scale.h"
+
+namespace worldy {
+
+namespace {
+
+using OIIO::ImageBuf;
+namespace draw = OIIO::ImageBufAlgo;
+using Colour = std::array<float, 4>;
+
+constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+// Drawn at twice the size and averaged down, for lines have no smooth edges.
+constexpr int finer = 2;
+constexpr int width = 1100 * finer;
+constexpr int height = 720 * finer;
+constexpr int plotLeft = 110 * finer;
+constexpr int plotRight = width - 220 * finer;
+constexpr int plotTop = 60 * finer;
+constexpr int plotBottom = height - 80 * finer;
+constexpr int textSize = 14 * finer;
+constexpr Colour ink = {0.10f, 0.11f, 0.13f, 1};
+constexpr Colour faint = {0.86f, 0.87f, 0.89f, 1};
+// Told apart by eyes of any kind: after Okabe and Ito.
+constexpr std::array<Colour, 6> seriesColours = {{{0.00f, 0.45f, 0.70f, 1},
+                                                  {0.84f, 0.37f, 0.00f, 1},
+                                                  {0.00f, 0.62f, 0.45f, 1},
+                                                  {0.80f, 0.47f, 0.65f, 1},
+                                                  {0.34f, 0.71f, 0.91f, 1},
+                                                  {0.90f, 0.62f, 0.00f, 1}}};
+
+std::string tickText(double value) {
+    if (value >= 1e6) return fmt::format("{:g} M", value / 1e6);
+    if (value >= 1e4) return fmt::format("{:g} k", value / 1e3);
+    return fmt::format("{:g}", value);
+}
+
+struct Plot {
+    ImageBuf image{OIIO::ImageSpec(width, height, 4, OIIO::TypeDesc::FLOAT)};
+    ui::LogAxis errors;
+    ui::LogAxis costs;
+
+    int x(double error) const {
+        return plotLeft + static_cast<int>(errors.position(error) * (plotRight - plotLeft));
+    }
+    int y(double cost) const {
+        return plotBottom - static_cast<int>(costs.position(cost) * (plotBottom - plotTop));
+    }
+
+    bool text(int atX, int atY, const std::string& words, draw::TextAlignX align = draw::TextAlignX::Left,
+              const Colour& colour = ink, int size = textSize) {
+        return draw::render_text(image, atX, atY, words, size, font, colour, align, draw::TextAlignY::Center);
+    }
+    void line(int x1, int y1, int x2, int y2, const Colour& colour, int thickness = finer) {
+        for (int away = -thickness / 2; away <= thickness / 2; ++away) {
+            draw::render_line(image, x1 + away, y1, x2 + away, y2, colour);
+            draw::render_line(image, x1, y1 + away, x2, y2 + away, colour);
+        }
+    }
+    void disc(int atX, int atY, int radius, const Colour& colour) {
+        for (int row = -radius; row <= radius; ++row) {
+            const auto half = static_cast<int>(std::sqrt(static_cast<double>(radius * radius - row * row)));
+            draw::render_line(image, atX - half, atY + row, atX + half, atY + row, colour);
+        }
+    }
+};
+
+bool drawAxes(Plot& plot, SweepCost cost, const std::string& title) {
+    for (const double tick : plot.errors.ticks) {
+        plot.line(plot.x(tick), plotTop, plot.x(tick), plotBottom, faint);
+        plot.text(plot.x(tick), plotBottom + 18 * finer, tickText(tick), draw::TextAlignX::Center);
+    }
+    for (const double tick : plot.costs.ticks) {
+        plot.line(plotLeft, plot.y(tick), plotRight, plot.y(tick), faint);
+        plot.text(plotLeft - 10 * finer, plot.y(tick), tickText(tick), draw::TextAlignX::Right);
+    }
+    plot.line(plotLeft, plotBottom, plotRight, plotBottom, ink);
+    plot.line(plotLeft, plotTop, plotLeft, plotBottom, ink);
+    plot.text((plotLeft + plotRight) / 2, plotBottom + 48 * finer, "worst measured error, pixels",
+              draw::TextAlignX::Center);
+    plot.text(plotLeft, plotTop - 16 * finer, costName(cost));
+    return plot.text((plotLeft + plotRight) / 2, 22 * finer, title, draw::TextAlignX::Center, ink,
+                     textSize * 5 / 4);
+}
+
+// The points of one chunk size and metric, by tau.
+using Series = std::map<std::pair<int, planet::ErrorMetric>, std::vector<SweepPoint>>;
+
+void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
+    std::size_t index = 0;
+    for (const auto& [key, points] : series) {
+        const Colour& colour = seriesColours[index % seriesColours.size()];
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            const FlightFigures& a = points[i].figures;
+            const FlightFigures& b = points[i + 1].figures;
+            plot.line(plot.x(a.worstMeasuredPx), plot.y(ui::plottedCost(a, cost)), plot.x(b.worstMeasuredPx),
+                      plot.y(ui::plottedCost(b, cost)), colour);
+        }
+        for (const SweepPoint& point : points) {
+            const int x = plot.x(point.figures.worstMeasuredPx);
+            const int y = plot.y(ui::plottedCost(point.figures, cost));
+            if (point.onFront) {
+                plot.disc(x, y, 9 * finer, ink);
+                plot.disc(x, y, 8 * finer, {1, 1, 1, 1});
+            }
+            plot.disc(x, y, 5 * finer, colour);
+            plot.text(x + 12 * finer, y - 12 * finer, fmt::format("{:g}", point.tauPx),
+                      draw::TextAlignX::Left, colour);
+        }
+        const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
+        plot.disc(plotRight + 30 * finer, legendY, 5 * finer, colour);
+        plot.text(
+            plotRight + 44 * finer, legendY,
+            fmt::format("{} a side, {}", key.first, errorMetricNames[static_cast<std::size_t>(key.second)]));
+        ++index;
+    }
+    const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
+    plot.disc(plotRight + 30 * finer, legendY, 9 * finer, ink);
+    plot.disc(plotRight + 30 * finer, legendY, 8 * finer, {1, 1, 1, 1});
+    plot.text(plotRight + 44 * finer, legendY, "Pareto front");
+    plot.text(plotRight + 20 * finer, legendY + 26 * finer, "figures: tau, pixels");
+}
+
+Picture smaller(const ImageBuf& image) {
+    const ImageBuf small = draw::resize(image, "box", 0, OIIO::ROI(0, width / finer, 0, height / finer));
+    Picture picture{width / finer, height / finer, {}};
+    picture.rgb.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) *
+                       3);
+    small.get_pixels(OIIO::ROI(0, picture.width, 0, picture.height, 0, 1, 0, 3), OIIO::TypeDesc::UINT8,
+                     picture.rgb.data());
+    return picture;
+}
+
+}  // namespace
+
+planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost cost,
+                                  const std::string& title) {
+    std::vector<double> errors;
+    std::vector<double> costs;
+    Series series;
+    for (SweepPoint point : points) {
+        point.figures.worstMeasuredPx = ui::plottedErrorPx(point.figures);
+        errors.push_back(point.figures.worstMeasuredPx);
+        costs.push_back(ui::plottedCost(point.figures, cost));
+        series[{point.chunkSize, point.metric}].push_back(point);
+    }
+    for (auto& [key, own] : series) {
+        std::sort(own.begin(), own.end(),
+                  [](const SweepPoint& a, const SweepPoint& b) { return a.tauPx < b.tauPx; });
+    }
+    Plot plot;
+    plot.errors = ui::logAxisOver(errors);
+    plot.costs = ui::logAxisOver(costs);
+    draw::fill(plot.image, Colour{1, 1, 1, 1});
+    if (!drawAxes(plot, cost, title))
+        return planet::ioError(fmt::format("{}: the plot cannot be labelled without this font", font));
+    drawSeries(plot, series, cost);
+    return smaller(plot.image);
+}
+
+}  // namespace worldy

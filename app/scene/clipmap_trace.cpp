@@ -1,0 +1,154 @@
+#include "app/scene/clipmap_trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "planet/sphere/cube_sphere.h"
+#include "planet/surface/colour_clipmap.h"
+#include "ui/model/overlay_colours.h"
+
+namespace worldy {
+
+namespace {
+
+constexpr double shownS = 2;            // that what was filled is seen for
+constexpr std::size_t mostShown = 400;  // rectangles; the oldest go first
+constexpr int sideSegments = 48;        // of a window's side, so that it follows the ground
+
+using planet::TexelRect;
+
+// From texels of a face to the ground there, lifted by some pixels so that it does not hide the lines.
+struct GroundLines {
+    const planet::ChunkTree& tree;
+    const planet::View& view;
+    planet::Face face;
+    int level;
+    planet::Lines& lines;
+
+    glm::dvec3 pointM(double x, double y) const {
+        const double cells = planet::colourTileCells << level;
+        const auto coordinate = [&](double texel) { return 2 * std::clamp(texel / cells, 0.0, 1.0) - 1; };
+        const glm::dvec3 direction =
+            planet::sphereFromCube(planet::cubePoint(face, coordinate(x), coordinate(y)));
+        const double heightM = planet::residentHeightM(tree, direction);
+        const glm::dvec3 groundM = planet::positionM(tree.shape, direction, heightM);
+        const double awayM = glm::length(groundM - view.eyeM);
+        return groundM + 3 * awayM / planet::screenScalePx(view) * direction;
+    }
+
+    void append(const glm::dvec2& from, const glm::dvec2& to, const planet::LineColour& colour) const {
+        const double cells = planet::colourTileCells << level;
+        const double share = glm::length(to - from) / cells;  // of a face
+        const int segments =
+            std::clamp(static_cast<int>(std::ceil(share * 4 * sideSegments)), 4, sideSegments);
+        glm::dvec3 before = pointM(from.x, from.y);
+        for (int i = 1; i <= segments; ++i) {
+            const glm::dvec2 at = from + (to - from) * (static_cast<double>(i) / segments);
+            const glm::dvec3 now = pointM(at.x, at.y);
+            lines.push_back({before, colour});
+            lines.push_back({now, colour});
+            before = now;
+        }
+    }
+};
+
+// Sides on a face's edge are left out: there the window goes on on the next face.
+void appendOutline(const GroundLines& ground, const TexelRect& texels, const planet::LineColour& colour) {
+    const int cells = planet::colourTileCells << ground.level;
+    const double left = texels.x;
+    const double right = texels.x + texels.width - 1;
+    const double bottom = texels.y;
+    const double top = texels.y + texels.height - 1;
+    if (left > 0) ground.append({left, bottom}, {left, top}, colour);
+    if (right < cells) ground.append({right, bottom}, {right, top}, colour);
+    if (bottom > 0) ground.append({left, bottom}, {right, bottom}, colour);
+    if (top < cells) ground.append({left, top}, {right, top}, colour);
+}
+
+// Bars across the shorter side, so that a strip looks like one.
+void appendBars(const GroundLines& ground, const TexelRect& texels, const planet::LineColour& colour) {
+    const double right = texels.x + texels.width - 1;
+    const double top = texels.y + texels.height - 1;
+    const int longest = std::max(texels.width, texels.height);
+    const int shortest = std::min(texels.width, texels.height);
+    if (4 * shortest > longest) return;
+    const int apart = std::max({shortest, longest / 32, 1});
+    for (int along = apart; along < longest; along += apart) {
+        if (texels.width >= texels.height)
+            ground.append({texels.x + along, texels.y}, {texels.x + along, top}, colour);
+        else
+            ground.append({texels.x, texels.y + along}, {right, texels.y + along}, colour);
+    }
+}
+
+planet::LineColour filledColour(const planet::ClipmapUpdate& update, double ageS) {
+    const double strength = std::clamp(1 - ageS / shownS, 0.0, 1.0);
+    const auto opacity = static_cast<std::uint8_t>(std::lround(220 * strength));
+    return update.byMoving ? planet::LineColour{255, 60, 220, opacity}
+                           : planet::LineColour{70, 230, 255, opacity};
+}
+
+void remember(const planet::gl::ColourClipmapState& state, double nowS, ClipmapTrace& trace) {
+    trace.filledTexels += state.updatedTexels;
+    for (const planet::ClipmapUpdate& update : state.updates) {
+        // The levels that are kept whole have no windows to be seen in.
+        if (update.level > state.layout.wholeLevel) trace.filled.push_back({update, nowS});
+    }
+    while (!trace.filled.empty() &&
+           (trace.filled.size() > mostShown || nowS - trace.filled.front().atS > shownS))
+        trace.filled.pop_front();
+}
+
+}  // namespace
+
+void moveClipmap(planet::gl::ChunkRenderer& renderer, std::optional<int> sizePx, const glm::dvec3& eyeM,
+                 int finestLevel, double nowS, ClipmapTrace& trace) {
+    const auto note = [&](const planet::Result<void>& done) {
+        trace.problem = done ? std::string() : done.error().message;
+    };
+    if (trace.sizePx != sizePx) {
+        trace.sizePx = sizePx;
+        trace.filled.clear();
+        note(renderer.setColourClipmap(sizePx));
+    }
+    if (!renderer.colourClipmap()) return;
+    const planet::Result<void> moved = renderer.moveColourClipmap(eyeM, finestLevel);
+    note(moved);
+    if (moved) remember(*renderer.colourClipmap(), nowS, trace);
+}
+
+ui::ClipmapStats clipmapStatsOf(const planet::gl::ChunkRenderer& renderer, const ClipmapTrace& trace) {
+    ui::ClipmapStats stats;
+    stats.problem = trace.problem;
+    const planet::gl::ColourClipmapState* state = renderer.colourClipmap();
+    if (!state) return stats;
+    stats.windows = static_cast<int>(state->windows.size());
+    stats.wholeLevel = state->layout.wholeLevel;
+    stats.filledTexels = trace.filledTexels;
+    return stats;
+}
+
+void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const ClipmapTrace& trace,
+                        const planet::ChunkTree& tree, const planet::View& renderView, double nowS,
+                        planet::Lines& lines) {
+    const planet::gl::ColourClipmapState* state = renderer.colourClipmap();
+    if (!state) return;
+    for (const ClipmapTrace::Filled& filled : trace.filled) {
+        const double ageS = nowS - filled.atS;
+        if (ageS > shownS) continue;
+        const planet::LineColour colour = filledColour(filled.update, ageS);
+        const GroundLines ground{tree, renderView, filled.update.face, filled.update.level, lines};
+        appendOutline(ground, filled.update.texels, colour);
+        appendBars(ground, filled.update.texels, colour);
+    }
+    // Over those that were filled as a whole.
+    for (const planet::gl::ColourClipmapState::Window& window : state->windows) {
+        const glm::vec3 colour = ui::levelColour(window.level);
+        const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
+        appendOutline({tree, renderView, window.face, window.level, lines}, window.texels,
+                      {byte(colour.x), byte(colour.y), byte(colour.z), 255});
+    }
+}
+
+}  // namespace worldy

@@ -1,0 +1,73 @@
+#include "app/scene/frame_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "ui/model/glossary.h"
+
+namespace worldy {
+
+nlohmann::ordered_json poseJson(const planet::CameraPose& pose) {
+    return {{"latitude_deg", pose.latitudeDeg},
+            {"longitude_deg", pose.longitudeDeg},
+            {"altitude_m", pose.altitudeM},
+            {"heading_deg", pose.headingDeg},
+            {"pitch_deg", pose.pitchDeg}};
+}
+
+namespace {
+
+// Returns one object for a total that is counted per kind of block; countOf(counters) picks the total.
+template <class CountOf>
+nlohmann::ordered_json byKind(const ui::FrameStats& stats, const CountOf& countOf) {
+    return {{"heights", countOf(stats.paging)},
+            {"colours", countOf(stats.colourPaging)},
+            {"normals", countOf(stats.normalPaging)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
+    return {{"visited", stats.selection.visited},
+            {"culled_frustum", stats.selection.culledFrustum},
+            {"culled_horizon", stats.selection.culledHorizon},
+            {"drawn_chunks", stats.selection.drawn},
+            {ui::terms::groundTriangles.key, stats.selection.groundTriangles},
+            {ui::terms::skirtTriangles.key, stats.selection.skirtTriangles},
+            {ui::terms::triangles.key, stats.selection.triangles()},
+            {"waiting", stats.selection.waiting},
+            {"deepest_level", stats.selection.deepestLevel},
+            {"worst_eps_px", stats.selection.worstEpsPx},
+            {"worst_drawn_bound_px", stats.selection.worstDrawnBoundPx},
+            {"widest_seam", stats.selection.widestSeam},
+            {"requests", stats.paging.requested},
+            {"queued", stats.paging.queued},
+            {"loading", stats.paging.loading},
+            {"loaded_blocks", byKind(stats, [](const auto& paging) { return paging.loaded; })},
+            {"evicted_blocks", byKind(stats, [](const auto& paging) { return paging.evicted; })},
+            {"failed_reads", byKind(stats, [](const auto& paging) { return paging.failed; })},
+            {"failed_blocks", stats.paging.failedForGood},
+            {"budget_waits", stats.paging.budgetWaits},
+            {"resident_chunks", stats.paging.residentChunks},
+            {"resident_bytes_cpu", stats.paging.residentBytesCpu},
+            {"resident_bytes_gpu", stats.paging.residentBytesGpu},
+            {"bytes_read", ui::bytesReadOf(stats)},
+            {"upload_ms", stats.stages.uploadMs},
+            {"select_ms", stats.stages.selectMs},
+            {"paging_ms", stats.stages.pagingMs},
+            {"draw_cpu_ms", stats.drawCpuMs},
+            {"draw_gpu_ms", stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs},
+            {"chunks_gpu_ms", stats.render.chunksMs},
+            {"sky_gpu_ms", stats.render.skyMs},
+            {"frame_ms", stats.frameMs},
+            {"colour_tile_bytes", stats.gpuMemory.colourTiles},
+            {"clipmap_bytes", stats.gpuMemory.colourClipmap},
+            {"clipmap_texels", stats.clipmap.filledTexels}};
+}
+
+std::vector<std::uint32_t> levelHistogram(const planet::Selection& selection) {
+    std::vector<std::uint32_t> levels(selection.counters.deepestLevel + std::size_t{1});
+    for (const planet::DrawItem& item : selection.draw) ++levels[item.id.level];
+    return levels;
+}
+
+}  // namespace worldy

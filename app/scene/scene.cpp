@@ -1,0 +1,417 @@
+#include "app/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "app/base/stopwatch.h"
+#include "app/scene/clipmap_trace.h"
+#include "app/scene/overlay_lines.h"
+#include "app/settings/layer_file.h"
+#include "planet/select/shadow_cascades.h"
+#include "planet/sphere/cube_sphere.h"
+#include "ui/model/sun_overhead.h"
+
+namespace worldy {
+
+namespace {
+
+planet::UploadChunk uploadInto(planet::gl::ChunkRenderer& renderer) {
+    return [&renderer](std::uint32_t slot, std::span<const std::int16_t> heights) {
+        renderer.upload(slot, heights);
+    };
+}
+
+// Low enough in the east for relief to show, high enough for most of what is in view to be lit.
+glm::dvec3 morningSun(const glm::dvec3& eyeM) {
+    const planet::Geographic place = planet::geographicFromDirection(eyeM);
+    const glm::dvec3 up = glm::normalize(eyeM);
+    const glm::dvec3 east(-std::sin(place.longitudeRad), std::cos(place.longitudeRad), 0);
+    return 0.65 * up + 0.65 * east + 0.4 * glm::cross(up, east);
+}
+
+// The ramp's colours spread over the planet's own heights, whatever they are. Exaggeration is in the shape.
+double rampTopM(const planet::ChunkTree& tree) {
+    const double highestM = planet::heightM(tree.shape, tree.maxStep);
+    const double lowestM = planet::heightM(tree.shape, tree.minStep);
+    return std::max({0.85 * highestM, 0.3 * (highestM - lowestM), 1.0});
+}
+
+// The renderer's pool follows the planet's slots. Where it cannot, the planet goes back to the slots it had.
+planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before) {
+    planet::Result<void> fitted = scene.renderer.setSlotCapacity(scene.planet->slotCapacity());
+    if (!fitted) static_cast<void>(scene.planet->setPaging(before));
+    scene.planet->uploadAll(uploadInto(scene.renderer));
+    return fitted;
+}
+
+bool drawsByCpu(const Scene& scene) {
+    return scene.renderer.capabilities().software;
+}
+
+planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wanted) {
+    const planet::PagingSettings before = scene.planet->pagingSettings();
+    if (wanted == before) {
+        scene.refusedPaging.reset();
+        return {};
+    }
+    if (scene.refusedPaging == wanted) return {};
+    const planet::Result<bool> moved = scene.planet->setPaging(wanted);
+    planet::Result<void> applied;
+    if (!moved)
+        applied = tl::unexpected(moved.error());
+    else if (*moved)
+        applied = fitPool(scene, before);
+    scene.refusedPaging = applied ? std::nullopt : std::optional(wanted);
+    return applied;
+}
+
+planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers) {
+    return {.use = layers.use,
+            .set = layers.set,
+            .pictures = {},
+            .beginM = layers.beginM,
+            .endM = layers.endM,
+            .opacity = layers.opacity,
+            .colourBelow = layers.colourBelow,
+            .preview = layers.preview,
+            .previewed = layers.previewed - 1};
+}
+
+// Only where layers are drawn: most of the time it is nothing to do.
+void fitLayers(Scene& scene, const ui::LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
+    const bool software = scene.renderer.capabilities().software;
+    if (!planet::gl::isUsed(layers.use, software)) return;
+    fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer, scene.layers);
+    drawing.pictures = picturesOf(layers.set, scene.layers);
+}
+
+// The pool of tiles does what the planet's paging has done since the last picture.
+void followColours(Scene& scene) {
+    const std::optional<planet::ColourPyramid>& colour = scene.planet->colour();
+    if (!colour) return;
+    const planet::gl::ColourPoolConfig wanted{colour->format, colour->leafLevel,
+                                              scene.planet->colourPaging().tileCapacity};
+    if (scene.colourPool != wanted) {
+        const planet::Result<void> made = scene.renderer.setColours(wanted);
+        if (!made) {
+            scene.problems.push_back(
+                fmt::format("The file's colours cannot be drawn, using an image or the ramp instead: {}",
+                            made.error().message));
+            static_cast<void>(scene.renderer.setColours(std::nullopt));
+        }
+        scene.colourPool = wanted;
+        scene.clipmap.sizePx.reset();  // it went with the pool
+        scene.drawsColours = made.has_value();
+    }
+    const std::vector<planet::TileChange> changes = scene.planet->takeColourChanges();
+    if (scene.drawsColours) scene.renderer.followColours(changes);
+}
+
+// And that of normals. Where the planet has none the pool is given back.
+void followNormals(Scene& scene) {
+    const planet::Planet& planet = *scene.planet;
+    std::optional<planet::gl::NormalPoolConfig> wanted;
+    if (planet.normalPaging().tileCapacity > 0)
+        wanted = {planet.normalLeafLevel(), planet.normalPaging().tileCapacity,
+                  planet.tree().storedShape.quantumM};
+    if (scene.normalPool != wanted) {
+        const planet::Result<void> made = scene.renderer.setNormals(wanted);
+        if (!made) {
+            scene.problems.push_back(fmt::format(
+                "Fine normals cannot be drawn, using mesh normals instead: {}", made.error().message));
+            static_cast<void>(scene.renderer.setNormals(std::nullopt));
+        }
+        scene.normalPool = wanted;
+        scene.drawsNormals = made && wanted;
+    }
+    const std::vector<planet::TileChange> changes = scene.planet->takeNormalChanges();
+    if (scene.drawsNormals) scene.renderer.followNormals(changes);
+}
+
+// Of the view that the level of detail is chosen for: shadows freeze with it.
+std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::ViewSettings& settings,
+                                              const planet::gl::RenderSettings& render,
+                                              std::span<const planet::DrawItem> items) {
+    // From far off nothing drawn is within their reach, and the walk would see every resident chunk.
+    const double reachM = render.light.shadows.reachM;
+    const bool mayBeSeen = std::any_of(items.begin(), items.end(), [&](const planet::DrawItem& item) {
+        return static_cast<double>(item.distanceM) < reachM;
+    });
+    if (!mayBeSeen || !scene.renderer.drawsShadows(render)) return {};
+    return planet::shadowCasters(scene.planet->tree(), scene.planet->lodView(), lodSettingsOf(settings),
+                                 reachM);
+}
+
+// The clipmap stands around the lod view, whose tiles it is filled from, whoever looks at it.
+void followClipmap(Scene& scene, const ui::ViewSettings& settings) {
+    const bool wanted = scene.drawsColours && settings.surface.colourMode == ui::ColourMode::Clipmap &&
+                        colourSettingsOf(settings).enabled;
+    int finestLevel = 0;
+    for (std::size_t view = 0; view < scene.planet->viewCount(); ++view) {
+        const planet::TileCounters& seen = scene.planet->colourSelection(view).counters;
+        finestLevel = std::max(finestLevel, static_cast<int>(seen.deepestLevel));
+    }
+    moveClipmap(scene.renderer, wanted ? std::optional(settings.surface.clipmapSizePx) : std::nullopt,
+                scene.planet->lodView().eyeM, finestLevel, scene.planet->seconds(), scene.clipmap);
+}
+
+ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
+    ui::turnDown(scene.turnedDown, settings.surface);
+    return settings;
+}
+
+// Of tiles that there is no memory to draw from, none are wanted.
+planet::ViewInput viewInputOf(const Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
+                              double priorityFactor = 1) {
+    planet::ViewInput input{view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
+                            normalSettingsOf(settings)};
+    if (scene.colourPool && !scene.drawsColours) input.colours.enabled = false;
+    if (scene.normalPool && !scene.drawsNormals) input.normals.enabled = false;
+    return input;
+}
+
+void beginFrame(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
+    const planet::gl::RenderSettings render = renderSettingsOf(settings, lodView, scene.planet->tree());
+    scene.seaSurfaceM =
+        scene.renderer.drawsSeaSurface(render) ? std::optional(render.seaLevelM) : std::nullopt;
+    scene.clipmap.filledTexels = 0;
+    scene.drawCpuMs = 0;
+    scene.drawn = {};
+}
+
+}  // namespace
+
+planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSettings& settings) {
+    auto planet = planet::Planet::open(config.chunkFile, pagingSettingsOf(settings));
+    if (!planet) return tl::unexpected(planet.error());
+    (*planet)->setExaggeration(settings.surface.exaggeration);
+    auto renderer = planet::gl::ChunkRenderer::create(
+        {(*planet)->shape(), (*planet)->slotCapacity(), config.shaderFolder, config.programs});
+    if (!renderer) return tl::unexpected(renderer.error());
+    Scene scene{std::move(*planet), std::move(*renderer)};
+    scene.identity = std::make_shared<const int>(0);
+    scene.exaggeration = settings.surface.exaggeration;
+    if (config.colour) {
+        const planet::Result<void> made =
+            scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
+        if (!made)
+            scene.problems.push_back(fmt::format(
+                "The colour image cannot be drawn, using the height ramp instead: {}", made.error().message));
+        scene.hasColourImage = made.has_value();
+    }
+    // Only now it is known who draws; what is refused is told of when settings are next applied.
+    if (auto applied = applyPaging(scene, pagingSettingsOf(settings, false, std::nullopt, drawsByCpu(scene)));
+        !applied)
+        scene.refusedPaging.reset();
+    return scene;
+}
+
+planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
+    planet::LodSettings lod;
+    lod.metric = settings.lod.metric;
+    lod.tauPx = settings.lod.tauPx;
+    lod.hysteresis = settings.lod.hysteresis;
+    lod.maxLevel = settings.lod.maxLevel;
+    // Bounds are those of the sphere; on the cube they would cut away what is in view.
+    lod.frustumCulling = settings.lod.frustumCulling && !settings.overlay.cube;
+    lod.horizonCulling = settings.lod.horizonCulling && !settings.overlay.cube;
+    lod.morph = settings.lod.morph;
+    lod.morphRange = settings.lod.morphRange;
+    lod.fadeS = settings.lod.fadeS;
+    lod.seams = settings.seams.mode;
+    lod.skirtDepth = settings.seams.depth;
+    lod.skirtDepthM = settings.seams.skirtDepthM;
+    lod.skirtFactor = settings.seams.skirtFactor;
+    return lod;
+}
+
+planet::TileSettings colourSettingsOf(const ui::ViewSettings& settings) {
+    const ui::SurfaceSettings& surface = settings.surface;
+    const bool seen = surface.streamed && surface.surface == planet::gl::SurfaceColour::Image &&
+                      surface.imageOpacity > 0 && !settings.overlay.cube;
+    return {.enabled = seen, .texelsPerPixel = surface.texelsPerPixel};
+}
+
+// Without light nothing shows them but the layers, whose slopes are near enough by the mesh.
+planet::TileSettings normalSettingsOf(const ui::ViewSettings& settings) {
+    const planet::gl::NormalDrawing& normals = settings.surface.light.normals;
+    return {.enabled = settings.surface.lighting && normals.use != planet::gl::FeatureUse::Off,
+            .texelsPerPixel = normals.texelsPerPixel};
+}
+
+planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused,
+                                        std::optional<planet::PagingTime> time, bool software) {
+    const planet::PagingTime asSet =
+        settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock;
+    return {.budgetBytes = static_cast<std::size_t>(settings.paging.budgetMB) << 20,
+            .loaderThreads = settings.paging.loaderThreads,
+            .uploadLimitMs = settings.paging.uploadLimitMs,
+            .paused = paused,
+            .badDisk = settings.paging.badDisk,
+            .retry = {settings.paging.retries, settings.paging.retryDelayS},
+            .colourShare = settings.paging.colourShare,
+            .normals =
+                settings.surface.lighting && planet::gl::isUsed(settings.surface.light.normals.use, software),
+            .normalShare = settings.paging.normalShare,
+            .time = time.value_or(asSet)};
+}
+
+planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
+                                            const planet::ChunkTree& tree) {
+    const ui::SurfaceSettings& surface = settings.surface;
+    const ui::OverlaySettings& overlay = settings.overlay;
+    planet::gl::RenderSettings render;
+    render.surface = surface.surface;
+    render.imageOpacity = surface.imageOpacity;
+    render.streamed = surface.streamed;
+    render.texelsPerPixel = surface.texelsPerPixel;
+    render.rampTopM = rampTopM(tree);
+    // Users name true heights; the renderer's are as drawn.
+    render.ramp = surface.ramp;
+    for (planet::gl::RampStop& stop : render.ramp) stop.heightM *= tree.exaggeration;
+    render.sea = surface.sea;
+    render.seaLevelM = surface.seaLevelM * tree.exaggeration;
+    render.exaggeration = tree.exaggeration;
+    render.wireframe = overlay.wireframe;
+    render.outlines = overlay.outlines;
+    render.skirtPaint = overlay.skirtPaint;
+    render.stitched = settings.seams.mode == planet::SeamMode::Stitched;
+    render.cube = overlay.cube;
+    render.atmosphere = surface.atmosphere && !overlay.cube;
+    render.lighting = surface.lighting;
+    render.detail = surface.detail;
+    render.sunDirection = surface.sunFollows ? morningSun(view.eyeM)
+                                             : planet::directionFromGeographic(ui::sunOverheadOf(surface));
+    render.light = surface.light;
+    if (overlay.colourBy != ui::ColourBy::None) render.light.fill = 0;  // a tinted picture measures
+    render.layers = layerDrawingOf(surface.layers);
+    return render;
+}
+
+planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& asked, bool pagingPaused,
+                                       std::optional<planet::PagingTime> time) {
+    const ui::ViewSettings settings = afforded(scene, asked);
+    if (scene.exaggeration != settings.surface.exaggeration) {
+        scene.exaggeration = settings.surface.exaggeration;
+        scene.planet->setExaggeration(settings.surface.exaggeration);
+        scene.renderer.setShape(scene.planet->shape());
+    }
+    return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time, drawsByCpu(scene)));
+}
+
+planet::UploadChunk uploadInto(Scene& scene) {
+    return uploadInto(scene.renderer);
+}
+
+namespace {
+
+void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet::ViewInput> views,
+          std::optional<double> elapsedS) {
+    beginFrame(scene, views.front().lodView, settings);
+    if (elapsedS)
+        scene.planet->step(views, uploadInto(scene.renderer), *elapsedS);
+    else
+        scene.planet->step(views, uploadInto(scene.renderer));
+}
+
+}  // namespace
+
+void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked,
+               std::optional<double> elapsedS) {
+    const ui::ViewSettings settings = afforded(scene, asked);
+    const planet::ViewInput only = viewInputOf(scene, lodView, settings);
+    step(scene, settings, std::span(&only, 1), elapsedS);
+}
+
+void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
+               const ui::ViewSettings& asked, std::optional<double> elapsedS) {
+    const ui::ViewSettings settings = afforded(scene, asked);
+    const std::array<planet::ViewInput, 2> views = {
+        viewInputOf(scene, lodView, settings),
+        viewInputOf(scene, observerView, settings, observerPriorityFactor)};
+    step(scene, settings, views, elapsedS);
+}
+
+void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+               std::size_t selection, std::span<const planet::gl::ChunkTint> tints,
+               planet::gl::ShaderWait wait) {
+    drawItems(scene, renderView, settings, scene.planet->selection(selection).draw,
+              settings.seams.mode == planet::SeamMode::Stitched, tints, wait);
+}
+
+void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& asked,
+               std::span<const planet::DrawItem> items, bool stitched,
+               std::span<const planet::gl::ChunkTint> tints, planet::gl::ShaderWait wait) {
+    const ui::ViewSettings settings = afforded(scene, asked);
+    const Stopwatch watch;
+    planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
+    render.stitched = stitched;
+    fitLayers(scene, settings.surface.layers, render.layers);
+    followColours(scene);
+    followNormals(scene);
+    followClipmap(scene, settings);
+    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render, items),
+                        wait);
+    scene.drawCpuMs += watch.elapsedMs();
+    const planet::gl::RenderCounters& counters = scene.renderer.counters();
+    scene.drawn.chunks += counters.chunks;
+    scene.drawn.groundTriangles += counters.groundTriangles;
+    scene.drawn.skirtTriangles += counters.skirtTriangles;
+    scene.drawn.uploads += counters.uploads;
+    scene.drawn.standIn |= counters.standIn;
+    scene.drawn.chunksMs += counters.chunksMs;
+    scene.drawn.skyMs += counters.skyMs;
+    scene.drawn.shadowsMs += counters.shadowsMs;
+}
+
+std::vector<std::string> takeProblems(Scene& scene) {
+    std::vector<std::string> problems = std::exchange(scene.problems, {});
+    for (std::vector<std::string>& more :
+         std::array{std::exchange(scene.layers.untold, {}), scene.renderer.takeProblems(),
+                    scene.planet->takeProblems()})
+        problems.insert(problems.end(), more.begin(), more.end());
+    return problems;
+}
+
+bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked, double timeoutS) {
+    const ui::ViewSettings settings = afforded(scene, asked);
+    beginFrame(scene, lodView, settings);
+    const planet::ViewInput only = viewInputOf(scene, lodView, settings);
+    return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
+}
+
+ui::FrameStats statsOf(const Scene& scene) {
+    ui::FrameStats stats;
+    stats.selection = scene.planet->selection().counters;
+    stats.paging = scene.planet->paging();
+    stats.colourPaging = scene.planet->colourPaging();
+    stats.normalPaging = scene.planet->normalPaging();
+    stats.stages = scene.planet->times();
+    stats.render = scene.drawn;
+    stats.gpuMemory = scene.renderer.gpuMemory();
+    stats.drawCpuMs = scene.drawCpuMs;
+    stats.clipmap = clipmapStatsOf(scene.renderer, scene.clipmap);
+    return stats;
+}
+
+planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
+                        const planet::View& renderView, const ui::ViewSettings& settings) {
+    const planet::ChunkTree& tree = scene.planet->tree();
+    planet::Lines lines = overlayLines(tree, selection, renderView, settings);
+    if (settings.overlay.clipmap)
+        appendClipmapLines(scene.renderer, scene.clipmap, tree, renderView, scene.planet->seconds(), lines);
+    return lines;
+}
+
+Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM) {
+    const double groundM = planet::residentHeightM(scene.planet->tree(), glm::normalize(eyeM));
+    return {scene.planet->shape().radiusM, std::max(groundM, scene.seaSurfaceM.value_or(groundM))};
+}
+
+}  // namespace worldy

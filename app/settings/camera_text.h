@@ -1,0 +1,27 @@
+// Picture sizes and camera poses as the command line writes them. Pure functions, any thread.
+#pragma once
+
+#include <string>
+
+#include "planet/base/result.h"
+#include "planet/sphere/view.h"
+
+namespace worldy {
+
+struct PictureSize {
+    int widthPx = 1280;
+    int heightPx = 720;
+};
+
+// Reads "1280x720"; each side is in [16, 16384].
+planet::Result<PictureSize> pictureSizeFromText(const std::string& text);
+
+// Reads "LAT,LON,ALT,HEADING,PITCH" in degrees and metres. Trailing numbers may be left out: heading 0, pitch
+// -90.
+planet::Result<planet::CameraPose> poseFromText(const std::string& text);
+
+// Writes "LAT,LON,ALT,HEADING,PITCH" as --camera takes it, with the digits that read back as the same
+// numbers.
+std::string cameraText(const planet::CameraPose& pose);
+
+}  // namespace worldy

@@ -1,0 +1,129 @@
+#include "app/settings/screenshot.h"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "app/base/places.h"
+#include "app/settings/camera_text.h"
+#include "app/settings/settings_text.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+constexpr const char* settingsKeyword = "worldy:settings";
+constexpr const char* cameraKeyword = "worldy:camera";
+constexpr const char* dataSetKeyword = "worldy:data";
+constexpr const char* shotLineKeyword = "worldy:shot";
+constexpr const char* versionKeyword = "worldy:version";
+
+constexpr int mostOfASecond = 1000;  // files of one name but for their number
+
+}  // namespace
+
+Result<void> writeScreenshot(const Picture& picture, const fs::path& file, const ScreenshotNote& note) {
+    const std::string version = note.version.empty() ? WORLDY_VERSION : note.version;
+    std::vector<PictureText> texts = {{"Software", "Worldy " + version},
+                                      {"ImageDescription", note.shotLine},
+                                      {settingsKeyword, note.settings},
+                                      {cameraKeyword, cameraText(note.camera)},
+                                      {dataSetKeyword, note.dataSet.string()},
+                                      {shotLineKeyword, note.shotLine},
+                                      {versionKeyword, version}};
+    std::erase_if(texts, [](const PictureText& text) { return text.text.empty(); });
+    return writePicture(picture, file, texts);
+}
+
+Result<fs::path> writeNewScreenshot(const Picture& picture, const ScreenshotNote& note) {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    Result<fs::path> file = newScreenshotFile(picturesFolder(), local);
+    if (!file) return file;
+    if (const Result<void> written = writeScreenshot(picture, *file, note); !written) {
+        std::error_code status;
+        fs::remove(*file, status);
+        return tl::unexpected(written.error());
+    }
+    return file;
+}
+
+Result<ScreenshotNote> readScreenshotNote(const fs::path& file) {
+    ScreenshotNote note;
+    std::string camera, dataSet;
+    const std::array<std::pair<const char*, std::string*>, 5> parts = {{
+        {settingsKeyword, &note.settings},
+        {cameraKeyword, &camera},
+        {dataSetKeyword, &dataSet},
+        {shotLineKeyword, &note.shotLine},
+        {versionKeyword, &note.version},
+    }};
+    for (const auto& [keyword, text] : parts) {
+        const Result<std::string> read = readPictureText(file, keyword);
+        if (!read) return tl::unexpected(read.error());
+        *text = *read;
+    }
+    if (note.settings.empty() || camera.empty()) {
+        return planet::badInput(
+            fmt::format("{}: holds no settings; expected a screenshot taken by Worldy, as it was written",
+                        file.string()));
+    }
+    const Result<planet::CameraPose> pose = poseFromText(camera);
+    if (!pose) {
+        return planet::badInput(fmt::format("{}: is damaged: its note of the camera is wrong ({})",
+                                            file.string(), pose.error().message));
+    }
+    note.camera = *pose;
+    note.dataSet = dataSet;
+    return note;
+}
+
+Result<fs::path> newScreenshotFile(const fs::path& folder, const std::tm& localTime) {
+    const std::string name = fmt::format("worldy {:%Y-%m-%d %H.%M.%S}", localTime);
+    for (int number = 1; number <= mostOfASecond; ++number) {
+        const fs::path file = folder / (number == 1 ? name + ".png" : fmt::format("{} {}.png", name, number));
+        const int descriptor = ::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            ::close(descriptor);
+            return file;
+        }
+        if (errno != EEXIST) {
+            return planet::ioError(fmt::format("{}: no picture can be written there: {}", folder.string(),
+                                               std::strerror(errno)));
+        }
+    }
+    return planet::ioError(
+        fmt::format("{}: has {} pictures of this second already", folder.string(), mostOfASecond));
+}
+
+bool isPng(const fs::path& file) {
+    constexpr std::array<char, 8> signature = {'\x89', 'P', 'N', 'G', '\r', '\n', '\x1a', '\n'};
+    std::error_code status;
+    if (!fs::is_regular_file(file, status)) return false;
+    std::array<char, 8> start{};
+    std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+    return start == signature;
+}
+
+Result<Settings> loadSettingsOfAnyKind(const fs::path& file) {
+    if (!isPng(file)) return loadSettings(file);
+    const Result<ScreenshotNote> note = readScreenshotNote(file);
+    if (!note) return tl::unexpected(note.error());
+    Result<Settings> settings = settingsFromText(note->settings, file);
+    if (!settings) return settings;
+    settings->camera = note->camera;
+    return settings;
+}
+
+}  // namespace worldy

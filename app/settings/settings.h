@@ -1,0 +1,47 @@
+// The settings that Worldy keeps between sessions, and the names of their enumerators. The table of all
+// settings, with their ranges, is in app/settings/settings_table.cpp; reading and writing them as text is in
+// app/settings/settings_text.h.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "planet/sphere/view.h"
+#include "ui/model/layout.h"
+#include "ui/model/view_settings.h"
+
+namespace worldy {
+
+// The names of the enumerators in files and on the command line, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 8> colourByNames = {"none",  "level", "error",      "delta_c",
+                                                                  "morph", "age",   "load_order", "measured"};
+inline constexpr std::array<std::string_view, 2> surfaceNames = {"image", "ramp"};
+inline constexpr std::array<std::string_view, 2> colourModeNames = {"tiles", "clipmap"};
+inline constexpr std::array<std::string_view, 2> errorMetricNames = {"additive", "tight"};
+inline constexpr std::array<std::string_view, 3> seamModeNames = {"none", "skirts", "stitched"};
+inline constexpr std::array<std::string_view, 2> skirtDepthNames = {"automatic", "fixed"};
+inline constexpr std::array<std::string_view, 3> skirtPaintNames = {"as_ground", "loud", "loud_alone"};
+inline constexpr std::array<std::string_view, 4> chunkLabelsNames = {"none", "level", "error",
+                                                                     "level_and_error"};
+inline constexpr std::array<std::string_view, 3> cameraModeNames = {"fly", "orbit", "follow_flight"};
+inline constexpr std::array<std::string_view, 3> observerModeNames = {"off", "split", "alone"};
+inline constexpr std::array<std::string_view, 4> compareModeNames = {"side_by_side", "wipe", "difference",
+                                                                     "flip"};
+inline constexpr std::array<std::string_view, 3> featureUseNames = {"automatic", "on", "off"};
+inline constexpr std::array<std::string_view, 3> layerPreviewNames = {"off", "heat", "mask"};
+inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
+inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};
+
+struct Settings {
+    std::string dataSet;      // chunk file, elevation image or faces to open; empty: the Earth
+    std::string colourImage;  // picture laid over it; empty: colour.jpg or colour.png beside the data set
+    ui::ViewSettings view;
+    planet::CameraPose camera{.altitudeM =
+                                  0};  // where a session starts; altitude 0: the whole planet in view
+    int windowWidthPx = 1600;          // [640, 16384]
+    int windowHeightPx = 1000;         // [400, 16384]
+    ui::Workspace workspace;
+};
+
+}  // namespace worldy

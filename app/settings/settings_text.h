@@ -1,0 +1,64 @@
+// Settings as text: TOML files, assignments of single settings, and differences. Pure but for reading and
+// writing files; any thread.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/settings/settings.h"
+#include "planet/base/result.h"
+#include "ui/model/setting_difference.h"
+#include "ui/model/view_settings.h"
+
+namespace worldy {
+
+// Returns true if every setting is the same.
+bool operator==(const Settings& a, const Settings& b);
+
+// Reads a settings file. Missing keys keep the values of base; keys of older versions are understood. The
+// Error names the file, the line, the key and what would be right.
+planet::Result<Settings> loadSettings(const std::filesystem::path& file, const Settings& base = {});
+// Does the same for text; place stands for the file's name in errors.
+planet::Result<Settings> settingsFromText(std::string_view text, const std::filesystem::path& place,
+                                          const Settings& base = {});
+
+// Returns the file's text: every setting with a sentence that explains it. Equal settings give equal text.
+// Colours are kept in steps of 1 / 255.
+std::string settingsText(const Settings& settings);
+
+planet::Result<void> saveSettings(const Settings& settings, const std::filesystem::path& file);
+
+// Sets one setting: "lod.tau_px=3", "surface.colour=ramp", texts with or without quotes. On failure nothing
+// changes, and the Error names the setting or the nearest one, and what would be right.
+planet::Result<void> setSetting(Settings& settings, std::string_view assignment);
+
+// Returns the view settings that differ, as text: "lod.tau_px", "2", "3".
+std::vector<ui::SettingDifference> differences(const Settings& here, const Settings& there);
+
+// Returns the assignments for setSetting that turn the default view settings into these.
+std::vector<std::string> assignmentsFor(const ui::ViewSettings& view);
+
+// A preset's file holds view settings, all of them or a few.
+struct ViewPart {
+    ui::ViewSettings values;
+    std::vector<std::string> names;  // of the settings that it holds, "lod.tau_px"
+};
+// Returns every view setting as TOML. Equal settings give equal text.
+std::string viewSettingsText(const ui::ViewSettings& view);
+// Reads the view settings of a file. Its other settings are checked but left out, so a settings file serves
+// too.
+planet::Result<ViewPart> loadViewPart(const std::filesystem::path& file);
+// Does the same for text; place stands for the file's name in errors.
+planet::Result<ViewPart> viewPartFromText(std::string_view text, const std::filesystem::path& place);
+// Returns the settings `now` with the values that the part holds.
+ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now);
+// Returns the settings that applying the part would change.
+std::vector<ui::SettingDifference> differences(const ui::ViewSettings& here, const ViewPart& there);
+
+// Reads a preset's file and applies it to the settings `now`.
+planet::Result<ui::ViewSettings> loadViewSettings(const std::filesystem::path& file,
+                                                  const ui::ViewSettings& now = {});
+
+}  // namespace worldy

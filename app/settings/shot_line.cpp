@@ -1,0 +1,38 @@
+#include "app/settings/shot_line.h"
+
+#include <fmt/format.h>
+
+#include "app/settings/settings_text.h"
+
+namespace worldy {
+
+namespace {
+
+// What begins with a dash would be taken for an option.
+std::string pathWord(const std::filesystem::path& path) {
+    const std::string text = path.string();
+    return shellWord(text.starts_with('-') ? "./" + text : text);
+}
+
+}  // namespace
+
+std::string shellWord(std::string_view text) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) return std::string(text);
+    std::string quoted = "'";
+    for (const char letter : text) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return quoted + "'";
+}
+
+std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
+                     const PictureSize& size, const ui::ViewSettings& view,
+                     const std::filesystem::path& colourImage) {
+    std::string line = fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(chunkFile),
+                                   cameraText(pose), size.widthPx, size.heightPx);
+    if (!colourImage.empty()) line += " --colour-image " + pathWord(colourImage);
+    for (const std::string& assignment : assignmentsFor(view)) line += " --set " + shellWord(assignment);
+    return line;
+}
+
+}  // namespace worldy

@@ -1,0 +1,365 @@
+#include "planet/bake/bake.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "planet/bake/bake_tile.h"
+#include "planet/bake/colour_bake.h"
+#include "planet/bake/level_images.h"
+#include "planet/base/atomic_file.h"
+#include "planet/base/little_endian.h"
+#include "planet/base/parallel.h"
+#include "planet/format/chunk_file_format.h"
+
+namespace planet {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Takes baked tiles in quadtree order, appends their blocks to the file, and merges upwards as soon as four
+// siblings are there; so it holds at most three chunks a level. Coarse chunks, whose cells are wider than a
+// tile, are kept instead: their tight metric, which the blocks that hold them must tell, is not known yet.
+class Assembler {
+public:
+    Assembler(const BakeContext& bake, int tileLevel, AtomicFile& file)
+        : bake_(bake),
+          file_(file),
+          coarsestLevel_(coarsestLevelOfTiles(bake.shape, tileLevel)),
+          waiting_(static_cast<std::size_t>(tileLevel) + 1),
+          offM_(static_cast<std::size_t>(tileLevel)),
+          coarse_(static_cast<std::size_t>(std::max(1, coarsestLevel_))) {}
+
+    Result<void> add(BakedTile&& tile) {
+        const std::uint64_t shift = file_.size() - provisionalOrigin;
+        if (tile.root.entry.children.exists()) tile.root.entry.children.offset += shift;
+        if (auto appended = file_.append(tile.blocks); !appended) return appended;
+        for (std::size_t i = 0; i < tile.offAboveM.size(); ++i) {
+            double& offM = offM_[static_cast<std::size_t>(coarsestLevel_) + i];
+            offM = std::max(offM, tile.offAboveM[i]);
+        }
+        return addChunk(std::move(tile.root));
+    }
+
+    // The coarse levels, once all tiles are added. goOn is asked before each block that is read, by one
+    // thread at a time.
+    Result<void> finish(int threads, const std::function<bool()>& goOn) {
+        for (int level = coarsestLevel_ - 1; level >= 0; --level) {
+            if (level < coarsestLevel_ - 1) {
+                if (auto merged = mergeCoarse(level); !merged) return merged;
+            }
+            if (auto searched = searchCoarse(level, threads, goOn); !searched) return searched;
+        }
+        return {};
+    }
+
+    std::span<const BakedChunk> roots() const { return coarse_[0]; }
+
+private:
+    using Siblings = std::span<const BakedChunk, quadrantCount>;
+
+    Result<void> addChunk(BakedChunk&& chunk) {
+        const std::size_t level = chunk.id.level;
+        if (level == 0 || chunk.id.level < coarsestLevel_) {
+            coarse_[level].push_back(std::move(chunk));
+            return {};
+        }
+        std::vector<BakedChunk>& siblings = waiting_[level];
+        siblings.push_back(std::move(chunk));
+        if (siblings.size() < quadrantCount) return {};
+        auto parent = merge(Siblings(siblings), std::exchange(offM_[level - 1], 0));
+        siblings.clear();
+        if (!parent) return tl::unexpected(parent.error());
+        return addChunk(*std::move(parent));
+    }
+
+    Result<BakedChunk> merge(Siblings children, double finestDistanceM) {
+        std::vector<std::byte> block;
+        BakedChunk parent = mergeChildren(bake_, parentOf(children[0].id), children, finestDistanceM,
+                                          file_.size(), scratch_, block);
+        if (auto appended = file_.append(block); !appended) return tl::unexpected(appended.error());
+        return parent;
+    }
+
+    Result<void> mergeCoarse(int level) {
+        const std::span<const BakedChunk> below = coarse_[static_cast<std::size_t>(level) + 1];
+        for (std::size_t i = 0; i < below.size(); i += quadrantCount) {
+            auto parent = merge(below.subspan(i).first<quadrantCount>(), 0);
+            if (!parent) return tl::unexpected(parent.error());
+            coarse_[static_cast<std::size_t>(level)].push_back(*std::move(parent));
+        }
+        return {};
+    }
+
+    // Raises the tight metric of a level's chunks to what they really lie off.
+    Result<void> searchCoarse(int level, int threads, const std::function<bool()>& goOn) {
+        const Result<ChunkFile> written = writtenSoFar();
+        if (!written) return tl::unexpected(written.error());
+        const ReadChildren readChildren = [&](const ChunkData& parent) {
+            return childrenOf(*written, parent);
+        };
+        std::vector<BakedChunk>& chunks = coarse_[static_cast<std::size_t>(level)];
+        std::mutex mutex;  // guards next and outcome, and goOn is asked under it
+        std::size_t next = 0;
+        Result<void> outcome;
+        const auto mayGoOn = [&] {
+            const std::lock_guard lock(mutex);
+            if (outcome && !goOn()) outcome = cancelled();
+            return outcome.has_value();
+        };
+        const auto work = [&] {
+            for (;;) {
+                std::unique_lock lock(mutex);
+                if (!outcome || next == chunks.size()) return;
+                BakedChunk& chunk = chunks[next++];
+                lock.unlock();
+                const Result<double> offM =
+                    searchFinestDistance(bake_.shape, dataOf(chunk), readChildren, mayGoOn);
+                lock.lock();
+                if (!offM && outcome) outcome = tl::unexpected(offM.error());
+                if (!outcome) return;
+                ChunkEntry& entry = chunk.entry;
+                entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
+            }
+        };
+        const std::size_t helpers = std::min(static_cast<std::size_t>(threads), chunks.size()) - 1;
+        std::vector<std::jthread> workers;
+        for (std::size_t i = 0; i < helpers; ++i) workers.emplace_back(work);
+        work();
+        workers.clear();  // waits for them
+        return outcome;
+    }
+
+    // The file as it stands, its header a stand-in until the roots are known.
+    Result<ChunkFile> writtenSoFar() {
+        ChunkFileInfo info;
+        info.shape = bake_.shape;
+        info.minStep = info.maxStep = coarse_[static_cast<std::size_t>(coarsestLevel_) - 1][0].entry.minStep;
+        if (auto written = file_.overwrite(0, headerBytes(info, file_.size())); !written) {
+            return tl::unexpected(written.error());
+        }
+        return ChunkFile::open(
+            file_.path().string(), file_.size(),
+            [this](std::uint64_t offset, std::span<std::byte> out) { return file_.read(offset, out); });
+    }
+
+    static ChunkData dataOf(const BakedChunk& chunk) {
+        const ChunkEntry& entry = chunk.entry;
+        return {chunk.id,      entry.deltaCM,  entry.deltaTightM, entry.minStep,
+                entry.maxStep, entry.children, chunk.heights};
+    }
+
+    Result<std::array<ChunkData, quadrantCount>> childrenOf(const ChunkFile& written,
+                                                            const ChunkData& parent) const {
+        if (parent.id.level + 1 >= coarsestLevel_) {
+            return written.readChildren(parent.id, parent.children, parent.heights);
+        }
+        const std::vector<BakedChunk>& level = coarse_[parent.id.level + 1u];
+        const std::uint64_t first = quadrantCount * indexInQuadtreeOrder(parent.id);
+        std::array<ChunkData, quadrantCount> children;
+        for (std::size_t q = 0; q < children.size(); ++q) children[q] = dataOf(level[first + q]);
+        return children;
+    }
+
+    const BakeContext& bake_;
+    AtomicFile& file_;
+    int coarsestLevel_;                             // of those whose tight metric tiles tell
+    std::vector<std::vector<BakedChunk>> waiting_;  // by level
+    std::vector<double> offM_;                      // by level, of the chunk whose tiles are being added
+    // The levels above coarsestLevel_, or the roots alone where there are none; each in quadtree order.
+    std::vector<std::vector<BakedChunk>> coarse_;
+    BakeScratch scratch_;
+};
+
+// Tells the caller how far it is, a few times a second.
+class ProgressMeter {
+public:
+    ProgressMeter(const BakeProgressCallback& callback, std::uint64_t samplesTotal)
+        : callback_(callback), total_(samplesTotal) {}
+
+    // False when the caller wants to stop.
+    bool add(std::uint64_t samples) {
+        done_ += samples;
+        const bool hasEnded = samples > 0 && done_ == total_;
+        const Clock::time_point now = Clock::now();
+        if (!callback_ || (!hasEnded && now - reported_ < std::chrono::milliseconds(100))) return true;
+        reported_ = now;
+        const double elapsedS = std::chrono::duration<double>(now - start_).count();
+        const double rate = elapsedS > 0 ? static_cast<double>(done_) / elapsedS : 0;
+        return callback_(
+            {done_, total_, elapsedS, rate, rate > 0 ? static_cast<double>(total_ - done_) / rate : 0});
+    }
+
+private:
+    const BakeProgressCallback& callback_;
+    std::uint64_t total_;
+    std::uint64_t done_ = 0;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point reported_ = start_;
+};
+
+Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Assembler& assembler,
+                       ProgressMeter& meter) {
+    const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
+    const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> tileLevel);
+    // What is under way at once, used in turn: they end in the order in which they began.
+    struct Work {
+        ChunkId id;
+        Result<BakedTile> tile;
+    };
+    std::vector<Work> underWay(static_cast<std::size_t>(threads) * 3);
+    tbb::enumerable_thread_specific<BakeScratch> scratches;
+    Result<void> outcome;
+    std::atomic<bool> stop = false;
+    std::uint64_t next = 0;
+    // Input and output run in order, one at a time; outcome belongs to the output.
+    const auto begin = [&](tbb::flow_control& control) -> std::size_t {
+        if (stop || next == tileCount) {
+            control.stop();
+            return 0;
+        }
+        const std::size_t place = next % underWay.size();
+        underWay[place].id = chunkInQuadtreeOrder(next++, tileLevel);
+        return place;
+    };
+    const auto bakeOne = [&](std::size_t place) {
+        underWay[place].tile = bakeTile(bake, underWay[place].id, scratches.local());
+        return place;
+    };
+    const auto write = [&](Result<BakedTile>&& tile) {
+        if (!tile) {
+            outcome = tl::unexpected(tile.error());
+        } else if (auto added = assembler.add(*std::move(tile)); !added) {
+            outcome = added;
+        } else if (!meter.add(cells * cells)) {
+            outcome = cancelled();
+        }
+        if (!outcome) stop = true;
+    };
+    const auto writeOne = [&](std::size_t place) {
+        if (outcome) write(std::move(underWay[place].tile));
+    };
+    using tbb::filter_mode;
+    Handover handover;
+    handover.give();
+    tbb::task_arena(threads).execute([&] {
+        tbb::parallel_pipeline(
+            underWay.size(),
+            tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, Stage(handover, begin)) &
+                tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, Stage(handover, bakeOne)) &
+                tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, Stage(handover, writeOne)));
+    });
+    handover.take();
+    return outcome;
+}
+
+// What a colour tile counts in progress.
+constexpr std::uint64_t samplesPerColourTile = std::uint64_t{colourTileCells} * colourTileCells;
+
+// The header last, with whatever colours there are.
+Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, AtomicFile& file,
+                        ChunkFileInfo& info) {
+    info.shape = bake.shape;
+    info.missingSamples = bake.source.missingCount;
+    info.source = bake.source.description;
+    info.minStep = assembler.roots()[0].entry.minStep;
+    info.maxStep = assembler.roots()[0].entry.maxStep;
+    for (const BakedChunk& root : assembler.roots()) {
+        info.minStep = std::min(info.minStep, root.entry.minStep);
+        info.maxStep = std::max(info.maxStep, root.entry.maxStep);
+        std::vector<std::byte> block;
+        if (leafLevel(bake.shape) > 0) putEntry(block, root.entry, file.size());
+        encodeGrid(root.heights, chunkSize(bake.shape), block);
+        ByteWriter(block).put(rootChecksum(block, root.id.face));
+        info.roots[static_cast<std::size_t>(root.id.face)] = {file.size(),
+                                                              static_cast<std::uint32_t>(block.size())};
+        if (auto appended = file.append(block); !appended) return appended;
+    }
+    return {};
+}
+
+Result<void> writeColours(const ColourSource& source, const BakeSettings& settings, AtomicFile& file,
+                          ProgressMeter& meter, ChunkFileInfo& info) {
+    auto pyramid = bakeColour(source, settings.colour, bakeThreads(settings), file,
+                              [&](std::uint64_t tiles) { return meter.add(tiles * samplesPerColourTile); });
+    if (!pyramid) return tl::unexpected(std::move(pyramid.error()));
+    info.colour = *std::move(pyramid);
+    return {};
+}
+
+}  // namespace
+
+Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
+                        const std::filesystem::path& output, const BakeProgressCallback& progress,
+                        const ColourSource* colour) {
+    const Clock::time_point start = Clock::now();
+    if (auto valid = checkBakeSettings(settings); !valid) return tl::unexpected(valid.error());
+    const auto shape = chooseShape(source, settings);
+    if (!shape) return tl::unexpected(shape.error());
+    const int tileLevel = tileLevelOf(*shape, settings.tileLevels);
+    const BakeContext context{source, *shape, settings.compressionLevel};
+    std::uint64_t colourTiles = 0;
+    if (colour) {
+        const Result<int> leaf = colourLeafLevel(*colour, settings.colour);
+        if (!leaf) return tl::unexpected(leaf.error());
+        colourTiles = tileCountOf(*leaf);
+    }
+
+    auto file = AtomicFile::create(output, settings.fileCalls);
+    if (!file) return tl::unexpected(file.error());
+    if (auto reserved = file->append(std::vector<std::byte>(chunkFileHeaderBytes)); !reserved) {
+        return tl::unexpected(reserved.error());
+    }
+    Assembler assembler(context, tileLevel, *file);
+    const auto cells = static_cast<std::uint64_t>(faceCells(*shape));
+    ProgressMeter meter(progress, faceCount * cells * cells + colourTiles * samplesPerColourTile);
+    const int threads = bakeThreads(settings);
+    if (auto baked = bakeTiles(context, tileLevel, threads, assembler, meter); !baked)
+        return tl::unexpected(baked.error());
+    if (auto finished = assembler.finish(threads, [&] { return meter.add(0); }); !finished)
+        return tl::unexpected(finished.error());
+    ChunkFileInfo info;
+    if (auto ended = writeRoots(context, assembler, *file, info); !ended)
+        return tl::unexpected(ended.error());
+    const std::uint64_t bytesWithoutColours = file->size();
+    if (colour) {
+        if (auto written = writeColours(*colour, settings, *file, meter, info); !written)
+            return tl::unexpected(written.error());
+    }
+    const std::uint64_t fileBytes = file->size();
+    if (auto ended = file->overwrite(0, headerBytes(info, fileBytes)); !ended)
+        return tl::unexpected(ended.error());
+    if (auto committed = file->commit(); !committed) return tl::unexpected(committed.error());
+
+    if (!settings.debugLevelsFolder.empty()) {
+        if (auto written = writeLevelImages(output, settings.debugLevelsFolder); !written) {
+            return tl::unexpected(written.error());
+        }
+    }
+    BakeReport report;
+    report.shape = *shape;
+    report.samples = sampleCountOf(*shape);
+    report.chunks = chunkCountOf(*shape);
+    report.fileBytes = fileBytes;
+    report.missingSamples = source.missingCount;
+    report.colourTiles = colourTiles;
+    report.colourBytes = fileBytes - bytesWithoutColours;
+    for (const BakedChunk& root : assembler.roots()) {
+        report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
+        report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);
+    }
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return report;
+}
+
+}  // namespace planet

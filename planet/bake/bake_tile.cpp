@@ -1,0 +1,187 @@
+#include "planet/bake/bake_tile.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+#include "planet/bake/quantise.h"
+#include "planet/base/little_endian.h"
+#include "planet/format/chunk_file_format.h"
+#include "planet/sphere/chunk_surface.h"
+
+namespace planet {
+
+namespace {
+
+std::span<std::int16_t> joinQuarters(const PlanetShape& shape,
+                                     std::span<const BakedChunk, quadrantCount> children,
+                                     std::vector<std::int16_t>& refined) {
+    const auto side = static_cast<std::size_t>(chunkSize(shape));
+    const std::size_t refinedSide = 2 * side - 1;
+    refined.resize(refinedSide * refinedSide);
+    for (std::size_t q = 0; q < children.size(); ++q) {
+        placeQuarter(children[q].heights, chunkCells(shape), static_cast<int>(q), refined);
+    }
+    return refined;
+}
+
+std::vector<std::int16_t> everyOther(std::span<const std::int16_t> refined, std::size_t side) {
+    const std::size_t refinedSide = 2 * side - 1;
+    std::vector<std::int16_t> coarse(side * side);
+    for (std::size_t j = 0; j < side; ++j) {
+        for (std::size_t i = 0; i < side; ++i) coarse[j * side + i] = refined[2 * j * refinedSide + 2 * i];
+    }
+    return coarse;
+}
+
+void appendChecksum(std::vector<std::byte>& blocks, std::size_t blockStart, const ChunkId& parent) {
+    const std::uint64_t sum = siblingChecksum(std::span(blocks).subspan(blockStart), parent);
+    ByteWriter(blocks).put(sum);
+}
+
+BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile& tile,
+                   std::span<const std::int16_t> steps) {
+    const auto side = static_cast<std::size_t>(chunkSize(bake.shape));
+    const auto cells = static_cast<std::size_t>(chunkCells(bake.shape));
+    const std::size_t column = id.x * cells - static_cast<std::size_t>(tile.firstColumn);
+    const std::size_t row = id.y * cells - static_cast<std::size_t>(tile.firstRow);
+    BakedChunk leaf;
+    leaf.id = id;
+    leaf.heights.resize(side * side);
+    for (std::size_t j = 0; j < side; ++j) {
+        const auto from = steps.subspan((row + j) * static_cast<std::size_t>(tile.columns) + column, side);
+        std::copy(from.begin(), from.end(), leaf.heights.begin() + static_cast<std::ptrdiff_t>(j * side));
+    }
+    const auto [lowest, highest] = std::minmax_element(leaf.heights.begin(), leaf.heights.end());
+    leaf.entry.minStep = *lowest;
+    leaf.entry.maxStep = *highest;
+    return leaf;
+}
+
+BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, const SampleTile& tile,
+                       BakeScratch& scratch, std::vector<std::byte>& blocks) {
+    if (id.level == leafLevel(bake.shape)) return cutLeaf(bake, id, tile, scratch.steps);
+    std::array<BakedChunk, quadrantCount> children;
+    for (int q = 0; q < quadrantCount; ++q) {
+        children[static_cast<std::size_t>(q)] = bakeSubtree(bake, childOf(id, q), tile, scratch, blocks);
+    }
+    const bool aboveLeaves = id.level + 1 == leafLevel(bake.shape);
+    const double finestDistanceM = aboveLeaves ? 0 : scratch.distances.of(id);
+    return mergeChildren(bake, id, children, finestDistanceM, provisionalOrigin, scratch, blocks);
+}
+
+}  // namespace
+
+Result<void> checkBakeSettings(const BakeSettings& settings) {
+    if (settings.compressionLevel < minCompressionLevel || settings.compressionLevel > maxCompressionLevel) {
+        return badInput(fmt::format("compression level {}: must be {} to {}", settings.compressionLevel,
+                                    minCompressionLevel, maxCompressionLevel));
+    }
+    if (settings.threads < 0 || settings.threads > 1024) {
+        return badInput(fmt::format("{} threads: must be 1 to 1024, or 0 for one a core", settings.threads));
+    }
+    if (settings.tileLevels.value_or(0) < 0 || settings.tileLevels.value_or(0) > 10) {
+        return badInput(fmt::format("{} levels a tile: must be 0 to 10", *settings.tileLevels));
+    }
+    return {};
+}
+
+Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& settings) {
+    PlanetShape shape;
+    const int chunk = settings.chunkSize;
+    if (chunk != 17 && chunk != 33 && chunk != 65 && chunk != 129) {
+        return badInput(fmt::format("chunk size {}: must be 17, 33, 65 or 129", chunk));
+    }
+    shape.chunkCellsLog2 = std::countr_zero(static_cast<unsigned>(chunk - 1));
+    const int face = settings.faceSize.value_or(std::max(source.naturalFaceSize, chunk));
+    if (face < 2 || !std::has_single_bit(static_cast<unsigned>(face - 1))) {
+        return badInput(fmt::format("face size {}: must be 2^n + 1, such as 1025, 2049 or 4097", face));
+    }
+    shape.faceCellsLog2 = std::countr_zero(static_cast<unsigned>(face - 1));
+    if (face < chunk || shape.faceCellsLog2 > maxFaceCellsLog2 || leafLevel(shape) > maxLevel) {
+        return badInput(fmt::format("face size {}: must be from the chunk size {} to {}", face, chunk,
+                                    (1 << std::min(maxFaceCellsLog2, maxLevel + shape.chunkCellsLog2)) + 1));
+    }
+    if (!(settings.radiusM > 0 && settings.radiusM <= 1e9)) {
+        return badInput(fmt::format("radius {} m: must be over 0 and at most 1e9", settings.radiusM));
+    }
+    shape.radiusM = settings.radiusM;
+    if (auto chosen = chooseQuantum(source, settings.quantumM, shape); !chosen)
+        return tl::unexpected(chosen.error());
+    if (shape.radiusM + heightM(shape, -32768) <= 0 && shape.radiusM + source.minM <= 0) {
+        return badInput(
+            fmt::format("{}: its lowest height, {} m, is below the centre of a planet of radius {} m",
+                        source.description, source.minM, shape.radiusM));
+    }
+    return shape;
+}
+
+int bakeThreads(const BakeSettings& settings) {
+    return settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
+}
+
+Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch) {
+    const int cells = faceCells(bake.shape) >> root.level;
+    const SampleTile tile{root.face,
+                          faceCells(bake.shape),
+                          static_cast<int>(root.x) * cells,
+                          static_cast<int>(root.y) * cells,
+                          cells + 1,
+                          cells + 1};
+    const auto count = static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows);
+    scratch.sampledM.resize(count);
+    scratch.steps.resize(count);
+    if (auto sampled = bake.source.sample(tile, scratch.sampledM); !sampled) {
+        return tl::unexpected(sampled.error());
+    }
+    if (auto fitted = quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps); !fitted) {
+        return tl::unexpected(fitted.error());
+    }
+    measureTile(bake.shape, root, scratch.steps, scratch.geometry, scratch.distances);
+    BakedTile result;
+    for (int level = scratch.distances.coarsestLevel;
+         level <= std::min(root.level - 1, leafLevel(bake.shape) - 2); ++level) {
+        result.offAboveM.push_back(scratch.distances.above(level));
+    }
+    result.root = bakeSubtree(bake, root, tile, scratch, result.blocks);
+    return result;
+}
+
+BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
+                         std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
+                         std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks) {
+    const auto refined = joinQuarters(bake.shape, children, scratch.refined);
+    BakedChunk chunk;
+    chunk.id = parent;
+    chunk.heights = everyOther(refined, static_cast<std::size_t>(chunkSize(bake.shape)));
+    chunk.entry.minStep = children[0].entry.minStep;
+    chunk.entry.maxStep = children[0].entry.maxStep;
+    float childrenDeltaM = 0;
+    float childrenTightM = 0;
+    for (const BakedChunk& child : children) {
+        chunk.entry.minStep = std::min(chunk.entry.minStep, child.entry.minStep);
+        chunk.entry.maxStep = std::max(chunk.entry.maxStep, child.entry.maxStep);
+        childrenDeltaM = std::max(childrenDeltaM, child.entry.deltaCM);
+        childrenTightM = std::max(childrenTightM, child.entry.deltaTightM);
+    }
+    const double deltaG = geometricErrorM(bake.shape, parent, refined, scratch.geometry);
+    chunk.entry.deltaCM = roundedUp(deltaG + childrenDeltaM);
+    const bool aboveLeaves = parent.level + 1 == leafLevel(bake.shape);
+    chunk.entry.deltaTightM =
+        tightMetric(aboveLeaves ? deltaG : finestDistanceM, childrenTightM, chunk.entry.deltaCM);
+
+    const std::size_t start = blocks.size();
+    const std::uint64_t offset = origin + start;
+    if (!aboveLeaves) {
+        for (const BakedChunk& child : children) putEntry(blocks, child.entry, offset);
+    }
+    encodeRefinement(refined, chunkCells(bake.shape), bake.compressionLevel, blocks);
+    appendChecksum(blocks, start, parent);
+    chunk.entry.children = {offset, static_cast<std::uint32_t>(blocks.size() - start)};
+    return chunk;
+}
+
+}  // namespace planet

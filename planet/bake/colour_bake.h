@@ -1,0 +1,27 @@
+// Bakes a colour source into the colour quadtree of a chunk file: level by level from the finest, so that
+// children's blocks come before their parents'. In memory at a time: a few tiles a thread, and 12 bytes for
+// each block of one level.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "planet/bake/bake_settings.h"
+#include "planet/base/atomic_file.h"
+#include "planet/base/result.h"
+#include "planet/format/chunk_file_types.h"
+#include "planet/source/colour_source.h"
+
+namespace planet {
+
+// The finest level of a source's tiles. The Error names the setting and its range.
+Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings& settings);
+
+// Called after every few tiles, by the calling thread, with how many more are done; false cancels.
+using ColourProgress = std::function<bool(std::uint64_t moreTiles)>;
+
+// Appends the blocks. The same source and settings give the same bytes whatever the number of threads.
+Result<ColourPyramid> bakeColour(const ColourSource& source, const ColourBakeSettings& settings, int threads,
+                                 AtomicFile& file, const ColourProgress& progress);
+
+}  // namespace planet

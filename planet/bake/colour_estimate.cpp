@@ -1,0 +1,121 @@
+#include "planet/bake/colour_estimate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "planet/bake/colour_bake.h"
+#include "planet/bake/colour_tile_sampling.h"
+#include "planet/bake/spread_places.h"
+#include "planet/base/elapsed.h"
+#include "planet/format/chunk_file_format.h"
+#include "planet/format/colour_tile.h"
+#include "planet/format/tile_layout.h"
+
+namespace planet {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t leafTilesPacked = 12;
+constexpr std::uint64_t upperTilesPacked = 6;
+// A thread's own: linear colours, one channel of them, and the tile as sRGB, as texels and packed.
+constexpr std::uint64_t bytesPerTexelAtWork = sizeof(glm::vec3) + sizeof(float) + 3 * 3;
+
+struct PackedTiles {
+    double readS = 0;        // getting what the source has to read first
+    double tileS = 0;        // of one tile, with that at hand
+    double packedBytes = 0;  // of one tile
+};
+
+// One texel in its middle is enough to have the source read what lies around there.
+Result<void> readMiddle(const ColourSource& source, const ChunkId& id) {
+    const int middle = colourTileCells / 2;
+    glm::vec3 colour;
+    return source.sample(
+        {id.face, colourTileCells << id.level, static_cast<int>(id.x) * colourTileCells + middle,
+         static_cast<int>(id.y) * colourTileCells + middle, 1, 1},
+        {&colour, 1});
+}
+
+Result<PackedTiles> packTiles(const ColourSource& source, ColourFormat format, int level,
+                              std::uint64_t wanted, const std::function<bool()>& goOn) {
+    PackedTiles sum;
+    std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
+    const std::vector<ChunkId> places = spreadPlaces(level, wanted);
+    for (const ChunkId& id : places) {
+        if (goOn && !goOn()) return cancelled();
+        const Clock::time_point start = Clock::now();
+        if (auto read = readMiddle(source, id); !read) return tl::unexpected(read.error());
+        sum.readS += secondsSince(start);
+        const Clock::time_point packing = Clock::now();
+        if (auto sampled = sampleColourTile(source, id, rgb); !sampled)
+            return tl::unexpected(sampled.error());
+        sum.packedBytes += static_cast<double>(packColourTexels(format, colourTexels(format, rgb)).size());
+        sum.tileS += secondsSince(packing);
+    }
+    const auto count = static_cast<double>(places.size());
+    return PackedTiles{sum.readS, sum.tileS / count, sum.packedBytes / count};
+}
+
+// Of all levels, one thread. A tile costs its packing, and its share of the source: each level reads the
+// whole of it, so a tile of a coarser level four times as much. What a coarser level's tile takes more in
+// the file than a finer one's it takes again on the next, no more than a tile may.
+struct AllTiles {
+    double seconds = 0;
+    double bytes = 0;
+};
+AllTiles allTiles(const PackedTiles& leaf, const PackedTiles& upper, int leafLevel, ColourFormat format) {
+    AllTiles all;
+    const double sourceS = std::clamp((upper.tileS - leaf.tileS) / 3, 0.0, leaf.tileS);
+    const double packingS = leaf.tileS - sourceS;
+    const double growth = upper.packedBytes - leaf.packedBytes;
+    const auto most = static_cast<double>(largestPackedColourTile(format));
+    double bytes = leaf.packedBytes;
+    double sourceShare = 1;
+    for (int level = leafLevel; level >= 0; --level) {
+        const auto tiles = static_cast<double>(std::uint64_t{faceCount} << (2 * level));
+        all.seconds += tiles * (packingS + sourceShare * sourceS);
+        const double blocks = level == 0 ? tiles : tiles / quadrantCount;
+        all.bytes += tiles * (bytes + static_cast<double>(colourEntryBytes)) +
+                     blocks * static_cast<double>(checksumBytes);
+        bytes = std::clamp(bytes + growth, 0.0, most);
+        sourceShare *= 4;
+    }
+    return all;
+}
+
+}  // namespace
+
+Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
+                                       int threads, std::size_t cacheBytes,
+                                       const std::function<bool()>& goOn) {
+    const Result<int> leafLevel = colourLeafLevel(source, settings);
+    if (!leafLevel) return tl::unexpected(leafLevel.error());
+    const auto leaf = packTiles(source, settings.format, *leafLevel, leafTilesPacked, goOn);
+    if (!leaf) return tl::unexpected(leaf.error());
+    PackedTiles upper = *leaf;
+    if (*leafLevel > 0) {
+        const auto packed = packTiles(source, settings.format, *leafLevel - 1, upperTilesPacked, goOn);
+        if (!packed) return tl::unexpected(packed.error());
+        upper = *packed;
+    }
+    const AllTiles all = allTiles(*leaf, upper, *leafLevel, settings.format);
+
+    ColourEstimate estimate;
+    estimate.faceSize = (colourTileCells << *leafLevel) + 1;
+    estimate.levels = *leafLevel + 1;
+    estimate.tiles = tileCountOf(*leafLevel);
+    estimate.fileBytes = all.bytes;
+    estimate.seconds = leaf->readS + all.seconds / threads;
+    const std::uint64_t texelsOfTile = std::uint64_t{colourTileTexels} * colourTileTexels;
+    const std::uint64_t finestBlocks = (std::uint64_t{faceCount} << (2 * *leafLevel)) / quadrantCount + 1;
+    estimate.bakeBytes = cacheBytes +
+                         static_cast<std::uint64_t>(threads) * texelsOfTile * bytesPerTexelAtWork +
+                         finestBlocks * sizeof(BlockLocation);
+    estimate.residentBytes = estimate.tiles * colourTileBytes(settings.format);
+    return estimate;
+}
+
+}  // namespace planet

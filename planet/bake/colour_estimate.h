@@ -1,0 +1,29 @@
+// What baking a colour source would cost, before it is done: by packing a few of its tiles. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "planet/bake/bake_settings.h"
+#include "planet/base/result.h"
+#include "planet/source/colour_source.h"
+
+namespace planet {
+
+// Of the tiles of colour alone.
+struct ColourEstimate {
+    int faceSize = 0;                 // texels a side
+    int levels = 0;                   // of tiles
+    std::uint64_t tiles = 0;          // of all levels
+    double fileBytes = 0;             // that they add to the file
+    double seconds = 0;               // that they add to the bake, on this machine with so many threads
+    std::uint64_t bakeBytes = 0;      // memory, while they are baked: what the source may keep, and tiles
+    std::uint64_t residentBytes = 0;  // memory, were all of them resident on the GPU
+};
+
+// cacheBytes: what the source was opened with. goOn is asked between tiles; false cancels.
+Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
+                                       int threads, std::size_t cacheBytes = defaultColourCacheBytes,
+                                       const std::function<bool()>& goOn = {});
+
+}  // namespace planet

@@ -1,0 +1,168 @@
+#include "planet/bake/colour_report.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cassert>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "planet/bake/colour_tile_sampling.h"
+#include "planet/format/chunk_file_format.h"
+#include "planet/format/colour_tile.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::size_t mostColourProblems = 100;
+
+Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLocation block,
+                           std::vector<ColourLevelReport>& levels, std::uint64_t& bytesLeft) {
+    ColourLevelReport& level = levels[parent.level + 1u];
+    level.tiles += quadrantCount;
+    level.bytes += block.size;
+    if (auto spent = spendOn(file, block, bytesLeft); !spent) return spent;
+    if (level.level == file.info().colour->leafLevel) return {};
+    const auto entries = file.readColourEntries(parent, block);
+    if (!entries) return tl::unexpected(entries.error());
+    for (std::size_t q = 0; q < entries->size(); ++q) {
+        const ChunkId child = childOf(parent, static_cast<int>(q));
+        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels, bytesLeft); !done)
+            return done;
+    }
+    return {};
+}
+
+// An edge between two tiles of a face, the same from both: along u or v, and where on the level's grid.
+using TileEdge = std::tuple<Face, int, bool, std::uint32_t, std::uint32_t>;
+
+struct SeenTileEdge {
+    ChunkId tile;
+    std::uint64_t hash;
+};
+
+// Of the texels on an edge as they are drawn.
+std::uint64_t hashOfEdge(std::span<const std::uint8_t> rgb, Edge edge) {
+    const bool upright = edge == Edge::West || edge == Edge::East;
+    const int across = edge == Edge::East || edge == Edge::North ? colourTileCells : 0;
+    std::vector<std::uint8_t> texels;
+    for (int along = 0; along <= colourTileCells; ++along) {
+        const int column = colourBorderBefore + (upright ? across : along);
+        const int row = colourBorderBefore + (upright ? along : across);
+        const auto at = 3 * static_cast<std::size_t>(row * colourTileTexels + column);
+        texels.insert(texels.end(), rgb.begin() + static_cast<std::ptrdiff_t>(at),
+                      rgb.begin() + static_cast<std::ptrdiff_t>(at + 3));
+    }
+    return XXH3_64bits(texels.data(), texels.size());
+}
+
+class ColourVerifier {
+public:
+    ColourVerifier(const ChunkFile& file, const ColourSource* source, const std::function<bool()>& goOn)
+        : file_(file), colour_(*file.info().colour), source_(source), goOn_(goOn) {}
+
+    Result<ColourVerifyReport> run() {
+        for (const Face face : allFaces) {
+            const auto root = file_.readColourRoot(face);
+            if (!root) {
+                problem(root.error().message);
+            } else if (auto done = visit(*root); !done) {
+                return tl::unexpected(done.error());
+            }
+        }
+        return report_;
+    }
+
+private:
+    Result<void> visit(const TileData& tile) {
+        if (goOn_ && !goOn_()) return cancelled();
+        ++report_.tiles;
+        const std::vector<std::uint8_t> rgb = rgbOfColourTexels(colour_.format, tile.texels);
+        for (const Edge edge : allEdges) checkEdge(tile.id, edge, rgb);
+        if (source_) {
+            if (auto compared = compare(tile); !compared) return compared;
+        }
+        if (tile.id.level == colour_.leafLevel) return {};
+        const auto children = file_.readColourChildren(tile.id, tile.children);
+        if (!children) {
+            problem(children.error().message);
+            return {};
+        }
+        for (const TileData& child : *children) {
+            if (auto done = visit(child); !done) return done;
+        }
+        return {};
+    }
+
+    void checkEdge(const ChunkId& id, Edge edge, std::span<const std::uint8_t> rgb) {
+        const bool upright = edge == Edge::West || edge == Edge::East;
+        const std::uint32_t x = id.x + (edge == Edge::East ? 1 : 0);
+        const std::uint32_t y = id.y + (edge == Edge::North ? 1 : 0);
+        const std::uint32_t across = upright ? x : y;
+        if (across == 0 || across == 1u << id.level) return;  // a face's own edge
+        const std::uint64_t hash = hashOfEdge(rgb, edge);
+        const auto [seen, isFirst] =
+            open_.try_emplace(TileEdge{id.face, id.level, upright, x, y}, SeenTileEdge{id, hash});
+        if (isFirst) return;
+        ++report_.edges;
+        if (seen->second.hash != hash) {
+            problem(fmt::format("{}: the colours of tiles {} and {} differ along the edge they share",
+                                file_.name(), toString(seen->second.tile), toString(id)));
+        }
+        open_.erase(seen);
+    }
+
+    Result<void> compare(const TileData& tile) {
+        std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
+        if (auto sampled = sampleColourTile(*source_, tile.id, rgb); !sampled) return sampled;
+        ++report_.compared;
+        if (colourTexels(colour_.format, rgb) != tile.texels) {
+            problem(fmt::format("{}: the colours of tile {} are not those of {}", file_.name(),
+                                toString(tile.id), source_->description));
+        }
+        return {};
+    }
+
+    void problem(std::string what) {
+        ++report_.problemCount;
+        if (report_.problems.size() < mostColourProblems) report_.problems.push_back(std::move(what));
+    }
+
+    const ChunkFile& file_;
+    const ColourPyramid& colour_;
+    const ColourSource* source_;
+    const std::function<bool()>& goOn_;
+    std::map<TileEdge, SeenTileEdge> open_;
+    ColourVerifyReport report_;
+};
+
+}  // namespace
+
+Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file) {
+    assert(file.info().colour);
+    const ColourPyramid& colour = *file.info().colour;
+    std::vector<ColourLevelReport> levels(static_cast<std::size_t>(colour.leafLevel) + 1);
+    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].level = static_cast<int>(i);
+    std::uint64_t bytesLeft = file.sizeBytes();
+    for (const Face face : allFaces) {
+        const BlockLocation block = colour.roots[static_cast<std::size_t>(face)];
+        levels[0].tiles += 1;
+        levels[0].bytes += block.size;
+        if (colour.leafLevel == 0) continue;
+        const auto root = file.readColourRoot(face);
+        if (!root) return tl::unexpected(root.error());
+        if (auto done = tallyChildren(file, root->id, root->children, levels, bytesLeft); !done)
+            return tl::unexpected(done.error());
+    }
+    return levels;
+}
+
+Result<ColourVerifyReport> verifyColours(const ChunkFile& file, const ColourSource* source,
+                                         const std::function<bool()>& goOn) {
+    assert(file.info().colour);
+    return ColourVerifier(file, source, goOn).run();
+}
+
+}  // namespace planet

@@ -1,0 +1,78 @@
+// What a chunk file holds, whether it holds what it promises, and what it says of one place. All read the
+// file once, depth first, holding one path of chunks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/format/chunk_file.h"
+#include "planet/source/height_source_types.h"
+#include "planet/sphere/bounds.h"
+
+namespace planet {
+
+struct LevelReport {
+    int level = 0;
+    std::uint64_t chunks = 0;
+    std::uint64_t bytes = 0;  // of the blocks that hold this level's chunks
+    float minDeltaM = 0;      // delta_c over the level's chunks
+    float medianDeltaM = 0;
+    float p99DeltaM = 0;
+    float maxDeltaM = 0;
+    double meanDeltaM = 0;
+    double meanTightM = 0;  // the tight metric over the same chunks
+    float maxTightM = 0;
+};
+
+struct FileReport {
+    std::uint64_t fileBytes = 0;
+    std::uint64_t finestSamples = 0;  // distinct ones
+    double bitsPerFinestSample = 0;   // all levels of heights together
+    std::vector<LevelReport> levels;
+};
+
+// Reads the index alone, not the heights.
+Result<FileReport> reportFile(const ChunkFile& file);
+
+struct VerifyReport {
+    std::uint64_t chunks = 0;       // read and checked
+    std::uint64_t edges = 0;        // shared edges compared
+    std::uint64_t leafSamples = 0;  // compared with the source; 0 without one
+    std::uint64_t problemCount = 0;
+    std::vector<std::string> problems;  // the first 100, each naming its chunk
+};
+
+// Called every few hundred chunks with how many of how many are done; false cancels.
+using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std::uint64_t chunksTotal)>;
+
+// Checks every block's checksum; that delta_c and the tight metric are what the heights give and never grow
+// downwards; that
+// extremes hold all finest heights and bounds hold every vertex; that every edge two chunks of a level share
+// is the same in both. With the source it was baked from, given with the same settings, compares the finest
+// heights too. Damage is a problem in the report; the Error is for a source that cannot be read or belongs to
+// another planet.
+Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
+                                const VerifyProgressCallback& progress = {});
+
+struct ProbeChunk {
+    ChunkId id;
+    float deltaCM = 0;
+    float deltaTightM = 0;
+    double minHeightM = 0;  // over the finest samples under it
+    double maxHeightM = 0;
+    double heightM = 0;  // of this chunk's own surface at the place
+    ChunkBounds bounds;
+};
+
+struct ProbeReport {
+    FacePoint place;
+    double heightM = 0;             // on the finest surface
+    std::vector<ProbeChunk> chain;  // root first
+};
+
+Result<ProbeReport> probeFile(const ChunkFile& file, const Geographic& place);
+
+}  // namespace planet

@@ -1,0 +1,124 @@
+#include "planet/bake/level_images.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <system_error>
+#include <vector>
+
+#include "planet/base/atomic_file.h"
+#include "planet/format/chunk_file.h"
+
+namespace planet {
+
+namespace {
+
+using VisitChunk = std::function<void(const ChunkData&)>;
+
+// Visits the chunks of a level that lie in one row of it, west to east, from a chunk above them.
+Result<void> visitRow(const ChunkFile& file, const ChunkData& above, int level, std::uint32_t row,
+                      const VisitChunk& visit) {
+    if (above.id.level == level) {
+        visit(above);
+        return {};
+    }
+    const auto children = file.readChildren(above.id, above.children, above.heights);
+    if (!children) return tl::unexpected(children.error());
+    for (const ChunkData& child : *children) {
+        if (row >> (level - child.id.level) != child.id.y) continue;
+        if (auto visited = visitRow(file, child, level, row, visit); !visited) return visited;
+    }
+    return {};
+}
+
+class LevelImage {
+public:
+    LevelImage(const ChunkFile& file, const ChunkData& root, int level)
+        : file_(file),
+          root_(root),
+          level_(level),
+          cells_(chunkCells(file.info().shape)),
+          width_((cells_ << level) + 1),
+          band_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(cells_ + 1)) {}
+
+    // Under another name, which it is to get, for messages.
+    Result<void> write(const std::filesystem::path& path, const std::filesystem::path& temporary) {
+        const auto output = OIIO::ImageOutput::create(temporary.string());
+        const OIIO::ImageSpec spec(width_, width_, 1, OIIO::TypeDesc::UINT16);
+        if (!output || !output->open(temporary.string(), spec)) {
+            return ioError(fmt::format("{}: cannot write it: {}", path.string(),
+                                       output ? output->geterror() : OIIO::geterror()));
+        }
+        int nextRow = 0;
+        for (std::uint32_t row = 1u << level_; row-- > 0;) {
+            if (auto filled = fillBand(row); !filled) return filled;
+            // Neighbouring bands share a row; the southern one leaves it to the northern one.
+            const int first = nextRow == 0 ? 0 : 1;
+            for (int j = first; j <= cells_; ++j) {
+                const auto* const line =
+                    band_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
+                if (!output->write_scanline(nextRow++, 0, OIIO::TypeDesc::UINT16, line)) {
+                    return ioError(fmt::format("{}: writing failed: {}", path.string(), output->geterror()));
+                }
+            }
+        }
+        if (!output->close())
+            return ioError(fmt::format("{}: writing failed: {}", path.string(), output->geterror()));
+        return {};
+    }
+
+private:
+    Result<void> fillBand(std::uint32_t row) {
+        return visitRow(file_, root_, level_, row, [this](const ChunkData& chunk) {
+            const auto side = static_cast<std::size_t>(cells_) + 1;
+            const std::size_t column = chunk.id.x * (side - 1);
+            for (std::size_t j = 0; j < side; ++j) {
+                for (std::size_t i = 0; i < side; ++i) {
+                    band_[(side - 1 - j) * static_cast<std::size_t>(width_) + column + i] =
+                        grey(chunk.heights[j * side + i]);
+                }
+            }
+        });
+    }
+
+    std::uint16_t grey(std::int16_t step) const {
+        const int lowest = file_.info().minStep;
+        const int range = std::max(1, file_.info().maxStep - lowest);
+        return static_cast<std::uint16_t>(static_cast<std::int64_t>(step - lowest) * 65535 / range);
+    }
+
+    const ChunkFile& file_;
+    const ChunkData& root_;
+    int level_;
+    int cells_;
+    int width_;
+    std::vector<std::uint16_t> band_;  // one row of chunks, north first
+};
+
+}  // namespace
+
+Result<void> writeLevelImages(const std::filesystem::path& chunkFile, const std::filesystem::path& folder) {
+    const auto file = ChunkFile::open(chunkFile);
+    if (!file) return tl::unexpected(file.error());
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem)
+        return ioError(fmt::format("{}: cannot make this folder: {}", folder.string(), problem.message()));
+    for (const Face face : allFaces) {
+        const auto root = file->readRoot(face);
+        if (!root) return tl::unexpected(root.error());
+        for (int level = 0; level <= leafLevel(file->info().shape); ++level) {
+            const auto path = folder / fmt::format("{}_level{:02}.png", faceName(face), level);
+            const auto written = writeAtomically(path, [&](const std::filesystem::path& temporary) {
+                return LevelImage(*file, *root, level).write(path, temporary);
+            });
+            if (!written) return written;
+        }
+    }
+    return {};
+}
+
+}  // namespace planet

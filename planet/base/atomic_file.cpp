@@ -1,0 +1,176 @@
+#include "planet/base/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace planet {
+
+namespace {
+
+tl::unexpected<Error> systemError(const std::filesystem::path& path, const char* what) {
+    return ioError(fmt::format("{}: {}: {}", path.string(), what, lastSystemError()));
+}
+
+// The rename would put a file in the place of whatever is there, a device too.
+Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& calls) {
+    struct stat there {};
+    if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) {
+        if (errno == ENOENT) return {};
+        return systemError(path, "cannot be written");
+    }
+    if (S_ISREG(there.st_mode)) return {};
+    return ioError(path.string() + ": is a folder or a device; name a file");
+}
+
+// The file that a chain of symbolic links leads to, whether it exists or not; path itself if it is no link.
+Result<std::filesystem::path> linkTarget(const std::filesystem::path& path) {
+    constexpr int mostLinks = 40;  // as the kernel follows
+    std::filesystem::path target = path;
+    for (int i = 0; i <= mostLinks; ++i) {
+        std::error_code status;
+        if (!std::filesystem::is_symlink(target, status)) return target;
+        const std::filesystem::path next = std::filesystem::read_symlink(target, status);
+        if (status) return ioError(fmt::format("{}: cannot be written: {}", path.string(), status.message()));
+        target = target.parent_path() / next;
+    }
+    return ioError(fmt::format("{}: cannot be written: too many symbolic links", path.string()));
+}
+
+// False where the lock was won on a file that its last writer has renamed or removed meanwhile.
+Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& temporary,
+                          const std::filesystem::path& path) {
+    struct stat opened {};
+    struct stat named {};
+    const FileCalls& calls = file.calls();
+    if (uninterrupted([&] { return calls.fstat(file.descriptor(), &opened); }) != 0)
+        return systemError(path, "cannot be written");
+    if (uninterrupted([&] { return calls.stat(temporary.c_str(), &named); }) != 0) {
+        if (errno == ENOENT) return false;
+        return systemError(path, "cannot be written");
+    }
+    return opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+void syncFolderOf(const std::filesystem::path& path, const FileCalls& calls) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const auto opened = OpenFile::open(folder, O_RDONLY | O_DIRECTORY, calls);
+    if (opened) uninterrupted([&] { return calls.fsync(opened->descriptor()); });
+}
+
+Result<void> copyInto(AtomicFile& file, const std::filesystem::path& from) {
+    constexpr std::size_t pieceBytes = std::size_t{1} << 20;
+    std::error_code status;
+    std::uintmax_t left = std::filesystem::file_size(from, status);
+    if (status) return ioError(fmt::format("{}: cannot be read: {}", from.string(), status.message()));
+    const auto opened = OpenFile::open(from, O_RDONLY, systemFileCalls());
+    if (!opened) return tl::unexpected(opened.error());
+    std::vector<std::byte> piece;
+    while (left > 0) {
+        piece.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(left, pieceBytes)));
+        if (auto read = opened->read(file.size(), piece); !read) return read;
+        if (auto written = file.append(piece); !written) return written;
+        left -= piece.size();
+    }
+    return {};
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path target,
+                       std::filesystem::path temporary, OpenFile file)
+    : path_(std::move(path)),
+      target_(std::move(target)),
+      temporary_(std::move(temporary)),
+      file_(std::move(file)) {}
+
+Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const FileCalls& calls) {
+    if (auto free = checkPlace(path, calls); !free) return tl::unexpected(std::move(free.error()));
+    const Result<std::filesystem::path> target = linkTarget(path);
+    if (!target) return tl::unexpected(target.error());
+    std::filesystem::path temporary = *target;
+    temporary.replace_filename("." + target->filename().string() + ".part");
+    for (;;) {
+        const int descriptor =
+            uninterrupted([&] { return calls.open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644); });
+        if (descriptor < 0) return systemError(path, "cannot be written");
+        OpenFile opened(descriptor, path.string(), calls);
+        if (uninterrupted([&] { return calls.flock(descriptor, LOCK_EX | LOCK_NB); }) != 0) {
+            if (errno == EWOULDBLOCK)
+                return ioError(path.string() +
+                               ": another program is writing this file; wait for it or name another");
+            // Nobody can lock it, so it is nobody's.
+            const auto problem = systemError(path, "cannot be locked");
+            calls.unlink(temporary.c_str());
+            return problem;
+        }
+        // From here on the temporary file is removed on any Error.
+        AtomicFile file(path, *target, temporary, std::move(opened));
+        const Result<bool> own = stillHasName(file.file_, temporary, path);
+        if (!own) return tl::unexpected(own.error());
+        if (!*own) {
+            file.file_.close();
+            continue;
+        }
+        if (uninterrupted([&] { return calls.ftruncate(descriptor, 0); }) != 0)
+            return systemError(path, "cannot be written");
+        return file;
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    if (file_.descriptor() >= 0) file_.calls().unlink(temporary_.c_str());
+}
+
+Result<void> AtomicFile::append(std::span<const std::byte> bytes) {
+    const Result<void> written = file_.write(size_, bytes);
+    if (written) size_ += bytes.size();
+    return written;
+}
+
+Result<void> AtomicFile::overwrite(std::uint64_t offset, std::span<const std::byte> bytes) {
+    assert(offset + bytes.size() <= size_);
+    return file_.write(offset, bytes);
+}
+
+Result<void> AtomicFile::read(std::uint64_t offset, std::span<std::byte> out) const {
+    assert(offset + out.size() <= size_);
+    return file_.read(offset, out);
+}
+
+Result<void> AtomicFile::commit() {
+    const FileCalls& calls = file_.calls();
+    if (uninterrupted([&] { return calls.fsync(file_.descriptor()); }) != 0)
+        return systemError(path_, "writing failed");
+    if (uninterrupted([&] { return calls.rename(temporary_.c_str(), target_.c_str()); }) != 0)
+        return systemError(path_, "cannot take this name");
+    // What closing can still say was said by the sync.
+    file_.close();
+    // The name is durable once its folder is; where folders cannot be synced the file is whole all the same.
+    syncFolderOf(target_, calls);
+    return {};
+}
+
+Result<void> writeAtomically(const std::filesystem::path& target,
+                             const std::function<Result<void>(const std::filesystem::path&)>& write) {
+    // From here on no other may write the target, nor what is written beside it.
+    Result<AtomicFile> file = AtomicFile::create(target);
+    if (!file) return tl::unexpected(file.error());
+    const std::filesystem::path temporary =
+        file->target().parent_path() /
+        fmt::format(".{}.new{}", file->target().stem().string(), target.extension().string());
+    Result<void> written = write(temporary);
+    if (written) written = copyInto(*file, temporary);
+    std::error_code status;
+    std::filesystem::remove(temporary, status);
+    return written ? file->commit() : written;
+}
+
+}  // namespace planet

@@ -1,0 +1,56 @@
+// A file that appears whole or not at all: written under a temporary name beside its place, synced, renamed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "planet/base/file_calls.h"
+#include "planet/base/open_file.h"
+#include "planet/base/result.h"
+
+namespace planet {
+
+// A symbolic link is kept: the file that it leads to is written, and the temporary file lies beside that one.
+// Owns the temporary file; unless committed, the destructor removes it and what was there before stays. Only
+// one writer a path at a time: a second one gets an Error. What a killed writer left behind is written over.
+// One thread.
+class AtomicFile {
+public:
+    static Result<AtomicFile> create(const std::filesystem::path& path,
+                                     const FileCalls& calls = systemFileCalls());
+    AtomicFile(AtomicFile&& other) noexcept = default;
+    AtomicFile& operator=(AtomicFile&&) = delete;
+    ~AtomicFile();
+
+    const std::filesystem::path& path() const { return path_; }      // as given to create
+    const std::filesystem::path& target() const { return target_; }  // path() with its links followed
+    std::uint64_t size() const { return size_; }
+    Result<void> append(std::span<const std::byte> bytes);
+    // Replaces bytes that were appended before.
+    Result<void> overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
+    // Fills out with bytes that were appended before. Any thread while none appends or overwrites.
+    Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
+    // Makes the file durable and gives it its name.
+    Result<void> commit();
+
+private:
+    AtomicFile(std::filesystem::path path, std::filesystem::path target, std::filesystem::path temporary,
+               OpenFile file);
+
+    std::filesystem::path path_;
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    OpenFile file_;  // closed once it is committed
+    std::uint64_t size_ = 0;
+};
+
+// For libraries that write files by their names: calls write with a name beside the target that has the same
+// extension, and takes over what is there then. One writer a target at a time, as above.
+Result<void> writeAtomically(
+    const std::filesystem::path& target,
+    const std::function<Result<void>(const std::filesystem::path& temporary)>& write);
+
+}  // namespace planet

@@ -1,0 +1,306 @@
+#include "planet/format/chunk_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+#include "planet/base/little_endian.h"
+#include "planet/base/open_file.h"
+#include "planet/format/chunk_file_format.h"
+#include "planet/format/height_codec.h"
+
+namespace planet {
+
+namespace {
+
+// No honest block is larger: the codec never needs 4 bytes a sample.
+std::uint64_t largestBlockBytes(const PlanetShape& shape) {
+    const auto side = static_cast<std::uint64_t>(2 * chunkCells(shape) + 1);
+    return side * side * 4 + 1024;
+}
+
+// One of the four quarters of a refined grid.
+std::vector<std::int16_t> cutQuarter(std::span<const std::int16_t> fine, int cells, int quadrant) {
+    const auto side = static_cast<std::size_t>(cells) + 1;
+    const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
+    const std::size_t column = (quadrant & 1) != 0 ? side - 1 : 0;
+    const std::size_t row = (quadrant & 2) != 0 ? side - 1 : 0;
+    std::vector<std::int16_t> quarter(side * side);
+    for (std::size_t j = 0; j < side; ++j) {
+        const auto from = fine.subspan((row + j) * fineSide + column, side);
+        std::copy(from.begin(), from.end(), quarter.begin() + static_cast<std::ptrdiff_t>(j * side));
+    }
+    return quarter;
+}
+
+bool isSane(const ChunkEntry& entry) {
+    return std::isfinite(entry.deltaCM) && entry.deltaCM >= 0 && entry.deltaTightM >= 0 &&
+           entry.deltaTightM <= entry.deltaCM && entry.minStep <= entry.maxStep && entry.children.exists() &&
+           entry.children.size > 0;
+}
+
+void describeLeaf(ChunkData& chunk) {
+    const auto [lowest, highest] = std::minmax_element(chunk.heights.begin(), chunk.heights.end());
+    chunk.deltaCM = 0;
+    chunk.deltaTightM = 0;
+    chunk.minStep = *lowest;
+    chunk.maxStep = *highest;
+    chunk.children = {};
+}
+
+void describe(ChunkData& chunk, const ChunkEntry& entry) {
+    chunk.deltaCM = entry.deltaCM;
+    chunk.deltaTightM = entry.deltaTightM;
+    chunk.minStep = entry.minStep;
+    chunk.maxStep = entry.maxStep;
+    chunk.children = entry.children;
+}
+
+// As messages call it.
+std::string nameOf(const BlockId& id) {
+    return (id.kind == BlockKind::Colours ? "colour tile " : "chunk ") + toString(id.parent);
+}
+
+}  // namespace
+
+Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path, const FileCalls& calls) {
+    // Opening a pipe would wait for somebody to write into it.
+    Result<OpenFile> opened = OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls);
+    if (!opened) return tl::unexpected(std::move(opened.error()));
+    const auto file = std::make_shared<const OpenFile>(std::move(*opened));
+    struct stat status {};
+    if (uninterrupted([&] { return calls.fstat(file->descriptor(), &status); }) != 0)
+        return ioError(fmt::format("{}: cannot be read: {}", file->name(), lastSystemError()));
+    if (!S_ISREG(status.st_mode))
+        return badInput(fmt::format("{}: not a file; name a baked chunk file", file->name()));
+    return open(file->name(), static_cast<std::uint64_t>(status.st_size),
+                [file](std::uint64_t offset, std::span<std::byte> out) { return file->read(offset, out); });
+}
+
+Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, ReadAt readAt) {
+    if (sizeBytes < chunkFileHeaderBytes) {
+        return badInput(
+            fmt::format("{}: {} bytes are too few for a chunk file, whose header alone is {}: it is {}", name,
+                        sizeBytes, chunkFileHeaderBytes, sizeBytes == 0 ? "empty" : "truncated"));
+    }
+    std::array<std::byte, chunkFileHeaderBytes> header{};
+    if (auto read = readAt(0, header); !read) return tl::unexpected(read.error());
+    auto info = infoFromHeader(header, name, sizeBytes);
+    if (!info) return tl::unexpected(info.error());
+    ChunkFile file;
+    file.info_ = *std::move(info);
+    file.name_ = std::move(name);
+    file.sizeBytes_ = sizeBytes;
+    file.readAt_ = std::move(readAt);
+    return file;
+}
+
+Result<std::vector<std::byte>> ChunkFile::readBlock(const BlockId& id, BlockLocation location,
+                                                    const BlockBytes& bytes) const {
+    if (location.offset < chunkFileHeaderBytes || location.size > bytes.most ||
+        location.offset > sizeBytes_ || location.size > sizeBytes_ - location.offset ||
+        location.size < bytes.least) {
+        return badInput(
+            fmt::format("{}: the block of {} is said to be {} bytes at {}, which the file of {} bytes "
+                        "cannot hold; bake it again",
+                        name_, nameOf(id), location.size, location.offset, sizeBytes_));
+    }
+    std::vector<std::byte> block(location.size);
+    if (auto read = readAt_(location.offset, block); !read) return tl::unexpected(read.error());
+    return block;
+}
+
+Result<std::span<const std::byte>> ChunkFile::checkedContent(const BlockId& id,
+                                                             std::span<const std::byte> block,
+                                                             std::uint64_t expectedChecksum) const {
+    if (ByteReader(block.last(checksumBytes)).get<std::uint64_t>() != expectedChecksum) {
+        return badInput(fmt::format(
+            "{}: the block of {} is damaged: its checksum does not match; bake it again", name_, nameOf(id)));
+    }
+    return block.first(block.size() - checksumBytes);
+}
+
+Error ChunkFile::nonsense(const BlockId& id, std::string_view what) const {
+    return {ErrorKind::BadInput,
+            fmt::format("{}: the block of {} makes no sense: {}; bake it again", name_, nameOf(id), what)};
+}
+
+Result<ChunkData> ChunkFile::readRoot(Face face) const {
+    const BlockLocation location = info_.roots[static_cast<std::size_t>(face)];
+    ChunkData root;
+    root.id = {face, 0, 0, 0};
+    const bool leaf = leafLevel(info_.shape) == 0;
+    const std::size_t entryBytes = leaf ? 0 : chunkEntryBytes;
+    const auto block =
+        readBlock(root.id, location, {entryBytes + checksumBytes, largestBlockBytes(info_.shape)});
+    if (!block) return tl::unexpected(block.error());
+    const auto sum = rootChecksum(std::span(*block).first(block->size() - checksumBytes), face);
+    auto content = checkedContent(root.id, *block, sum);
+    if (!content) return tl::unexpected(content.error());
+    root.heights.resize(static_cast<std::size_t>(chunkVertexCount(info_.shape)));
+    if (auto decoded = decodeGrid(content->subspan(entryBytes), chunkSize(info_.shape), root.heights);
+        !decoded) {
+        return tl::unexpected(nonsense(root.id, decoded.error().message));
+    }
+    if (leaf) {
+        describeLeaf(root);
+        return root;
+    }
+    const ChunkEntry entry = entryFrom(content->first<chunkEntryBytes>(), location.offset);
+    if (!isSane(entry))
+        return tl::unexpected(nonsense(root.id, "its errors, extremes or children are out of range"));
+    describe(root, entry);
+    return root;
+}
+
+Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
+    const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const {
+    assert(parent.level < leafLevel(info_.shape));
+    const bool leaves = parent.level + 1 == leafLevel(info_.shape);
+    const std::size_t entriesBytes = leaves ? 0 : quadrantCount * chunkEntryBytes;
+    const auto block =
+        readBlock(parent, location, {entriesBytes + checksumBytes, largestBlockBytes(info_.shape)});
+    if (!block) return tl::unexpected(block.error());
+    const auto sum = siblingChecksum(std::span(*block).first(block->size() - checksumBytes), parent);
+    const auto content = checkedContent(parent, *block, sum);
+    if (!content) return tl::unexpected(content.error());
+
+    const int cells = chunkCells(info_.shape);
+    const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
+    std::vector<std::int16_t> fine(fineSide * fineSide);
+    if (auto decoded = decodeRefinement(content->subspan(entriesBytes), parentHeights, cells, fine);
+        !decoded) {
+        return tl::unexpected(nonsense(parent, decoded.error().message));
+    }
+    std::array<ChunkData, quadrantCount> children;
+    for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) {
+        const auto q = static_cast<std::size_t>(quadrant);
+        ChunkData& child = children[q];
+        child.id = childOf(parent, quadrant);
+        child.heights = cutQuarter(fine, cells, quadrant);
+        if (leaves) {
+            describeLeaf(child);
+            continue;
+        }
+        const ChunkEntry entry =
+            entryFrom(content->subspan(q * chunkEntryBytes).first<chunkEntryBytes>(), location.offset);
+        if (!isSane(entry))
+            return tl::unexpected(nonsense(child.id, "its errors, extremes or children are out of range"));
+        describe(child, entry);
+    }
+    return children;
+}
+
+Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const ChunkId& parent,
+                                                                     BlockLocation location) const {
+    assert(parent.level + 1 < leafLevel(info_.shape));
+    constexpr std::size_t entriesBytes = quadrantCount * chunkEntryBytes;
+    if (location.size < entriesBytes + checksumBytes)
+        return tl::unexpected(nonsense(parent, "it is too small for its index"));
+    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::array<ChunkEntry, quadrantCount> entries;
+    for (std::size_t q = 0; q < entries.size(); ++q) {
+        entries[q] = entryFrom(std::span(*bytes).subspan(q * chunkEntryBytes).first<chunkEntryBytes>(),
+                               location.offset);
+        if (!isSane(entries[q])) {
+            return tl::unexpected(
+                nonsense(childOf(parent, static_cast<int>(q)), "its index entry is out of range"));
+        }
+    }
+    return entries;
+}
+
+Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,
+                                                         std::span<const ChunkId> tiles) const {
+    const ColourPyramid& pyramid = *info_.colour;
+    const BlockId id(block, BlockKind::Colours);
+    const std::size_t entriesBytes = tiles.size() * colourEntryBytes;
+    const auto bytes =
+        readBlock(id, location,
+                  {entriesBytes + checksumBytes,
+                   entriesBytes + tiles.size() * largestPackedColourTile(pyramid.format) + checksumBytes});
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto summed = std::span(*bytes).first(bytes->size() - checksumBytes);
+    const auto content = checkedContent(
+        id, *bytes,
+        tiles[0].level == 0 ? colourRootChecksum(summed, block.face) : colourSiblingChecksum(summed, block));
+    if (!content) return tl::unexpected(content.error());
+    std::vector<TileData> read;
+    std::span<const std::byte> packed = content->subspan(entriesBytes);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const ColourEntry entry = colourEntryFrom(
+            content->subspan(i * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        const BlockId tile(tiles[i], BlockKind::Colours);
+        const bool mayHaveChildren = tiles[i].level < pyramid.leafLevel;
+        if (entry.children.exists() != mayHaveChildren || entry.packedBytes > packed.size())
+            return tl::unexpected(nonsense(tile, "its children or size are out of range"));
+        // Children come before their parents.
+        if (mayHaveChildren && entry.children.size > location.offset - entry.children.offset)
+            return tl::unexpected(nonsense(tile, "its children's block overlaps its own"));
+        auto texels = unpackColourTexels(pyramid.format, packed.first(entry.packedBytes));
+        if (!texels) return tl::unexpected(nonsense(tile, texels.error().message));
+        packed = packed.subspan(entry.packedBytes);
+        read.push_back({tiles[i], entry.children, *std::move(texels)});
+    }
+    if (!packed.empty()) return tl::unexpected(nonsense(id, "it is followed by other bytes"));
+    return read;
+}
+
+Result<TileData> ChunkFile::readColourRoot(Face face) const {
+    assert(info_.colour);
+    const ChunkId root{face, 0, 0, 0};
+    auto tiles = readColourBlock(root, info_.colour->roots[static_cast<std::size_t>(face)], {&root, 1});
+    if (!tiles) return tl::unexpected(std::move(tiles.error()));
+    return std::move(tiles->front());
+}
+
+Result<std::array<TileData, quadrantCount>> ChunkFile::readColourChildren(const ChunkId& parent,
+                                                                          BlockLocation location) const {
+    assert(info_.colour && parent.level < info_.colour->leafLevel);
+    std::array<ChunkId, quadrantCount> ids;
+    for (int quadrant = 0; quadrant < quadrantCount; ++quadrant)
+        ids[static_cast<std::size_t>(quadrant)] = childOf(parent, quadrant);
+    auto tiles = readColourBlock(parent, location, ids);
+    if (!tiles) return tl::unexpected(std::move(tiles.error()));
+    std::array<TileData, quadrantCount> children;
+    std::move(tiles->begin(), tiles->end(), children.begin());
+    return children;
+}
+
+Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(const ChunkId& parent,
+                                                                            BlockLocation location) const {
+    assert(info_.colour && parent.level + 1 < info_.colour->leafLevel);
+    constexpr std::size_t entriesBytes = quadrantCount * colourEntryBytes;
+    if (location.size < entriesBytes + checksumBytes)
+        return tl::unexpected(nonsense({parent, BlockKind::Colours}, "it is too small for its index"));
+    const auto bytes = readBlock({parent, BlockKind::Colours}, {location.offset, entriesBytes},
+                                 {entriesBytes, entriesBytes});
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::array<ColourEntry, quadrantCount> entries;
+    for (std::size_t q = 0; q < entries.size(); ++q) {
+        entries[q] = colourEntryFrom(
+            std::span(*bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        if (!entries[q].children.exists())
+            return tl::unexpected(nonsense({childOf(parent, static_cast<int>(q)), BlockKind::Colours},
+                                           "its index entry is out of range"));
+    }
+    return entries;
+}
+
+Result<void> spendOn(const ChunkFile& file, BlockLocation block, std::uint64_t& bytesLeft) {
+    if (block.size > bytesLeft) {
+        return badInput(
+            fmt::format("{}: the index is damaged: it tells of more blocks than the file's {} bytes can "
+                        "hold; bake it again",
+                        file.name(), file.sizeBytes()));
+    }
+    bytesLeft -= block.size;
+    return {};
+}
+
+}  // namespace planet

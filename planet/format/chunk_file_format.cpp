@@ -1,0 +1,310 @@
+#include "planet/format/chunk_file_format.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "planet/base/little_endian.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::array<char, 8> magic = {'W', 'O', 'R', 'L', 'D', 'Y', 'C', 'H'};
+constexpr std::size_t maxSourceBytes = 200;
+constexpr std::size_t maxColourSourceBytes = 60;
+constexpr std::uint64_t rootSeed = std::uint64_t{1} << 63;
+// No key has these bits: y is below 2^maxLevel.
+constexpr std::uint64_t colourSeed = std::uint64_t{1} << 55;
+constexpr std::uint64_t colourRootSeed = std::uint64_t{3} << 54;
+static_assert(maxLevel <= 26);
+
+std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
+    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
+
+// Cuts at a character's start, so that what is left is UTF-8 if the whole was.
+std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
+    if (text.size() <= maxBytes) return text;
+    std::size_t end = maxBytes;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+    return text.substr(0, end);
+}
+
+// What a block says of its place: the distance back to it from the block that tells, 0 for none. One beyond
+// the file's start wraps to an offset that no file has; the reader refuses it.
+std::uint64_t distanceTo(const BlockLocation& location, std::uint64_t blockOffset) {
+    return location.exists() ? blockOffset - location.offset : 0;
+}
+std::uint64_t offsetAt(std::uint64_t distance, std::uint64_t blockOffset) {
+    return distance == 0 ? 0 : blockOffset - distance;
+}
+
+void putText(ByteWriter& out, std::string_view text, std::size_t maxBytes) {
+    const std::string_view kept = cutUtf8(text, maxBytes);
+    out.put(static_cast<std::uint16_t>(kept.size()));
+    for (const char c : kept) out.put(c);
+}
+
+// False where it is said to be longer than it may be.
+bool readText(ByteReader& in, std::size_t maxBytes, std::string& text) {
+    const auto bytes = in.get<std::uint16_t>();
+    if (bytes > maxBytes) return false;
+    const auto taken = in.take(bytes);
+    text.assign(reinterpret_cast<const char*>(taken.data()), taken.size());
+    return true;
+}
+
+void putColour(ByteWriter& out, const std::optional<ColourPyramid>& colour) {
+    out.put(static_cast<std::uint8_t>(colour ? static_cast<int>(colour->format) + 1 : 0));
+    if (!colour) return;
+    out.put(static_cast<std::uint8_t>(colour->leafLevel));
+    for (const BlockLocation& root : colour->roots) {
+        out.put(root.offset);
+        out.put(root.size);
+    }
+    putText(out, colour->source, maxColourSourceBytes);
+}
+
+// The Error is what contradicts itself.
+Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
+    const auto kind = in.get<std::uint8_t>();
+    if (kind == 0) return std::nullopt;
+    ColourPyramid colour;
+    colour.format = static_cast<ColourFormat>(kind - 1);
+    colour.leafLevel = in.get<std::uint8_t>();
+    for (BlockLocation& root : colour.roots) {
+        root.offset = in.get<std::uint64_t>();
+        root.size = in.get<std::uint32_t>();
+    }
+    if (kind > 2) return badInput(fmt::format("colours of kind {}, which there is none", kind));
+    if (colour.leafLevel > maxColourLevel)
+        return badInput(
+            fmt::format("{} levels of colours ({} are possible)", colour.leafLevel + 1, maxColourLevel + 1));
+    if (!readText(in, maxColourSourceBytes, colour.source))
+        return badInput("a name of colours that is too long");
+    return colour;
+}
+
+// Empty where the root blocks of colours lie in the file, apart from each other and from those of heights.
+std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileBytes) {
+    struct Place {
+        BlockLocation block;
+        std::string name;
+    };
+    std::vector<Place> places;
+    for (const Face face : allFaces) {
+        const BlockLocation block = info.colour->roots[static_cast<std::size_t>(face)];
+        const std::string name = fmt::format("colour tile {}", toString({face, 0, 0, 0}));
+        if (block.size == 0 || block.offset < chunkFileHeaderBytes || block.offset > fileBytes ||
+            block.size > fileBytes - block.offset) {
+            return fmt::format("a root block of {} of {} bytes at {}, which the file of {} bytes cannot hold",
+                               name, block.size, block.offset, fileBytes);
+        }
+        places.push_back({block, name});
+    }
+    for (const Face face : allFaces) {
+        places.push_back(
+            {info.roots[static_cast<std::size_t>(face)], fmt::format("chunk {}", toString({face, 0, 0, 0}))});
+    }
+    for (std::size_t i = 0; i < faceCount; ++i) {
+        for (std::size_t j = i + 1; j < places.size(); ++j) {
+            const BlockLocation a = places[i].block;
+            const BlockLocation b = places[j].block;
+            const bool apart =
+                a.offset < b.offset ? b.offset - a.offset >= a.size : a.offset - b.offset >= b.size;
+            if (!apart)
+                return fmt::format("root blocks of {} and {} that overlap", places[i].name, places[j].name);
+        }
+    }
+    return {};
+}
+
+// Empty where the shape is one that this program bakes.
+std::string shapeProblem(const PlanetShape& shape) {
+    if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("a radius of {} m", shape.radiusM);
+    if (!(shape.quantumM > 0 && shape.quantumM <= 1e6))
+        return fmt::format("a quantum of {} m", shape.quantumM);
+    if (!(std::abs(shape.baseHeightM) <= 1e9)) return fmt::format("a base height of {} m", shape.baseHeightM);
+    if (shape.chunkCellsLog2 < 4 || shape.chunkCellsLog2 > 7) {
+        return fmt::format("chunks of 2^{} cells a side (4 to 7 are possible)", shape.chunkCellsLog2);
+    }
+    if (shape.faceCellsLog2 < shape.chunkCellsLog2 || shape.faceCellsLog2 > maxFaceCellsLog2) {
+        return fmt::format("faces of 2^{} cells a side ({} to {} are possible)", shape.faceCellsLog2,
+                           shape.chunkCellsLog2, maxFaceCellsLog2);
+    }
+    return {};
+}
+
+}  // namespace
+
+void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset) {
+    ByteWriter out(block);
+    out.put(entry.deltaCM);
+    out.put(entry.deltaTightM);
+    out.put(entry.minStep);
+    out.put(entry.maxStep);
+    out.put(entry.children.size);
+    out.put(distanceTo(entry.children, blockOffset));
+}
+
+ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset) {
+    ByteReader in(bytes);
+    ChunkEntry entry;
+    entry.deltaCM = in.get<float>();
+    entry.deltaTightM = in.get<float>();
+    entry.minStep = in.get<std::int16_t>();
+    entry.maxStep = in.get<std::int16_t>();
+    entry.children.size = in.get<std::uint32_t>();
+    entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
+    return entry;
+}
+
+void putColourEntry(std::vector<std::byte>& block, const ColourEntry& entry, std::uint64_t blockOffset) {
+    ByteWriter out(block);
+    out.put(distanceTo(entry.children, blockOffset));
+    out.put(entry.children.size);
+    out.put(entry.packedBytes);
+}
+
+ColourEntry colourEntryFrom(std::span<const std::byte, colourEntryBytes> bytes, std::uint64_t blockOffset) {
+    ByteReader in(bytes);
+    ColourEntry entry;
+    entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
+    entry.children.size = in.get<std::uint32_t>();
+    entry.packedBytes = in.get<std::uint32_t>();
+    return entry;
+}
+
+std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face) {
+    return checksum(bytes, rootSeed | keyOf({face, 0, 0, 0}));
+}
+
+std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent) {
+    return checksum(bytes, keyOf(parent));
+}
+
+std::uint64_t colourRootChecksum(std::span<const std::byte> bytes, Face face) {
+    return checksum(bytes, colourRootSeed | keyOf({face, 0, 0, 0}));
+}
+
+std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent) {
+    return checksum(bytes, colourSeed | keyOf(parent));
+}
+
+std::uint64_t headerChecksum(std::span<const std::byte> bytes) {
+    return checksum(bytes, 0);
+}
+
+std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes) {
+    std::vector<std::byte> bytes;
+    ByteWriter out(bytes);
+    for (const char c : magic) out.put(c);
+    out.put(chunkFileVersion);
+    out.put(static_cast<std::uint32_t>(chunkFileHeaderBytes));
+    out.put(fileBytes);
+    out.put(info.shape.radiusM);
+    out.put(info.shape.quantumM);
+    out.put(info.shape.baseHeightM);
+    out.put(static_cast<std::uint8_t>(info.shape.faceCellsLog2));
+    out.put(static_cast<std::uint8_t>(info.shape.chunkCellsLog2));
+    out.put(info.minStep);
+    out.put(info.maxStep);
+    out.put(std::uint16_t{0});
+    out.put(info.missingSamples);
+    for (const BlockLocation& root : info.roots) {
+        out.put(root.offset);
+        out.put(root.size);
+    }
+    putText(out, info.source, maxSourceBytes);
+    putColour(out, info.colour);
+
+    std::array<std::byte, chunkFileHeaderBytes> header{};
+    assert(bytes.size() <= header.size() - checksumBytes);
+    std::copy(bytes.begin(), bytes.end(), header.begin());
+    std::vector<std::byte> sum;
+    ByteWriter(sum).put(headerChecksum(std::span(header).first<chunkFileHeaderBytes - checksumBytes>()));
+    std::copy(sum.begin(), sum.end(), header.end() - checksumBytes);
+    return header;
+}
+
+Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderBytes> header,
+                                     const std::string& name, std::uint64_t fileBytes) {
+    ByteReader in(header);
+    if (std::memcmp(in.take(magic.size()).data(), magic.data(), magic.size()) != 0) {
+        return badInput(
+            fmt::format("{}: not a chunk file: it does not begin with \"WORLDYCH\"; bake one with "
+                        "`worldy bake SOURCE -o OUT.chk`",
+                        name));
+    }
+    const auto version = in.get<std::uint32_t>();
+    if (version > chunkFileVersion) {
+        return badInput(
+            fmt::format("{}: version {} of the chunk file; this program reads version {}: update it, or bake "
+                        "the source again",
+                        name, version, chunkFileVersion));
+    }
+    if (version < oldestChunkFileVersion) {
+        return badInput(fmt::format(
+            "{}: version {} of the chunk file, which lacks what version {} holds; bake the source "
+            "again with `worldy bake SOURCE -o OUT.chk`",
+            name, version, chunkFileVersion));
+    }
+    const std::uint64_t expected = headerChecksum(header.first<chunkFileHeaderBytes - checksumBytes>());
+    if (ByteReader(header.last<checksumBytes>()).get<std::uint64_t>() != expected) {
+        return badInput(
+            fmt::format("{}: the header is damaged: its checksum does not match; bake it again", name));
+    }
+    const auto headerSize = in.get<std::uint32_t>();
+    const auto recordedBytes = in.get<std::uint64_t>();
+    if (headerSize != chunkFileHeaderBytes) {
+        return badInput(fmt::format("{}: a header of {} bytes; {} were expected; bake it again", name,
+                                    headerSize, chunkFileHeaderBytes));
+    }
+    if (recordedBytes != fileBytes) {
+        return badInput(
+            fmt::format("{}: {} bytes long, but was baked with {}: it is {}; copy or bake it again", name,
+                        fileBytes, recordedBytes, fileBytes < recordedBytes ? "truncated" : "too long"));
+    }
+    ChunkFileInfo info;
+    info.shape.radiusM = in.get<double>();
+    info.shape.quantumM = in.get<double>();
+    info.shape.baseHeightM = in.get<double>();
+    info.shape.faceCellsLog2 = in.get<std::uint8_t>();
+    info.shape.chunkCellsLog2 = in.get<std::uint8_t>();
+    if (const std::string problem = shapeProblem(info.shape); !problem.empty()) {
+        return badInput(fmt::format("{}: the header asks for {}; bake it again", name, problem));
+    }
+    info.minStep = in.get<std::int16_t>();
+    info.maxStep = in.get<std::int16_t>();
+    in.take(2);
+    info.missingSamples = in.get<std::uint64_t>();
+    for (BlockLocation& root : info.roots) {
+        root.offset = in.get<std::uint64_t>();
+        root.size = in.get<std::uint32_t>();
+    }
+    const bool hasText = readText(in, maxSourceBytes, info.source);
+    if (info.shape.radiusM + heightM(info.shape, info.minStep) <= 0) {
+        return badInput(
+            fmt::format("{}: the header has heights below the planet's centre; bake it again", name));
+    }
+    if (!hasText || info.minStep > info.maxStep) {
+        return badInput(fmt::format("{}: the header contradicts itself; bake it again", name));
+    }
+    // Older files have zeros there, which mean none.
+    auto colour = readColour(in);
+    if (!colour)
+        return badInput(
+            fmt::format("{}: the header asks for {}; bake it again", name, colour.error().message));
+    info.colour = *std::move(colour);
+    if (!info.colour) return info;
+    if (const std::string problem = colourRootsProblem(info, fileBytes); !problem.empty())
+        return badInput(fmt::format("{}: the header asks for {}; bake it again", name, problem));
+    return info;
+}
+
+}  // namespace planet

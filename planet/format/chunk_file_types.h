@@ -1,0 +1,86 @@
+// The plain types of the streamed chunk file (chunk_file.h), shared by its reader, its writer and the trees.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planet/format/colour_tile.h"
+#include "planet/sphere/chunk_id.h"
+#include "planet/sphere/cube_sphere.h"
+#include "planet/sphere/planet_shape.h"
+
+namespace planet {
+
+inline constexpr std::size_t chunkFileHeaderBytes = 512;
+inline constexpr std::uint32_t chunkFileVersion = 3;
+inline constexpr std::uint32_t oldestChunkFileVersion = 2;  // it has no colours; the reader still accepts it
+
+// Where a block lies in the file. Offset 0 is the header, so it means "none".
+struct BlockLocation {
+    std::uint64_t offset = 0;  // bytes from the file's start
+    std::uint32_t size = 0;    // bytes, checksum included
+
+    bool exists() const { return offset != 0; }
+    bool operator==(const BlockLocation&) const = default;
+};
+
+// One chunk as the file holds it.
+struct ChunkData {
+    ChunkId id;
+    float deltaCM = 0;  // metres, finite, >= 0; 0 at a leaf
+    // The tight metric: the largest distance between this chunk's surface, or that of any chunk under it, and
+    // the finest data at the same place; metres, [0, deltaCM]; 0 at a leaf.
+    float deltaTightM = 0;
+    std::int16_t minStep = 0;  // lowest and highest finest sample under this chunk
+    std::int16_t maxStep = 0;
+    BlockLocation children;             // none at a leaf
+    std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows along v upwards
+};
+
+// The index entry of a chunk that has children. The file stores no entry for a leaf: its delta_c and tight
+// metric are 0, and its extremes are those of its heights.
+struct ChunkEntry {
+    float deltaCM = 0;      // metres, finite, >= 0
+    float deltaTightM = 0;  // metres, [0, deltaCM]
+    std::int16_t minStep = 0;
+    std::int16_t maxStep = 0;
+    BlockLocation children;
+};
+
+// One tile of a quadtree of tiles: of colours as the file holds it, or of normals as derived from heights.
+struct TileData {
+    ChunkId id;
+    BlockLocation children;  // none at the finest level, nor where the tile is derived
+    // The GPU's format: colourTileBytes, or normalTileBytes.
+    std::vector<std::byte> texels;
+};
+
+// The index entry of a colour tile.
+struct ColourEntry {
+    BlockLocation children;
+    std::uint32_t packedBytes = 0;
+};
+
+// The colour quadtree of a file. Its levels are independent of those of the chunks.
+struct ColourPyramid {
+    ColourFormat format = ColourFormat::Bc1;
+    int leafLevel = 0;  // [0, maxColourLevel]
+    std::array<BlockLocation, faceCount> roots;
+    std::string source;  // what was baked, for people; at most 60 bytes of UTF-8
+};
+
+struct ChunkFileInfo {
+    PlanetShape shape;
+    std::int16_t minStep = 0;  // over the whole planet
+    std::int16_t maxStep = 0;
+    std::uint64_t missingSamples = 0;  // source samples without data that were filled
+    std::array<BlockLocation, faceCount> roots;
+    std::string source;  // what was baked, for people; at most 200 bytes of UTF-8
+    std::optional<ColourPyramid> colour;
+};
+
+}  // namespace planet

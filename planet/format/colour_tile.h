@@ -1,0 +1,49 @@
+// A tile of the colour quadtree: how its texels are encoded for the GPU and packed for the file. Pure
+// functions, any thread.
+//
+// tile_layout.h says what a tile covers. Two neighbouring tiles hold the same values in their shared texels.
+//
+// The quadtree is the mip chain too: a level's texels are the source filtered to that level's spacing.
+//
+// BC1: 4 x 4 texels in 8 bytes (S3TC, Iourcha et al. 1999). The border is such that the blocks of two tiles
+// of a face cover the same texels, so that these too are the same after encoding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/format/tile_layout.h"
+
+namespace planet {
+
+inline constexpr int colourTileCells = tileCells;
+inline constexpr int colourBorderBefore = tileBorderBefore;
+inline constexpr int colourBorderAfter = tileBorderAfter;
+inline constexpr int colourTileTexels = tileTexels;
+static_assert(colourTileTexels % 4 == 0 && colourTileCells % 4 == 0);
+inline constexpr int maxColourLevel = maxTileLevel;
+
+enum class ColourFormat : std::uint8_t { Bc1, Lossless };
+
+// Returns the size of a tile in the GPU's format, row 0 at the south: BC1 blocks, or 3 bytes per texel, sRGB.
+std::size_t colourTileBytes(ColourFormat format);
+
+// Encodes a tile of 8-bit sRGB, 3 bytes per texel, for the GPU.
+std::vector<std::byte> colourTexels(ColourFormat format, std::span<const std::uint8_t> rgb);
+// Decodes such texels to the colours that the GPU samples.
+std::vector<std::uint8_t> rgbOfColourTexels(ColourFormat format, std::span<const std::byte> texels);
+
+// Returns a loud checker pattern, which stands for tiles that cannot be read.
+std::vector<std::byte> checkerTexels(ColourFormat format);
+
+// Compresses texels without loss, for the file.
+std::vector<std::byte> packColourTexels(ColourFormat format, std::span<const std::byte> texels);
+// Accepts any bytes; the Error says what is wrong with them.
+Result<std::vector<std::byte>> unpackColourTexels(ColourFormat format, std::span<const std::byte> packed);
+// Returns the most bytes that packColourTexels makes of a tile.
+std::size_t largestPackedColourTile(ColourFormat format);
+
+}  // namespace planet

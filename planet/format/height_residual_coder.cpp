@@ -1,0 +1,356 @@
+#include "planet/format/height_residual_coder.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstdlib>
+
+namespace planet {
+
+namespace {
+
+constexpr int frequencyBits = 12;
+constexpr std::uint32_t frequencyTotal = 1u << frequencyBits;
+
+// Symbols are residuals in [-127, 127] shifted by their width's raw bits; the last one says that the whole
+// residual follows as 16 raw bits.
+constexpr int symbolCount = 256;
+constexpr int symbolOfZero = 127;
+constexpr int escapeSymbol = 255;
+constexpr int escapeRawBits = 16;
+
+// Up to this width a residual is one symbol; each octave above takes one more low bit as it is, so that the
+// four distributions of the last octave serve all that are wider.
+constexpr int unshiftedWidths = residualWidthOfOne + 12;
+constexpr int shiftedWidths = 4;
+constexpr int distributionCount = unshiftedWidths + shiftedWidths;
+
+// A state is in [stateMin, stateMin << 32), refilled by one 32-bit word. One residual takes at most 12 + 16
+// bits out, so one word is always enough.
+constexpr std::uint64_t stateMin = std::uint64_t{1} << 28;
+constexpr int wordBits = 32;
+constexpr int stateBytes = 8;
+constexpr int wordBytes = 4;
+
+// Half of the distributions' degrees of freedom plus one half: 2 means 3 degrees, which fits ETOPO5 best.
+constexpr int studentPower = 2;
+
+constexpr std::size_t at(int index) {
+    return static_cast<std::size_t>(index);
+}
+
+}  // namespace
+
+struct ResidualDistribution {
+    struct Interval {
+        std::uint16_t start = 0;
+        std::uint16_t frequency = 0;  // 0: the symbol does not occur
+    };
+    std::array<std::uint8_t, frequencyTotal> symbolOfSlot;
+    std::array<Interval, symbolCount> intervals;
+};
+
+namespace {
+
+using Interval = ResidualDistribution::Interval;
+using Distribution = ResidualDistribution;
+
+// Student's t with 2p - 1 degrees of freedom, up to a factor: (1 + t^2 / (2p - 1))^-p.
+double studentDensity(double x, double width) {
+    const double t = x / width;
+    const double base = 1 + t * t / (2 * studentPower - 1);
+    double power = 1;
+    for (int i = 0; i < studentPower; ++i) power *= base;
+    return 1 / power;
+}
+
+// The mass of [low, low + 1], by the midpoints of slices.
+double studentMass(double low, double width) {
+    constexpr int slices = 8;
+    double sum = 0;
+    for (int i = 0; i < slices; ++i) sum += studentDensity(low + (i + 0.5) / slices, width);
+    return sum / slices;
+}
+
+// The mean |residual| that a width stands for: quarter octaves, straight within each octave. Width 0 is much
+// narrower, for where nothing has been off so far.
+double expectedMagnitude(int widthIndex) {
+    if (widthIndex == 0) return 1.0 / 1024;
+    const int octave = widthIndex / 4 - residualWidthOfOne / 4;
+    const double mantissa = 1.125 + 0.25 * (widthIndex % 4);
+    return octave >= 0 ? mantissa * (1 << octave) : mantissa / (1 << -octave);
+}
+
+// Integer frequencies for the masses: rounded, at least one for the escape, the rest to the likeliest symbol.
+std::array<std::uint32_t, symbolCount> toFrequencies(const std::array<double, symbolCount>& masses,
+                                                     double total) {
+    std::array<std::uint32_t, symbolCount> frequencies{};
+    std::uint32_t sum = 0;
+    double inside = 0;
+    for (int s = 0; s < escapeSymbol; ++s) {
+        frequencies[at(s)] = static_cast<std::uint32_t>(masses[at(s)] / total * (frequencyTotal - 2) + 0.5);
+        sum += frequencies[at(s)];
+        if (frequencies[at(s)] > 0) inside += masses[at(s)];
+    }
+    frequencies[at(escapeSymbol)] =
+        std::max(1u, static_cast<std::uint32_t>((total - inside) / total * frequencyTotal + 0.5));
+    sum += frequencies[at(escapeSymbol)];
+    frequencies[at(symbolOfZero)] = frequencies[at(symbolOfZero)] + frequencyTotal - sum;
+    return frequencies;
+}
+
+// A distribution's mass in each symbol but the escape, and what follows from it.
+struct Masses {
+    std::array<double, symbolCount> mass{};
+    double total = 0;
+    double meanMagnitude = 0;
+};
+
+// Symbol s covers [s + lower, s + lower + 1) around zero.
+Masses massesOf(double width, double lower) {
+    Masses masses;
+    for (int s = 0; s < escapeSymbol; ++s) {
+        const double low = s - symbolOfZero + lower;
+        const double mass = studentMass(low, width);
+        masses.mass[at(s)] = mass;
+        masses.total += mass;
+        masses.meanMagnitude += mass * std::abs(low + 0.5);
+    }
+    masses.meanMagnitude /= masses.total;
+    return masses;
+}
+
+// The masses at the width whose mean magnitude is the one wanted: by a factor that shrinks whenever it
+// overshoots.
+Masses massesOfMean(double meanMagnitude, double lower) {
+    double width = meanMagnitude;
+    double factor = 4;
+    Masses masses = massesOf(width, lower);
+    for (int step = 0; step < 16; ++step) {
+        const bool wider = masses.meanMagnitude < meanMagnitude;
+        width = wider ? width * factor : width / factor;
+        masses = massesOf(width, lower);
+        const bool overshot = wider != (masses.meanMagnitude < meanMagnitude);
+        if (overshot) factor = 1 + (factor - 1) * 0.4;
+    }
+    return masses;
+}
+
+Distribution makeDistribution(int index) {
+    const bool shifted = index >= unshiftedWidths;
+    // Shifted by b bits, symbol s is the residuals [s 2^b, (s + 1) 2^b); unshifted, it is residual s alone.
+    const Masses masses = shifted ? massesOfMean(expectedMagnitude(index - shiftedWidths), 0)
+                                  : massesOfMean(expectedMagnitude(index), -0.5);
+    const auto frequencies = toFrequencies(masses.mass, masses.total);
+    Distribution distribution;
+    std::uint32_t start = 0;
+    for (int s = 0; s < symbolCount; ++s) {
+        const std::uint32_t frequency = frequencies[at(s)];
+        distribution.intervals[at(s)] = {static_cast<std::uint16_t>(start),
+                                         static_cast<std::uint16_t>(frequency)};
+        std::fill_n(distribution.symbolOfSlot.begin() + start, frequency, static_cast<std::uint8_t>(s));
+        start += frequency;
+    }
+    assert(start == frequencyTotal);
+    return distribution;
+}
+
+const std::array<Distribution, distributionCount>& distributions() {
+    static const auto made = [] {
+        std::array<Distribution, distributionCount> all;
+        for (int i = 0; i < distributionCount; ++i) all[at(i)] = makeDistribution(i);
+        return all;
+    }();
+    return made;
+}
+
+struct WidthCode {
+    int distribution;
+    int rawBitCount;
+};
+
+constexpr WidthCode codeOfWidth(int widthIndex) {
+    if (widthIndex < unshiftedWidths) return {widthIndex, 0};
+    const int above = widthIndex - unshiftedWidths;
+    return {unshiftedWidths + above % shiftedWidths, 1 + above / shiftedWidths};
+}
+
+// How one residual is coded under a width.
+struct SymbolCode {
+    Interval interval;
+    int rawBitCount;
+    std::uint16_t rawBits;
+};
+
+SymbolCode codeOf(int widthIndex, int residual) {
+    const WidthCode code = codeOfWidth(widthIndex);
+    const auto& intervals = distributions()[at(code.distribution)].intervals;
+    const int symbol = (residual >> code.rawBitCount) + symbolOfZero;
+    if (symbol >= 0 && symbol < escapeSymbol && intervals[at(symbol)].frequency > 0) {
+        const int mask = (1 << code.rawBitCount) - 1;
+        return {intervals[at(symbol)], code.rawBitCount, static_cast<std::uint16_t>(residual & mask)};
+    }
+    return {intervals[at(escapeSymbol)], escapeRawBits, static_cast<std::uint16_t>(residual)};
+}
+
+// log2(value) in 1/256, rounded down, for value > 0: the fraction bit by bit, by squaring.
+int log2Times256(std::uint32_t value) {
+    const int whole = static_cast<int>(std::bit_width(value)) - 1;
+    std::uint64_t mantissa = (std::uint64_t{value} << 31) >> whole;  // in [2^31, 2^32)
+    int fraction = 0;
+    for (int bit = 0; bit < 8; ++bit) {
+        mantissa = (mantissa * mantissa) >> 31;
+        const bool carry = mantissa >> 32 != 0;
+        fraction = 2 * fraction + (carry ? 1 : 0);
+        if (carry) mantissa >>= 1;
+    }
+    return whole * 256 + fraction;
+}
+
+const std::array<std::int16_t, frequencyTotal + 1>& costsOfFrequencies() {
+    static const auto made = [] {
+        std::array<std::int16_t, frequencyTotal + 1> costs{};
+        for (std::uint32_t f = 1; f <= frequencyTotal; ++f)
+            costs[f] = static_cast<std::int16_t>(frequencyBits * 256 - log2Times256(f));
+        return costs;
+    }();
+    return made;
+}
+
+void appendLittleEndian(std::uint64_t value, int bytes, std::vector<std::byte>& out) {
+    for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i)));
+}
+
+template <int Bytes>
+std::uint64_t readLittleEndian(const std::byte* from) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < Bytes; ++i) value |= std::to_integer<std::uint64_t>(from[i]) << (8 * i);
+    return value;
+}
+
+}  // namespace
+
+int residualCost(int widthIndex, int residual) {
+    const SymbolCode code = codeOf(widthIndex, residual);
+    return costsOfFrequencies()[code.interval.frequency] + 256 * code.rawBitCount;
+}
+
+void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths) {
+    assert(residuals.size() == widths.size());
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+        const SymbolCode code = codeOf(widths[i], residuals[i]);
+        tokens_.push_back({code.interval.start, code.interval.frequency, code.rawBits,
+                           static_cast<std::uint8_t>(code.rawBitCount), static_cast<std::uint8_t>(i & 1)});
+    }
+}
+
+// Last in, first out: the states run backwards over the tokens, and the words they gave up come out
+// backwards.
+void ResidualEncoder::finish(std::vector<std::byte>& out) const {
+    std::array<std::uint64_t, 2> states = {stateMin, stateMin};
+    std::vector<std::uint32_t> words;
+    words.reserve(tokens_.size() / 4);
+    for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
+        std::uint64_t& state = states[token->state];
+        const std::uint64_t frequency = token->frequency;
+        // From here on the state would leave its range.
+        const std::uint64_t limit = (stateMin >> frequencyBits << wordBits >> token->rawBitCount) * frequency;
+        if (state >= limit) {
+            words.push_back(static_cast<std::uint32_t>(state));
+            state >>= wordBits;
+        }
+        state = state << token->rawBitCount | token->rawBits;
+        state = (state / frequency << frequencyBits) + state % frequency + token->start;
+    }
+    for (const std::uint64_t state : states) appendLittleEndian(state, stateBytes, out);
+    for (auto word = words.rbegin(); word != words.rend(); ++word) appendLittleEndian(*word, wordBytes, out);
+}
+
+ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)
+    : distributions_(distributions().data()),
+      next_(coded.data()),
+      end_(coded.data() + coded.size()),
+      states_{stateMin, stateMin} {
+    if (coded.size() < 2 * stateBytes) {
+        failed_ = true;
+        next_ = end_;
+        return;
+    }
+    for (std::uint64_t& state : states_) {
+        state = readLittleEndian<stateBytes>(next_);
+        next_ += stateBytes;
+        if (state < stateMin || state >= stateMin << wordBits) failed_ = true;
+    }
+}
+
+// Takes one residual off the state. Words are read without looking for the end unless MayEnd.
+template <bool MayEnd>
+inline std::int16_t ResidualDecoder::readOne(std::uint64_t& state, int widthIndex) {
+    const WidthCode code = codeOfWidth(widthIndex);
+    const Distribution& distribution = distributions_[code.distribution];
+    const std::uint64_t slot = state & (frequencyTotal - 1);
+    const int symbol = distribution.symbolOfSlot[slot];
+    const Interval interval = distribution.intervals[at(symbol)];
+    state = (state >> frequencyBits) * interval.frequency + slot - interval.start;
+    int residual = 0;
+    if (symbol == escapeSymbol) [[unlikely]] {
+        residual = static_cast<int>(state & 0xffff);
+        state >>= escapeRawBits;
+    } else {
+        const auto mask = (std::uint64_t{1} << code.rawBitCount) - 1;
+        residual = ((symbol - symbolOfZero) << code.rawBitCount) + static_cast<int>(state & mask);
+        state >>= code.rawBitCount;
+    }
+    if constexpr (MayEnd) {
+        if (state < stateMin) refillNearEnd(state);
+    } else {
+        // A select rather than a branch: whether a word is due is anyone's guess.
+        const bool refill = state < stateMin;
+        const std::uint64_t refilled = state << wordBits | readLittleEndian<wordBytes>(next_);
+        state = refill ? refilled : state;
+        next_ += refill ? wordBytes : 0;
+    }
+    return static_cast<std::int16_t>(residual);
+}
+
+void ResidualDecoder::refillNearEnd(std::uint64_t& state) {
+    if (end_ - next_ < wordBytes) {
+        failed_ = true;
+        state = stateMin;
+        return;
+    }
+    state = state << wordBits | readLittleEndian<wordBytes>(next_);
+    next_ += wordBytes;
+}
+
+template <bool MayEnd>
+void ResidualDecoder::readRowAs(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals) {
+    const std::size_t count = residuals.size();
+    std::uint64_t even = states_[0];
+    std::uint64_t odd = states_[1];
+    std::size_t i = 0;
+    for (; i + 1 < count; i += 2) {
+        residuals[i] = readOne<MayEnd>(even, widths[i]);
+        residuals[i + 1] = readOne<MayEnd>(odd, widths[i + 1]);
+    }
+    if (i < count) residuals[i] = readOne<MayEnd>(even, widths[i]);
+    states_[0] = even;
+    states_[1] = odd;
+}
+
+void ResidualDecoder::readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals) {
+    assert(residuals.size() == widths.size());
+    // At most one word a residual, and the look at the one after.
+    const std::size_t mostBytes = (residuals.size() + 1) * wordBytes;
+    if (static_cast<std::size_t>(end_ - next_) >= mostBytes)
+        readRowAs<false>(widths, residuals);
+    else
+        readRowAs<true>(widths, residuals);
+}
+
+bool ResidualDecoder::ended() const {
+    return next_ == end_ && states_[0] == stateMin && states_[1] == stateMin;
+}
+
+}  // namespace planet

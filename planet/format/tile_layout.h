@@ -1,0 +1,27 @@
+// What a tile covers, of colours as of normals.
+//
+// A tile of level l covers one of the 2^l x 2^l squares of its face, in the grid of tileCells << l cells a
+// side. It holds its own (cells + 1)^2 texels, those on its edges shared with the tiles beside it, and a
+// border of texels beyond them, over a face's edge the next face's; so that filtering never leaves the tile.
+// Rows run along v upwards.
+#pragma once
+
+#include <cstdint>
+
+#include "planet/sphere/cube_sphere.h"
+
+namespace planet {
+
+inline constexpr int tileCellsLog2 = 8;
+inline constexpr int tileCells = 1 << tileCellsLog2;
+inline constexpr int tileBorderBefore = 7;  // texels west of and below the tile's own
+inline constexpr int tileBorderAfter = 8;   // east of and above
+inline constexpr int tileTexels = tileBorderBefore + tileCells + 1 + tileBorderAfter;
+inline constexpr int maxTileLevel = 10;  // faces of 262,145 texels a side: some 40 m on Earth
+
+// Returns the number of tiles of all levels down to a finest one, [0, maxTileLevel].
+constexpr std::uint64_t tileCountOf(int leafLevel) {
+    return faceCount * ((std::uint64_t{1} << (2 * (leafLevel + 1))) - 1) / 3;
+}
+
+}  // namespace planet

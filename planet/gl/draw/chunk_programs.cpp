@@ -1,0 +1,232 @@
+#include "planet/gl/draw/chunk_programs.h"
+
+#include <array>
+#include <bit>
+#include <string_view>
+#include <utility>
+
+#include "planet/gl/draw/frame_uniforms.h"
+#include "planet/gl/store/air_textures.h"
+
+namespace planet::gl {
+
+namespace {
+
+constexpr auto chunkVertexFiles = std::to_array<std::string_view>(
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
+constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "water.glsl", "sea.glsl",
+     "shadows.glsl", "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl", "colour_clipmap.glsl",
+     "normal_tiles.glsl", "chunk.frag"});
+constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
+constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
+constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
+                                                              "tone.glsl", "sky.frag"};
+constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
+constexpr std::array<std::string_view, 2> faceImageFragmentFiles = {"water.glsl", "face_image.frag"};
+constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
+constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
+
+void connect(const Program& program) {
+    constexpr auto blocks = std::to_array<std::pair<const char*, GLuint>>({{"Frame", frameBinding},
+                                                                           {"Layers", layersBinding},
+                                                                           {"Clipmap", clipmapBinding},
+                                                                           {"Sea", seaBinding},
+                                                                           {"Shadows", shadowsBinding}});
+    for (const auto& [name, binding] : blocks) {
+        const GLuint block = glGetUniformBlockIndex(program.name(), name);
+        if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
+    }
+    constexpr auto samplers =
+        std::to_array<std::pair<const char*, GLint>>({{"heightPool", heightUnit},
+                                                      {"colourImage", imageUnit},
+                                                      {"detailNoise", noiseUnit},
+                                                      {"colourTiles", tilesUnit},
+                                                      {"colourPages", pagesUnit},
+                                                      {"colourRoots", rootsUnit},
+                                                      {"clipmapStack", clipmapStackUnit},
+                                                      {"clipmapBase", clipmapBaseUnit},
+                                                      {"shadowMaps", shadowsUnit},
+                                                      {"layerAlbedo", layerAlbedoUnit},
+                                                      {"layerSurface", layerSurfaceUnit},
+                                                      {"normalTiles", normalTilesUnit},
+                                                      {"normalPages", normalPagesUnit},
+                                                      {"normalRoots", normalRootsUnit}});
+    glUseProgram(program.name());
+    for (const auto& [name, unit] : samplers) glUniform1i(glGetUniformLocation(program.name(), name), unit);
+    glUseProgram(0);
+    AirTextures::connect(program.name());
+}
+
+Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
+                             ShaderFiles fragmentFiles, int variant = 0) {
+    const Result<ShaderText> vertex = readShader(folder, vertexFiles);
+    if (!vertex) return tl::unexpected(vertex.error());
+    const Result<ShaderText> fragment = readShader(folder, fragmentFiles);
+    if (!fragment) return tl::unexpected(fragment.error());
+    Result<Program> program = linkProgram(*vertex, *fragment, variant);
+    if (program) connect(*program);
+    return program;
+}
+
+// Whether what is bound for the wanted variant is all that another one reads. Tiles and the clipmap share a
+// unit.
+bool hasInputsFor(int drawn, int wanted) {
+    constexpr int reading = switchImage | switchTiles | switchClipmap | switchRamp | switchShadows |
+                            switchNormalTiles | switchPhysicalAir;
+    if ((drawn & ~wanted & reading) != 0) return false;
+    return (drawn & switchTiles) == 0 || ((drawn ^ wanted) & switchClipmap) == 0;
+}
+
+// How much less like the wanted variant another one draws. What moves vertices comes first, and what morphs
+// nothing is drawn the same by a program that could.
+int difference(int wanted, int drawn) {
+    constexpr int shape = switchCube | switchSeaSurface;
+    constexpr int slide = switchSlide | switchMorph | switchGather;
+    constexpr int fine = switchLightByVertex | switchDetail | switchFineDetail;
+    const auto count = [](int bits) { return std::popcount(static_cast<unsigned>(bits)); };
+    const int differ = wanted ^ drawn;
+    const int missing = wanted & ~drawn;
+    const int others = differ & ~(shape | slide | fine);
+    return 1000 * count(differ & shape) + 1000 * count(missing & slide) + 10 * count(others) +
+           count(differ & fine) + count(differ & slide);
+}
+
+}  // namespace
+
+ProgramKey depthKey(int variant) {
+    return {ProgramUse::Depth, variant & (switchSlide | switchMorph | switchGather | switchSeaSurface)};
+}
+
+ProgramKey skyKey(bool physicalAir) {
+    return {ProgramUse::Sky, physicalAir ? switchPhysicalAir : 0};
+}
+
+Result<Program> ChunkPrograms::linked(const Texts& texts, const ProgramKey& key) {
+    const bool sky = key.use == ProgramUse::Sky;
+    const ShaderText& vertex = sky ? texts.skyVertex : texts.chunkVertex;
+    const ShaderText& fragment = sky                            ? texts.skyFragment
+                                 : key.use == ProgramUse::Depth ? texts.depthFragment
+                                                                : texts.chunkFragment;
+    Result<Program> program = linkProgram(vertex, fragment, key.variant);
+    if (program) connect(*program);
+    return program;
+}
+
+Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
+                                           std::shared_ptr<GlWorker> worker) {
+    ChunkPrograms programs;
+    programs.folder_ = folder;
+    programs.worker_ = std::move(worker);
+    programs.delivery_ = std::make_shared<Delivery>();
+    const auto texts = std::make_shared<Texts>();
+    const std::array<std::pair<ShaderText*, ShaderFiles>, 5> wanted = {
+        {{&texts->chunkVertex, chunkVertexFiles},
+         {&texts->chunkFragment, chunkFragmentFiles},
+         {&texts->depthFragment, depthFragmentFiles},
+         {&texts->skyVertex, skyVertexFiles},
+         {&texts->skyFragment, skyFragmentFiles}}};
+    for (const auto& [text, files] : wanted) {
+        Result<ShaderText> read = readShader(folder, files);
+        if (!read) return tl::unexpected(read.error());
+        *text = std::move(*read);
+    }
+    programs.texts_ = texts;
+    // All variants see the whole text, so when one compiles, others will later.
+    for (const ProgramKey& key : {ProgramKey{}, skyKey(false), skyKey(true)}) {
+        Result<Program> program = linked(*texts, key);
+        if (!program) return tl::unexpected(program.error());
+        programs.linked_[key].program = std::move(*program);
+    }
+    Result<Program> faceImage = buildProgram(folder, faceImageVertexFiles, faceImageFragmentFiles);
+    if (!faceImage) return tl::unexpected(faceImage.error());
+    Result<Program> clipmapFill = buildProgram(folder, clipmapVertexFiles, clipmapFragmentFiles);
+    if (!clipmapFill) return tl::unexpected(clipmapFill.error());
+    programs.faceImage_ = std::move(*faceImage);
+    programs.clipmapFill_ = std::move(*clipmapFill);
+    return programs;
+}
+
+Result<void> ChunkPrograms::reload() {
+    Result<ChunkPrograms> programs = build(folder_, worker_);
+    if (!programs) return tl::unexpected(programs.error());
+    Result<Program> last = linked(*programs->texts_, {ProgramUse::Chunk, lastVariant_});
+    if (!last) return tl::unexpected(last.error());
+    programs->linked_[{ProgramUse::Chunk, lastVariant_}] = {std::move(*last), true};
+    programs->lastVariant_ = lastVariant_;
+    programs->reloads_ = reloads_ + 1;
+    *this = std::move(*programs);
+    return {};
+}
+
+const Program& ChunkPrograms::orPlainest(const ProgramKey& key, const Linked& linked) const {
+    if (linked.program.name() != 0 || key.use != ProgramUse::Chunk) return linked.program;
+    return linked_.at({}).program;
+}
+
+const Program& ChunkPrograms::program(const ProgramKey& key) {
+    if (key.use == ProgramUse::Chunk) lastVariant_ = key.variant;
+    const auto [found, fresh] = linked_.try_emplace(key);
+    if (fresh) {
+        if (Result<Program> made = linked(*texts_, key)) found->second.program = std::move(*made);
+    }
+    found->second.drawn = true;
+    return orPlainest(key, found->second);
+}
+
+bool ChunkPrograms::canOrder() const {
+    return worker_ && worker_->works();
+}
+
+void ChunkPrograms::takeOrdered() {
+    const std::scoped_lock lock(delivery_->mutex);
+    for (auto& [key, program] : delivery_->made) linked_[key] = {std::move(program), true};
+    delivery_->made.clear();
+}
+
+void ChunkPrograms::order(const ProgramKey& key, const DrawingState& state, Urgency urgency) {
+    if (!ordered_.insert(key).second) return;
+    const std::weak_ptr<Delivery> waiting = delivery_;
+    worker_->add(
+        [texts = texts_, key, state, waiting] {
+            if (waiting.expired()) return;
+            Program program;
+            if (Result<Program> made = linked(*texts, key)) {
+                program = std::move(*made);
+                drawNothing(program, key.use, state);
+            }
+            if (const std::shared_ptr<Delivery> delivery = waiting.lock()) {
+                const std::scoped_lock lock(delivery->mutex);
+                delivery->made.emplace_back(key, std::move(program));
+            }
+        },
+        urgency);
+}
+
+const Program* ChunkPrograms::ready(const ProgramKey& key) const {
+    const auto found = linked_.find(key);
+    if (found == linked_.end() || !found->second.drawn) return nullptr;
+    return &orPlainest(key, found->second);
+}
+
+const Program* ChunkPrograms::nearest(int variant) const {
+    const Program* best = nullptr;
+    int least = 0;
+    for (const auto& [key, linked] : linked_) {
+        if (key.use != ProgramUse::Chunk || !linked.drawn || linked.program.name() == 0) continue;
+        if (!hasInputsFor(key.variant, variant)) continue;
+        const int differs = difference(variant, key.variant);
+        if (best && differs >= least) continue;
+        best = &linked.program;
+        least = differs;
+    }
+    return best;
+}
+
+Result<Program> ChunkPrograms::capturing(int variant, std::span<const char* const> outputs) const {
+    Result<Program> program = linkProgram(texts_->chunkVertex, texts_->chunkFragment, variant, outputs);
+    if (program) connect(*program);
+    return program;
+}
+
+}  // namespace planet::gl

@@ -1,0 +1,726 @@
+#include "planet/gl/draw/chunk_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "planet/gl/device/gl_objects.h"
+#include "planet/gl/device/gpu_memory.h"
+#include "planet/gl/device/gpu_timer.h"
+#include "planet/gl/device/keep_framebuffers.h"
+#include "planet/gl/device/software_renderer.h"
+#include "planet/gl/draw/chunk_grid.h"
+#include "planet/gl/draw/chunk_instances.h"
+#include "planet/gl/draw/chunk_programs.h"
+#include "planet/gl/draw/drawing_state.h"
+#include "planet/gl/draw/frame_uniforms.h"
+#include "planet/gl/draw/layer_uniforms.h"
+#include "planet/gl/draw/sea_uniforms.h"
+#include "planet/gl/draw/shadow_uniforms.h"
+#include "planet/gl/store/air_textures.h"
+#include "planet/gl/store/colour_clipmap.h"
+#include "planet/gl/store/colour_image.h"
+#include "planet/gl/store/detail_noise.h"
+#include "planet/gl/store/height_pool.h"
+#include "planet/gl/store/layer_textures.h"
+#include "planet/gl/store/shadow_maps.h"
+#include "planet/gl/store/tile_pool.h"
+
+namespace planet::gl {
+
+namespace {
+
+constexpr int checkerSize = 64;  // until pictures are given
+
+Result<void> checkContext() {
+    const int version = epoxy_gl_version();
+    if (version >= 33) return {};
+    return badInput(fmt::format("OpenGL 3.3 is needed; the context has {}.{}", version / 10, version % 10));
+}
+
+RenderCapabilities findCapabilities() {
+    RenderCapabilities capabilities;
+    capabilities.reversedZ = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
+    GLint samples = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &samples);
+    capabilities.samples = std::max(samples, 1);
+    capabilities.software = isSoftwareRenderer();
+    return capabilities;
+}
+
+bool boundDepthIsFloat() {
+    GLint framebuffer = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    const GLenum attachment = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
+    GLint kind = GL_NONE;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                          GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+    if (kind == GL_NONE) return false;
+    GLint type = GL_NONE;
+    glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                          GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
+    return type == GL_FLOAT;
+}
+
+// Light and air are worked out at vertices where cells are small beside their distance, so that air is all
+// but linear across one, and beside the planet, so that the sea's glint is.
+constexpr double widestSeenForLightByVertex = 0.05;  // of the distance
+constexpr double widestForLightByVertex = 0.025;     // of the radius
+
+bool cellsAreSmall(const PlanetShape& shape, const View& view, std::span<const DrawItem> items,
+                   double nearestGroundM) {
+    for (const DrawItem& item : items) {
+        const FaceSquare square = faceSquareOf(item.id);
+        const glm::dvec3 cube =
+            cubePoint(item.id.face, square.u + square.side / 2, square.v + square.side / 2);
+        const double side = 0.75 * square.side;  // of the radius
+        const double cell = side / chunkCells(shape);
+        const double toMiddleM = glm::length(shape.radiusM * sphereFromCube(cube) - view.eyeM);
+        const double distanceM = std::max(toMiddleM - 0.8 * side * shape.radiusM, nearestGroundM);
+        if (cell > widestForLightByVertex || cell * shape.radiusM > widestSeenForLightByVertex * distanceM)
+            return false;
+    }
+    return true;
+}
+
+// The variant that follows once chunks begin to morph, or no longer do: a flight goes from one to the other
+// and back.
+int otherSliding(int variant) {
+    if ((variant & switchMorph) != 0) return variant & ~(switchSlide | switchMorph | switchGather);
+    return variant | switchSlide | switchMorph | ((variant & switchSlide) != 0 ? switchGather : 0);
+}
+
+const void* byteOffset(std::size_t offset) {
+    return reinterpret_cast<const void*>(offset);
+}
+
+}  // namespace
+
+// The programs of one picture; null: what it would draw is left out.
+struct DrawnWith {
+    const Program* chunk = nullptr;
+    const Program* depth = nullptr;
+    const Program* sky = nullptr;
+    bool standIn = false;
+};
+
+struct ChunkRenderer::State {
+    RendererConfig config;
+    RenderCapabilities capabilities;
+    RenderCounters counters;
+    Projection projection;
+    HeightPool pool;
+    std::vector<std::int16_t> highestSteps;  // of each slot
+    std::shared_ptr<ChunkPrograms> programs;
+    Program capture;  // made when first asked for, for one variant
+    int captureVariant = 0;
+    int captureReloads = 0;  // ChunkPrograms::reloads() when it was made
+    Texture noise;
+    VertexArray chunkArray, skyArray;
+    Buffer gridVertices, gridIndices, instances, frame, layersFrame, clipmapFrame, seaFrame, shadowsFrame;
+    std::size_t gridBytes = 0;
+    std::size_t instanceBytes = 0;  // allocated
+    ChunkInstances instanceData;
+    GLsizei gridIndexCount = 0;
+    GLsizei allIndexCount = 0;
+    ColourImage image;
+    std::optional<TilePool> colours;
+    std::optional<ColourClipmap> clipmap;  // of those
+    std::optional<TilePool> normals;
+    double normalQuantumM = 1;
+    LayerTextures layers;
+    AirTextures air;
+    bool airInBackground = false;
+    std::optional<ShadowMaps> shadows;  // while they are drawn
+    int shadowsAskedPx = 0;             // the maps' size that was last asked for; 0: none are drawn
+    std::vector<std::string> problems;  // not yet told
+    FrameUniforms uniforms{};           // as last filled
+    GpuTimer chunksTimer, skyTimer, shadowsTimer;
+    std::uint32_t uploads = 0;  // since the last draw
+
+    State(const RendererConfig& from, HeightPool heightPool, LayerTextures checker);
+    void makeGrid();
+    double highestRadiusM(std::span<const DrawItem> items) const;
+    Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
+    int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                      bool tinted, int more = 0) const;
+    bool wantsPhysicalAir(const RenderSettings& settings) const;
+    bool airIsPhysical(const RenderSettings& settings) const;  // and there are tables for it
+    void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched,
+                       std::span<const DrawItem> shadowCasters = {});
+    bool drawsShadows(const RenderSettings& settings) const;
+    bool makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items);
+    void drawShadows(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                     const Program& program);
+    DrawnWith programsFor(int variant, bool physicalSky) const;
+    DrawnWith programsAtHand(int variant, bool physicalSky) const;
+    void fillFrame(const View& view, const RenderSettings& settings);
+    ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
+    bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
+    bool drawsNormals(const RenderSettings& settings) const;
+    void bindInputs() const;
+    void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program* program);
+    void drawSky(const Program& program) const;
+};
+
+ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, LayerTextures checker)
+    : config(from),
+      capabilities(findCapabilities()),
+      pool(std::move(heightPool)),
+      highestSteps(from.slotCapacity, std::numeric_limits<std::int16_t>::min()),
+      programs(from.programs),
+      noise(detailNoiseTexture()),
+      chunkArray(makeVertexArray()),
+      skyArray(makeVertexArray()),
+      gridVertices(makeBuffer()),
+      gridIndices(makeBuffer()),
+      instances(makeBuffer()),
+      frame(makeBuffer()),
+      layersFrame(makeBuffer()),
+      clipmapFrame(makeBuffer()),
+      seaFrame(makeBuffer()),
+      shadowsFrame(makeBuffer()),
+      layers(std::move(checker)) {
+    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
+    makeGrid();
+}
+
+void ChunkRenderer::State::makeGrid() {
+    const ChunkGrid grid = chunkGrid(chunkCells(config.shape));
+    gridIndexCount = static_cast<GLsizei>(grid.gridIndexCount);
+    allIndexCount = static_cast<GLsizei>(grid.indices.size());
+    const std::size_t vertexBytes = grid.vertices.size() * sizeof(GridVertex);
+    const std::size_t indexBytes = grid.indices.size() * sizeof(std::uint16_t);
+    gridBytes = vertexBytes + indexBytes;
+
+    glBindVertexArray(chunkArray.name());
+    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertexBytes), grid.vertices.data(), GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gridIndices.name());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indexBytes), grid.indices.data(),
+                 GL_STATIC_DRAW);
+    describeChunkVertices(gridVertices, instances);
+    glBindVertexArray(0);
+}
+
+// Of the highest ground drawn, metres from the planet's centre.
+double ChunkRenderer::State::highestRadiusM(std::span<const DrawItem> items) const {
+    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+    for (const DrawItem& item : items) highest = std::max(highest, highestSteps[item.slot]);
+    return config.shape.radiusM + heightM(config.shape, highest);
+}
+
+Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<const DrawItem> items) const {
+    const double scale = std::min(config.shape.radiusM / 6.371e6, 1.0);
+    if (capabilities.reversedZ && boundDepthIsFloat()) return reversedProjection(view, 0.1 * scale);
+    return fallbackProjection(view, config.shape.radiusM, highestRadiusM(items));
+}
+
+int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawItem> items,
+                                        const RenderSettings& settings, bool tinted, int more) const {
+    const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
+    const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
+    const int variant = more | switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted,
+                                           nearestGroundM, capabilities.software);
+    const int layersSeen =
+        settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
+    constexpr int seenByPixel = switchDetail | switchSeaSurface | switchShadows;
+    const bool byVertex = (variant & switchLighting) != 0 && (variant & seenByPixel) == 0 &&
+                          (layersSeen & switchLayers) == 0 && !drawsNormals(settings) &&
+                          cellsAreSmall(config.shape, view, items, nearestGroundM);
+    const bool physicalAir = (variant & switchAir) != 0 && airIsPhysical(settings);
+    return variant | layersSeen | (physicalAir ? switchPhysicalAir : 0) |
+           (byVertex ? switchLightByVertex : 0) | (drawsNormals(settings) ? switchNormalTiles : 0) |
+           slidingSwitches(items, settings.stitched);
+}
+
+bool ChunkRenderer::State::wantsPhysicalAir(const RenderSettings& settings) const {
+    return settings.atmosphere && !settings.cube && isUsed(settings.light.air.use, capabilities.software);
+}
+
+bool ChunkRenderer::State::airIsPhysical(const RenderSettings& settings) const {
+    return wantsPhysicalAir(settings) && air.exist();
+}
+
+void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints,
+                                         bool stitched, std::span<const DrawItem> shadowCasters) {
+    assert(std::all_of(items.begin(), items.end(),
+                       [&](const DrawItem& item) { return item.slot < pool.slotCapacity(); }));
+    instanceData.fill(pool.layout(), items, tints, stitched, shadowCasters);
+    const std::span<const ChunkInstance> filled = instanceData.all();
+    // A new store each frame, so that the GPU may still read the last one's.
+    const std::size_t needed = filled.size_bytes();
+    while (instanceBytes < needed) instanceBytes = std::max<std::size_t>(2 * instanceBytes, 4096);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instanceBytes), nullptr, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(needed), filled.data());
+}
+
+void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
+    uniforms = frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
+    if (normals) {
+        planet::gl::setNormals(config.shape,
+                               {normals->leafLevel(), static_cast<double>(normals->anisotropy()),
+                                settings.light.normals.texelsPerPixel, normalQuantumM},
+                               uniforms);
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
+    const LayersUniforms layerUniforms =
+        layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), settings.exaggeration,
+                       layers.means());
+    glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
+    const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.exaggeration);
+    glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
+    if (!wantsPhysicalAir(settings)) return;
+    if (const Result<void> followed = air.follow(settings.light.air.settings, airInBackground); !followed)
+        problems.push_back(fmt::format("The air is not drawn as it is set: {}", followed.error().message));
+    if (!airIsPhysical(settings)) return;
+    air.bind(settings.light.air, view.eyeM, config.shape.radiusM, glm::normalize(settings.sunDirection));
+}
+
+ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) const {
+    if (!colours || !settings.streamed) return {.faceSizePx = image.faceSizePx()};
+    return {(tileCells << colours->leafLevel()) + 1,
+            true,
+            colours->leafLevel(),
+            colours->anisotropy(),
+            settings.texelsPerPixel,
+            drawsClipmap()};
+}
+
+bool ChunkRenderer::State::drawsNormals(const RenderSettings& settings) const {
+    const bool seen = settings.lighting || isUsed(settings.layers.use, capabilities.software);
+    return normals && seen && isUsed(settings.light.normals.use, capabilities.software);
+}
+
+void ChunkRenderer::State::bindInputs() const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, layersBinding, layersFrame.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, seaBinding, seaFrame.name());
+    if (shadows) glBindBufferBase(GL_UNIFORM_BUFFER, shadowsBinding, shadowsFrame.name());
+    glActiveTexture(GL_TEXTURE0 + layerAlbedoUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.albedo());
+    glActiveTexture(GL_TEXTURE0 + layerSurfaceUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.surface());
+    glActiveTexture(GL_TEXTURE0 + imageUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
+    if (shadows) {
+        glActiveTexture(GL_TEXTURE0 + shadowsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, shadows->texture());
+    }
+    if (colours) {
+        glActiveTexture(GL_TEXTURE0 + tilesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, drawsClipmap() ? clipmap->stack() : colours->tiles());
+        glActiveTexture(GL_TEXTURE0 + pagesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->pages());
+        glActiveTexture(GL_TEXTURE0 + rootsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->roots());
+    }
+    if (drawsClipmap()) {
+        glBindBufferBase(GL_UNIFORM_BUFFER, clipmapBinding, clipmapFrame.name());
+        glActiveTexture(GL_TEXTURE0 + clipmapBaseUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, clipmap->base());
+    }
+    if (normals) {
+        glActiveTexture(GL_TEXTURE0 + normalTilesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->tiles());
+        glActiveTexture(GL_TEXTURE0 + normalPagesUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->pages());
+        glActiveTexture(GL_TEXTURE0 + normalRootsUnit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->roots());
+    }
+    glActiveTexture(GL_TEXTURE0 + noiseUnit);
+    glBindTexture(GL_TEXTURE_3D, noise.name());
+    glActiveTexture(GL_TEXTURE0 + heightUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, pool.texture());
+}
+
+bool ChunkRenderer::State::drawsShadows(const RenderSettings& settings) const {
+    return settings.lighting && !settings.cube && isUsed(settings.light.shadows.use, capabilities.software);
+}
+
+// Whether there are maps to draw shadows with, and ground near enough for them. Maps that are out of use go.
+bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items) {
+    const ShadowDrawing& wanted = settings.light.shadows;
+    if (!drawsShadows(settings)) {
+        shadows.reset();
+        shadowsAskedPx = 0;
+        return false;
+    }
+    const auto isNear = [&](const DrawItem& item) {
+        return static_cast<double>(item.distanceM) < wanted.reachM;
+    };
+    if (!std::any_of(items.begin(), items.end(), isNear)) return false;
+    // Maps that could not be made are not tried again in each frame.
+    if (shadowsAskedPx != wanted.mapSizePx) {
+        shadows.reset();
+        shadowsAskedPx = wanted.mapSizePx;
+        if (Result<ShadowMaps> made = ShadowMaps::create(wanted.mapSizePx))
+            shadows = std::move(*made);
+        else
+            problems.push_back(fmt::format("No shadows are drawn: {}", made.error().message));
+    }
+    return shadows.has_value();
+}
+
+// The same ground as seen from the sun, once a cascade.
+void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawItem> items,
+                                       const RenderSettings& settings, const Program& program) {
+    double nearestM = settings.light.shadows.reachM;
+    for (const DrawItem& item : items) nearestM = std::min(nearestM, static_cast<double>(item.distanceM));
+    const double least = 1e-6 * config.shape.radiusM;
+    const ShadowCascades cascades =
+        shadowCascades(view, settings.sunDirection, std::max(nearestM, least),
+                       std::max(settings.light.shadows.reachM, 4 * least), shadows->sizePx());
+    const ShadowUniforms told = shadowUniforms(cascades, settings.light.shadows.softness, shadows->sizePx());
+    glBindBuffer(GL_UNIFORM_BUFFER, shadowsFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(told), &told, GL_STREAM_DRAW);
+    const KeepFramebuffers keep;
+    glUseProgram(program.name());
+    glBindVertexArray(chunkArray.name());
+    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+    for (std::size_t i = 0; i < shadowCascadeCount; ++i) {
+        FrameUniforms fromSun = uniforms;
+        fromSun.clipFromWorld = cascades[i].clipFromEye;
+        glBufferData(GL_UNIFORM_BUFFER, sizeof(fromSun), &fromSun, GL_STREAM_DRAW);
+        shadows->begin(i);
+        if (program.name() != 0)
+            glDrawElementsInstanced(GL_TRIANGLES, gridIndexCount, GL_UNSIGNED_SHORT, nullptr,
+                                    static_cast<GLsizei>(instanceData.all().size()));
+    }
+    ShadowMaps::end();
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
+}
+
+void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const RenderSettings& settings,
+                                      const Program* program) {
+    const bool skirts =
+        std::any_of(items.begin(), items.end(), [](const DrawItem& item) { return item.skirtDepthM > 0; });
+    const GLsizei first = settings.skirtPaint == SkirtPaint::LoudAlone ? gridIndexCount : 0;
+    const GLsizei indexCount = (skirts ? allIndexCount : gridIndexCount) - first;
+    const auto chunks = static_cast<GLsizei>(items.size());
+    glEnable(GL_CULL_FACE);
+    glUseProgram(program ? program->name() : 0);
+    glBindVertexArray(chunkArray.name());
+    if (chunks > 0 && indexCount > 0) {
+        glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT,
+                                byteOffset(static_cast<std::size_t>(first) * sizeof(std::uint16_t)), chunks);
+    }
+    glDisable(GL_CULL_FACE);
+    counters.chunks = static_cast<std::uint32_t>(chunks);
+    const auto ground = static_cast<std::uint64_t>((gridIndexCount - first) / 3);
+    counters.groundTriangles = ground * items.size();
+    counters.skirtTriangles = (static_cast<std::uint64_t>(indexCount / 3) - ground) * items.size();
+}
+
+// Behind everything, so that only pixels without a chunk are shaded.
+void ChunkRenderer::State::drawSky(const Program& program) const {
+    glDepthMask(GL_FALSE);
+    glUseProgram(program.name());
+    glBindVertexArray(skyArray.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+}
+
+Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
+    if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
+    Result<HeightPool> pool = HeightPool::create(config.slotCapacity, chunkSize(config.shape));
+    if (!pool) return tl::unexpected(pool.error());
+    RendererConfig own = config;
+    if (!own.programs) {
+        Result<ChunkPrograms> programs = ChunkPrograms::build(config.shaderFolder);
+        if (!programs) return tl::unexpected(programs.error());
+        own.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
+    }
+    Result<LayerTextures> checker = LayerTextures::create({}, checkerSize);
+    if (!checker) return tl::unexpected(checker.error());
+    std::unique_ptr<State> state;
+    const bool made =
+        hasRoomFor([&] { state = std::make_unique<State>(own, std::move(*pool), std::move(*checker)); });
+    if (!made) return badInput("this OpenGL context has no memory for what chunks are drawn with");
+    return ChunkRenderer(std::move(state));
+}
+
+ChunkRenderer::ChunkRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ChunkRenderer::ChunkRenderer(ChunkRenderer&&) noexcept = default;
+ChunkRenderer& ChunkRenderer::operator=(ChunkRenderer&&) noexcept = default;
+ChunkRenderer::~ChunkRenderer() = default;
+
+void ChunkRenderer::upload(std::uint32_t slot, std::span<const std::int16_t> heights) {
+    state_->pool.upload(slot, heights);
+    state_->highestSteps[slot] = *std::max_element(heights.begin(), heights.end());
+    ++state_->uploads;
+}
+
+Result<void> ChunkRenderer::setSlotCapacity(std::uint32_t slotCapacity) {
+    Result<HeightPool> pool = HeightPool::create(slotCapacity, chunkSize(state_->config.shape));
+    if (!pool) return tl::unexpected(pool.error());
+    state_->pool = std::move(*pool);
+    state_->config.slotCapacity = slotCapacity;
+    state_->highestSteps.assign(slotCapacity, std::numeric_limits<std::int16_t>::min());
+    return {};
+}
+
+void ChunkRenderer::setShape(const PlanetShape& shape) {
+    assert(shape.chunkCellsLog2 == state_->config.shape.chunkCellsLog2);
+    state_->config.shape = shape;
+}
+
+Result<void> ChunkRenderer::setColourImage(std::span<const std::uint8_t> rgb, int width, int height) {
+    return ColourImage::create(rgb, width, height, state_->programs->faceImage().name())
+        .map([this](ColourImage image) { state_->image = std::move(image); });
+}
+
+Result<void> ChunkRenderer::setColours(const std::optional<ColourPoolConfig>& config) {
+    if (!config) {
+        state_->clipmap.reset();
+        state_->colours.reset();
+        return {};
+    }
+    return TilePool::create(*config).map([this](TilePool pool) {
+        state_->clipmap.reset();
+        state_->colours = std::move(pool);
+    });
+}
+
+void ChunkRenderer::followColours(std::span<const TileChange> changes) {
+    assert(state_->colours || changes.empty());
+    if (state_->colours) state_->colours->follow(changes);
+    if (state_->clipmap) state_->clipmap->follow(changes);
+}
+
+Result<void> ChunkRenderer::setColourClipmap(std::optional<int> sizePx) {
+    assert(state_->colours || !sizePx);
+    state_->clipmap.reset();
+    if (!sizePx) return {};
+    return ColourClipmap::create(*sizePx, *state_->colours).map([this](ColourClipmap clipmap) {
+        state_->clipmap = std::move(clipmap);
+    });
+}
+
+Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finestLevel) {
+    State& state = *state_;
+    assert(state.clipmap);
+    Result<void> moved =
+        state.clipmap->move(eyeM, finestLevel, *state.colours, state.programs->clipmapFill().name());
+    if (!moved) {
+        state.clipmap.reset();
+        return moved;
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, state.clipmapFrame.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(ClipmapUniforms), &state.clipmap->uniforms(), GL_STREAM_DRAW);
+    return {};
+}
+
+const ColourClipmapState* ChunkRenderer::colourClipmap() const {
+    return state_->clipmap ? &state_->clipmap->state() : nullptr;
+}
+
+Result<void> ChunkRenderer::setNormals(const std::optional<NormalPoolConfig>& config) {
+    if (!config) {
+        state_->normals.reset();
+        return {};
+    }
+    state_->normalQuantumM = config->quantumM;
+    return TilePool::create(*config).map([this](TilePool pool) { state_->normals = std::move(pool); });
+}
+
+void ChunkRenderer::followNormals(std::span<const TileChange> changes) {
+    assert(state_->normals || changes.empty());
+    if (state_->normals) state_->normals->follow(changes);
+}
+
+Result<void> ChunkRenderer::setLayers(std::span<const LayerPicture> pictures, int size) {
+    return LayerTextures::create(pictures, size).map([this](LayerTextures layers) {
+        state_->layers = std::move(layers);
+    });
+}
+
+void ChunkRenderer::setAirInBackground(bool inBackground) {
+    state_->airInBackground = inBackground;
+}
+
+Result<void> ChunkRenderer::reloadShaders() {
+    return state_->programs->reload();
+}
+
+DrawnWith ChunkRenderer::State::programsFor(int variant, bool physicalSky) const {
+    const bool shadowed = (variant & switchShadows) != 0;
+    return {&programs->program({ProgramUse::Chunk, variant}),
+            shadowed ? &programs->program(depthKey(variant)) : nullptr,
+            &programs->program(skyKey(physicalSky)), false};
+}
+
+// Returns the programs that are ready, and the most similar ones in place of the others, which it orders.
+DrawnWith ChunkRenderer::State::programsAtHand(int variant, bool physicalSky) const {
+    programs->takeOrdered();
+    const bool shadowed = (variant & switchShadows) != 0;
+    std::vector<ProgramKey> wanted = {{ProgramUse::Chunk, variant}, skyKey(physicalSky)};
+    if (shadowed) wanted.push_back(depthKey(variant));
+    std::vector<ProgramKey> next = {{ProgramUse::Chunk, otherSliding(variant)}};
+    if (shadowed) next.push_back(depthKey(otherSliding(variant)));
+    std::optional<DrawingState> state;
+    const auto order = [&](const std::vector<ProgramKey>& keys, Urgency urgency) {
+        for (const ProgramKey& key : keys) {
+            if (programs->ready(key) || programs->isOrdered(key)) continue;
+            if (!state) state = currentDrawingState(projection.reversedZ);
+            programs->order(key, *state, urgency);
+        }
+    };
+    order(wanted, Urgency::Now);
+    DrawnWith with{programs->ready(wanted[0]), shadowed ? programs->ready(wanted[2]) : nullptr,
+                   programs->ready(wanted[1]), false};
+    if (with.chunk && with.sky && (with.depth || !shadowed)) {
+        order(next, Urgency::Later);
+        return with;
+    }
+    with.standIn = true;
+    const bool withoutShadows = shadowed && !with.depth;
+    if (!with.chunk || withoutShadows)
+        with.chunk = programs->nearest(withoutShadows ? variant & ~switchShadows : variant);
+    if (!with.sky) with.sky = programs->ready(skyKey(false));
+    return with;
+}
+
+void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                         std::span<const ChunkTint> tints, std::span<const DrawItem> shadowCasters,
+                         ShaderWait wait) {
+    State& state = *state_;
+    state.projection = state.chooseProjection(view, items);
+    const bool shadowed = state.makeShadowMaps(settings, items);
+    if (!shadowed) shadowCasters = {};
+    state.fillInstances(items, tints, settings.stitched, shadowCasters);
+    state.fillFrame(view, settings);
+    state.bindInputs();
+    const int variant =
+        state.chooseVariant(view, items, settings, !tints.empty(), shadowed ? switchShadows : 0);
+    const bool physicalSky = state.airIsPhysical(settings);
+    const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
+    const DrawnWith with =
+        mayStandIn ? state.programsAtHand(variant, physicalSky) : state.programsFor(variant, physicalSky);
+    state.shadowsTimer.begin();
+    if (with.depth) state.drawShadows(view, items, settings, *with.depth);
+    state.shadowsTimer.end();
+
+    state.chunksTimer.begin();
+    glViewport(0, 0, view.widthPx, view.heightPx);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
+    glClearColor(0, 0, 0, 1);
+    beginDepthTest(state.projection.reversedZ);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    state.drawChunks(with.chunk ? items : std::span<const DrawItem>(), settings, with.chunk);
+    state.chunksTimer.end();
+    state.skyTimer.begin();
+    if (with.sky) state.drawSky(*with.sky);
+    state.skyTimer.end();
+    endDepthTest(state.projection.reversedZ);
+    glBindVertexArray(0);
+    glUseProgram(0);
+
+    state.counters.chunksMs = state.chunksTimer.lastMs();
+    state.counters.skyMs = state.skyTimer.lastMs();
+    state.counters.shadowsMs = shadowed ? state.shadowsTimer.lastMs() : 0;
+    state.counters.uploads = std::exchange(state.uploads, 0);
+    state.counters.standIn = with.standIn;
+}
+
+Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& view,
+                                                                  std::span<const DrawItem> items,
+                                                                  const RenderSettings& settings) {
+    State& state = *state_;
+    const int variant = state.chooseVariant(view, items, settings, false) & ~switchSeaSurface;
+    if (state.capture.name() == 0 || state.captureVariant != variant ||
+        state.captureReloads != state.programs->reloads()) {
+        const std::array<const char*, 1> captured = {"surface"};
+        Result<Program> program = state.programs->capturing(variant, captured);
+        if (!program) return tl::unexpected(program.error());
+        state.capture = std::move(*program);
+        state.captureVariant = variant;
+        state.captureReloads = state.programs->reloads();
+    }
+    state.fillInstances(items, {}, settings.stitched);
+    state.fillFrame(view, settings);
+    state.bindInputs();
+
+    const int perChunk = chunkVertexCount(state.config.shape);
+    std::vector<glm::vec3> surface(items.size() * static_cast<std::size_t>(perChunk));
+    const auto bytes = static_cast<GLsizeiptr>(surface.size() * sizeof(glm::vec3));
+    const Buffer out = makeBuffer();
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, out.name());
+    if (!hasRoomFor([&] { glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ); })) {
+        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+        return badInput(
+            fmt::format("this OpenGL context has no memory for the vertices of {} chunks", items.size()));
+    }
+    glUseProgram(state.capture.name());
+    glBindVertexArray(state.chunkArray.name());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArraysInstanced(GL_POINTS, 0, perChunk, static_cast<GLsizei>(items.size()));
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, surface.data());
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    return surface;
+}
+
+bool ChunkRenderer::drawsShadows(const RenderSettings& settings) const {
+    return state_->drawsShadows(settings);
+}
+
+bool ChunkRenderer::drawsSeaSurface(const RenderSettings& settings) const {
+    return isSeaSurfaceDrawn(settings, state_->capabilities.software);
+}
+
+std::vector<std::string> ChunkRenderer::takeProblems() {
+    return std::exchange(state_->problems, {});
+}
+
+const Projection& ChunkRenderer::projection() const {
+    return state_->projection;
+}
+
+const RenderCounters& ChunkRenderer::counters() const {
+    return state_->counters;
+}
+
+const RenderCapabilities& ChunkRenderer::capabilities() const {
+    return state_->capabilities;
+}
+
+const AirFigures& ChunkRenderer::airFigures() const {
+    return state_->air.figures();
+}
+
+GpuMemory ChunkRenderer::gpuMemory() const {
+    const std::size_t colourTiles = state_->colours ? state_->colours->bytes() : 0;
+    const std::size_t colourClipmap = state_->clipmap ? state_->clipmap->state().bytes() : 0;
+    return {state_->pool.layout().bytes(),
+            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
+                sizeof(SeaUniforms) + (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
+            state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
+                (state_->normals ? state_->normals->bytes() : 0) + state_->air.figures().tableBytes +
+                colourTiles + colourClipmap,
+            colourTiles,
+            colourClipmap,
+            state_->shadows ? state_->shadows->bytes() : 0};
+}
+
+}  // namespace planet::gl

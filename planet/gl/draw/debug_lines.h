@@ -1,0 +1,44 @@
+// Draws lines over a picture that ChunkRenderer has drawn. Wants a current context; one thread.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "planet/base/result.h"
+#include "planet/gl/device/gl_objects.h"
+#include "planet/gl/draw/debug_shapes.h"
+#include "planet/gl/draw/projection.h"
+#include "planet/sphere/view.h"
+
+namespace planet::gl {
+
+enum class LineDepth : std::uint8_t {
+    Hidden,  // what stands before them hides them
+    Faint,   // what stands before them lets a quarter of them through
+    InFront,
+};
+
+class DebugLines {
+public:
+    static Result<DebugLines> create();
+
+    // Into the bound framebuffer, with the projection of ChunkRenderer::draw just before. widthPx: [1, 16],
+    // smooth at the sides. Leaves depth test, blending and clip control as a new context has them.
+    void draw(const View& view, const Projection& projection, std::span<const LineVertex> lines,
+              float widthPx, LineDepth depth);
+
+    std::size_t gpuBytes() const { return bytes_; }
+
+private:
+    DebugLines() = default;
+    void upload(const glm::dvec3& eyeM, std::span<const LineVertex> lines);
+    void setUniforms(const View& view, const Projection& projection, float widthPx) const;
+    void drawPass(GLsizei lineCount, GLenum depthFunction, float opacity) const;
+
+    Program program_;
+    VertexArray array_;
+    Buffer vertices_;
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace planet::gl

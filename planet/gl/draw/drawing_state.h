@@ -1,0 +1,41 @@
+// The state of OpenGL that chunks and the sky are drawn with, and how to draw nothing with all of it: drivers
+// make machine code for the state of a program's first draw, which costs some of them far more than linking
+// does. Wants a current context; one thread each.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <vector>
+
+#include "planet/gl/device/gl_objects.h"
+
+namespace planet::gl {
+
+enum class ProgramUse { Chunk, Depth, Sky };  // Depth: chunks as the sun sees them
+
+// Depth testing for a picture, and as a new context has it.
+void beginDepthTest(bool reversedZ);
+void endDepthTest(bool reversedZ);
+
+struct BoundTexture {
+    GLuint unit = 0;
+    GLenum target = GL_TEXTURE_2D_ARRAY;
+    GLuint name = 0;
+};
+
+// Drivers compile a program for this state, beside its text.
+struct DrawingState {
+    bool reversedZ = false;
+    int samples = 1;
+    std::vector<BoundTexture> textures;
+};
+
+// Reads the current state; samples are those of the framebuffer that is bound for drawing. Leaves texture
+// unit 0 active.
+DrawingState currentDrawingState(bool reversedZ);
+
+// Draws with the program into a small target of its own and waits until that is done. Leaves the context's
+// state changed: for a context that does nothing else.
+void drawNothing(const Program& program, ProgramUse use, const DrawingState& state);
+
+}  // namespace planet::gl

@@ -1,0 +1,114 @@
+#include "planet/gl/draw/layer_uniforms.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <vector>
+
+#include "planet/gl/draw/frame_uniforms.h"
+#include "planet/surface/layer_noise.h"
+
+namespace planet::gl {
+
+namespace {
+
+glm::vec4 linesOf(const SoftRange& range, const SoftRange& all) {
+    const RangeLines lines = rangeLines(range, all);
+    return glm::dvec4(lines.lowest, lines.rise, lines.highest, lines.fall);
+}
+
+glm::vec3 linearFromSrgb(const glm::vec3& colour) {
+    const auto channel = [](float value) {
+        return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+    };
+    return {channel(colour.r), channel(colour.g), channel(colour.b)};
+}
+
+// Where the eye is in cells so many a metre: the cell in whole numbers, and the place in it.
+void setNoise(const View& view, double cellsPerM, std::size_t at, LayersUniforms& uniforms) {
+    const glm::dvec3 place = view.eyeM * cellsPerM;
+    const glm::dvec3 cell = glm::floor(place);
+    uniforms.noiseCells[at] = glm::ivec4(glm::ivec3(latticeCell(cell)), 0);
+    uniforms.noiseInside[at] = glm::dvec4(place - cell, cellsPerM);
+}
+
+// Layers whose noise is of one size share its field.
+int fieldOf(double sizeM, const View& view, std::vector<double>& sizes, LayersUniforms& uniforms) {
+    const auto found = std::find(sizes.begin(), sizes.end(), sizeM);
+    const auto field = static_cast<std::size_t>(found - sizes.begin());
+    if (found != sizes.end()) return static_cast<int>(field);
+    sizes.push_back(sizeM);
+    double cellsPerM = 1 / sizeM;
+    for (std::size_t octave = 0; octave < layerNoiseShares.size(); ++octave, cellsPerM *= layerNoiseOctave)
+        setNoise(view, cellsPerM, layerNoiseShares.size() * field + octave, uniforms);
+    return static_cast<int>(field);
+}
+
+int sliceOf(const LayerDrawing& drawing, std::size_t layer, std::size_t slices) {
+    const int picture = layer < drawing.pictures.size() ? drawing.pictures[layer] : -1;
+    const bool there = picture >= 0 && static_cast<std::size_t>(picture) + 1 < slices;
+    return there && layerProblem(drawing.set.layers[layer]).empty() ? picture + 1 : 0;
+}
+
+// What repeats needs only its remainder, which doubles give: floats are too coarse for the planet's radius.
+void setRepeats(const View& view, double scaleM, std::size_t at, LayersUniforms& uniforms) {
+    double repeatM = scaleM;
+    for (std::size_t level = 0; level < layerRepeatLevels; ++level, repeatM *= layerRepeatLevelStep) {
+        const glm::dvec3 place = view.eyeM / repeatM;
+        uniforms.repeatPlaces[at * layerRepeatLevels + level] =
+            glm::dvec4(place - glm::floor(place), 1 / repeatM);
+    }
+}
+
+}  // namespace
+
+int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM) {
+    if (drawing.set.layers.empty()) return 0;
+    const bool wanted = isUsed(drawing.use, software);
+    const bool seen = wanted && drawing.opacity > 0 && nearestGroundM < drawing.endM;
+    return (seen ? switchLayers : 0) | (drawing.preview != LayerPreview::Off ? switchLayerPreview : 0);
+}
+
+LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, double reliefBoost,
+                              double exaggeration, std::span<const glm::vec3> means) {
+    assert(drawing.set.layers.size() <= maxLayers && exaggeration > 0);
+    LayersUniforms uniforms{};
+    std::vector<double> noiseSizes;
+    int drawn = 0;
+    int previewed = -1;
+    for (std::size_t i = 0; i < drawing.set.layers.size(); ++i) {
+        if (!isDrawn(drawing.set, i)) continue;
+        const TextureLayer& layer = drawing.set.layers[i];
+        const auto at = static_cast<std::size_t>(drawn);
+        LayerUniform& uniform = uniforms.layers[at];
+        const int slice = sliceOf(drawing, i, means.size());
+        const glm::vec3 tint = slice == 0 ? glm::vec3(1) : linearFromSrgb(layer.tint);
+        const bool noisy = layer.noiseAmount > 0 && layer.noiseSizeM > 0;
+        const int field = noisy ? fieldOf(layer.noiseSizeM, view, noiseSizes, uniforms) : 0;
+        uniform.heightLines = linesOf(layer.heightM, allHeightsM);
+        uniform.slopeLines = linesOf(layer.slopeDeg, allSlopesDeg);
+        uniform.latitudeLines = linesOf(layer.latitudeDeg, allLatitudesDeg);
+        uniform.tint = glm::vec4(tint, std::clamp(layer.opacity, 0.0, 1.0));
+        uniform.noise = glm::dvec4(noisy ? layer.noiseAmount : 0, field, i % 4, slice);
+        const double scaleM = std::max(layer.scaleM, 0.01);
+        const glm::vec3 mean = static_cast<std::size_t>(slice) < means.size()
+                                   ? means[static_cast<std::size_t>(slice)]
+                                   : glm::vec3(1);
+        uniform.mean = glm::vec4(mean * tint, scaleM);
+        setRepeats(view, scaleM, at, uniforms);
+        if (static_cast<int>(i) == drawing.previewed) previewed = drawn;
+        ++drawn;
+    }
+    const double sharpness = drawing.set.blend == LayerBlend::Height ? blendSharpness(drawing.set) : 0;
+    uniforms.counts = {drawn, static_cast<int>(noiseSizes.size()), previewed,
+                       drawing.preview == LayerPreview::Mask ? 1 : 0};
+    uniforms.mix = glm::dvec4(drawing.beginM, 1 / std::max(drawing.endM - drawing.beginM, 1e-3),
+                              std::clamp(drawing.opacity, 0.0, 1.0), sharpness);
+    uniforms.truth =
+        glm::dvec4(1 / exaggeration, 1 / (reliefBoost * exaggeration),
+                   std::clamp(drawing.colourBelow, 0.0, 1.0), layerRepeatPx / screenScalePx(view));
+    return uniforms;
+}
+
+}  // namespace planet::gl

@@ -1,0 +1,57 @@
+// What the renderer (chunk_renderer.h) tells of the context, its memory and the last frame: plain data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace planet::gl {
+
+struct RenderCounters {
+    std::uint32_t chunks = 0;
+    std::uint64_t groundTriangles = 0;
+    std::uint64_t skirtTriangles = 0;
+    // GPU times, ms, of the last frame whose timer queries have finished.
+    double chunksMs = 0;  // clearing included
+    double skyMs = 0;
+    double shadowsMs = 0;
+    std::uint32_t uploads = 0;  // chunks uploaded since the draw before
+    // The programs for the settings are still being compiled (ShaderWait::Never), so others drew the frame,
+    // or none did: it does not show the settings.
+    bool standIn = false;
+
+    std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
+};
+
+// The features of the context that the renderer uses.
+struct RenderCapabilities {
+    // GL_ARB_clip_control. Without it, or with a depth buffer that is not float, the near plane follows the
+    // height above the highest ground drawn.
+    bool reversedZ = false;
+    int samples = 1;        // the most that a RenderTarget can have
+    bool software = false;  // the CPU renders
+};
+
+// The GPU memory that the renderer holds, bytes.
+struct GpuMemory {
+    std::size_t heightPool = 0;
+    std::size_t meshes = 0;  // grid and instances
+    std::size_t textures = 0;
+    // The parts of textures that hold streamed colours.
+    std::size_t colourTiles = 0;    // the pool of tiles and its page table
+    std::size_t colourClipmap = 0;  // 0: there is no clipmap
+    std::size_t shadowMaps = 0;
+
+    std::size_t total() const { return heightPool + meshes + textures + shadowMaps; }
+
+    GpuMemory& operator+=(const GpuMemory& other) {
+        heightPool += other.heightPool;
+        meshes += other.meshes;
+        textures += other.textures;
+        colourTiles += other.colourTiles;
+        colourClipmap += other.colourClipmap;
+        shadowMaps += other.shadowMaps;
+        return *this;
+    }
+};
+
+}  // namespace planet::gl

@@ -1,0 +1,39 @@
+// The picture laid over the planet: an array of the six faces, drawn from an equirectangular image. A face's
+// outermost texels have their middles on the cube's edges, so that faces meet without a seam. RGB holds roots
+// of linear light, which filter in 8 bits about as well as sRGB and cost less to decode; alpha is 1 where the
+// image may show water.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "planet/base/result.h"
+#include "planet/gl/device/gl_objects.h"
+
+namespace planet::gl {
+
+class ColourImage {
+public:
+    ColourImage() = default;  // none
+
+    // 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Halved until the context can hold it.
+    // Draws with the program of shaders/face_image; leaves depth test, culling, blending and scissor off. The
+    // Error says what the context has no memory for.
+    static Result<ColourImage> create(std::span<const std::uint8_t> rgb, int width, int height,
+                                      GLuint faceProgram);
+
+    bool exists() const { return texture_.name() != 0; }
+    GLuint texture() const { return texture_.name(); }
+    int faceSizePx() const { return faceSizePx_; }  // texels along a face
+    std::size_t bytes() const { return bytes_; }    // mipmaps included
+
+private:
+    void fill(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram);
+
+    Texture texture_;
+    int faceSizePx_ = 0;
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace planet::gl

@@ -1,0 +1,41 @@
+// The pictures of texture layers on the GPU: two arrays with a slice a picture, mipmaps and anisotropy. Slice
+// 0 is a checker pattern that shows where a picture is missing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/gl/device/gl_objects.h"
+#include "planet/gl/store/layer_picture.h"
+
+namespace planet::gl {
+
+// Magenta and black squares, eight a side, level and rough.
+LayerPicture checkerPicture(int size);
+
+class LayerTextures {
+public:
+    // size: a power of two, [8, 4096]. The Error says what the context has no memory for.
+    static Result<LayerTextures> create(std::span<const LayerPicture> pictures, int size);
+
+    GLuint albedo() const { return albedo_.name(); }
+    GLuint surface() const { return surface_.name(); }
+    // Linear light of each slice on average, the checker's first.
+    std::span<const glm::vec3> means() const { return means_; }
+    std::size_t bytes() const { return bytes_; }  // mipmaps included
+
+private:
+    LayerTextures() = default;
+    void fill(std::span<const LayerPicture> pictures, int size);
+
+    Texture albedo_;
+    Texture surface_;
+    std::vector<glm::vec3> means_;
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace planet::gl

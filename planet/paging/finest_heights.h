@@ -1,0 +1,86 @@
+// The finest data under any chunk: blocks decoded from the chunk downwards, the last used ones kept.
+//
+// What is read is what the truth is for the instruments, so nothing here relies on a delta_c, a bound or an
+// extreme of the file: only on heights, which a checksum guards.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+#include "planet/base/result.h"
+#include "planet/paging/pager.h"
+#include "planet/sphere/planet_shape.h"
+#include "planet/tree/chunk_tree.h"
+
+namespace planet {
+
+// A chunk whose heights are at hand, and where its children lie.
+struct HeldChunk {
+    ChunkId id;
+    SharedHeights heights;   // never null
+    BlockLocation children;  // none at a leaf
+};
+
+// The four children of a chunk, in quadrant order.
+using HeldBlock = std::array<HeldChunk, quadrantCount>;
+
+// Blocks that are resident in a tree, by keyOf their parent; they are used without reading.
+using ResidentBlocks = std::unordered_map<std::uint64_t, std::shared_ptr<const HeldBlock>>;
+
+// The children of a node that is resident, and of all resident nodes under it.
+void addResidentBlocks(const ChunkTree& tree, NodeIndex node, ResidentBlocks& blocks);
+
+// Reads and keeps decoded blocks. Any thread, several at once; a block that two want at once may be read
+// twice.
+class FinestHeights {
+public:
+    static constexpr std::size_t usualCacheBytes = std::size_t{256} << 20;
+
+    // cacheBytes: of decoded heights that are kept, >= 0; less: blocks are read again.
+    explicit FinestHeights(LoadChildren load, std::size_t cacheBytes = usualCacheBytes);
+    explicit FinestHeights(std::shared_ptr<const ChunkFile> file, std::size_t cacheBytes = usualCacheBytes);
+
+    // The Error names the file and the chunk. The chunk must not be a leaf.
+    Result<std::shared_ptr<const HeldBlock>> childrenOf(const HeldChunk& chunk,
+                                                        const ResidentBlocks& resident);
+
+    // The chunk of an id at or under one that is held.
+    Result<HeldChunk> chunkUnder(const HeldChunk& top, const ChunkId& id, const ResidentBlocks& resident);
+
+    // Every chunk of the leaf level at or under one, in quadrant order; visit returns false to end early.
+    Result<void> forEachLeaf(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
+                             const std::function<bool(const HeldChunk& leaf)>& visit);
+
+    void setCacheBytes(std::size_t bytes);  // as above; what is too much then is dropped
+
+    std::uint64_t blocksRead() const;
+    std::size_t cachedBytes() const;
+
+private:
+    struct Kept {
+        std::uint64_t key = 0;
+        std::shared_ptr<const HeldBlock> block;
+        std::size_t bytes = 0;
+    };
+    void dropSurplus();
+    std::shared_ptr<const HeldBlock> find(std::uint64_t key);
+    void keep(std::uint64_t key, std::shared_ptr<const HeldBlock> block);
+    Result<bool> visitLeaves(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
+                             const std::function<bool(const HeldChunk& leaf)>& visit);
+
+    const LoadChildren load_;
+    mutable std::mutex mutex_;  // guards what follows
+    std::size_t cacheBytes_;
+    std::list<Kept> kept_;  // the last used first
+    std::unordered_map<std::uint64_t, std::list<Kept>::iterator> byKey_;
+    std::size_t bytes_ = 0;
+    std::uint64_t blocksRead_ = 0;
+};
+
+}  // namespace planet

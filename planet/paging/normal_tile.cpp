@@ -1,0 +1,322 @@
+#include "planet/paging/normal_tile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "planet/sphere/face_fold.h"
+
+namespace planet {
+
+namespace {
+
+constexpr double steepest = 60'000;  // a half float ends at 65,504
+
+struct Slope {
+    double alongU = 0;
+    double alongV = 0;
+};
+
+// Of Nowell's map at (u, v), along the face's normal, u and v.
+struct Tangents {
+    glm::dvec3 alongU;
+    glm::dvec3 alongV;
+};
+Tangents tangentsAt(double u, double v) {
+    const glm::dvec3 roots =
+        glm::sqrt(glm::dvec3(1 - (u * u + v * v) / 2 + u * u * v * v / 3, 0.5 - v * v / 6, 0.5 - u * u / 6));
+    return {{u * (v * v / 3 - 0.5) / roots.x, roots.y, -u * v / 6 / roots.z},
+            {v * (u * u / 3 - 0.5) / roots.x, -u * v / 6 / roots.y, roots.z}};
+}
+
+// alpha in the header, of the edge u = +-1; of the edge v = +-1 with u and v exchanged.
+double bendAt(double u, double v) {
+    const Tangents tangents = tangentsAt(u, v);
+    return glm::dot(tangents.alongU, tangents.alongV) / glm::dot(tangents.alongV, tangents.alongV);
+}
+
+// The heights of one level's grid, wherever on the planet.
+class LevelGrid {
+public:
+    LevelGrid(const PlanetShape& shape, int level, const std::array<HeldChunk, faceCount>& roots,
+              FinestHeights& heights)
+        : shape_(shape), level_(level), roots_(roots), heights_(heights) {}
+
+    int cells() const { return chunkCells(shape_) << level_; }
+    // Of the first chunk that could not be read; what is told of its heights is 0.
+    const std::optional<Error>& problem() const { return problem_; }
+
+    // The vertices of a chunk of the level; null once there is a problem.
+    const std::int16_t* chunk(Face face, int column, int row) {
+        const ChunkId id{face, static_cast<std::uint8_t>(level_), static_cast<std::uint32_t>(column),
+                         static_cast<std::uint32_t>(row)};
+        if (lastHeights_ && id == last_) return lastHeights_;
+        const auto found = chunks_.find(id);
+        const SharedHeights& held = found != chunks_.end() ? found->second : read(id);
+        last_ = id;
+        lastHeights_ = held ? held->data() : nullptr;
+        return lastHeights_;
+    }
+
+    // A point on a face or over one of its edges.
+    double step(const FaceGridPoint& point) {
+        const FaceGridPoint on = foldedOver(point, cells());
+        const int size = chunkCells(shape_);
+        const int last = (1 << level_) - 1;
+        const int column = std::min(on.column / size, last);
+        const int row = std::min(on.row / size, last);
+        const std::int16_t* steps = chunk(on.face, column, row);
+        if (!steps) return 0;
+        return steps[(on.row - row * size) * (size + 1) + on.column - column * size];
+    }
+
+private:
+    const SharedHeights& read(const ChunkId& id) {
+        static const SharedHeights none;
+        if (problem_) return none;
+        const Result<HeldChunk> held =
+            heights_.chunkUnder(roots_[static_cast<std::size_t>(id.face)], id, ResidentBlocks{});
+        if (!held) {
+            problem_ = held.error();
+            return none;
+        }
+        if (held->heights->size() != static_cast<std::size_t>(chunkVertexCount(shape_))) {
+            problem_ =
+                Error{ErrorKind::BadInput, fmt::format("chunk {} has {} heights; expected {}", toString(id),
+                                                       held->heights->size(), chunkVertexCount(shape_))};
+            return none;
+        }
+        return chunks_.emplace(id, held->heights).first->second;
+    }
+
+    const PlanetShape& shape_;
+    const int level_;
+    const std::array<HeldChunk, faceCount>& roots_;
+    FinestHeights& heights_;
+    std::unordered_map<ChunkId, SharedHeights> chunks_;
+    ChunkId last_;
+    const std::int16_t* lastHeights_ = nullptr;
+    std::optional<Error> problem_;
+};
+
+// Steps of a part of a face's grid.
+struct Window {
+    int firstColumn = 0;
+    int firstRow = 0;
+    int columns = 0;
+    int rows = 0;
+    std::vector<std::int16_t> steps;
+
+    double at(int column, int row) const {
+        return steps[static_cast<std::size_t>(row - firstRow) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column - firstColumn)];
+    }
+};
+
+// What a chunk covers of a window, [first, end) columns or rows.
+struct Covered {
+    int first;
+    int end;
+};
+Covered coveredBy(int chunk, int size, int first, int count) {
+    return {std::max(chunk * size, first), std::min((chunk + 1) * size + 1, first + count)};
+}
+
+void copyChunk(LevelGrid& grid, Face face, int size, int column, int row, Window& window) {
+    const std::int16_t* steps = grid.chunk(face, column, row);
+    if (!steps) return;
+    const Covered columns = coveredBy(column, size, window.firstColumn, window.columns);
+    const Covered rows = coveredBy(row, size, window.firstRow, window.rows);
+    for (int r = rows.first; r < rows.end; ++r) {
+        const std::int16_t* from = steps + (r - row * size) * (size + 1) + columns.first - column * size;
+        const auto to = static_cast<std::ptrdiff_t>(r - window.firstRow) * window.columns + columns.first -
+                        window.firstColumn;
+        std::copy_n(from, columns.end - columns.first, window.steps.begin() + to);
+    }
+}
+
+// The part of a square of texels that lies on the face, and one vertex around it.
+Window readWindow(LevelGrid& grid, Face face, int size, int firstColumn, int firstRow) {
+    const auto clamped = [&](int vertex) { return std::clamp(vertex, 0, grid.cells()); };
+    Window window;
+    window.firstColumn = clamped(firstColumn - 1);
+    window.firstRow = clamped(firstRow - 1);
+    window.columns = clamped(firstColumn + tileTexels) + 1 - window.firstColumn;
+    window.rows = clamped(firstRow + tileTexels) + 1 - window.firstRow;
+    window.steps.resize(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows));
+    const int last = grid.cells() / size - 1;
+    const auto lastChunk = [&](int vertex) { return std::min(vertex / size, last); };
+    for (int row = lastChunk(window.firstRow); row <= lastChunk(window.firstRow + window.rows - 1); ++row) {
+        for (int column = lastChunk(window.firstColumn);
+             column <= lastChunk(window.firstColumn + window.columns - 1); ++column)
+            copyChunk(grid, face, size, column, row, window);
+    }
+    return window;
+}
+
+// Of a vertex on a face's edge, by its neighbours on both faces.
+Slope slopeOnEdge(LevelGrid& grid, const FaceGridPoint& point) {
+    const int cells = grid.cells();
+    const auto step = [&](int columnsOn, int rowsOn) {
+        return grid.step({point.face, point.column + columnsOn, point.row + rowsOn});
+    };
+    const double perUnit = cells / 4.0;
+    const double acrossU = (step(1, 0) - step(-1, 0)) * perUnit;
+    const double acrossV = (step(0, 1) - step(0, -1)) * perUnit;
+    const double u = 2.0 * point.column / cells - 1;
+    const double v = 2.0 * point.row / cells - 1;
+    const double bendU = std::abs(u) == 1 ? bendAt(u, v) : 0;
+    const double bendV = std::abs(v) == 1 ? bendAt(v, u) : 0;
+    const double both = 1 - bendU * bendV;
+    return {(acrossU + bendU * acrossV) / both, (acrossV + bendV * acrossU) / both};
+}
+
+Slope slopeOnFace(LevelGrid& grid, const FaceGridPoint& point) {
+    const bool onEdge =
+        point.column == 0 || point.row == 0 || point.column == grid.cells() || point.row == grid.cells();
+    if (onEdge) return slopeOnEdge(grid, point);
+    const auto step = [&](int columnsOn, int rowsOn) {
+        return grid.step({point.face, point.column + columnsOn, point.row + rowsOn});
+    };
+    const double perUnit = grid.cells() / 4.0;
+    return {(step(1, 0) - step(-1, 0)) * perUnit, (step(0, 1) - step(0, -1)) * perUnit};
+}
+
+// Of a texel over one edge, along the axes of the tile's own face, as if its lines went on: for filters that
+// reach there.
+Slope slopeBeyondEdge(LevelGrid& grid, const FaceGridPoint& point) {
+    const int cells = grid.cells();
+    const FaceGridPoint on = foldedOver(point, cells);
+    const Slope there = slopeOnFace(grid, on);
+    const FaceAxes& own = faceAxes(point.face);
+    const FaceAxes& next = faceAxes(on.face);
+    const auto along = [&](const glm::dvec3& axis) {
+        return glm::dot(axis, next.u) * there.alongU + glm::dot(axis, next.v) * there.alongV;
+    };
+    const bool overU = point.column < 0 || point.column > cells;
+    const double side = (overU ? point.column : point.row) < 0 ? -1 : 1;
+    const double across = along(-side * own.normal);
+    if (overU) {
+        const double alongV = along(own.v);
+        return {across + 2 * bendAt(side, 2.0 * point.row / cells - 1) * alongV, alongV};
+    }
+    const double alongU = along(own.u);
+    return {alongU, across + 2 * bendAt(side, 2.0 * point.column / cells - 1) * alongU};
+}
+
+// Slow: only of texels on a face's edge and beyond. Beyond a corner of the cube there is no fourth face: the
+// corner's own.
+Slope slopeAround(LevelGrid& grid, FaceGridPoint point) {
+    const int cells = grid.cells();
+    const auto isOver = [&](int vertex) { return vertex < 0 || vertex > cells; };
+    if (isOver(point.column) && isOver(point.row)) {
+        point.column = std::clamp(point.column, 0, cells);
+        point.row = std::clamp(point.row, 0, cells);
+    }
+    if (isOver(point.column) || isOver(point.row)) return slopeBeyondEdge(grid, point);
+    return slopeOnFace(grid, point);
+}
+
+// The nearest half float, to even (after Giesen, "Float->half variants", 2012): some ten times as fast as
+// glm's.
+std::uint16_t halfOf(double value) {
+    constexpr std::uint32_t smallestNormal = 0x38800000;  // 2^-14
+    constexpr std::uint32_t subnormalStep = 0x3F000000;   // 0.5, whose last bit is worth 2^-24
+    const auto bits =
+        std::bit_cast<std::uint32_t>(static_cast<float>(std::clamp(value, -steepest, steepest)));
+    const std::uint32_t sign = (bits & 0x80000000u) >> 16;
+    std::uint32_t size = bits & 0x7FFFFFFFu;
+    if (size < smallestNormal) {
+        const float shifted = std::bit_cast<float>(size) + std::bit_cast<float>(subnormalStep);
+        size = std::bit_cast<std::uint32_t>(shifted) - subnormalStep;
+    } else {
+        const std::uint32_t odd = (size >> 13) & 1u;
+        size = (size - 0x38000000u + 0xFFFu + odd) >> 13;  // the exponent counts from 15, not 127
+    }
+    return static_cast<std::uint16_t>(sign | size);
+}
+
+void putTexel(TileData& tile, int column, int row, const Slope& slope, double scale) {
+    const std::array<std::uint16_t, 2> halves = {halfOf(slope.alongU * scale), halfOf(slope.alongV * scale)};
+    const std::size_t at = static_cast<std::size_t>(row) * tileTexels * sizeof halves +
+                           static_cast<std::size_t>(column) * sizeof halves;
+    std::memcpy(tile.texels.data() + at, halves.data(), sizeof halves);
+}
+
+}  // namespace
+
+int normalLeafLevel(const PlanetShape& shape) {
+    return std::clamp(shape.faceCellsLog2 - tileCellsLog2, -1, maxTileLevel);
+}
+
+NormalDeriver::NormalDeriver(const PlanetShape& shape, const std::array<HeldChunk, faceCount>& roots,
+                             LoadChildren load)
+    : shape_(shape),
+      roots_(roots),
+      heights_(
+          [this, load = std::move(load)](const ChunkId& parent, BlockLocation location,
+                                         std::span<const std::int16_t> parentHeights) {
+              bytesRead_ += location.size;
+              return load(parent, location, parentHeights);
+          },
+          0) {}
+
+Result<TileData> NormalDeriver::tile(const ChunkId& id) {
+    assert(id.level <= normalLeafLevel(shape_));
+    const int size = chunkCells(shape_);
+    LevelGrid grid(shape_, id.level + tileCellsLog2 - shape_.chunkCellsLog2, roots_, heights_);
+    const int cells = grid.cells();
+    const int firstColumn = static_cast<int>(id.x) * tileCells - tileBorderBefore;
+    const int firstRow = static_cast<int>(id.y) * tileCells - tileBorderBefore;
+    const Window window = readWindow(grid, id.face, size, firstColumn, firstRow);
+    const double scale = shape_.quantumM / shape_.radiusM;
+    const double perUnit = cells / 4.0;
+    TileData tile{id, {}, std::vector<std::byte>(normalTileBytes)};
+    for (int j = 0; j < tileTexels && !grid.problem(); ++j) {
+        const int row = firstRow + j;
+        for (int i = 0; i < tileTexels; ++i) {
+            const int column = firstColumn + i;
+            const bool inside = column > 0 && column < cells && row > 0 && row < cells;
+            const Slope slope =
+                inside ? Slope{(window.at(column + 1, row) - window.at(column - 1, row)) * perUnit,
+                               (window.at(column, row + 1) - window.at(column, row - 1)) * perUnit}
+                       : slopeAround(grid, {id.face, column, row});
+            putTexel(tile, i, j, slope, scale);
+        }
+    }
+    if (grid.problem())
+        return tl::unexpected(Error{grid.problem()->kind, fmt::format("normals of tile {}: {}", toString(id),
+                                                                      grid.problem()->message)});
+    return tile;
+}
+
+Result<TileBlock> NormalDeriver::childrenOf(const ChunkId& parent) {
+    TileBlock block;
+    for (int q = 0; q < quadrantCount; ++q) {
+        Result<TileData> child = tile(childOf(parent, q));
+        if (!child) return tl::unexpected(std::move(child.error()));
+        block[static_cast<std::size_t>(q)] = std::move(*child);
+    }
+    return block;
+}
+
+std::array<float, 2> slopeOfTexel(const TileData& tile, int column, int row) {
+    assert(column >= 0 && column < tileTexels && row >= 0 && row < tileTexels);
+    std::array<std::uint16_t, 2> halves{};
+    const std::size_t at =
+        (static_cast<std::size_t>(row) * tileTexels + static_cast<std::size_t>(column)) * sizeof halves;
+    assert(tile.texels.size() == normalTileBytes);
+    std::memcpy(halves.data(), tile.texels.data() + at, sizeof halves);
+    return {glm::unpackHalf1x16(halves[0]), glm::unpackHalf1x16(halves[1])};
+}
+
+}  // namespace planet

@@ -1,0 +1,355 @@
+#include "planet/paging/pager.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <exception>
+#include <utility>
+
+namespace planet {
+
+namespace {
+
+// Reading may allocate a lot and may run code that the caller supplied; neither may end the program.
+Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& request) {
+    const auto asLoaded = [](auto&& block) { return LoadedBlock(std::forward<decltype(block)>(block)); };
+    try {
+        if (request.kind == BlockKind::Colours)
+            return load.colours(request.parent, request.location).map(asLoaded);
+        if (request.kind == BlockKind::Normals) return load.normals(request.parent).map(asLoaded);
+        return load.chunks(request.parent, request.location, *request.parentHeights).map(asLoaded);
+    } catch (const std::exception& problem) {
+        return ioError(fmt::format("children of chunk {}: {}", toString(request.block()), problem.what()));
+    }
+}
+
+Result<LoadedBlock> failedOnPurpose(const BlockId& block, std::uint32_t seed,
+                                    ErrorKind kind = ErrorKind::Io) {
+    if (kind == ErrorKind::BadInput)
+        return badInput(
+            fmt::format("{}: was not what it should be, when this was recorded", toString(block)));
+    return ioError(fmt::format("{}: read failed on purpose (bad disk, seed {})", toString(block), seed));
+}
+
+std::optional<ErrorKind> failureOf(const DiskFault& fault) {
+    return fault.fails ? std::optional(ErrorKind::Io) : std::nullopt;
+}
+
+}  // namespace
+
+Pager::Pager(BlockLoaders load, int threads) : load_(std::move(load)) {
+    assert(load_.chunks);
+    setThreads(threads);
+}
+
+Pager::~Pager() {
+    // All are told before the first is joined, so that they end side by side.
+    for (std::jthread& thread : threads_) thread.request_stop();
+}
+
+void Pager::setThreads(int threads) {
+    assert(threads >= 1 && threads <= maxLoaderThreads);
+    const Wake wake{workArrived_};
+    const std::lock_guard lock(mutex_);
+    loadersWanted_ = static_cast<std::size_t>(threads);
+    const VirtualLoaders loaders{*this};
+    for (std::size_t i = 0; i < loadersWanted_; ++i) {
+        if (loaders_[i].running) continue;  // one that was about to go stays
+        loaders_[i].running = true;
+        // The thread that was here before has nothing left to do, so joining it takes no time.
+        threads_[i] = std::jthread([this, i](const std::stop_token& stop) { runLoader(i, stop); });
+    }
+}
+
+void Pager::setPaused(bool paused) {
+    const Wake wake{workArrived_};
+    const std::lock_guard lock(mutex_);
+    if (paused_ == paused) return;
+    paused_ = paused;
+    letThrough_ = 0;
+    startVirtualReads();
+}
+
+void Pager::loadOne() {
+    const Wake wake{workArrived_};
+    const std::lock_guard lock(mutex_);
+    if (paused_ && letThrough_ < queue_.count(PagingType::PageIn)) ++letThrough_;
+    startVirtualReads();
+}
+
+void Pager::setBadDisk(const BadDiskSettings& settings) {
+    const Wake wake{badDiskChanged_};
+    const std::lock_guard lock(mutex_);
+    if (badDisk_ == settings) return;
+    badDisk_ = settings;
+    ++badDiskVersion_;
+    attempts_.clear();
+    if (time_ != PagingTime::Simulated) return;
+    for (VirtualReading& reading : virtualReadings_) {
+        const DiskFault fault = nextFault(reading.request);
+        reading.failure = failureOf(fault);
+        reading.endS = std::max(reading.sinceS + fault.waitS, nowS_);
+    }
+}
+
+void Pager::forgetAttempts() {
+    const std::lock_guard lock(mutex_);
+    attempts_.clear();
+}
+
+void Pager::runLoader(std::size_t index, const std::stop_token& stop) {
+    Lock lock(mutex_);
+    while (true) {
+        workArrived_.wait(
+            lock, stop, [&] { return index >= loadersWanted_ || (time_ == PagingTime::Clock && mayTake()); });
+        if (stop.stop_requested() || index >= loadersWanted_) break;
+        serve(index, stop, lock);
+    }
+    loaders_[index].running = false;
+}
+
+bool Pager::mayTake() const {
+    return queue_.count(PagingType::PageIn) > 0 && (!paused_ || letThrough_ > 0);
+}
+
+PagingRequest Pager::takeNext() {
+    if (paused_) --letThrough_;
+    PagingRequest request =
+        badDisk_.shuffledOrder
+            ? *queue_.popFirst(PagingType::PageIn,
+                               [&](const BlockId& block) { return shuffledPlace(badDisk_, block); })
+            : *queue_.popBest(PagingType::PageIn);
+    taken_.push_back(request.block());
+    return request;
+}
+
+DiskFault Pager::nextFault(const PagingRequest& request) {
+    if (!isTrouble(badDisk_)) return {};
+    return diskFault(badDisk_, request.block(), attempts_[request.block()]++, request.location.size);
+}
+
+// Takes a request and sees it through. Locked before and after.
+void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
+    const std::uint64_t epoch = epoch_;
+    PagingRequest request = takeNext();
+    const Reading reading{request, Clock::now()};
+    loaders_[index].reading = reading;
+    const bool fails = sitOutBadDisk(reading, stop, lock);
+    Result<LoadedBlock> block;
+    if (fails) {
+        block = failedOnPurpose(request.block(), badDisk_.seed);
+    } else if (epoch == epoch_) {
+        lock.unlock();
+        block = loadSafely(load_, request);
+        lock.lock();
+    }
+    if (epoch != epoch_) return;  // given up
+    loaders_[index].reading.reset();
+    const std::chrono::duration<double> taken = Clock::now() - reading.since;
+    const std::uint32_t bytes = fails ? 0 : request.location.size;
+    finished_.push_back({std::move(request), std::move(block), taken.count(), bytes});
+    loadFinished_.notify_all();
+}
+
+// Waits as long as the bad disk says, and by its new word when that changes. True if the read fails.
+bool Pager::sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock) {
+    const std::uint64_t epoch = epoch_;
+    while (isTrouble(badDisk_) && !stop.stop_requested() && epoch == epoch_) {
+        const DiskFault fault = nextFault(reading.request);
+        const auto until = reading.since + std::chrono::duration_cast<Clock::duration>(
+                                               std::chrono::duration<double>(fault.waitS));
+        const std::uint64_t version = badDiskVersion_;
+        if (!badDiskChanged_.wait_until(lock, stop, until,
+                                        [&] { return badDiskVersion_ != version || epoch_ != epoch; })) {
+            return fault.fails;
+        }
+    }
+    return false;
+}
+
+std::vector<PagingRequest> Pager::setTime(PagingTime time) {
+    const Wake wakeWaiting{badDiskChanged_};
+    const Wake wake{workArrived_};
+    const std::lock_guard lock(mutex_);
+    if (time == time_) return {};
+    time_ = time;
+    std::vector<PagingRequest> givenUp = giveUpReads();
+    startVirtualReads();
+    return givenUp;
+}
+
+std::vector<PagingRequest> Pager::giveUp() {
+    const Wake wakeWaiting{badDiskChanged_};
+    const Wake wake{workArrived_};
+    const std::lock_guard lock(mutex_);
+    std::vector<PagingRequest> givenUp = giveUpReads();
+    startVirtualReads();
+    return givenUp;
+}
+
+std::vector<PagingRequest> Pager::giveUpReads() {
+    std::vector<PagingRequest> givenUp;
+    for (FinishedLoad& load : finished_) givenUp.push_back(std::move(load.request));
+    for (VirtualReading& reading : virtuallyFinished_) givenUp.push_back(std::move(reading.request));
+    for (VirtualReading& reading : virtualReadings_) givenUp.push_back(std::move(reading.request));
+    for (Loader& loader : loaders_) {
+        if (loader.reading) givenUp.push_back(std::move(loader.reading->request));
+        loader.reading.reset();
+    }
+    finished_.clear();
+    virtuallyFinished_.clear();
+    virtualReadings_.clear();
+    taken_.clear();
+    nowS_ = 0;
+    letThrough_ = 0;
+    ++epoch_;
+    return givenUp;
+}
+
+PagingTime Pager::time() const {
+    const std::lock_guard lock(mutex_);
+    return time_;
+}
+
+void Pager::startVirtualReads() {
+    if (time_ != PagingTime::Simulated) return;
+    while (virtualReadings_.size() < loadersWanted_ && mayTake()) {
+        PagingRequest request = takeNext();
+        const DiskFault fault = nextFault(request);
+        virtualReadings_.push_back({std::move(request), nowS_, nowS_ + fault.waitS, failureOf(fault)});
+    }
+}
+
+// Of those that end first the one that was taken first; there must be one.
+std::size_t Pager::nextVirtualEnd() const {
+    const auto next =
+        std::min_element(virtualReadings_.begin(), virtualReadings_.end(),
+                         [](const VirtualReading& a, const VirtualReading& b) { return a.endS < b.endS; });
+    return static_cast<std::size_t>(next - virtualReadings_.begin());
+}
+
+void Pager::endVirtualRead(std::size_t index) {
+    const auto at = virtualReadings_.begin() + static_cast<std::ptrdiff_t>(index);
+    at->endS = nowS_;
+    virtuallyFinished_.push_back(std::move(*at));
+    virtualReadings_.erase(at);
+}
+
+void Pager::advance(double seconds) {
+    assert(seconds >= 0);
+    const std::lock_guard lock(mutex_);
+    assert(time_ != PagingTime::Clock);
+    const double untilS = nowS_ + seconds;
+    while (time_ == PagingTime::Simulated && !virtualReadings_.empty()) {
+        const std::size_t next = nextVirtualEnd();
+        if (virtualReadings_[next].endS > untilS) break;
+        nowS_ = std::max(nowS_, virtualReadings_[next].endS);
+        endVirtualRead(next);
+        startVirtualReads();
+    }
+    nowS_ = untilS;
+}
+
+std::optional<double> Pager::untilNextEnd() const {
+    const std::lock_guard lock(mutex_);
+    if (time_ != PagingTime::Simulated || virtualReadings_.empty()) return std::nullopt;
+    return std::max(virtualReadings_[nextVirtualEnd()].endS - nowS_, 0.0);
+}
+
+bool Pager::take(const BlockId& block) {
+    const std::lock_guard lock(mutex_);
+    assert(time_ == PagingTime::Recorded);
+    const PagingRequest* queued = queue_.find(block);
+    if (!queued || queued->type != PagingType::PageIn) return false;
+    virtualReadings_.push_back({*queue_.pop(block), nowS_, nowS_});
+    taken_.push_back(block);
+    return true;
+}
+
+bool Pager::finish(const BlockId& block, std::optional<ErrorKind> failure, bool last) {
+    const std::lock_guard lock(mutex_);
+    assert(time_ == PagingTime::Recorded);
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < virtualReadings_.size() && (last || !found); ++i) {
+        if (virtualReadings_[i].request.block() == block) found = i;
+    }
+    if (!found) return false;
+    virtualReadings_[*found].failure = failure;
+    endVirtualRead(*found);
+    return true;
+}
+
+std::vector<BlockId> Pager::takeTaken(const PagingQueue& lockedQueue) {
+    assert(&lockedQueue == &queue_);
+    static_cast<void>(lockedQueue);
+    return std::exchange(taken_, {});
+}
+
+// What a virtual loader has waited for is read now.
+std::optional<FinishedLoad> Pager::readFinished(Lock& lock) {
+    if (virtuallyFinished_.empty()) return std::nullopt;
+    VirtualReading reading = std::move(virtuallyFinished_.front());
+    virtuallyFinished_.pop_front();
+    const std::uint32_t seed = badDisk_.seed;
+    lock.unlock();
+    FinishedLoad load;
+    load.block = reading.failure ? failedOnPurpose(reading.request.block(), seed, *reading.failure)
+                                 : loadSafely(load_, reading.request);
+    load.seconds = reading.endS - reading.sinceS;
+    load.bytes = reading.failure ? 0 : reading.request.location.size;
+    load.request = std::move(reading.request);
+    return load;
+}
+
+std::optional<FinishedLoad> Pager::takeFinished() {
+    Lock lock(mutex_);
+    if (time_ != PagingTime::Clock) return readFinished(lock);
+    if (finished_.empty()) return std::nullopt;
+    FinishedLoad load = std::move(finished_.front());
+    finished_.pop_front();
+    return load;
+}
+
+bool Pager::waitForFinished(Clock::time_point until) {
+    Lock lock(mutex_);
+    loadFinished_.wait_until(lock, until, [&] { return !finished_.empty() || statusLocked().atRest(); });
+    return !finished_.empty();
+}
+
+PagerStatus Pager::status() const {
+    const std::lock_guard lock(mutex_);
+    return statusLocked();
+}
+
+PagerStatus Pager::statusLocked() const {
+    const auto loading = std::count_if(loaders_.begin(), loaders_.end(),
+                                       [](const Loader& loader) { return loader.reading.has_value(); });
+    return {static_cast<std::uint32_t>(queue_.count(PagingType::PageIn)),
+            static_cast<std::uint32_t>(static_cast<std::size_t>(loading) + virtualReadings_.size()),
+            static_cast<std::uint32_t>(finished_.size() + virtuallyFinished_.size()),
+            paused_ && letThrough_ == 0};
+}
+
+std::vector<LoadInProgress> Pager::loadingNow() const {
+    const std::lock_guard lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    std::vector<LoadInProgress> all;
+    for (const Loader& loader : loaders_) {
+        if (!loader.reading) continue;
+        const std::chrono::duration<double> taken = now - loader.reading->since;
+        const PagingRequest& request = loader.reading->request;
+        all.push_back({request.parent, request.kind, request.priority, request.location.size, taken.count()});
+    }
+    for (const VirtualReading& reading : virtualReadings_) {
+        const PagingRequest& request = reading.request;
+        all.push_back(
+            {request.parent, request.kind, request.priority, request.location.size, nowS_ - reading.sinceS});
+    }
+    std::sort(all.begin(), all.end(), [](const LoadInProgress& a, const LoadInProgress& b) {
+        return a.seconds != b.seconds ? a.seconds > b.seconds : a.parent < b.parent;
+    });
+    return all;
+}
+
+}  // namespace planet

@@ -1,0 +1,60 @@
+// What a Planet (planet.h) is opened from and stepped with: plain data.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planet/format/chunk_file.h"
+#include "planet/paging/pager.h"
+#include "planet/select/lod_types.h"
+#include "planet/select/tile_select.h"
+#include "planet/sphere/planet_shape.h"
+#include "planet/sphere/view.h"
+
+namespace planet {
+
+// A planet's content: a chunk file, or for tests and generated planets anything that acts like one.
+struct PlanetSource {
+    PlanetShape shape;
+    std::int16_t minStep = 0;  // over the whole planet
+    std::int16_t maxStep = 0;
+    std::array<ChunkData, faceCount> roots;  // in face order
+    LoadChildren loadChildren;
+    // Without a pyramid there are no colours.
+    std::optional<ColourPyramid> colour{};
+    std::array<TileData, faceCount> colourRoots{};
+    LoadColours loadColours{};
+    std::vector<std::string> problems{};    // non-fatal problems found while opening, for takeProblems()
+    std::shared_ptr<const ChunkFile> file;  // the file that the above comes from; null if there is none
+};
+
+// One of the views that share a planet.
+struct ViewInput {
+    View lodView;
+    LodSettings lod;
+    double priorityFactor = 1;  // of its requests against the other views'; > 0
+    TileSettings colours{};
+    TileSettings normals{};
+};
+
+// The duration of each stage of the last step, ms.
+struct StageTimes {
+    double uploadMs = 0;
+    double selectMs = 0;
+    double pagingMs = 0;  // page-out and requests
+};
+
+// Makes one chunk's heights drawable: chunkVertexCount steps into a slot below slotCapacity(). Called by the
+// thread that steps the planet.
+using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
+
+// No-op upload, for headless use.
+inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
+
+}  // namespace planet

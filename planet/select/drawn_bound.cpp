@@ -1,0 +1,112 @@
+#include "planet/select/drawn_bound.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "planet/select/drawn_surface.h"
+#include "planet/tree/chunk_table.h"
+
+namespace planet {
+
+namespace {
+
+// The farthest that one of the chunk's vertices slides, metres.
+double mostSlideM(const DrawItem& item, ErrorMetric metric) {
+    const auto parentM = static_cast<double>(item.parentDeltaM);
+    return metric == ErrorMetric::Additive ? std::max(parentM - static_cast<double>(item.deltaCM), 0.0)
+                                           : parentM;
+}
+
+double edgeSlideM(std::span<const DrawItem> items, const DrawItem& item, std::size_t edge,
+                  std::uint32_t neighbour, ErrorMetric metric) {
+    const double own = mostSlideM(item, metric);
+    if (neighbour == noNeighbour) return own;
+    const DrawItem& other = items[neighbour];
+    return std::min(
+        own, item.coarserBy[edge] > 0 ? static_cast<double>(other.deltaCM) : mostSlideM(other, metric));
+}
+
+// Of a chunk by itself: its inside, and those of its edges that are not stitched to a coarser chunk.
+double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const DrawnNeighbours& neighbours,
+                  double spanM, double screenScalePx, ErrorMetric metric, bool stitched) {
+    const auto eps = static_cast<double>(item.epsPx);
+    const auto morph = static_cast<double>(item.morph);
+    const auto deltaM = static_cast<double>(item.deltaCM);
+    const auto distanceM = static_cast<double>(item.distanceM);
+    const auto parentM = std::max(static_cast<double>(item.parentDeltaM), deltaM);
+    const double inside = eps + morph * std::max(static_cast<double>(item.parentEpsPx) - eps, 0.0);
+    const double slidM = morph * mostSlideM(item, metric);
+    double mixedPx = 0;  // the two bounds of what lies along an edge
+    double slidPx = 0;
+    double gatheredPx = 0;
+    for (std::size_t edge = 0; edge < edgeCount; ++edge) {
+        if (stitched && item.coarserBy[edge] > 0) continue;
+        const auto edgeMorph = static_cast<double>(item.edgeMorph[edge]);
+        const bool gathers = stitched && gathersVertices(item, static_cast<Edge>(edge));
+        if (edgeMorph == morph && !gathers) continue;
+        const std::uint32_t neighbour = neighbours[edge];
+        const double slideM = edgeSlideM(items, item, edge, neighbour, metric);
+        const double besideM =
+            neighbour == noNeighbour ? 0 : static_cast<double>(items[neighbour].distanceM) - spanM;
+        const double pxPerM = screenScalePx / std::max(distanceM, besideM);
+        mixedPx = std::max(
+            mixedPx,
+            ((1 - morph) * deltaM + morph * parentM + std::abs(edgeMorph - morph) * slideM) * pxPerM);
+        slidPx = std::max(slidPx, (deltaM + std::max(slidM, edgeMorph * slideM)) * pxPerM);
+        if (gathers) {
+            gatheredPx = std::max(gatheredPx, eps + (edgeMorph + 1) * static_cast<double>(item.parentDeltaM) *
+                                                        screenScalePx / distanceM);
+        }
+    }
+    return std::max({inside, std::min(mixedPx, slidPx), gatheredPx});
+}
+
+}  // namespace
+
+// On the unit sphere a step along either axis of the cube is at most as long as on the cube, whose faces are
+// 2 a side.
+double cellSpanM(const PlanetShape& shape, const ChunkNode& node) {
+    const double cellSide = 2.0 / static_cast<double>(std::uint64_t{1} << node.id.level) / chunkCells(shape);
+    const double highestM = shape.radiusM + static_cast<double>(node.maxHeightM);
+    return 2 * cellSide * highestM + static_cast<double>(node.maxHeightM - node.minHeightM);
+}
+
+void fillDrawnBounds(std::span<DrawItem> items, std::span<const DrawnNeighbours> neighbours,
+                     std::span<const double> cellSpansM, double screenScalePx, ErrorMetric metric,
+                     bool stitched) {
+    assert(items.size() == neighbours.size() && items.size() == cellSpansM.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        items[i].drawnBoundPx = static_cast<float>(
+            ownBoundPx(items, items[i], neighbours[i], cellSpansM[i], screenScalePx, metric, stitched));
+    }
+    if (!stitched) return;
+    std::vector<float> own;
+    own.reserve(items.size());
+    for (const DrawItem& item : items) own.push_back(item.drawnBoundPx);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        for (std::size_t edge = 0; edge < edgeCount; ++edge) {
+            if (items[i].coarserBy[edge] == 0 || neighbours[i][edge] == noNeighbour) continue;
+            items[i].drawnBoundPx = std::max(items[i].drawnBoundPx, own[i] + own[neighbours[i][edge]]);
+        }
+    }
+}
+
+void fillDrawnBounds(std::span<DrawItem> items, std::span<const double> cellSpansM, double screenScalePx,
+                     ErrorMetric metric, bool stitched) {
+    ChunkTable places(items.size());
+    for (std::uint32_t i = 0; i < items.size(); ++i) places.add(items[i].id, i);
+    std::vector<DrawnNeighbours> neighbours(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        for (std::size_t edge = 0; edge < edgeCount; ++edge) {
+            const ChunkId beside = neighbourOf(items[i].id, static_cast<Edge>(edge));
+            const std::uint32_t* found =
+                places.find(ancestorOf(beside, items[i].id.level - items[i].coarserBy[edge]));
+            neighbours[i][edge] = found ? *found : noNeighbour;
+        }
+    }
+    fillDrawnBounds(items, neighbours, cellSpansM, screenScalePx, metric, stitched);
+}
+
+}  // namespace planet

@@ -1,0 +1,57 @@
+// The bound of what is drawn, pixels: how far the drawn surface of a chunk may lie from the finest data, with
+// its morph, the morphs of its edges and stitched edges counted in. eps bounds the chunk's own surface only.
+// Without morph and stitched edges the two are the same.
+//
+// A chunk has the error delta and the morph m, its parent the error delta_P; s is the farthest that a vertex
+// slides at morph 1. A vertex is a finest sample, so s <= delta_P; by the additive metric delta_P is at least
+// the parent's own step plus delta, so s <= delta_P - delta.
+//
+//   inside          (1 - m) eps + m eps_P      since each point is drawn so far on the way from the chunk's
+//                                              surface to its parent's; eps_P is the parent's own eps
+//   along an edge   an edge e has a morph m_e of its own. Its vertices lie on the chunk beside it too, so s_e
+//   is
+//                   at most s, at most the same of a neighbour of the chunk's level, and at most the delta of
+//                   a coarser neighbour; and they are no nearer than that chunk. So what lies in the cells
+//                   along the edge is at least D_e = max(D, D of the neighbour - L) away, L being the
+//                   farthest that two points of a cell are apart. A triangle there mixes vertices of the edge
+//                   with others, so the smaller of two bounds holds:
+//                     ((1 - m) delta + m delta_P + |m_e - m| s_e) K' / D_e
+//                     (delta + max(m s, m_e s_e)) K' / D_e
+//
+// Along an edge that is stitched to a coarser chunk a triangle has two of that one's vertices and one of the
+// chunk's own, so both errors are added up; while vertices are gathered (drawn_surface.h), s_e counts once
+// more. In those cells this is no proven bound: triangles there reach over several cells of the chunk, which
+// no delta_c looks at.
+//
+// Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "planet/select/lod_types.h"
+#include "planet/sphere/planet_shape.h"
+#include "planet/tree/chunk_tree.h"
+
+namespace planet {
+
+inline constexpr std::uint32_t noNeighbour = ~std::uint32_t{0};
+
+// By edge, west to north: the index of the drawn chunk beyond it, of the same level or coarser, or
+// noNeighbour.
+using DrawnNeighbours = std::array<std::uint32_t, edgeCount>;
+
+// Returns L above, metres: no two points of one of the chunk's cells, drawn or true, are farther apart.
+double cellSpanM(const PlanetShape& shape, const ChunkNode& node);
+
+// Fills DrawItem::drawnBoundPx. cellSpansM: L of each item, infinity where it is not known. screenScalePx:
+// K'. stitched: drawn with RenderSettings::stitched.
+void fillDrawnBounds(std::span<DrawItem> items, std::span<const DrawnNeighbours> neighbours,
+                     std::span<const double> cellSpansM, double screenScalePx, ErrorMetric metric,
+                     bool stitched);
+// The same for items in any order, whose neighbours are looked up among them.
+void fillDrawnBounds(std::span<DrawItem> items, std::span<const double> cellSpansM, double screenScalePx,
+                     ErrorMetric metric, bool stitched);
+
+}  // namespace planet

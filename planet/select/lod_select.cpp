@@ -1,0 +1,521 @@
+#include "planet/select/lod_select.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <unordered_set>
+
+#include "planet/select/drawn_bound.h"
+#include "planet/select/screen_error.h"
+#include "planet/select/skirt_depth.h"
+#include "planet/sphere/culling.h"
+#include "planet/tree/chunk_table.h"
+
+namespace planet {
+
+namespace {
+
+// How a chunk was drawn in the frame before.
+struct Shown {
+    float morph = 0;
+    std::array<float, edgeCount> edgeMorph{};
+    std::array<bool, edgeCount> onCoarser{};  // stitched: the edge showed a coarser chunk's vertices
+};
+
+// What of the selection before counts for this one.
+struct Memory {
+    std::optional<ChunkTable> splits;  // for hysteresis and fading
+    std::optional<ChunkTable> drawn;   // for fading: each chunk's place in shown
+    std::vector<Shown> shown;
+    float fadeStep = 0;  // the most that a morph moves in this frame, [0, 1]
+
+    bool fades() const { return drawn.has_value(); }
+    bool wasSplit(const ChunkId& id) const { return splits && splits->contains(id); }
+    // Null where it was not drawn.
+    const Shown* find(const ChunkId& id) const {
+        const std::uint32_t* found = drawn ? drawn->find(id) : nullptr;
+        return found ? &shown[*found] : nullptr;
+    }
+};
+
+// What every node of one frame is compared with.
+struct Frame {
+    const ChunkTree& tree;
+    const LodSettings& settings;
+    glm::dvec3 eyeM;
+    Culling culling;
+    double scalePx;     // K'
+    double reach;       // K = K' / tau: d_m is delta times this
+    double mergeReach;  // the same for what was split: K' / (tau (1 - hysteresis))
+    Memory before;
+    std::unordered_set<NodeIndex> seamLimit;  // drawn though they could be split, for stitched seams
+};
+
+// What a node needs to know of its parent.
+struct Above {
+    double epsPx = 0;        // 0 for a root
+    double deltaM = 0;       // by the metric, metres
+    bool justSplit = false;  // drawn in the frame before: the node begins on its surface
+    bool merging = false;    // it, or one above it, waits until it can take its children's place
+};
+
+// A node as the eye sees it.
+struct Seen {
+    NodeIndex index = noNode;
+    double deltaM = 0;  // by the metric, metres
+    double distanceM = 0;
+};
+
+// 1 where the parent is about to take the chunk's place, 0 where it is far from it.
+//
+// The chunk must show its own surface when its own children take its place, or it theirs: so it may not have
+// begun to slide while its eps is over tau (1 - hysteresis). The parent's eps is at least delta(parent) /
+// delta times the chunk's, where the parent's box holds the chunk's; where it does not, the ratio of the
+// eps themselves is the smaller. Without hysteresis a ratio of 1 leaves no range, and needs none: the two
+// surfaces are the same. With it, a range too short would be a pop of its own, so a quarter of it is kept.
+double naturalMorph(const LodSettings& settings, const Above& above, double deltaM, double epsPx) {
+    if (!settings.morph || above.epsPx == 0) return 0;
+    const double overTau = above.epsPx / settings.tauPx;
+    if (overTau <= 1) return 1;
+    double range = settings.morphRange;
+    if (epsPx > 0) {
+        const double ratio = std::min(above.deltaM / deltaM, above.epsPx / epsPx);
+        range = std::min(range, std::max(ratio * (1 - settings.hysteresis) - 1, (ratio - 1) / 4));
+    }
+    return range > 0 ? std::max(0.0, (1 + range - overTau) / range) : 0;
+}
+
+float faded(const Memory& before, float last, float target) {
+    constexpr float rounding = 1e-6f;  // so that many steps end where they should
+    if (std::abs(target - last) <= before.fadeStep + rounding) return target;
+    return target > last ? last + before.fadeStep : last - before.fadeStep;
+}
+
+// From where it was in the frame before towards its target.
+float fadedMorph(const Memory& before, const ChunkId& id, const Above& above, float target) {
+    if (!before.fades()) return target;
+    if (above.justSplit) return 1;
+    if (const Shown* last = before.find(id)) return faded(before, last->morph, target);
+    return before.wasSplit(id) ? 0 : target;
+}
+
+void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWaits, Selection& out) {
+    const ChunkNode& node = frame.tree.nodes[seen.index];
+    const double epsPx = seen.deltaM * frame.scalePx / seen.distanceM;
+    const double natural = naturalMorph(frame.settings, above, seen.deltaM, epsPx);
+    const float target = above.merging ? 1 : splitWaits ? 0 : static_cast<float>(natural);
+    DrawItem item;
+    item.node = seen.index;
+    item.id = node.id;
+    item.slot = node.slot;
+    item.epsPx = static_cast<float>(epsPx);
+    item.parentEpsPx = static_cast<float>(above.epsPx);
+    item.distanceM = static_cast<float>(seen.distanceM);
+    item.deltaCM = static_cast<float>(seen.deltaM);
+    item.parentDeltaM = static_cast<float>(above.deltaM);
+    item.morph = fadedMorph(frame.before, node.id, above, target);
+    item.splitWaits = splitWaits;
+    item.mergeWaits = above.merging;
+    out.draw.push_back(item);
+    out.counters.fading += item.morph != target || splitWaits || above.merging;
+    out.counters.deepestLevel = std::max<std::uint32_t>(out.counters.deepestLevel, node.id.level);
+    out.counters.worstEpsPx = std::max(out.counters.worstEpsPx, item.epsPx);
+}
+
+// Only where the children are still there: hysteresis keeps what is, and asks for nothing.
+bool staysSplit(const Frame& frame, const ChunkNode& node, const Seen& seen) {
+    return frame.settings.hysteresis > 0 && node.childrenState == ChildrenState::Resident &&
+           seen.deltaM * frame.mergeReach > seen.distanceM && frame.before.wasSplit(node.id);
+}
+
+// Whether the node should be drawn as its children.
+bool wantsSplit(const Frame& frame, const Seen& seen, const Above& above) {
+    const ChunkNode& node = frame.tree.nodes[seen.index];
+    if (node.childrenState == ChildrenState::None || node.id.level >= frame.settings.maxLevel) return false;
+    if (above.merging || (!frame.seamLimit.empty() && frame.seamLimit.contains(seen.index))) return false;
+    return seen.deltaM * frame.reach > seen.distanceM || staysSplit(frame, node, seen);
+}
+
+bool edgeShowed(const Memory& before, const ChunkId& id, const ChunkId& towards, float morph) {
+    const Shown* shown = before.find(id);
+    const std::optional<Edge> edge = shown ? edgeTowards(id, towards) : std::nullopt;
+    return !edge || shown->edgeMorph[static_cast<std::size_t>(*edge)] == morph;
+}
+
+// Whether the chunks of its children's level beyond a chunk's edge show no more than the chunk does there.
+bool finerNeighboursFit(const Memory& before, const ChunkId& id, Edge edge) {
+    const ChunkId beyond = neighbourOf(id, edge);
+    for (int q = 0; q < quadrantCount; ++q) {
+        const ChunkId child = childOf(id, q);
+        const ChunkId other = neighbourOf(child, edge);
+        if (parentOf(other) == beyond && !edgeShowed(before, other, child, 1)) return false;
+    }
+    return true;
+}
+
+// Whether the split would be seen: the node does not show its own surface yet, or a finer chunk beside it not
+// yet the same edge.
+bool splitMustWait(const Memory& before, const ChunkId& id, const Above& above) {
+    if (!before.fades()) return false;
+    if (above.justSplit) return true;
+    const Shown* shown = before.find(id);
+    if (!shown) return false;
+    if (shown->morph != 0) return true;
+    return std::any_of(allEdges.begin(), allEdges.end(), [&](Edge edge) {
+        const auto e = static_cast<std::size_t>(edge);
+        return (shown->edgeMorph[e] != 0 && !shown->onCoarser[e]) || !finerNeighboursFit(before, id, edge);
+    });
+}
+
+// Whether a chunk showed its parent's surface, its edges included, or nothing at all.
+bool showedItsParent(const Memory& before, const ChunkId& id) {
+    if (before.wasSplit(id)) return false;
+    const Shown* shown = before.find(id);
+    if (!shown) return true;
+    if (shown->morph != 1) return false;
+    for (std::size_t e = 0; e < edgeCount; ++e) {
+        if (shown->edgeMorph[e] != 1 && !shown->onCoarser[e]) return false;
+    }
+    return true;
+}
+
+// Whether the merge of a node that should not be split would be seen: its children do not show its surface
+// yet, or a chunk beside them not yet the same edge. Those that were culled show nothing.
+bool mergeMustWait(const Frame& frame, NodeIndex index) {
+    const ChunkNode& node = frame.tree.nodes[index];
+    const Memory& before = frame.before;
+    if (!before.fades() || node.childrenState != ChildrenState::Resident || !before.wasSplit(node.id)) {
+        return false;
+    }
+    if (!frame.seamLimit.empty() && frame.seamLimit.contains(index)) return false;
+    for (int q = 0; q < quadrantCount; ++q) {
+        if (!showedItsParent(before, childOf(node.id, q))) return true;
+    }
+    return std::any_of(allEdges.begin(), allEdges.end(), [&](Edge edge) {
+        return !edgeShowed(before, neighbourOf(node.id, edge), node.id, 0);
+    });
+}
+
+void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& above, Selection& out) {
+    const ChunkNode& node = frame.tree.nodes[index];
+    ++out.counters.visited;
+    const std::size_t place = out.touched.size();
+    out.touched.push_back({index, NodeFate::Drawn});
+    const Culled culled = cull(frame.culling, node.bounds, open);
+    if (culled != Culled::No) {
+        out.touched[place].fate =
+            culled == Culled::ByFrustum ? NodeFate::CulledFrustum : NodeFate::CulledHorizon;
+        ++(culled == Culled::ByFrustum ? out.counters.culledFrustum : out.counters.culledHorizon);
+        return;
+    }
+    const Seen seen{index, deltaOf(node, frame.settings.metric), distanceToM(node, frame.eyeM)};
+    const bool wantsToSplit = wantsSplit(frame, seen, above);
+    const bool merging = !wantsToSplit && mergeMustWait(frame, index);
+    if (!wantsToSplit && !merging) return draw(frame, seen, above, false, out);
+    const ChildrenRequest wanted{index, node.id,
+                                 static_cast<float>(seen.deltaM * frame.reach / seen.distanceM)};
+    if (node.childrenState != ChildrenState::Resident) {
+        draw(frame, seen, above, false, out);
+        ++out.counters.waiting;
+        if (node.childrenState != ChildrenState::Failed) out.requests.push_back(wanted);
+        return;
+    }
+    if (!merging && splitMustWait(frame.before, node.id, above)) return draw(frame, seen, above, true, out);
+    out.touched[place].fate = NodeFate::Split;
+    out.splits.push_back(wanted);
+    const Above here{seen.deltaM * frame.scalePx / seen.distanceM, seen.deltaM,
+                     frame.before.find(node.id) != nullptr, merging};
+    for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, here, out);
+}
+
+// What lies beyond an edge of a drawn chunk.
+struct Beyond {
+    static constexpr std::uint32_t nothing = noNeighbour;
+    std::uint32_t item = nothing;  // the drawn chunk there, of the same level or coarser
+    Edge back = Edge::West;        // of a coarser one: its edge that both share
+    bool finer = false;            // finer chunks are drawn there
+};
+
+// What the edges of the drawn chunks have beyond them, and what hides the gap there.
+class EdgeJoiner {
+public:
+    EdgeJoiner(const Frame& frame, Selection& out)
+        : frame_(frame),
+          settings_(frame.settings),
+          fades_(settings_.morph && settings_.fadeS > 0),
+          out_(out),
+          beyond_(out.draw.size()),
+          starts_(out.draw.size()) {}
+
+    void join() {
+        findNeighbours();
+        fillEdgeMorphs();
+        if (settings_.seams == SeamMode::Stitched) takeCoarserEdges();
+        if (settings_.seams == SeamMode::Skirts) fillSkirts();
+        fillBounds();
+    }
+
+private:
+    // Where an edge's morph starts from.
+    struct Start {
+        bool known = false;
+        bool switched = false;    // only now drawn, in the place of its children or its parent
+        bool mergesNext = false;  // nothing but its and its siblings' sliding keeps its parent from its place
+        std::array<float, edgeCount> edgeMorph{};
+    };
+
+    Start startOf(const DrawItem& item) const {
+        Start start;
+        const Memory& before = frame_.before;
+        if (!before.fades()) return start;
+        start.known = start.switched = true;
+        if (const Shown* last = before.find(item.id)) {
+            start.edgeMorph = last->edgeMorph;
+            start.switched = false;
+        } else if (!before.wasSplit(item.id)) {
+            if (item.id.level > 0 && before.find(parentOf(item.id))) {
+                start.edgeMorph.fill(1);
+            } else {
+                start.known = start.switched = false;
+            }
+        }
+        start.mergesNext = item.mergeWaits;
+        for (int q = 0; start.mergesNext && q < quadrantCount; ++q) {
+            start.mergesNext = !before.wasSplit(childOf(parentOf(item.id), q));
+        }
+        return start;
+    }
+
+    void findNeighbours() {
+        std::vector<DrawItem>& draw = out_.draw;
+        ChunkTable drawn(draw.size());
+        int coarsestLevel = maxLevel;
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            drawn.add(draw[i].id, i);
+            coarsestLevel = std::min<int>(coarsestLevel, draw[i].id.level);
+            starts_[i] = startOf(draw[i]);
+        }
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                // Of the same level or coarser; finer ones find this chunk themselves.
+                const std::uint32_t* found =
+                    drawn.findHolder(neighbourOf(draw[i].id, allEdges[e]), coarsestLevel);
+                if (!found) continue;
+                beyond_[i][e].item = *found;
+                if (draw[*found].id.level < draw[i].id.level) noteSeam(i, e);
+            }
+        }
+    }
+
+    void noteSeam(std::uint32_t finer, std::size_t edge) {
+        DrawItem& item = out_.draw[finer];
+        Beyond& beyond = beyond_[finer][edge];
+        const ChunkId coarser = out_.draw[beyond.item].id;
+        const auto levels = static_cast<std::uint8_t>(item.id.level - coarser.level);
+        item.coarserBy[edge] = levels;
+        out_.seams.push_back({item.id, coarser, allEdges[edge]});
+        out_.counters.widestSeam = std::max<std::uint32_t>(out_.counters.widestSeam, levels);
+        const std::optional<Edge> back = edgeTowards(coarser, ancestorOf(item.id, coarser.level));
+        assert(back);
+        beyond.back = *back;
+        beyond_[beyond.item][static_cast<std::size_t>(*back)].finer = true;
+    }
+
+    // Where levels differ, with fading: both sides show the coarser one's own edge, as far as one level goes.
+    float targetOf(std::uint32_t index, std::size_t edge) const {
+        const DrawItem& item = out_.draw[index];
+        const Beyond& beyond = beyond_[index][edge];
+        const bool level = beyond.item != Beyond::nothing && item.coarserBy[edge] == 0;
+        const float natural = level ? std::max(item.morph, out_.draw[beyond.item].morph) : item.morph;
+        if (!fades_) return natural;
+        if (starts_[index].mergesNext || (level && starts_[beyond.item].mergesNext)) return 1;
+        if (item.splitWaits || (level && out_.draw[beyond.item].splitWaits)) return 0;
+        if (item.coarserBy[edge] > 0) return 1;
+        return beyond.finer ? 0 : natural;
+    }
+
+    float edgeMorphOf(std::uint32_t index, std::size_t edge) const {
+        const float target = targetOf(index, edge);
+        const Beyond& beyond = beyond_[index][edge];
+        const Start& start = starts_[index];
+        const bool level = beyond.item != Beyond::nothing && out_.draw[index].coarserBy[edge] == 0;
+        if (!level) return !start.known ? target : startedAt(start, start.edgeMorph[edge], target);
+        // Both sides must find the same.
+        const Start& other = starts_[beyond.item];
+        if (start.switched && other.switched) return std::max(start.edgeMorph[0], other.edgeMorph[0]);
+        if (start.switched) return start.edgeMorph[edge];
+        if (other.switched) return other.edgeMorph[0];
+        if (start.known) return startedAt(start, start.edgeMorph[edge], target);
+        if (!other.known) return target;
+        const std::optional<Edge> back = edgeTowards(out_.draw[beyond.item].id, out_.draw[index].id);
+        assert(back);
+        return startedAt(other, other.edgeMorph[static_cast<std::size_t>(*back)], target);
+    }
+
+    float startedAt(const Start& start, float last, float target) const {
+        return start.switched ? last : faded(frame_.before, last, target);
+    }
+
+    void fillEdgeMorphs() {
+        for (std::uint32_t i = 0; i < out_.draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                const float morph = edgeMorphOf(i, e);
+                out_.draw[i].edgeMorph[e] = morph;
+                out_.counters.fading += fades_ && morph != targetOf(i, e);
+            }
+        }
+    }
+
+    void takeCoarserEdges() {
+        for (std::uint32_t i = 0; i < out_.draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                if (out_.draw[i].coarserBy[e] == 0) continue;
+                const Beyond& beyond = beyond_[i][e];
+                out_.draw[i].edgeMorph[e] =
+                    out_.draw[beyond.item].edgeMorph[static_cast<std::size_t>(beyond.back)];
+            }
+        }
+    }
+
+    void fillSkirts() {
+        std::vector<DrawItem>& draw = out_.draw;
+        if (settings_.skirtDepth == SkirtDepth::Fixed) {
+            for (DrawItem& item : draw) item.skirtDepthM = static_cast<float>(settings_.skirtDepthM);
+            return;
+        }
+        std::vector<float> apartM(draw.size(), 0);
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                const Beyond& beyond = beyond_[i][e];
+                if (beyond.item == Beyond::nothing) continue;
+                const float bothM = mostApartM(frame_.tree, settings_.metric, draw[i], allEdges[e],
+                                               draw[beyond.item], beyond.back);
+                apartM[i] = std::max(apartM[i], bothM);
+                apartM[beyond.item] = std::max(apartM[beyond.item], bothM);
+            }
+        }
+        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            draw[i].skirtDepthM =
+                automaticSkirtDepthM(frame_.tree, draw[i], apartM[i], settings_.skirtFactor);
+        }
+    }
+
+    void fillBounds() {
+        std::vector<DrawnNeighbours> neighbours(beyond_.size());
+        for (std::size_t i = 0; i < beyond_.size(); ++i) {
+            for (std::size_t e = 0; e < edgeCount; ++e) neighbours[i][e] = beyond_[i][e].item;
+        }
+        std::vector<double> cellSpansM;
+        cellSpansM.reserve(out_.draw.size());
+        for (const DrawItem& item : out_.draw)
+            cellSpansM.push_back(cellSpanM(frame_.tree.shape, frame_.tree.nodes[item.node]));
+        fillDrawnBounds(out_.draw, neighbours, cellSpansM, frame_.scalePx, settings_.metric,
+                        settings_.seams == SeamMode::Stitched);
+        for (const DrawItem& item : out_.draw)
+            out_.counters.worstDrawnBoundPx = std::max(out_.counters.worstDrawnBoundPx, item.drawnBoundPx);
+    }
+
+    const Frame& frame_;
+    const LodSettings& settings_;
+    const bool fades_;
+    Selection& out_;
+    std::vector<std::array<Beyond, edgeCount>> beyond_;  // by place in draw
+    std::vector<Start> starts_;
+};
+
+// For each seam that is too wide to be stitched, the chunk that must be drawn instead of the finer one: its
+// ancestor of the finest level that can be stitched to the coarser one. No finer drawing can do without any
+// of them, since the coarser one would only be coarser. False if there is none.
+bool limitSeams(Frame& frame, const Selection& selection) {
+    const int widest = frame.tree.shape.chunkCellsLog2 - 1;
+    const std::size_t before = frame.seamLimit.size();
+    for (const LevelSeam& seam : selection.seams) {
+        if (seam.finer.level - seam.coarser.level <= widest) continue;
+        frame.seamLimit.insert(findNode(frame.tree, ancestorOf(seam.finer, seam.coarser.level + widest)));
+    }
+    return frame.seamLimit.size() > before;
+}
+
+void clear(Selection& out) {
+    out.draw.clear();
+    out.requests.clear();
+    out.splits.clear();
+    out.seams.clear();
+    out.touched.clear();
+    out.counters = {};
+}
+
+void selectOnce(const Frame& frame, Selection& out) {
+    clear(out);
+    const OpenTests all = openTests(frame.settings.frustumCulling, frame.settings.horizonCulling);
+    for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, {}, out);
+    // Before sorting, while neighbours lie close together in memory.
+    EdgeJoiner(frame, out).join();
+}
+
+void countTriangles(const ChunkTree& tree, Selection& out) {
+    const auto cells = static_cast<std::uint64_t>(chunkCells(tree.shape));
+    const auto chunks = static_cast<std::uint64_t>(out.draw.size());
+    const bool skirts = std::any_of(out.draw.begin(), out.draw.end(),
+                                    [](const DrawItem& item) { return item.skirtDepthM > 0; });
+    out.counters.groundTriangles = chunks * 2 * cells * cells;
+    out.counters.skirtTriangles = skirts ? chunks * edgeCount * 2 * cells : 0;
+}
+
+Memory memoryOf(const Selection& before, const LodSettings& settings, double elapsedS) {
+    Memory memory;
+    const bool fades =
+        settings.morph && settings.fadeS > 0 && std::isfinite(elapsedS) && !before.draw.empty();
+    if (settings.hysteresis > 0 || fades) {
+        memory.splits.emplace(before.splits.size());
+        for (const ChildrenRequest& split : before.splits) memory.splits->add(split.parentId, split.parent);
+    }
+    if (!fades) return memory;
+    memory.fadeStep = static_cast<float>(std::min(1.0, elapsedS / settings.fadeS));
+    memory.drawn.emplace(before.draw.size());
+    memory.shown.reserve(before.draw.size());
+    for (const DrawItem& item : before.draw) {
+        memory.drawn->add(item.id, static_cast<std::uint32_t>(memory.shown.size()));
+        Shown& shown = memory.shown.emplace_back(Shown{item.morph, item.edgeMorph, {}});
+        for (std::size_t e = 0; settings.seams == SeamMode::Stitched && e < edgeCount; ++e) {
+            shown.onCoarser[e] = item.coarserBy[e] > 0;
+            if (shown.onCoarser[e]) shown.edgeMorph[e] = 1;  // of one level, the same as its own at 1
+        }
+    }
+    return memory;
+}
+
+}  // namespace
+
+void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings& settings, Selection& out,
+                  double elapsedS) {
+    assert(settings.tauPx > 0 && settings.skirtFactor >= 0 && settings.skirtDepthM >= 0);
+    assert(settings.hysteresis >= 0 && settings.hysteresis <= 0.9 && settings.morphRange > 0);
+    assert(settings.fadeS >= 0 && elapsedS >= 0);
+    const double scalePx = screenScalePx(lodView);
+    Frame frame{tree,
+                settings,
+                lodView.eyeM,
+                {frustumOf(lodView), horizonOf(lodView.eyeM, tree.occluderRadiusM)},
+                scalePx,
+                scalePx / settings.tauPx,
+                scalePx / (settings.tauPx * (1 - settings.hysteresis)),
+                memoryOf(out, settings, elapsedS),
+                {}};
+    selectOnce(frame, out);
+    // Each round draws fewer and coarser chunks, so there is a last one; almost always it is the first.
+    while (settings.seams == SeamMode::Stitched && limitSeams(frame, out)) selectOnce(frame, out);
+
+    std::sort(out.draw.begin(), out.draw.end(), [](const DrawItem& a, const DrawItem& b) {
+        return a.distanceM != b.distanceM ? a.distanceM < b.distanceM : a.id < b.id;
+    });
+    std::sort(out.requests.begin(), out.requests.end(),
+              [](const ChildrenRequest& a, const ChildrenRequest& b) {
+                  return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;
+              });
+    out.counters.drawn = static_cast<std::uint32_t>(out.draw.size());
+    countTriangles(tree, out);
+}
+
+}  // namespace planet

@@ -1,0 +1,127 @@
+// What a selection of chunks is asked for and what it returns (lod_select.h): plain data.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planet/sphere/chunk_id.h"
+#include "planet/tree/node_index.h"
+
+namespace planet {
+
+enum class SeamMode : std::uint8_t { None, Skirts, Stitched };
+enum class SkirtDepth : std::uint8_t { Automatic, Fixed };
+
+// Which bound of a chunk's error counts. Additive: delta_c, a sum over the levels under it; safe and loose.
+// Tight: the largest measured distance between the chunk's surface, or that of one under it, and the finest
+// data; fewer triangles for the same tau.
+enum class ErrorMetric : std::uint8_t { Additive, Tight };
+
+struct LodSettings {
+    ErrorMetric metric = ErrorMetric::Additive;
+    double tauPx = 2;  // tolerance, pixels, > 0; larger: fewer triangles, more visible error
+    // A split chunk stays split until eps <= tau (1 - hysteresis); [0, 0.9]; larger: fewer flips, more
+    // triangles.
+    double hysteresis = 0;
+    int maxLevel = planet::maxLevel;  // chunks of this level are not split; [0, maxLevel]
+    bool frustumCulling = true;       // off: chunks beside and behind the view are drawn and loaded too
+    bool horizonCulling = true;       // off: chunks on the planet's far side are drawn and loaded too
+    bool morph = false;               // off: chunks pop when their level changes
+    // Share of tau over which a chunk slides onto its parent's surface, (0, 4]; larger: slower, and more of
+    // the picture is coarser than it could be.
+    double morphRange = 0.3;
+    // With morph: seconds that a chunk takes to slide all the way where its level changes at once: children
+    // that come late, a new tau, a fast camera. [0, 10]; 0: at once, with a pop.
+    double fadeS = 0;
+    SeamMode seams = SeamMode::Skirts;
+    SkirtDepth skirtDepth = SkirtDepth::Automatic;
+    double skirtDepthM = 1000;  // of Fixed, metres, >= 0; less than the gaps: cracks show
+    // Of Automatic: skirt depth / (delta_c of a chunk + delta_c of the drawn neighbour that differs most from
+    // the truth). At 1 no crack shows, since neither surface is farther than its delta_c from the finest; 0:
+    // no skirts.
+    double skirtFactor = 1;
+
+    bool operator==(const LodSettings&) const = default;
+};
+
+struct DrawItem {
+    NodeIndex node = noNode;
+    ChunkId id;
+    std::uint32_t slot = 0;   // in the pool of heights
+    float epsPx = 0;          // error on screen, pixels
+    float parentEpsPx = 0;    // the parent's; 0 for a root
+    float drawnBoundPx = 0;   // bound of what is drawn, morph included (drawn_bound.h); epsPx without morph
+    float distanceM = 0;      // from the eye to the bounding volume; nearestM inside it (screen_error.h)
+    float deltaCM = 0;        // metres, by LodSettings::metric
+    float parentDeltaM = 0;   // the parent's; 0 for a root
+    float skirtDepthM = 0;    // metres, towards the planet's centre; 0 unless seams are Skirts
+    float morph = 0;          // [0, 1]: 0 own surface, 1 the parent's
+    bool splitWaits = false;  // its children would be drawn, but it has not shown just its own surface
+    // A chunk above it would be drawn, but the chunks below that one have not all shown its surface.
+    bool mergeWaits = false;
+    // By edge, west to north: the levels by which the drawn neighbour is coarser; 0 where it is not coarser.
+    std::array<std::uint8_t, edgeCount> coarserBy{};
+    // By edge: the morph of the edge's vertices. Two chunks of one level have the same on both sides: the
+    // larger of their morphs. Beside a coarser chunk, if seams are Stitched, it is that chunk's morph and
+    // applies to that chunk's vertices. Otherwise it is the chunk's own morph, or with fading 1, while the
+    // coarser chunk has 0 there: both then show the coarser chunk's edge, and neither edge changes when the
+    // two come to be of one level.
+    std::array<float, edgeCount> edgeMorph{};
+};
+
+// Two drawn chunks of different levels side by side.
+struct LevelSeam {
+    ChunkId finer;
+    ChunkId coarser;
+    Edge edge = Edge::West;  // of the finer one
+};
+
+// The result of visiting a node.
+enum class NodeFate : std::uint8_t { Drawn, Split, CulledFrustum, CulledHorizon };
+struct VisitedNode {
+    NodeIndex node = noNode;
+    NodeFate fate = NodeFate::Drawn;
+
+    bool operator==(const VisitedNode&) const = default;
+};
+
+// "This node should be drawn as its children."
+struct ChildrenRequest {
+    NodeIndex parent = noNode;
+    ChunkId parentId;
+    float priority = 0;  // eps / tau of the parent: how far it exceeds the tolerance by itself; larger first
+};
+
+struct SelectionCounters {
+    std::uint32_t visited = 0;        // nodes looked at
+    std::uint32_t culledFrustum = 0;  // subtrees cut off by each test
+    std::uint32_t culledHorizon = 0;
+    std::uint32_t drawn = 0;  // chunks
+    // Triangles of the drawn chunks. All chunks have skirts as soon as one of them has a depth, else none.
+    std::uint64_t groundTriangles = 0;
+    std::uint64_t skirtTriangles = 0;
+    std::uint32_t waiting = 0;       // drawn though eps > tau, for lack of children
+    std::uint32_t deepestLevel = 0;  // of what is drawn
+    // Drawn chunks, and edges of them, that differ from a selection without a memory: their morph is not
+    // natural, or a split or merge waits.
+    std::uint32_t fading = 0;
+    float worstEpsPx = 0;  // of what is drawn
+    float worstDrawnBoundPx = 0;
+    std::uint32_t widestSeam = 0;  // the most levels by which two drawn neighbours differ
+
+    std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
+};
+
+struct Selection {
+    std::vector<DrawItem> draw;             // near to far
+    std::vector<ChildrenRequest> requests;  // highest priority first; children absent or on their way
+    std::vector<ChildrenRequest> splits;    // those whose children are resident, parents first
+    std::vector<LevelSeam> seams;
+    // All visited nodes, parents first: the drawn ones, those above them, and the culled siblings of either.
+    // Drawing this view again needs them resident.
+    std::vector<VisitedNode> touched;
+    SelectionCounters counters;
+};
+
+}  // namespace planet

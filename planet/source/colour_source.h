@@ -1,0 +1,35 @@
+// Where colours come from: an image of the whole planet or of its six faces, behind one sampling function.
+//
+// Laid out as heights are (height_source.h), of any size: grey or RGB, 8 or 16 bits in sRGB or floats in
+// linear light; alpha is left out.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+
+#include "planet/base/result.h"
+#include "planet/source/height_source_types.h"
+
+namespace planet {
+
+// A value; copies share what is open. sample may be called by several threads at once.
+struct ColourSource {
+    std::string description;  // "colour.jpg, 2048 x 1024 uint8, equirectangular"
+    int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no resolution
+
+    // Fills out, row-major, columns x rows colours in linear light, [0, 1]. As HeightSource::sample: filtered
+    // to the grid's spacing, and on an edge of the cube the same to the last bit through either face.
+    std::function<Result<void>(const SampleTile& tile, std::span<glm::vec3> out)> sample;
+};
+
+inline constexpr std::size_t defaultColourCacheBytes = 192u << 20;
+
+// cacheBytes: the most memory spent on the image. The Error names the file.
+Result<ColourSource> openColourSource(const std::filesystem::path& path,
+                                      std::size_t cacheBytes = defaultColourCacheBytes);
+
+}  // namespace planet

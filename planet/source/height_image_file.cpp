@@ -1,0 +1,258 @@
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <fstream>
+#include <mutex>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "planet/source/height_raster.h"
+
+namespace planet {
+
+namespace {
+
+using ReaderPtr = std::unique_ptr<OIIO::ImageInput>;
+
+constexpr int maxSide = 1 << 22;                   // samples
+constexpr std::size_t maxTileSamples = 64u << 20;  // a larger tile could not be read in bounded memory
+
+OIIO::TypeDesc readAs(SampleType type) {
+    switch (type) {
+        case SampleType::Uint8:
+            return OIIO::TypeDesc::UINT8;
+        case SampleType::Int8:
+            return OIIO::TypeDesc::INT8;
+        case SampleType::Uint16:
+            return OIIO::TypeDesc::UINT16;
+        case SampleType::Int16:
+            return OIIO::TypeDesc::INT16;
+        case SampleType::Uint32:
+            return OIIO::TypeDesc::UINT32;
+        case SampleType::Int32:
+            return OIIO::TypeDesc::INT32;
+        case SampleType::Float:
+            return OIIO::TypeDesc::FLOAT;
+        case SampleType::Double:
+            return OIIO::TypeDesc::DOUBLE;
+    }
+    assert(false);
+    return OIIO::TypeDesc::UNKNOWN;
+}
+
+std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& format) {
+    switch (format.basetype) {
+        case OIIO::TypeDesc::UINT8:
+            return SampleType::Uint8;
+        case OIIO::TypeDesc::INT8:
+            return SampleType::Int8;
+        case OIIO::TypeDesc::UINT16:
+            return SampleType::Uint16;
+        case OIIO::TypeDesc::INT16:
+            return SampleType::Int16;
+        case OIIO::TypeDesc::UINT32:
+            return SampleType::Uint32;
+        case OIIO::TypeDesc::INT32:
+            return SampleType::Int32;
+        case OIIO::TypeDesc::HALF:  // exact as floats, and no integers, so not normalised
+        case OIIO::TypeDesc::FLOAT:
+            return SampleType::Float;
+        case OIIO::TypeDesc::DOUBLE:
+            return SampleType::Double;
+        default:
+            return std::nullopt;
+    }
+}
+
+// A reader decodes on the thread that asks: the bake has threads of its own. Colours come as they are stored,
+// not darkened by an alpha beside them.
+ReaderPtr openReader(const std::filesystem::path& path) {
+    OIIO::ImageSpec wish;
+    wish.attribute("oiio:UnassociatedAlpha", 1);
+    ReaderPtr reader = OIIO::ImageInput::open(path.string(), &wish);
+    if (reader) reader->threads(1);
+    return reader;
+}
+
+std::string channelNames(const OIIO::ImageSpec& spec) {
+    std::string names;
+    for (const std::string& name : spec.channelnames) {
+        if (!names.empty()) names += ", ";
+        names += name;
+    }
+    return names;
+}
+
+// What a PNG's header says of its bits a sample, which OpenImageIO keeps to itself; 0 for other files.
+int pngBits(const std::filesystem::path& path) {
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+    constexpr std::size_t bitsAt = 24;
+    std::array<char, bitsAt + 1> header{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(header.data(), header.size());
+    return file && std::string_view(header.data(), signature.size()) == signature ? header[bitsAt] : 0;
+}
+
+Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec, bool colour) {
+    const std::string file = path.string();
+    if (colour && (spec.nchannels < 1 || spec.nchannels > 4)) {
+        return badInput(fmt::format("{}: expected a grey or an RGB image, found {} channels ({})", file,
+                                    spec.nchannels, channelNames(spec)));
+    }
+    if (!colour && spec.nchannels != 1) {
+        return badInput(fmt::format("{}: expected one grey channel, found {} ({})", file, spec.nchannels,
+                                    channelNames(spec)));
+    }
+    if (spec.deep || spec.depth > 1) {
+        return badInput(fmt::format("{}: expected a flat image, found a deep or volume image", file));
+    }
+    if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
+        return badInput(fmt::format("{}: is {} x {} samples; each side must be 1 to {}", file, spec.width,
+                                    spec.height, maxSide));
+    }
+    const std::optional<SampleType> type = sampleTypeOf(spec.format);
+    if (!type) {
+        return badInput(fmt::format(
+            "{}: has samples of type {}; expected 8, 16 or 32 bit integers, half, float or double", file,
+            spec.format.c_str()));
+    }
+    const bool unsignedOrFloat =
+        *type != SampleType::Int8 && *type != SampleType::Int16 && *type != SampleType::Int32;
+    if (colour && !unsignedOrFloat) {
+        return badInput(
+            fmt::format("{}: has colours of type {}; expected 8 or 16 bits without a sign, or floats", file,
+                        spec.format.c_str()));
+    }
+    const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", pngBits(path));
+    const int readBits = static_cast<int>(spec.format.size()) * 8;
+    if (storedBits != 0 && storedBits != readBits) {
+        // They come scaled to the next whole type, so the file's own values are lost.
+        return badInput(fmt::format("{}: has {} bits a sample; expected 8, 16 or 32", file, storedBits));
+    }
+    if (spec.tile_width > 0 && spec.tile_pixels() > maxTileSamples) {
+        return badInput(fmt::format("{}: has tiles of {} x {} samples; {} samples a tile are the most", file,
+                                    spec.tile_width, spec.tile_height, maxTileSamples));
+    }
+    return ImageLayout{spec.width, spec.height,         spec.x, spec.y, spec.tile_width, spec.tile_height,
+                       *type,      spec.format.c_str(), {}};
+}
+
+Result<void> checkIsFile(const std::filesystem::path& path) {
+    std::error_code problem;
+    const std::filesystem::file_status status = std::filesystem::status(path, problem);
+    if (!std::filesystem::exists(status)) {
+        return ioError(fmt::format("{}: there is no such file", path.string()));
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        return badInput(fmt::format("{}: is not a file", path.string()));
+    }
+    const std::uintmax_t length = std::filesystem::file_size(path, problem);
+    if (problem) return ioError(fmt::format("{}: {}", path.string(), problem.message()));
+    if (length == 0) return badInput(fmt::format("{}: is empty (0 bytes)", path.string()));
+    return {};
+}
+
+}  // namespace
+
+// Readers that nobody uses just now; one more is opened where none is left.
+struct ImageFile::Readers {
+    std::mutex mutex;
+    std::vector<ReaderPtr> idle;
+
+    ReaderPtr borrow(const std::filesystem::path& path) {
+        {
+            const std::lock_guard lock(mutex);
+            if (!idle.empty()) {
+                ReaderPtr reader = std::move(idle.back());
+                idle.pop_back();
+                return reader;
+            }
+        }
+        return openReader(path);
+    }
+    void giveBack(ReaderPtr reader) {
+        const std::lock_guard lock(mutex);
+        idle.push_back(std::move(reader));
+    }
+};
+
+ImageFile::ImageFile(std::filesystem::path path, ImageLayout layout, int channel,
+                     std::unique_ptr<Readers> readers)
+    : path_(std::move(path)), layout_(std::move(layout)), channel_(channel), readers_(std::move(readers)) {}
+
+ImageFile::~ImageFile() = default;
+
+Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& path,
+                                                   std::optional<int> colourChannel) {
+    if (Result<void> check = checkIsFile(path); !check) return tl::unexpected(std::move(check.error()));
+    ReaderPtr reader = openReader(path);
+    if (!reader) {
+        return badInput(fmt::format("{}: cannot be read as an image: {}", path.string(), OIIO::geterror()));
+    }
+    Result<ImageLayout> layout = layoutOf(path, reader->spec(), colourChannel.has_value());
+    if (!layout) return tl::unexpected(std::move(layout.error()));
+    if (std::string_view(reader->format_name()) == "tiff") {
+        Result<GeoTags> tags = readGeoTags(path);
+        if (!tags) return tl::unexpected(std::move(tags.error()));
+        layout->geoTags = *std::move(tags);
+    }
+    // One or two channels: grey, without or with alpha.
+    const int channel = reader->spec().nchannels < 3 ? 0 : colourChannel.value_or(0);
+    auto readers = std::make_unique<Readers>();
+    readers->giveBack(std::move(reader));
+    return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(*layout), channel, std::move(readers)));
+}
+
+namespace {
+
+// Some readers fail without a word.
+std::string reasonOf(const OIIO::ImageInput& reader) {
+    const std::string error = reader.geterror();
+    return error.empty() ? "the file is cut short or damaged" : error;
+}
+
+}  // namespace
+
+Result<void> ImageFile::readTile(int x, int y, std::span<std::byte> native) {
+    assert(native.size() == bytesOf(layout_.type) * static_cast<std::size_t>(layout_.tileWidth) *
+                                static_cast<std::size_t>(layout_.tileHeight));
+    ReaderPtr reader = readers_->borrow(path_);
+    if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
+    const int tileX = layout_.originX + x / layout_.tileWidth * layout_.tileWidth;
+    const int tileY = layout_.originY + y / layout_.tileHeight * layout_.tileHeight;
+    const int endX = std::min(tileX + layout_.tileWidth, layout_.originX + layout_.width);
+    const int endY = std::min(tileY + layout_.tileHeight, layout_.originY + layout_.height);
+    const auto sampleBytes = static_cast<OIIO::stride_t>(bytesOf(layout_.type));
+    const bool read =
+        reader->read_tiles(0, 0, tileX, endX, tileY, endY, 0, 1, channel_, channel_ + 1, readAs(layout_.type),
+                           native.data(), sampleBytes, sampleBytes * layout_.tileWidth);
+    if (!read || reader->has_error()) {
+        return ioError(fmt::format("{}: the tile at ({}, {}) cannot be read: {}", path_.string(), tileX,
+                                   tileY, reasonOf(*reader)));
+    }
+    readers_->giveBack(std::move(reader));
+    return {};
+}
+
+Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> native) {
+    assert(native.size() ==
+           bytesOf(layout_.type) * static_cast<std::size_t>(layout_.width) * static_cast<std::size_t>(count));
+    ReaderPtr reader = readers_->borrow(path_);
+    if (!reader) return ioError(fmt::format("{}: {}", path_.string(), OIIO::geterror()));
+    const int begin = layout_.originY + firstRow;
+    const bool read = reader->read_scanlines(0, 0, begin, begin + count, 0, channel_, channel_ + 1,
+                                             readAs(layout_.type), native.data());
+    // A strip that is cut off leaves an error message behind a result of true.
+    if (!read || reader->has_error()) {
+        return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,
+                                   firstRow + count - 1, reasonOf(*reader)));
+    }
+    readers_->giveBack(std::move(reader));
+    return {};
+}
+
+}  // namespace planet

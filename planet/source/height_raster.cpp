@@ -1,0 +1,257 @@
+#include "planet/source/height_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+namespace planet {
+
+namespace {
+
+template <class T>
+T loadSample(const std::byte* from, bool swapBytes) {
+    std::array<std::byte, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), from, sizeof(T));
+    if (swapBytes) std::reverse(bytes.begin(), bytes.end());
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof(T));
+    return value;
+}
+
+// True where a value is the one that means "missing"; a float file cannot hold every double exactly.
+template <class T>
+bool isNoData(T value, double noDataValue) {
+    if constexpr (std::is_same_v<T, float>) {
+        return value == static_cast<float>(noDataValue);
+    } else {
+        return static_cast<double>(value) == noDataValue;
+    }
+}
+
+// The sRGB transfer function (IEC 61966-2-1).
+double linearFromSrgb(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+template <class T>
+double converted(const HeightConversion& conversion, T value) {
+    const double scaled = conversion.offsetM + conversion.metresPerUnit * static_cast<double>(value);
+    return conversion.decodesSrgb ? linearFromSrgb(scaled) : scaled;
+}
+
+template <class T>
+HeightStatistics convertSamples(const HeightConversion& conversion, std::span<const std::byte> native,
+                                std::span<float> out) {
+    HeightStatistics statistics;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const T value = loadSample<T>(native.data() + i * sizeof(T), conversion.swapBytes);
+        auto height = static_cast<float>(converted(conversion, value));
+        if (!std::isfinite(height) || (conversion.noDataValue && isNoData(value, *conversion.noDataValue))) {
+            height = conversion.fillM;
+            ++statistics.missingCount;
+        }
+        out[i] = height;
+        statistics.minM = std::min(statistics.minM, height);
+        statistics.maxM = std::max(statistics.maxM, height);
+    }
+    return statistics;
+}
+
+}  // namespace
+
+std::size_t bytesOf(SampleType type) {
+    switch (type) {
+        case SampleType::Uint8:
+        case SampleType::Int8:
+            return 1;
+        case SampleType::Uint16:
+        case SampleType::Int16:
+            return 2;
+        case SampleType::Uint32:
+        case SampleType::Int32:
+        case SampleType::Float:
+            return 4;
+        case SampleType::Double:
+            return 8;
+    }
+    assert(false);
+    return 8;
+}
+
+void addTo(HeightStatistics& sum, const HeightStatistics& part) {
+    sum.minM = std::min(sum.minM, part.minM);
+    sum.maxM = std::max(sum.maxM, part.maxM);
+    sum.missingCount += part.missingCount;
+}
+
+HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
+                                 std::span<float> out) {
+    assert(native.size() == out.size() * bytesOf(conversion.type));
+    switch (conversion.type) {
+        case SampleType::Uint8:
+            return convertSamples<std::uint8_t>(conversion, native, out);
+        case SampleType::Int8:
+            return convertSamples<std::int8_t>(conversion, native, out);
+        case SampleType::Uint16:
+            return convertSamples<std::uint16_t>(conversion, native, out);
+        case SampleType::Int16:
+            return convertSamples<std::int16_t>(conversion, native, out);
+        case SampleType::Uint32:
+            return convertSamples<std::uint32_t>(conversion, native, out);
+        case SampleType::Int32:
+            return convertSamples<std::int32_t>(conversion, native, out);
+        case SampleType::Float:
+            return convertSamples<float>(conversion, native, out);
+        case SampleType::Double:
+            return convertSamples<double>(conversion, native, out);
+    }
+    assert(false);
+    return {};
+}
+
+Result<HeightBlockCache::Block> HeightBlockCache::get(
+    std::uint64_t key, const std::function<Result<std::vector<float>>()>& load) {
+    if (Block kept = find(key)) return kept;
+    // Loaded outside the lock: two threads may load the same block, which costs time but is never wrong.
+    Result<std::vector<float>> loaded = load();
+    if (!loaded) return tl::unexpected(std::move(loaded.error()));
+    Block block = std::make_shared<const std::vector<float>>(std::move(*loaded));
+    insert(key, block);
+    return block;
+}
+
+std::size_t HeightBlockCache::bytes() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+}
+
+HeightBlockCache::Block HeightBlockCache::find(std::uint64_t key) {
+    const std::lock_guard lock(mutex_);
+    const auto found = byKey_.find(key);
+    if (found == byKey_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->block;
+}
+
+void HeightBlockCache::insert(std::uint64_t key, const Block& block) {
+    const std::size_t blockBytes = block->size() * sizeof(float);
+    const std::lock_guard lock(mutex_);
+    if (byKey_.contains(key) || blockBytes > maxBytes_) return;
+    while (bytes_ + blockBytes > maxBytes_) {
+        bytes_ -= entries_.back().block->size() * sizeof(float);
+        byKey_.erase(entries_.back().key);
+        entries_.pop_back();
+    }
+    entries_.push_front({key, block});
+    byKey_.emplace(key, entries_.begin());
+    bytes_ += blockBytes;
+}
+
+HeightRaster HeightRaster::whole(int width, int height, std::vector<float> heightsM,
+                                 const HeightStatistics& statistics) {
+    assert(heightsM.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    HeightRaster raster;
+    raster.width_ = width;
+    raster.height_ = height;
+    raster.whole_ = std::make_shared<const std::vector<float>>(std::move(heightsM));
+    raster.statistics_ = statistics;
+    return raster;
+}
+
+HeightRaster HeightRaster::inBlocks(int width, int height, const HeightConversion& conversion, Blocks blocks,
+                                    const std::optional<HeightStatistics>& statistics) {
+    assert(blocks.width > 0 && blocks.height > 0 && blocks.read && blocks.cache);
+    HeightRaster raster;
+    raster.width_ = width;
+    raster.height_ = height;
+    raster.conversion_ = conversion;
+    raster.blocks_ = std::move(blocks);
+    raster.statistics_ = statistics;
+    return raster;
+}
+
+RasterRect HeightRaster::blockRect(int blockX, int blockY) const {
+    const int x = blockX * blocks_.width;
+    const int y = blockY * blocks_.height;
+    return {x, y, std::min(blocks_.width, width_ - x), std::min(blocks_.height, height_ - y)};
+}
+
+Result<std::vector<float>> HeightRaster::loadBlock(int blockX, int blockY,
+                                                   HeightStatistics* statistics) const {
+    const auto width = static_cast<std::size_t>(blocks_.width);
+    const std::size_t sampleBytes = bytesOf(conversion_.type);
+    std::vector<std::byte> native(width * static_cast<std::size_t>(blocks_.height) * sampleBytes);
+    if (Result<void> read = blocks_.read(blockX, blockY, native); !read) {
+        return tl::unexpected(std::move(read.error()));
+    }
+    const RasterRect rect = blockRect(blockX, blockY);
+    const auto inside = static_cast<std::size_t>(rect.width);
+    std::vector<float> heights(inside * static_cast<std::size_t>(rect.height));
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rect.height); ++row) {
+        const HeightStatistics part = convertToMetres(
+            conversion_, std::span(native).subspan(row * width * sampleBytes, inside * sampleBytes),
+            std::span(heights).subspan(row * inside, inside));
+        if (statistics) addTo(*statistics, part);
+    }
+    return heights;
+}
+
+namespace {
+
+// Copies what two rectangles share, from the samples of one to those of the other.
+void copyShared(const RasterRect& from, const float* samples, const RasterRect& to, float* out,
+                std::size_t strideSamples) {
+    const int x0 = std::max(from.x, to.x);
+    const int x1 = std::min(from.x + from.width, to.x + to.width);
+    const int y0 = std::max(from.y, to.y);
+    const int y1 = std::min(from.y + from.height, to.y + to.height);
+    for (int y = y0; y < y1; ++y) {
+        const std::size_t source =
+            static_cast<std::size_t>(y - from.y) * static_cast<std::size_t>(from.width) +
+            static_cast<std::size_t>(x0 - from.x);
+        const std::size_t target =
+            static_cast<std::size_t>(y - to.y) * strideSamples + static_cast<std::size_t>(x0 - to.x);
+        std::copy_n(samples + source, x1 - x0, out + target);
+    }
+}
+
+}  // namespace
+
+Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t strideSamples) const {
+    assert(rect.x >= 0 && rect.y >= 0 && rect.x + rect.width <= width_ && rect.y + rect.height <= height_);
+    if (rect.width <= 0 || rect.height <= 0) return {};
+    if (whole_) {
+        copyShared({0, 0, width_, height_}, whole_->data(), rect, out, strideSamples);
+        return {};
+    }
+    for (int blockY = rect.y / blocks_.height; blockY * blocks_.height < rect.y + rect.height; ++blockY) {
+        for (int blockX = rect.x / blocks_.width; blockX * blocks_.width < rect.x + rect.width; ++blockX) {
+            const std::uint64_t key = (static_cast<std::uint64_t>(blocks_.cacheSlot) << 60) |
+                                      (static_cast<std::uint64_t>(blockY) << 30) |
+                                      static_cast<std::uint64_t>(blockX);
+            const Result<HeightBlockCache::Block> block =
+                blocks_.cache->get(key, [&] { return loadBlock(blockX, blockY, nullptr); });
+            if (!block) return tl::unexpected(block.error());
+            copyShared(blockRect(blockX, blockY), (*block)->data(), rect, out, strideSamples);
+        }
+    }
+    return {};
+}
+
+Result<HeightStatistics> HeightRaster::statistics() const {
+    if (statistics_) return *statistics_;
+    HeightStatistics statistics;
+    for (int blockY = 0; blockY * blocks_.height < height_; ++blockY) {
+        for (int blockX = 0; blockX * blocks_.width < width_; ++blockX) {
+            const Result<std::vector<float>> block = loadBlock(blockX, blockY, &statistics);
+            if (!block) return tl::unexpected(block.error());
+        }
+    }
+    return statistics;
+}
+
+}  // namespace planet

@@ -1,0 +1,180 @@
+// A rectangular grid of heights in metres, out of an image or a raw file: held whole where it is small, else
+// read block by block through a cache of bounded size. Internal to the library.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "planet/base/file_calls.h"
+#include "planet/base/result.h"
+#include "planet/source/geo_tags.h"
+
+namespace planet {
+
+enum class SampleType : std::uint8_t { Uint8, Int8, Uint16, Int16, Uint32, Int32, Float, Double };
+std::size_t bytesOf(SampleType type);
+
+// How stored values become metres.
+struct HeightConversion {
+    SampleType type = SampleType::Int16;
+    bool swapBytes = false;    // the other byte order than this machine's
+    double metresPerUnit = 1;  // height = offsetM + metresPerUnit * value
+    double offsetM = 0;        // metres
+    bool decodesSrgb = false;  // what comes of this is a share of white in sRGB, and becomes linear light
+    std::optional<double> noDataValue;  // missing, like every value that gives no finite height
+    float fillM = 0;                    // height of missing samples, metres
+};
+
+struct HeightStatistics {
+    float minM = std::numeric_limits<float>::infinity();  // of all samples, filled ones included
+    float maxM = -std::numeric_limits<float>::infinity();
+    std::uint64_t missingCount = 0;
+};
+void addTo(HeightStatistics& sum, const HeightStatistics& part);
+
+// Converts out.size() samples; native holds exactly as many. Any thread.
+HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
+                                 std::span<float> out);
+
+// Keeps the blocks used last, at most maxBytes of them beside those in use. Any thread.
+class HeightBlockCache {
+public:
+    using Block = std::shared_ptr<const std::vector<float>>;
+
+    explicit HeightBlockCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+
+    // The block of a key, loaded by load() where it is not kept.
+    Result<Block> get(std::uint64_t key, const std::function<Result<std::vector<float>>()>& load);
+    std::size_t bytes() const;  // held now
+
+private:
+    struct Entry {
+        std::uint64_t key;
+        Block block;
+    };
+    Block find(std::uint64_t key);
+    void insert(std::uint64_t key, const Block& block);
+
+    const std::size_t maxBytes_;
+    mutable std::mutex mutex_;
+    std::list<Entry> entries_;  // last used first
+    std::unordered_map<std::uint64_t, std::list<Entry>::iterator> byKey_;
+    std::size_t bytes_ = 0;
+};
+
+struct RasterRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+// Copies share what is open. Every function from any thread.
+class HeightRaster {
+public:
+    struct Blocks {
+        int width = 0;  // samples a block; those at the right and bottom edges stick out
+        int height = 0;
+        // Fills a block's native samples, row-major; those that stick out may hold anything.
+        std::function<Result<void>(int blockX, int blockY, std::span<std::byte> native)> read;
+        std::shared_ptr<HeightBlockCache> cache;
+        int cacheSlot = 0;  // tells rasters that share a cache apart, [0, 8)
+    };
+
+    HeightRaster() = default;
+    static HeightRaster whole(int width, int height, std::vector<float> heightsM,
+                              const HeightStatistics& statistics);
+    // statistics: where they are known already, which spares the scan.
+    static HeightRaster inBlocks(int width, int height, const HeightConversion& conversion, Blocks blocks,
+                                 const std::optional<HeightStatistics>& statistics = {});
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+    // Copies a rectangle of the grid; row r of it starts at out + r * strideSamples.
+    Result<void> read(const RasterRect& rect, float* out, std::size_t strideSamples) const;
+
+    // Of all samples; looks at each once, a block at a time, where they are not known yet.
+    Result<HeightStatistics> statistics() const;
+
+private:
+    RasterRect blockRect(int blockX, int blockY) const;  // without what sticks out
+    Result<std::vector<float>> loadBlock(int blockX, int blockY, HeightStatistics* statistics) const;
+
+    int width_ = 0;
+    int height_ = 0;
+    std::shared_ptr<const std::vector<float>> whole_;
+    std::optional<HeightStatistics> statistics_;
+    HeightConversion conversion_;
+    Blocks blocks_;
+};
+
+// What an image's header says.
+struct ImageLayout {
+    int width = 0;
+    int height = 0;
+    int originX = 0;  // of the first sample, in the file's own coordinates
+    int originY = 0;
+    int tileWidth = 0;  // 0: not tiled
+    int tileHeight = 0;
+    SampleType type = SampleType::Uint8;
+    std::string typeName;  // "int16"; "half" is read as Float
+    GeoTags geoTags;       // of a TIFF
+};
+
+// One channel of an image, open for reading by several threads: each borrows an open reader of its own.
+class ImageFile {
+public:
+    // colourChannel as in HeightSourceSettings; without it the image must have one grey channel. Errors:
+    // missing, unreadable, other channels, or a sample type there is no use for.
+    static Result<std::shared_ptr<ImageFile>> open(const std::filesystem::path& path,
+                                                   std::optional<int> colourChannel);
+    ~ImageFile();
+
+    const std::filesystem::path& path() const { return path_; }
+    const ImageLayout& layout() const { return layout_; }
+
+    // Native samples of the tile that holds (x, y), counted from the first sample.
+    Result<void> readTile(int x, int y, std::span<std::byte> native);
+    // Native samples of rows [firstRow, firstRow + count); rising from call to call is fastest.
+    Result<void> readRows(int firstRow, int count, std::span<std::byte> native);
+
+private:
+    struct Readers;
+    ImageFile(std::filesystem::path path, ImageLayout layout, int channel, std::unique_ptr<Readers> readers);
+
+    std::filesystem::path path_;
+    ImageLayout layout_;
+    int channel_ = 0;
+    std::unique_ptr<Readers> readers_;
+};
+
+struct RasterMemory {
+    std::shared_ptr<HeightBlockCache> cache;
+    int cacheSlot = 0;
+    std::size_t wholeLimitBytes = 0;  // an untiled image is held whole up to this
+};
+
+// A tiled image is read tile by tile. An untiled one is held whole where it fits; else it is copied once to
+// a temporary file that has no name, and so is gone with the raster however the program ends.
+Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
+                                     const HeightConversion& conversion, const RasterMemory& memory,
+                                     const FileCalls& calls = systemFileCalls());
+
+// A headerless file of size x size samples, rows from the top. The file's length must have been checked.
+Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
+                                   const HeightConversion& conversion, const RasterMemory& memory,
+                                   const FileCalls& calls = systemFileCalls());
+
+}  // namespace planet

@@ -1,0 +1,88 @@
+#include "planet/source/height_source.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "planet/source/height_source_kinds.h"
+#include "planet/source/terrain.h"
+
+namespace planet {
+
+namespace {
+
+constexpr double mostM = 1e9;  // heights and steps beyond this make no planet
+
+Result<void> checkSettings(const HeightSourceSettings& settings) {
+    // Written so that NaN fails too.
+    if (!(std::abs(settings.metresPerUnit) > 0 && std::abs(settings.metresPerUnit) <= mostM)) {
+        return badInput(fmt::format("metresPerUnit is {}; it must not be 0, and be within +-{}",
+                                    settings.metresPerUnit, mostM));
+    }
+    if (!(std::abs(settings.offsetM) <= mostM)) {
+        return badInput(fmt::format("offsetM is {}; it must be within +-{}", settings.offsetM, mostM));
+    }
+    if (!(std::abs(settings.fillM) <= mostM)) {
+        return badInput(fmt::format("fillM is {}; it must be within +-{}", settings.fillM, mostM));
+    }
+    if (settings.rawBits && *settings.rawBits != 8 && *settings.rawBits != 16) {
+        return badInput(fmt::format("rawBits is {}; expected 8 or 16", *settings.rawBits));
+    }
+    if (settings.rawSize && *settings.rawSize < 2) {
+        return badInput(
+            fmt::format("rawSize is {}; a face has at least 2 samples a side", *settings.rawSize));
+    }
+    return {};
+}
+
+bool asRead(const HeightSourceSettings& settings) {
+    const HeightSourceSettings plain;
+    return settings.metresPerUnit == plain.metresPerUnit && settings.offsetM == plain.offsetM &&
+           !settings.noDataValue && settings.fillM == plain.fillM && !settings.rawSize && !settings.rawBits &&
+           !settings.rawSigned && !settings.rawBigEndian;
+}
+
+Result<HeightSource> openTerrain(const std::filesystem::path& text, const HeightSourceSettings& settings) {
+    const Result<TerrainSource> terrain = terrainFromText(text);
+    if (!terrain) return tl::unexpected(terrain.error());
+    const auto* const detail = std::get_if<DetailTerrain>(&terrain->settings);
+    if (!detail) {
+        if (asRead(settings)) return makeTerrain(terrain->settings);
+        return badInput(
+            fmt::format("{}: is procedural terrain, so units, offset, no-data value, fill and raw formats do "
+                        "not apply; expected settings in its own text, such as offset_m=100",
+                        text.string()));
+    }
+    Result<HeightSource> source = openHeightSource(terrain->of, settings);
+    if (!source) return source;
+    Result<HeightSource> result = amplified(*std::move(source), *detail);
+    // Whoever has only the description should find the file again.
+    if (result) result->description = wholeTerrainText(text).value_or(result->description);
+    return result;
+}
+
+}  // namespace
+
+Result<HeightSource> openHeightSource(const std::filesystem::path& path,
+                                      const HeightSourceSettings& settings) {
+    if (Result<void> check = checkSettings(settings); !check) {
+        return tl::unexpected(std::move(check.error()));
+    }
+    if (isTerrainText(path)) return openTerrain(path, settings);
+    if (const std::optional<FaceFiles> faces = findFaceFiles(path)) {
+        // Lossy pictures differ along their edges, which does colours no harm.
+        const FaceEdges edges = settings.colourChannel ? FaceEdges::MayDiffer : FaceEdges::MustAgree;
+        return openFaceSource(*faces, settings, edges);
+    }
+    std::error_code problem;
+    if (!std::filesystem::exists(path, problem)) {
+        return ioError(fmt::format("{}: there is no such file, and no cube faces named {}_x_pos.raw or alike",
+                                   path.string(), path.string()));
+    }
+    return openEquirectangularSource(path, settings);
+}
+
+}  // namespace planet

@@ -1,0 +1,490 @@
+// Samples six cube faces, each a square grid whose outermost samples lie on the cube's edges.
+//
+// Neighbouring faces repeat the samples of the edge between them; files whose faces differ there by more than
+// rounding are refused. A sample on an edge or corner of the cube is taken from the first of its faces in
+// enum order, whichever face it is asked through, so a difference by rounding leaves no crack. The kernel
+// reaches over an edge onto the next face. Beyond a corner, where three faces meet and no fourth is there,
+// the next face's rows are mirrored.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "planet/source/height_face_edges.h"
+#include "planet/source/height_filter.h"
+#include "planet/source/height_raster.h"
+#include "planet/source/height_source_kinds.h"
+#include "planet/sphere/face_fold.h"
+#include "planet/sphere/planet_shape.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::size_t regionSamples = 2u << 20;  // of a face held at once: 8 MB
+
+struct FaceSet {
+    std::array<HeightRaster, faceCount> faces;
+    int size = 0;  // samples a side
+    float minM = 0;
+    float maxM = 0;
+
+    const HeightRaster& operator[](Face face) const { return faces[static_cast<std::size_t>(face)]; }
+};
+
+// A place on a face in whole steps, row 0 at the top (v = +1).
+struct FaceSample {
+    Face face = Face::PosX;
+    int column = 0;
+    int row = 0;
+};
+
+// A sample that lies over one edge of its face, up to a face's width: folded down onto the next face.
+FaceSample foldedSample(Face face, int column, int row, int size) {
+    const int last = size - 1;
+    const FaceGridPoint next = foldedOver({face, column, last - row}, last);
+    return {next.face, next.column, last - next.row};
+}
+
+// Reads a rectangle that lies wholly over one edge of a face.
+Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rect, float* out,
+                            std::size_t stride) {
+    if (rect.width <= 0 || rect.height <= 0) return {};
+    const auto at = [&](int column, int row) {
+        return foldedSample(face, rect.x + column, rect.y + row, set.size);
+    };
+    const FaceSample first = at(0, 0);
+    const FaceSample last = at(rect.width - 1, rect.height - 1);
+    const RasterRect from{std::min(first.column, last.column), std::min(first.row, last.row),
+                          std::abs(first.column - last.column) + 1, std::abs(first.row - last.row) + 1};
+    const auto fromStride = static_cast<std::size_t>(from.width);
+    std::vector<float> samples(fromStride * static_cast<std::size_t>(from.height));
+    if (Result<void> read = set[first.face].read(from, samples.data(), fromStride); !read) return read;
+    for (int row = 0; row < rect.height; ++row) {
+        for (int column = 0; column < rect.width; ++column) {
+            const FaceSample place = at(column, row);
+            out[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)] =
+                samples[static_cast<std::size_t>(place.row - from.y) * fromStride +
+                        static_cast<std::size_t>(place.column - from.x)];
+        }
+    }
+    return {};
+}
+
+// The row of a face that stands in beside a corner for one above its top or below its bottom.
+int mirroredRow(int row, int size) {
+    const int last = size - 1;
+    return std::clamp(row < 0 ? -row : 2 * last - row, 0, last);
+}
+
+// Reads a rectangle of a face that may reach over its edges.
+Result<void> readRegion(const FaceSet& set, Face face, const RasterRect& rect, std::vector<float>& out) {
+    const auto stride = static_cast<std::size_t>(rect.width);
+    out.resize(stride * static_cast<std::size_t>(rect.height));
+    const int right = rect.x + rect.width;
+    const int bottom = rect.y + rect.height;
+    const int faceLeft = std::clamp(0, rect.x, right);
+    const int faceRight = std::clamp(set.size, rect.x, right);
+    // The face's own rows all at once, those beyond it one by one.
+    for (int y = rect.y; y < bottom;) {
+        const bool inside = y >= 0 && y < set.size;
+        const int rows = inside ? std::min(bottom, set.size) - y : 1;
+        const int besideY = inside ? y : mirroredRow(y, set.size);
+        float* const to = out.data() + static_cast<std::size_t>(y - rect.y) * stride;
+        float* const toFace = to + (faceLeft - rect.x);
+        float* const toRight = to + (faceRight - rect.x);
+        Result<void> read = readBeyondEdge(set, face, {rect.x, besideY, faceLeft - rect.x, rows}, to, stride);
+        if (read)
+            read = readBeyondEdge(set, face, {faceRight, besideY, right - faceRight, rows}, toRight, stride);
+        if (!read) return read;
+        const RasterRect middle{faceLeft, y, faceRight - faceLeft, rows};
+        read = inside ? set[face].read(middle, toFace, stride)
+                      : readBeyondEdge(set, face, middle, toFace, stride);
+        if (!read) return read;
+        y += rows;
+    }
+    return {};
+}
+
+// The taps of the samples along one direction of a piece.
+struct AxisTaps {
+    int tapsEach = 4;
+    std::vector<int> first;
+    std::vector<float> weights;  // tapsEach a sample
+
+    int begin() const { return *std::min_element(first.begin(), first.end()); }
+    int end() const { return *std::max_element(first.begin(), first.end()) + tapsEach; }
+};
+
+// Samples firstCell, firstCell + step, ...; cell k of the grid lies at source sample k last / faceCells,
+// which is exact, since faceCells is a power of two.
+AxisTaps tapsAlong(int firstCell, int step, int count, int faceCells, int size) {
+    const double perCell = static_cast<double>(size - 1) / faceCells;
+    const double stretch = std::max(1.0, perCell);
+    AxisTaps taps;
+    taps.tapsEach = tapCount(static_cast<float>(stretch));
+    taps.weights.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(taps.tapsEach));
+    for (int i = 0; i < count; ++i) {
+        const double position = (firstCell + i * step) * perCell;
+        const double first = std::floor(position - 2 * stretch) + 1;
+        taps.first.push_back(static_cast<int>(first));
+        kernelWeights(static_cast<float>(position - first), static_cast<float>(stretch),
+                      std::span(taps.weights)
+                          .subspan(static_cast<std::size_t>(i) * static_cast<std::size_t>(taps.tapsEach),
+                                   static_cast<std::size_t>(taps.tapsEach)));
+    }
+    return taps;
+}
+
+// Filters one row of source samples, the first of them source column `column`, to one row of the piece.
+void filterAcross(const AxisTaps& taps, int column, const float* samples, float* out) {
+    const auto each = static_cast<std::size_t>(taps.tapsEach);
+    for (std::size_t i = 0; i < taps.first.size(); ++i) {
+        const float* const from = samples + (taps.first[i] - column);
+        const float* const weights = taps.weights.data() + i * each;
+        Float4 sum{};
+        for (std::size_t k = 0; k < each; k += 4) sum += loadFloat4(weights + k) * loadFloat4(from + k);
+        out[i] = sumOfLanes(sum);
+    }
+}
+
+// across holds the rows of source from taps.begin() on, already filtered across.
+void filterDown(const FaceSet& set, const AxisTaps& taps, const std::vector<float>& across,
+                std::size_t columns, float* out, std::size_t stride) {
+    const int top = taps.begin();
+    const auto each = static_cast<std::size_t>(taps.tapsEach);
+    for (std::size_t row = 0; row < taps.first.size(); ++row) {
+        float* const to = out + row * stride;
+        std::fill_n(to, columns, 0.0f);
+        for (std::size_t k = 0; k < each; ++k) {
+            const float weight = taps.weights[row * each + k];
+            const float* const from =
+                across.data() + (static_cast<std::size_t>(taps.first[row] - top) + k) * columns;
+            for (std::size_t i = 0; i < columns; ++i) to[i] += weight * from[i];
+        }
+        for (std::size_t i = 0; i < columns; ++i) to[i] = std::clamp(to[i], set.minM, set.maxM);
+    }
+}
+
+// out: the piece's first sample; stride: from one row of the piece to the next.
+Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out, std::size_t stride) {
+    const AxisTaps across = tapsAlong(piece.firstColumn, 1, piece.columns, piece.faceCells, set.size);
+    // The grid's rows rise with v, the source's fall.
+    const AxisTaps down =
+        tapsAlong(piece.faceCells - piece.firstRow, -1, piece.rows, piece.faceCells, set.size);
+    const int left = across.begin();
+    const int width = across.end() - left;
+    const int top = down.begin();
+    const int height = down.end() - top;
+    const int bandRows =
+        std::clamp(static_cast<int>(regionSamples / static_cast<std::size_t>(width)), 1, height);
+    const auto columns = static_cast<std::size_t>(piece.columns);
+    std::vector<float> filtered(columns * static_cast<std::size_t>(height));
+    std::vector<float> samples;
+    for (int done = 0; done < height; done += bandRows) {
+        const int rows = std::min(bandRows, height - done);
+        if (Result<void> read = readRegion(set, piece.face, {left, top + done, width, rows}, samples);
+            !read) {
+            return read;
+        }
+        for (int row = 0; row < rows; ++row) {
+            filterAcross(across, left,
+                         samples.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(width),
+                         filtered.data() + static_cast<std::size_t>(done + row) * columns);
+        }
+    }
+    filterDown(set, down, filtered, columns, out, stride);
+    return {};
+}
+
+// Every sample as this face has it, those on the cube's edges too.
+Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
+    // Smaller pieces where a sample covers many of the source's, to bound memory.
+    const int side = set.size > 64 * tile.faceCells ? 16 : 65;
+    return sampleInPieces(tile, side, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
+        return samplePiece(set, piece, to, stride);
+    });
+}
+
+Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out);
+
+// Samples a line of the tile, from the next face that it lies on too, into the tile's own places.
+Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, const SampleTile& line, Face next,
+                                std::span<float> out) {
+    const FaceGridPoint first =
+        placeOnFace(next, {tile.face, line.firstColumn, line.firstRow}, tile.faceCells);
+    const FaceGridPoint last =
+        placeOnFace(next, {tile.face, line.firstColumn + line.columns - 1, line.firstRow + line.rows - 1},
+                    tile.faceCells);
+    const SampleTile there{next,
+                           tile.faceCells,
+                           std::min(first.column, last.column),
+                           std::min(first.row, last.row),
+                           std::abs(first.column - last.column) + 1,
+                           std::abs(first.row - last.row) + 1};
+    std::vector<float> heights(static_cast<std::size_t>(there.columns) *
+                               static_cast<std::size_t>(there.rows));
+    if (Result<void> sampled = sampleTile(set, there, heights); !sampled) return sampled;
+    const bool reversed = first.column > last.column || first.row > last.row;
+    if (reversed) std::reverse(heights.begin(), heights.end());
+    const auto stride = static_cast<std::size_t>(tile.columns);
+    const std::size_t begin = static_cast<std::size_t>(line.firstRow - tile.firstRow) * stride +
+                              static_cast<std::size_t>(line.firstColumn - tile.firstColumn);
+    const std::size_t step = line.columns > 1 ? 1 : stride;
+    for (std::size_t i = 0; i < heights.size(); ++i) out[begin + i * step] = heights[i];
+    return {};
+}
+
+// Each call goes to faces earlier in enum order, so it ends.
+Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
+    assert(tile.faceCells > 0 && tile.columns >= 0 && tile.rows >= 0);
+    assert(out.size() == static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows));
+    if (tile.columns == 0 || tile.rows == 0) return {};
+    if (Result<void> own = sampleOwnFace(set, tile, out); !own) return own;
+    const FaceAxes& axes = faceAxes(tile.face);
+    const int cells = tile.faceCells;
+    const auto takeFrom = [&](const glm::dvec3& outward, bool touches,
+                              const SampleTile& line) -> Result<void> {
+        const Face next = faceAlong(outward);
+        if (!touches || next > tile.face) return {};
+        return sampleFromNextFace(set, tile, line, next, out);
+    };
+    SampleTile column = tile;
+    column.columns = 1;
+    SampleTile row = tile;
+    row.rows = 1;
+    column.firstColumn = 0;
+    Result<void> taken = takeFrom(-axes.u, tile.firstColumn == 0, column);
+    column.firstColumn = cells;
+    if (taken) taken = takeFrom(axes.u, tile.firstColumn + tile.columns == cells + 1, column);
+    row.firstRow = 0;
+    if (taken) taken = takeFrom(-axes.v, tile.firstRow == 0, row);
+    row.firstRow = cells;
+    if (taken) taken = takeFrom(axes.v, tile.firstRow + tile.rows == cells + 1, row);
+    return taken;
+}
+
+// What the six files hold.
+struct FaceFormat {
+    int size = 0;
+    SampleType type = SampleType::Uint16;
+    std::string typeName;
+};
+
+Result<void> checkNoneMissing(const FaceFiles& files) {
+    std::string missing;
+    for (const std::filesystem::path& path : files.paths) {
+        std::error_code problem;
+        if (std::filesystem::exists(path, problem)) continue;
+        if (!missing.empty()) missing += ", ";
+        missing += path.filename().string();
+    }
+    if (missing.empty()) return {};
+    const std::filesystem::path folder = files.paths[0].parent_path();
+    return badInput(fmt::format("{}: a cube has six faces; missing in {}: {}", files.stem,
+                                folder.empty() ? "this folder" : folder.string(), missing));
+}
+
+Result<void> checkSize(const std::string& file, int size) {
+    constexpr int mostSize = (1 << maxFaceCellsLog2) + 1;
+    if (size >= 2 && size <= mostSize) return {};
+    return badInput(fmt::format("{}: a face of {} samples a side; expected 2 to {}", file, size, mostSize));
+}
+
+Result<std::uint64_t> lengthOf(const std::filesystem::path& path) {
+    std::error_code problem;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, problem);
+    if (problem) return ioError(fmt::format("{}: {}", path.string(), problem.message()));
+    return std::uint64_t{bytes};
+}
+
+// The side of a square of so many samples, or 0.
+int squareSide(std::uint64_t samples) {
+    const auto side = static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(samples))));
+    return side * side == samples && side < (1u << 30) ? static_cast<int>(side) : 0;
+}
+
+Result<int> rawSideByLength(const FaceFiles& files, const HeightSourceSettings& settings,
+                            std::uint64_t bytes) {
+    // 8 or 16 bits: the length and half of it are never squares both.
+    if (settings.rawBits != 16 && squareSide(bytes) > 0) return squareSide(bytes);
+    if (settings.rawBits != 8 && bytes % 2 == 0 && squareSide(bytes / 2) > 0) return squareSide(bytes / 2);
+    return badInput(
+        fmt::format("{} is {} bytes, which no square of 8 or 16 bit samples has; its name may end "
+                    "in the samples a side, as in earth4097_{}.raw, or --raw-size may give them",
+                    files.paths[0].filename().string(), bytes, faceName(Face::PosX)));
+}
+
+Result<int> rawSideOf(const FaceFiles& files, const HeightSourceSettings& settings, std::uint64_t bytes) {
+    if (settings.rawSize) return *settings.rawSize;
+    if (files.sizeInName) return *files.sizeInName;
+    return rawSideByLength(files, settings, bytes);
+}
+
+// Says how to give the faces' size where the number that their name ends in is none. side: the samples a side
+// that they have; below 2: not known.
+std::string otherSizeHint(const FaceFiles& files, const HeightSourceSettings& settings, int side) {
+    if (settings.rawSize || !files.sizeInName || side < 2) return {};
+    return fmt::format("; if the {} in the name is not the size, use --raw-size {}", *files.sizeInName, side);
+}
+
+Result<FaceFormat> rawFormat(const FaceFiles& files, const HeightSourceSettings& settings) {
+    const std::string file = files.paths[0].filename().string();
+    const Result<std::uint64_t> bytes = lengthOf(files.paths[0]);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const Result<int> side = rawSideOf(files, settings, *bytes);
+    if (!side) return tl::unexpected(side.error());
+    if (Result<void> check = checkSize(file, *side); !check) return tl::unexpected(check.error());
+    const std::uint64_t samples = static_cast<std::uint64_t>(*side) * static_cast<std::uint64_t>(*side);
+    const bool fits8 = *bytes == samples && settings.rawBits != 16;
+    const bool fits16 = *bytes == 2 * samples && settings.rawBits != 8;
+    if (!fits8 && !fits16) {
+        const std::string expected =
+            settings.rawBits ? fmt::format("{} bits would be {}", *settings.rawBits,
+                                           samples * static_cast<std::uint64_t>(*settings.rawBits / 8))
+                             : fmt::format("8 or 16 bits would be {} or {}", samples, 2 * samples);
+        const Result<int> fitting = rawSideByLength(files, settings, *bytes);
+        return badInput(fmt::format("{} is {} bytes; {} x {} samples of {}{}", file, *bytes, *side, *side,
+                                    expected, otherSizeHint(files, settings, fitting.value_or(0))));
+    }
+    for (const std::filesystem::path& path : files.paths) {
+        const Result<std::uint64_t> other = lengthOf(path);
+        if (!other) return tl::unexpected(other.error());
+        if (*other == *bytes) continue;
+        return badInput(fmt::format("{} is {} bytes but {} is {}; all six faces must have one size and type",
+                                    path.filename().string(), *other, file, *bytes));
+    }
+    if (fits8) return FaceFormat{*side, SampleType::Uint8, "uint8"};
+    if (settings.rawSigned) return FaceFormat{*side, SampleType::Int16, "int16"};
+    return FaceFormat{*side, SampleType::Uint16, "uint16"};
+}
+
+using ImageFiles = std::array<std::shared_ptr<ImageFile>, faceCount>;
+
+Result<ImageFiles> openImages(const FaceFiles& files, std::optional<int> colourChannel) {
+    ImageFiles images;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        Result<std::shared_ptr<ImageFile>> image = ImageFile::open(files.paths[i], colourChannel);
+        if (!image) return tl::unexpected(std::move(image.error()));
+        images[i] = std::move(*image);
+    }
+    return images;
+}
+
+Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSettings& settings,
+                               const ImageFiles& images) {
+    const ImageLayout& first = images[0]->layout();
+    const std::string firstName = files.paths[0].filename().string();
+    const std::optional<int> expected = settings.rawSize ? settings.rawSize : files.sizeInName;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const ImageLayout& layout = images[i]->layout();
+        const std::string name = files.paths[i].filename().string();
+        if (layout.width != layout.height) {
+            return badInput(fmt::format("{} is {} x {} samples; a cube's face must be square", name,
+                                        layout.width, layout.height));
+        }
+        if (layout.width != first.width || layout.typeName != first.typeName) {
+            return badInput(fmt::format(
+                "{} is {} x {} {} but {} is {} x {} {}; all six faces must have one size and type", name,
+                layout.width, layout.height, layout.typeName, firstName, first.width, first.height,
+                first.typeName));
+        }
+        if (layout.geoTags.noDataValue != first.geoTags.noDataValue) {
+            return badInput(
+                fmt::format("{} and {} have different GDAL_NODATA tags; expected the same no-data value "
+                            "in all six faces",
+                            name, firstName));
+        }
+        if (expected && layout.width != *expected) {
+            return badInput(fmt::format("{} is {} x {} samples; {} {} x {}{}", name, layout.width,
+                                        layout.height,
+                                        settings.rawSize ? "--raw-size asks for" : "its name says", *expected,
+                                        *expected, otherSizeHint(files, settings, layout.width)));
+        }
+    }
+    if (Result<void> check = checkSize(firstName, first.width); !check) return tl::unexpected(check.error());
+    return FaceFormat{first.width, first.type, first.typeName};
+}
+
+// Faces are rounded each by itself, so their edges may be apart by one step of their sample type.
+double roundingOf(const FaceFormat& format, const HeightSource& source) {
+    if (source.stepM > 0) return source.stepM * (1 + 1e-6);
+    const double largestM = std::max(std::abs(source.minM), std::abs(source.maxM));
+    return largestM * (format.typeName == "half" ? 1e-3 : 1e-5);
+}
+
+Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& format,
+                                   const HeightConversion& conversion, FaceSet set, FaceEdges edges) {
+    HeightStatistics statistics;
+    for (const HeightRaster& face : set.faces) {
+        const Result<HeightStatistics> part = face.statistics();
+        if (!part) return tl::unexpected(part.error());
+        addTo(statistics, *part);
+    }
+    set.size = format.size;
+    set.minM = statistics.minM;
+    set.maxM = statistics.maxM;
+    HeightSource source;
+    source.description =
+        fmt::format("{}, six faces of {} x {} {}", files.stem, format.size, format.size, format.typeName);
+    source.naturalFaceSize = powerOfTwoCells(format.size - 1) + 1;
+    const auto side = static_cast<std::uint64_t>(format.size);
+    source.sampleCount = faceCount * side * side;
+    describeHeights(source, conversion, statistics);
+    if (edges == FaceEdges::MustAgree) {
+        const FaceEdgeCheck check{files.stem, format.size, roundingOf(format, source),
+                                  statistics.missingCount > 0, conversion.fillM};
+        if (Result<void> agree = checkFaceEdges(set.faces, check); !agree)
+            return tl::unexpected(std::move(agree.error()));
+    }
+    source.sample = [shared = std::move(set)](const SampleTile& tile, std::span<float> out) {
+        return sampleTile(shared, tile, out);
+    };
+    return source;
+}
+
+}  // namespace
+
+Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
+                                    FaceEdges edges) {
+    if (Result<void> check = checkNoneMissing(files); !check) return tl::unexpected(check.error());
+    const bool raw = files.extension == ".raw" || files.extension == ".RAW";
+    if (raw && settings.colourChannel) {
+        return badInput(fmt::format("{}: raw faces hold heights; name an image, or six, for colours",
+                                    files.paths[0].string()));
+    }
+    ImageFiles images;
+    if (!raw) {
+        Result<ImageFiles> opened = openImages(files, settings.colourChannel);
+        if (!opened) return tl::unexpected(opened.error());
+        images = std::move(*opened);
+    }
+    const Result<FaceFormat> format = raw ? rawFormat(files, settings) : imageFormat(files, settings, images);
+    if (!format) return tl::unexpected(format.error());
+    const std::optional<double> fileNoDataValue =
+        raw ? std::nullopt : images[0]->layout().geoTags.noDataValue;
+    HeightConversion conversion = conversionFor(settings, format->type, fileNoDataValue);
+    conversion.swapBytes = raw && settings.rawBigEndian != (std::endian::native == std::endian::big);
+
+    const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);
+    FaceSet set;
+    for (int i = 0; i < faceCount; ++i) {
+        const auto face = static_cast<std::size_t>(i);
+        const RasterMemory memory{cache, i, settings.cacheBytes / faceCount};
+        Result<HeightRaster> raster =
+            raw ? openRawRaster(files.paths[face], format->size, conversion, memory, settings.fileCalls)
+                : openImageRaster(images[face], conversion, memory, settings.fileCalls);
+        if (!raster) return tl::unexpected(raster.error());
+        set.faces[face] = std::move(*raster);
+    }
+    return describeFaces(files, *format, conversion, std::move(set), edges);
+}
+
+}  // namespace planet

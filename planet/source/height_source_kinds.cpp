@@ -1,0 +1,55 @@
+#include "planet/source/height_source_kinds.h"
+
+#include <cmath>
+
+#include "planet/sphere/planet_shape.h"
+
+namespace planet {
+
+namespace {
+
+// A text such as -3.40282346638529e+38 is a float's value only once it is rounded to one.
+double asStored(double value, SampleType type) {
+    const bool fits = std::abs(value) <= 3.4028235e38;
+    return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+}  // namespace
+
+HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type,
+                               std::optional<double> fileNoDataValue) {
+    HeightConversion conversion;
+    conversion.type = type;
+    conversion.metresPerUnit = settings.metresPerUnit;
+    conversion.offsetM = settings.offsetM;
+    conversion.noDataValue = settings.noDataValue ? settings.noDataValue : fileNoDataValue;
+    if (conversion.noDataValue) conversion.noDataValue = asStored(*conversion.noDataValue, type);
+    conversion.fillM = static_cast<float>(settings.fillM);
+    if (settings.colourChannel) {
+        const bool isInteger = type != SampleType::Float && type != SampleType::Double;
+        const auto bits = static_cast<int>(8 * bytesOf(type));
+        conversion.metresPerUnit = isInteger ? 1 / (std::ldexp(1.0, bits) - 1) : 1;
+        conversion.offsetM = 0;
+        conversion.noDataValue = settings.noDataValue;  // the file's is often a colour of the picture
+        conversion.fillM = 0;
+        conversion.decodesSrgb = isInteger;
+    }
+    return conversion;
+}
+
+void describeHeights(HeightSource& source, const HeightConversion& conversion,
+                     const HeightStatistics& statistics) {
+    const bool isFloat = conversion.type == SampleType::Float || conversion.type == SampleType::Double;
+    source.stepM = isFloat ? 0 : std::abs(conversion.metresPerUnit);
+    source.minM = statistics.minM;
+    source.maxM = statistics.maxM;
+    source.missingCount = statistics.missingCount;
+}
+
+int powerOfTwoCells(double count) {
+    int log2 = 0;
+    while (log2 < maxFaceCellsLog2 && std::ldexp(1.0, log2) < count) ++log2;
+    return 1 << log2;
+}
+
+}  // namespace planet

@@ -1,0 +1,32 @@
+// Where the samples of an equirectangular image of the whole planet lie, by its GeoTIFF tags or, without any,
+// by its size. Internal to the library. Pure functions, any thread.
+#pragma once
+
+#include <string>
+
+#include "planet/base/result.h"
+#include "planet/source/geo_tags.h"
+
+namespace planet {
+
+// North is up and columns go east.
+struct ImagePlacement {
+    int period = 0;  // columns once around the planet: the width, or 1 less where the last repeats the first
+    double zeroColumn = 0;     // the column of longitude 0, [-0.5, period - 0.5)
+    bool hasPoleRows = false;  // the first and last row lie on the poles, else half a row from them
+
+    bool operator==(const ImagePlacement&) const = default;
+};
+
+// Samples at pixel centres, from longitude -180 to 180.
+ImagePlacement centredPlacement(int width);
+
+// Without placement in the tags: 2 n + 1 by n + 1 samples, or 2 n by n + 1, are points of a grid that begins
+// at longitude -180 on the north pole; an image about twice as wide as high has its samples at pixel centres.
+// The Error names the file, what it covers and what would be right: an image of the whole planet, north up.
+Result<ImagePlacement> placementOf(const std::string& file, int width, int height, const GeoTags& tags);
+
+// "equirectangular", and where the samples lie unless they are at pixel centres from longitude -180 to 180.
+std::string placementText(const ImagePlacement& placement, int width);
+
+}  // namespace planet

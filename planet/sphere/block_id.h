@@ -1,0 +1,44 @@
+// Names a block of the chunk file that is paged in and out as one: what lies under one node of a quadtree.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "planet/sphere/chunk_id.h"
+
+namespace planet {
+
+// The quadtrees of a planet. Normals are derived from heights, and have no block in the file.
+enum class BlockKind : std::uint8_t { Heights, Colours, Normals };
+inline constexpr int blockKindCount = 3;
+
+struct BlockId {
+    ChunkId parent;  // whose four children it holds: chunks, or tiles of colours or normals
+    BlockKind kind = BlockKind::Heights;
+
+    BlockId() = default;
+    // A chunk's block, unless said otherwise.
+    BlockId(const ChunkId& parentId, BlockKind blockKind = BlockKind::Heights)
+        : parent(parentId), kind(blockKind) {}
+
+    auto operator<=>(const BlockId&) const = default;
+};
+
+// "z_pos/3/5/2", and of colours "z_pos/3/5/2 (colours)".
+inline std::string toString(const BlockId& id) {
+    const char* kind = id.kind == BlockKind::Heights   ? ""
+                       : id.kind == BlockKind::Colours ? " (colours)"
+                                                       : " (normals)";
+    return toString(id.parent) + kind;
+}
+
+}  // namespace planet
+
+template <>
+struct std::hash<planet::BlockId> {
+    std::size_t operator()(const planet::BlockId& id) const noexcept {
+        return std::hash<planet::ChunkId>{}(id.parent) ^ static_cast<std::size_t>(id.kind);
+    }
+};

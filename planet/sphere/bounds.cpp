@@ -1,0 +1,208 @@
+#include "planet/sphere/bounds.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace planet {
+
+namespace {
+
+// Between samples. The square is sampled on a grid of g = side / sampleCells. Within a cell, a smooth f
+// differs from the bilinear interpolation of its corners by at most g^2/8 (max |f_uu| + max |f_vv|):
+// interpolating along u costs the first term, interpolating that along v the second. Bilinear interpolation
+// stays within the convex hull of the corners. So whatever holds all samples holds the whole square once it
+// is grown by that much.
+//
+// On a face Nowell's map is d = (w, u sqrt(1/2 - v^2/6), v sqrt(1/2 - u^2/6)) with
+// w = sqrt(1 - u^2/2 - v^2/2 + u^2 v^2/3). Differentiating twice by u:
+//   w_uu = -(1 - 2v^2/3)(2 - v^2) / (4 w^3), largest where w is least, at u = 1: w^2 = 1/2 - v^2/6, and there
+//          at v = 0: |w_uu| <= sqrt(2);
+//   the second component has none; the third has |v| / (12 (1/2 - u^2/6)^(3/2)) <= sqrt(3)/4.
+// So |d_uu| <= sqrt(2 + 3/16) < 1.5, and by symmetry |d_vv| < 1.5.
+constexpr int sampleCells = 8;
+constexpr int samplesPerSide = sampleCells + 1;
+constexpr double maxSecondDerivative = 1.5;
+
+// For unit vectors and what is computed from them in a few operations.
+constexpr double boxRounding = 1e-14;
+
+struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+};
+
+double marginBetweenSamples(double side) {
+    const double g = side / sampleCells;
+    return g * g / 8 * (2 * maxSecondDerivative) + boxRounding;
+}
+
+using Samples = std::array<glm::dvec3, samplesPerSide * samplesPerSide>;
+
+Samples sampleDirections(Face face, const FaceSquare& square) {
+    Samples samples;
+    std::size_t next = 0;
+    for (int j = 0; j <= sampleCells; ++j) {
+        const double v = square.v + square.side * j / sampleCells;
+        for (int i = 0; i <= sampleCells; ++i) {
+            const double u = square.u + square.side * i / sampleCells;
+            samples[next++] = sphereFromCube(cubePoint(face, u, v));
+        }
+    }
+    return samples;
+}
+
+// Up in the square's middle, and east along its middle row.
+std::array<glm::dvec3, 3> localAxes(const Samples& samples) {
+    const std::size_t middle = samples.size() / 2;
+    const glm::dvec3 up = glm::normalize(samples[middle]);
+    const glm::dvec3 along = samples[middle + sampleCells / 2] - samples[middle - sampleCells / 2];
+    const glm::dvec3 east = glm::normalize(along - glm::dot(along, up) * up);
+    return {east, glm::cross(up, east), up};
+}
+
+OrientedBox boxOf(const ChunkDirections& directions, double minRadiusM, double maxRadiusM) {
+    OrientedBox box;
+    box.axes = directions.axes;
+    for (int a = 0; a < 3; ++a) {
+        const double low = directions.low[a];
+        const double high = directions.high[a];
+        const double lowM = low * (low < 0 ? maxRadiusM : minRadiusM);
+        const double highM = high * (high > 0 ? maxRadiusM : minRadiusM);
+        box.centreM += box.axes[static_cast<std::size_t>(a)] * ((lowM + highM) / 2);
+        box.halfSizeM[a] = (highM - lowM) / 2 + boxRounding * maxRadiusM;
+    }
+    return box;
+}
+
+DirectionCone coneOf(const Samples& samples, double margin) {
+    DirectionCone cone;
+    cone.axis = glm::normalize(samples[samples.size() / 2]);
+    double chord = 0;
+    for (const glm::dvec3& direction : samples) chord = std::max(chord, glm::length(direction - cone.axis));
+    // From the chord rather than the cosine, which has no digits left for a small angle.
+    cone.halfAngleRad = 2 * std::asin(std::min(1.0, (chord + margin) / 2));
+    return cone;
+}
+
+// acos(adjacent / hypotenuse), exact for small angles too.
+double angleOf(double adjacent, double hypotenuse) {
+    const double opposite = std::sqrt((hypotenuse - adjacent) * (hypotenuse + adjacent));
+    return std::atan2(opposite, adjacent);
+}
+
+}  // namespace
+
+ChunkDirections chunkDirections(const ChunkId& id) {
+    const FaceSquare square = faceSquareOf(id);
+    const Samples samples = sampleDirections(id.face, square);
+    const double margin = marginBetweenSamples(square.side);
+    ChunkDirections directions;
+    directions.axes = localAxes(samples);
+    for (int a = 0; a < 3; ++a) {
+        Range range;
+        for (const glm::dvec3& direction : samples) {
+            range.add(glm::dot(directions.axes[static_cast<std::size_t>(a)], direction));
+        }
+        directions.low[a] = range.low - margin;
+        // No unit vector reaches beyond 1 along an axis, so the top of the box needs no margin.
+        directions.high[a] = std::min(range.high + margin, 1 + boxRounding);
+    }
+    directions.cone = coneOf(samples, margin);
+    return directions;
+}
+
+ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, double minHeightM,
+                        double maxHeightM) {
+    assert(radiusM + minHeightM > 0 && minHeightM <= maxHeightM);
+    ChunkBounds bounds;
+    bounds.box = boxOf(directions, radiusM + minHeightM, radiusM + maxHeightM);
+    bounds.cone = directions.cone;
+    bounds.maxRadiusM = radiusM + maxHeightM;
+    return bounds;
+}
+
+ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM) {
+    return chunkBounds(chunkDirections(id), radiusM, minHeightM, maxHeightM);
+}
+
+double distanceM(const OrientedBox& box, const glm::dvec3& pointM) {
+    const glm::dvec3 offset = pointM - box.centreM;
+    double squared = 0;
+    for (int a = 0; a < 3; ++a) {
+        const double along = std::abs(glm::dot(offset, box.axes[static_cast<std::size_t>(a)]));
+        const double beyond = std::max(0.0, along - box.halfSizeM[a]);
+        squared += beyond * beyond;
+    }
+    return std::sqrt(squared);
+}
+
+Containment classify(const OrientedBox& box, const Plane& plane) {
+    const double centre = glm::dot(plane.normal, box.centreM) + plane.offsetM;
+    double reach = 0;
+    for (int a = 0; a < 3; ++a) {
+        reach += box.halfSizeM[a] * std::abs(glm::dot(plane.normal, box.axes[static_cast<std::size_t>(a)]));
+    }
+    if (centre < -reach) return Containment::Outside;
+    return centre >= reach ? Containment::Inside : Containment::Crossing;
+}
+
+Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM) {
+    Horizon horizon;
+    horizon.occluderRadiusM = occluderRadiusM;
+    const double eyeRadiusM = glm::length(eyeM);
+    horizon.seesAll = eyeRadiusM <= occluderRadiusM || occluderRadiusM <= 0;
+    if (horizon.seesAll) return horizon;
+    horizon.eyeDirection = eyeM / eyeRadiusM;
+    horizon.angleRad = angleOf(occluderRadiusM, eyeRadiusM);
+    return horizon;
+}
+
+// A line of sight touches the occluder at angleRad from the eye's direction, and from there reaches a point
+// of radius r at most acos(occluder / r) further round.
+Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
+    if (horizon.seesAll) return Containment::Inside;
+    const DirectionCone& cone = bounds.cone;
+    const double toAxis = std::atan2(glm::length(glm::cross(horizon.eyeDirection, cone.axis)),
+                                     glm::dot(horizon.eyeDirection, cone.axis));
+    if (toAxis + cone.halfAngleRad < horizon.angleRad) return Containment::Inside;
+    const double topM = std::max(bounds.maxRadiusM, horizon.occluderRadiusM);
+    const double reach = horizon.angleRad + angleOf(horizon.occluderRadiusM, topM) + boxRounding;
+    return toAxis - cone.halfAngleRad > reach ? Containment::Outside : Containment::Crossing;
+}
+
+bool isBelowHorizon(const ChunkBounds& bounds, const glm::dvec3& eyeM, double occluderRadiusM) {
+    return classify(bounds, horizonOf(eyeM, occluderRadiusM)) == Containment::Outside;
+}
+
+// A triangle whose corners lie within an angle a of a direction m, none nearer than r, has
+// dot(point, m) >= r cos a at each corner and so throughout. All faces are alike, and cells of finer levels
+// are smaller, so the widest cell of one root chunk bounds them all.
+double radiusInsideTriangles(double lowestRadiusM, int rootCells) {
+    assert(lowestRadiusM > 0 && rootCells > 0);
+    const double cell = 2.0 / rootCells;
+    double leastCosine = 1;
+    for (int j = 0; j < rootCells; ++j) {
+        for (int i = 0; i < rootCells; ++i) {
+            const double u = -1 + cell * i;
+            const double v = -1 + cell * j;
+            const auto at = [&](double du, double dv) {
+                return sphereFromCube(cubePoint(Face::PosX, u + du, v + dv));
+            };
+            const glm::dvec3 middle = at(cell / 2, cell / 2);
+            for (const glm::dvec3& corner : {at(0, 0), at(cell, 0), at(0, cell), at(cell, cell)}) {
+                leastCosine = std::min(leastCosine, glm::dot(middle, corner));
+            }
+        }
+    }
+    return lowestRadiusM * (leastCosine - boxRounding);
+}
+
+}  // namespace planet

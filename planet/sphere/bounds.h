@@ -1,0 +1,78 @@
+// Volumes that hold everything a chunk and the chunks under it can draw: the vertices of its square of the
+// sphere between its lowest and highest finest height, and every triangle between those vertices.
+// Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+
+#include "planet/sphere/chunk_id.h"
+#include "planet/sphere/view.h"
+
+namespace planet {
+
+// A box along the local east/north/up-like frame of the chunk's middle. Convex and holding every vertex,
+// so it holds every triangle, chord sag included.
+struct OrientedBox {
+    glm::dvec3 centreM{0, 0, 0};
+    std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
+    glm::dvec3 halfSizeM{0, 0, 0};     // along each axis
+};
+
+// All directions within an angle of an axis.
+struct DirectionCone {
+    glm::dvec3 axis{0, 0, 1};  // unit
+    double halfAngleRad = 0;   // [0, pi]
+};
+
+struct ChunkBounds {
+    OrientedBox box;
+    DirectionCone cone;     // holds the direction of every vertex
+    double maxRadiusM = 0;  // no vertex lies farther from the planet's centre
+};
+
+// The part of the bounds that no height changes, and that takes most of the time to find: how far the chunk's
+// directions reach along the box's axes, which is [-1, 1] at most.
+struct ChunkDirections {
+    std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
+    glm::dvec3 low{0, 0, 0};           // along each axis
+    glm::dvec3 high{0, 0, 0};
+    DirectionCone cone;
+};
+ChunkDirections chunkDirections(const ChunkId& id);
+
+// radiusM + minHeightM must be over 0, and minHeightM <= maxHeightM.
+ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, double minHeightM,
+                        double maxHeightM);
+ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM);
+
+// 0 inside the box.
+double distanceM(const OrientedBox& box, const glm::dvec3& pointM);
+
+enum class Containment { Outside, Crossing, Inside };
+Containment classify(const OrientedBox& box, const Plane& plane);
+
+// How far round the planet an eye sees, worked out once a frame.
+struct Horizon {
+    glm::dvec3 eyeDirection{0, 0, 1};  // unit
+    double occluderRadiusM = 0;
+    double angleRad =
+        0;  // at the planet's centre, from the eye to where a line of sight touches the occluder
+    bool seesAll = true;  // the eye is inside the occluder
+};
+Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM);
+
+// Outside: the occluder hides every point within the cone up to maxRadiusM. Inside: no point of the cone that
+// is outside the occluder is hidden, so nothing under this chunk is either. Crossing: neither is certain.
+Containment classify(const ChunkBounds& bounds, const Horizon& horizon);
+
+// True only when the sphere of the occluder radius, about the planet's centre, hides every point within
+// the cone up to maxRadiusM from the eye. An eye inside the occluder sees everything.
+bool isBelowHorizon(const ChunkBounds& bounds, const glm::dvec3& eyeM, double occluderRadiusM);
+
+// The radius of a sphere about the planet's centre that lies inside every triangle between vertices of any
+// level, none of which lies nearer to the centre than lowestRadiusM. rootCells: cells along the side of a
+// face's root chunk, whose triangles sag most.
+double radiusInsideTriangles(double lowestRadiusM, int rootCells);
+
+}  // namespace planet

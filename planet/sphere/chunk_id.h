@@ -1,0 +1,74 @@
+// Names a node of one of the six quadtrees, and walks between them. Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "planet/sphere/cube_sphere.h"
+
+namespace planet {
+
+inline constexpr int maxLevel = 20;  // a root chunk of 17 a side refined 20 times is 0.6 m a cell on Earth
+
+struct ChunkId {
+    Face face = Face::PosX;
+    std::uint8_t level = 0;  // [0, maxLevel], 0 is the face's root
+    std::uint32_t x = 0;     // [0, 2^level), along u
+    std::uint32_t y = 0;     // [0, 2^level), along v
+
+    auto operator<=>(const ChunkId&) const = default;
+};
+
+// Unique over all valid ids: 3 bits of face, 5 of level, 28 each of y and x.
+std::uint64_t keyOf(const ChunkId& id);
+
+// A quadrant is (x & 1) + 2 (y & 1).
+inline constexpr int quadrantCount = 4;
+ChunkId childOf(const ChunkId& parent, int quadrant);
+ChunkId parentOf(const ChunkId& child);  // the child's level must be over 0
+int quadrantOf(const ChunkId& child);
+// The chunk of a level that holds this one: itself where it is of that level or coarser.
+ChunkId ancestorOf(ChunkId id, int level);
+
+enum class Edge : std::uint8_t { West, East, South, North };  // u = min, u = max, v = min, v = max
+inline constexpr int edgeCount = 4;
+inline constexpr std::array allEdges = {Edge::West, Edge::East, Edge::South, Edge::North};
+
+// The chunk of the same level beyond an edge, on the next face where the edge is the face's own.
+ChunkId neighbourOf(const ChunkId& id, Edge edge);
+// The edge beyond which another chunk of the same level lies; none if it is no neighbour.
+std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other);
+
+// Where a chunk lies on its face.
+struct FaceSquare {
+    double u = -1;    // west edge, [-1, 1]
+    double v = -1;    // south edge, [-1, 1]
+    double side = 2;  // (0, 2]
+};
+FaceSquare faceSquareOf(const ChunkId& id);
+
+// The chunk of a level that holds a point of its face; the last row or column where u or v is 1.
+ChunkId chunkAt(const FacePoint& point, int level);
+
+// The chunks of a level in quadtree order: face by face, each quarter whole before the next. The four
+// children of a level's chunk i are 4 i to 4 i + 3 of the next level.
+ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level);
+std::uint64_t indexInQuadtreeOrder(const ChunkId& id);
+
+// "z_pos/3/5/2": face, level, x, y.
+std::string toString(const ChunkId& id);
+std::optional<ChunkId> chunkIdFromString(std::string_view text);
+
+}  // namespace planet
+
+template <>
+struct std::hash<planet::ChunkId> {
+    std::size_t operator()(const planet::ChunkId& id) const noexcept {
+        return std::hash<std::uint64_t>{}(planet::keyOf(id) * 0x9E3779B97F4A7C15u);
+    }
+};

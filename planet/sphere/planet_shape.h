@@ -1,0 +1,56 @@
+// The numbers that turn a chunk's stored steps into points in space. Pure functions, any thread.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "planet/sphere/cube_sphere.h"
+
+namespace planet {
+
+inline constexpr int maxFaceCellsLog2 = 22;  // grid coordinates stay exact in a float
+
+inline constexpr double earthRadiusM = 6'371'000;  // mean
+
+struct PlanetShape {
+    double radiusM = earthRadiusM;  // height 0 lies here; (0, 1e9]
+    double quantumM = 1;            // metres a stored step; > 0
+    double baseHeightM = 0;         // height of stored step 0
+    int faceCellsLog2 = 11;         // a face has 2^this cells a side; [chunkCellsLog2, maxFaceCellsLog2]
+    int chunkCellsLog2 = 5;         // a chunk has 2^this cells a side; [4, 7]
+};
+
+constexpr int faceCells(const PlanetShape& shape) {
+    return 1 << shape.faceCellsLog2;
+}
+constexpr int chunkCells(const PlanetShape& shape) {
+    return 1 << shape.chunkCellsLog2;
+}
+// Vertices along a chunk's side, and in the whole chunk.
+constexpr int chunkSize(const PlanetShape& shape) {
+    return chunkCells(shape) + 1;
+}
+constexpr int chunkVertexCount(const PlanetShape& shape) {
+    return chunkSize(shape) * chunkSize(shape);
+}
+// The level whose chunks hold the finest samples.
+constexpr int leafLevel(const PlanetShape& shape) {
+    return shape.faceCellsLog2 - shape.chunkCellsLog2;
+}
+// Of the whole planet: distinct finest samples, and chunks of all levels.
+constexpr std::uint64_t sampleCountOf(const PlanetShape& shape) {
+    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
+    return faceCount * cells * cells + 2;
+}
+constexpr std::uint64_t chunkCountOf(const PlanetShape& shape) {
+    return faceCount * ((std::uint64_t{1} << (2 * (leafLevel(shape) + 1))) - 1) / 3;
+}
+constexpr double heightM(const PlanetShape& shape, std::int16_t step) {
+    return shape.baseHeightM + step * shape.quantumM;
+}
+// The double-precision position of a vertex, metres from the planet's centre.
+inline glm::dvec3 positionM(const PlanetShape& shape, const glm::dvec3& direction, double height) {
+    return (shape.radiusM + height) * direction;
+}
+
+}  // namespace planet

@@ -1,0 +1,26 @@
+// Where the sun stands over the Earth. Pure functions, any thread.
+#pragma once
+
+#include "planet/sphere/cube_sphere.h"
+
+namespace planet {
+
+// Universal time, Gregorian calendar.
+struct SunDate {
+    int year = 2024;   // [1950, 2050]
+    int month = 6;     // [1, 12]
+    int day = 21;      // [1, 31]; past the month's end: its last
+    double hour = 12;  // [0, 24]
+
+    bool operator==(const SunDate&) const = default;
+};
+
+// Days in a month of a year.
+int daysInMonth(int year, int month);
+
+// The place where the sun stands in the zenith, to 0.01 degrees: the Astronomical Almanac's low-precision
+// formulae, as in Michalsky, "The Astronomical Almanac's algorithm for approximate solar position
+// (1950-2050)", Solar Energy 40 (1988).
+Geographic sunOverhead(const SunDate& date);
+
+}  // namespace planet

@@ -1,0 +1,69 @@
+// Where a vertex is, in floats, relative to the eye: the maths of the vertex shader, mirrored on the CPU.
+//
+// A float holds seven digits and a planet needs ten, so nothing here is computed from the planet's centre.
+// Each face has a reference point near the eye, worked out in doubles once a frame: a grid point (u0, v0) and
+// a height step h0. A vertex's grid distance to it is a small whole number, exact in a float, and the
+// difference of the two directions d(u, v) - d(u0, v0) on Nowell's map is formed without cancellation. So
+//
+//   position - eye = (P0 - eye) + (R + h) (d - d0) + (h - h0) d0,     P0 = (R + h0) d0
+//
+// is wrong by about 1e-7 of the vertex's distance to the eye. Vertices that chunks of any level share are the
+// same to the last bit: on the cube's edges and corners all faces reckon with the point's owning face.
+//
+// Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "planet/sphere/chunk_id.h"
+#include "planet/sphere/planet_shape.h"
+
+namespace planet {
+
+// Grid coordinates here count cells of the finest grid that a planet can have, 2^22 a side, whatever the
+// planet's own: [0, 2^22] from the west or south edge of the face.
+inline constexpr int fineGridLog2 = maxFaceCellsLog2;
+
+struct FaceReference {
+    std::int32_t gridU = 0;  // of the reference point
+    std::int32_t gridV = 0;
+    float u0 = 0;  // the same as cube coordinates, exact
+    float v0 = 0;
+    glm::vec3 roots{1, 0, 0};      // the square roots of Nowell's map there: along normal, u and v
+    glm::vec3 direction{1, 0, 0};  // d0 in world axes, unit
+    glm::vec3 originM{0, 0, 0};    // P0 - eye in world axes, metres
+};
+
+struct VertexFrame {
+    std::array<FaceReference, faceCount> faces;
+    std::int32_t referenceStep = 0;  // h0, the step nearest to the eye's height
+    float referenceRadiusM = 0;      // R + h0
+    float quantumM = 1;
+};
+
+VertexFrame vertexFrame(const PlanetShape& shape, const glm::dvec3& eyeM);
+
+struct FineGridPoint {
+    Face face = Face::PosX;
+    std::int32_t gridU = 0;
+    std::int32_t gridV = 0;
+
+    bool operator==(const FineGridPoint&) const = default;
+};
+
+// On an edge or a corner of the cube the same point on the face of the lowest index that has it; elsewhere
+// the point itself.
+FineGridPoint onOwningFace(const FineGridPoint& point);
+
+// Metres from the eye, world axes. The skirt drop is towards the planet's centre.
+glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face face, std::int32_t gridU, std::int32_t gridV,
+                         std::int16_t step, float skirtDropM = 0);
+
+// Cells of the fine grid between two neighbouring vertices of a chunk.
+constexpr std::int32_t fineCellsPerVertex(const PlanetShape& shape, int level) {
+    return std::int32_t{1} << (fineGridLog2 - shape.chunkCellsLog2 - level);
+}
+
+}  // namespace planet

@@ -1,0 +1,78 @@
+#include "planet/sphere/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "planet/sphere/cube_sphere.h"
+
+namespace planet {
+
+namespace {
+
+struct LocalFrame {
+    glm::dvec3 east, north, up;
+};
+
+LocalFrame localFrame(const Geographic& place) {
+    const glm::dvec3 up = directionFromGeographic(place);
+    // From the longitude rather than from a cross product, so that the poles have a frame too.
+    const glm::dvec3 east(-std::sin(place.longitudeRad), std::cos(place.longitudeRad), 0);
+    return {east, glm::cross(up, east), up};
+}
+
+}  // namespace
+
+View viewFromPose(const CameraPose& pose, double radiusM, double horizontalFovRad, int widthPx,
+                  int heightPx) {
+    const LocalFrame frame = localFrame({glm::radians(pose.latitudeDeg), glm::radians(pose.longitudeDeg)});
+    const double heading = glm::radians(pose.headingDeg);
+    const double pitch = glm::radians(pose.pitchDeg);
+    const glm::dvec3 level = std::cos(heading) * frame.north + std::sin(heading) * frame.east;
+    View view;
+    view.eyeM = (radiusM + pose.altitudeM) * frame.up;
+    view.right = std::cos(heading) * frame.east - std::sin(heading) * frame.north;
+    view.back = -(std::cos(pitch) * level + std::sin(pitch) * frame.up);
+    view.up = glm::cross(view.back, view.right);
+    view.horizontalFovRad = horizontalFovRad;
+    view.widthPx = widthPx;
+    view.heightPx = heightPx;
+    return view;
+}
+
+CameraPose poseFromView(const View& view, double radiusM) {
+    const Geographic place = geographicFromDirection(view.eyeM);
+    const LocalFrame frame = localFrame(place);
+    CameraPose pose;
+    pose.latitudeDeg = glm::degrees(place.latitudeRad);
+    pose.longitudeDeg = glm::degrees(place.longitudeRad);
+    pose.altitudeM = glm::length(view.eyeM) - radiusM;
+    // The right vector is level whatever the pitch, so heading is defined looking straight down too.
+    const double heading = std::atan2(-glm::dot(view.right, frame.north), glm::dot(view.right, frame.east));
+    // What rounding leaves just west of north is north.
+    pose.headingDeg = glm::degrees(heading < -1e-12 ? heading + glm::radians(360.0) : std::max(heading, 0.0));
+    pose.pitchDeg = glm::degrees(std::asin(std::clamp(-glm::dot(view.back, frame.up), -1.0, 1.0)));
+    return pose;
+}
+
+double screenScalePx(const View& view) {
+    return view.widthPx / (2 * std::tan(view.horizontalFovRad / 2));
+}
+
+glm::dmat3 cameraFromWorldRotation(const View& view) {
+    return glm::transpose(glm::dmat3(view.right, view.up, view.back));
+}
+
+Frustum frustumOf(const View& view) {
+    const double tanX = std::tan(view.horizontalFovRad / 2);
+    const double tanY = tanX * view.heightPx / view.widthPx;
+    const auto through = [&](const glm::dvec3& inward) {
+        const glm::dvec3 normal = glm::normalize(inward);
+        return Plane{normal, -glm::dot(normal, view.eyeM)};
+    };
+    return {through(view.right - tanX * view.back), through(-view.right - tanX * view.back),
+            through(view.up - tanY * view.back), through(-view.up - tanY * view.back)};
+}
+
+}  // namespace planet

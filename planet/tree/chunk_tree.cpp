@@ -1,0 +1,314 @@
+#include "planet/tree/chunk_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "planet/sphere/geometric_error.h"
+#include "planet/tree/node_groups.h"
+
+namespace planet {
+
+namespace {
+
+struct Limits {
+    std::int16_t minStep;
+    std::int16_t maxStep;
+    float deltaCM;
+    float deltaTightM;
+};
+
+Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const ChunkId& id,
+                        const Limits& limits) {
+    const std::string name = toString(id);
+    if (data.id != id) return badInput(fmt::format("chunk {}: got chunk {}", name, toString(data.id)));
+    if (data.heights.size() != static_cast<std::size_t>(chunkVertexCount(shape))) {
+        return badInput(
+            fmt::format("chunk {}: {} heights, not {}", name, data.heights.size(), chunkVertexCount(shape)));
+    }
+    if (!(data.deltaCM >= 0 && data.deltaCM <= limits.deltaCM)) {
+        return badInput(
+            fmt::format("chunk {}: delta_c {} m is not within [0, {}]", name, data.deltaCM, limits.deltaCM));
+    }
+    const float mostTightM = std::min(data.deltaCM, limits.deltaTightM);
+    if (!(data.deltaTightM >= 0 && data.deltaTightM <= mostTightM)) {
+        return badInput(fmt::format("chunk {}: a tight metric of {} m is not within [0, {}]", name,
+                                    data.deltaTightM, mostTightM));
+    }
+    if (data.minStep > data.maxStep || data.minStep < limits.minStep || data.maxStep > limits.maxStep) {
+        return badInput(fmt::format("chunk {}: steps from {} to {} are not within [{}, {}]", name,
+                                    data.minStep, data.maxStep, limits.minStep, limits.maxStep));
+    }
+    const auto [lowest, highest] = std::minmax_element(data.heights.begin(), data.heights.end());
+    if (*lowest < data.minStep || *highest > data.maxStep) {
+        return badInput(fmt::format("chunk {}: heights from step {} to {} are not within its [{}, {}]", name,
+                                    *lowest, *highest, data.minStep, data.maxStep));
+    }
+    if (id.level >= leafLevel(shape) && data.children.exists()) {
+        return badInput(fmt::format("chunk {}: children below the finest level", name));
+    }
+    return {};
+}
+
+// A_l + A_l+1 + ... down to the leaves' parents: 0 at a leaf.
+double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
+    double sum = 0;
+    for (int level = fromLevel; level < leafLevel(shape); ++level) sum += curvatureErrorM(shape, level);
+    return sum;
+}
+
+// What follows from the node's directions, its stored steps and metrics, and the tree's exaggeration.
+void setMeasures(const ChunkTree& tree, ChunkNode& node) {
+    const PlanetShape& shape = tree.shape;
+    const double lowM = heightM(shape, node.minStep);
+    const double highM = heightM(shape, node.maxStep);
+    node.minHeightM = static_cast<float>(lowM);
+    node.maxHeightM = static_cast<float>(highM);
+    const ChunkDirections directions{node.bounds.box.axes, node.directionLow, node.directionHigh,
+                                     node.bounds.cone};
+    node.bounds = chunkBounds(directions, shape.radiusM, lowM, highM);
+    node.deltaCM = node.storedDeltaCM;
+    node.deltaTightM = node.storedDeltaTightM;
+    if (tree.exaggeration == 1) return;
+    const double bent = std::abs(tree.exaggeration - 1) * curvatureErrorsM(shape, node.id.level);
+    node.deltaCM = roundedUp(tree.exaggeration * node.storedDeltaCM + bent);
+    const float tightM = roundedUp(tree.exaggeration * node.storedDeltaTightM + bent);
+    node.deltaTightM = std::min(tightM, node.deltaCM);
+}
+
+void setOccluder(ChunkTree& tree) {
+    const double lowestM = tree.shape.radiusM + heightM(tree.shape, tree.minStep);
+    tree.occluderRadiusM = radiusInsideTriangles(lowestM, chunkCells(tree.shape));
+}
+
+ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, std::uint32_t slot) {
+    ChunkNode node;
+    node.id = data.id;
+    node.storedDeltaCM = data.deltaCM;
+    node.storedDeltaTightM = data.deltaTightM;
+    node.minStep = data.minStep;
+    node.maxStep = data.maxStep;
+    const ChunkDirections directions = chunkDirections(node.id);
+    node.bounds.box.axes = directions.axes;
+    node.bounds.cone = directions.cone;
+    node.directionLow = directions.low;
+    node.directionHigh = directions.high;
+    setMeasures(tree, node);
+    node.parent = parent;
+    node.childrenState = data.children.exists() ? ChildrenState::Absent : ChildrenState::None;
+    node.children = data.children;
+    node.slot = slot;
+    node.heights = std::make_shared<const std::vector<std::int16_t>>(std::move(data.heights));
+    return node;
+}
+
+// Where a ray from the planet's centre meets a triangle's plane, and how far inside the triangle: the least
+// of the three barycentric coordinates there, negative outside.
+struct TriangleHit {
+    double radiusM = 0;
+    double inside = -std::numeric_limits<double>::infinity();
+};
+
+TriangleHit hitTriangle(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
+                        const glm::dvec3& c) {
+    // Relative to one corner, since the edges are far shorter than the planet's radius.
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const glm::dvec3 normal = glm::cross(ab, ac);
+    const double radiusM = glm::dot(normal, a) / glm::dot(normal, direction);
+    const glm::dvec3 at = radiusM * direction - a;
+    const double squared = glm::dot(normal, normal);
+    const double alongAb = glm::dot(glm::cross(at, ac), normal) / squared;
+    const double alongAc = glm::dot(glm::cross(ab, at), normal) / squared;
+    return {radiusM, std::min({alongAb, alongAc, 1 - alongAb - alongAc})};
+}
+
+// The better of a cell's two triangles; the diagonal runs from (west, south) to (east, north).
+TriangleHit hitCell(const PlanetShape& shape, const ChunkNode& node, int column, int row,
+                    const glm::dvec3& direction) {
+    const FaceSquare square = faceSquareOf(node.id);
+    const int cells = chunkCells(shape);
+    const auto vertex = [&](int i, int j) {
+        const double u = square.u + square.side * i / cells;
+        const double v = square.v + square.side * j / cells;
+        const auto at = static_cast<std::size_t>(j * (cells + 1) + i);
+        return positionM(shape, sphereFromCube(cubePoint(node.id.face, u, v)),
+                         heightM(shape, (*node.heights)[at]));
+    };
+    const glm::dvec3 southWest = vertex(column, row);
+    const glm::dvec3 northEast = vertex(column + 1, row + 1);
+    const TriangleHit south = hitTriangle(direction, southWest, vertex(column + 1, row), northEast);
+    const TriangleHit north = hitTriangle(direction, southWest, northEast, vertex(column, row + 1));
+    return south.inside >= north.inside ? south : north;
+}
+
+NodeIndex finestNodeAt(const ChunkTree& tree, const FacePoint& point) {
+    auto index = static_cast<NodeIndex>(point.face);
+    while (tree.nodes[index].childrenState == ChildrenState::Resident) {
+        const ChunkId child = chunkAt(point, tree.nodes[index].id.level + 1);
+        index = tree.nodes[index].firstChild + static_cast<NodeIndex>(quadrantOf(child));
+    }
+    return index;
+}
+
+}  // namespace
+
+Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
+                                std::array<ChunkData, faceCount>&& roots) {
+    const double lowestM = shape.radiusM + heightM(shape, minStep);
+    if (!(lowestM > 0)) {
+        return badInput(
+            fmt::format("the lowest height, {} m, lies below the centre of a planet of radius {} m",
+                        heightM(shape, minStep), shape.radiusM));
+    }
+    ChunkTree tree;
+    tree.shape = tree.storedShape = shape;
+    tree.minStep = minStep;
+    tree.maxStep = maxStep;
+    setOccluder(tree);
+    for (const Face face : allFaces) {
+        const auto index = static_cast<std::uint32_t>(face);
+        const ChunkId id{face, 0, 0, 0};
+        constexpr float anyM = std::numeric_limits<float>::max();
+        const Limits limits{minStep, maxStep, anyM, anyM};
+        if (auto checked = checkChunk(shape, roots[index], id, limits); !checked) {
+            return tl::unexpected(std::move(checked.error()));
+        }
+        tree.nodes.push_back(makeNode(tree, std::move(roots[index]), noNode, index));
+    }
+    tree.residentChunks = faceCount;
+    return tree;
+}
+
+void setExaggeration(ChunkTree& tree, double factor) {
+    assert(factor > 0 && factor <= largestExaggeration(tree));
+    tree.exaggeration = factor;
+    tree.shape.quantumM = factor * tree.storedShape.quantumM;
+    tree.shape.baseHeightM = factor * tree.storedShape.baseHeightM;
+    setOccluder(tree);
+    forEachNode(tree, [&](NodeIndex index, const ChunkNode&) { setMeasures(tree, tree.nodes[index]); });
+}
+
+double largestExaggeration(const ChunkTree& tree) {
+    constexpr double most = 100;
+    constexpr double deepest = 0.99;  // of the radius
+    const double lowestM = heightM(tree.storedShape, tree.minStep);
+    if (lowestM >= 0) return most;
+    return std::clamp(deepest * tree.storedShape.radiusM / -lowestM, 1.0, most);
+}
+
+// Along a line of the cube a vertex at parameter 0 between neighbours at -1 and 1 lies off their middle by at
+// most half of the largest second derivative between them. An edge's neighbours lie o = half a cell away
+// along u or v, which makes that o^2 |d_uu| <= 1.5 o^2 (bounds.cpp). A diagonal's lie o along both: o^2 |d_uu
+// + 2 d_uv + d_vv|, which is 1 o^2 in a face's middle and largest at the corners u = -v = 1: there the first
+// component is -10/3 / (2 sqrt(1/3)) = -2.887 and the others +-0.144, so 2.894 o^2.
+double curvatureErrorM(const PlanetShape& shape, int level) {
+    constexpr double mostBent = 2.9;
+    const double offset = std::ldexp(1.0, -level) / chunkCells(shape);  // half of a cell of a face 2 wide
+    return shape.radiusM * offset * offset * mostBent / 2;
+}
+
+Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
+                           const std::array<ChunkData, quadrantCount>& children) {
+    const ChunkNode& above = tree.nodes[parent];
+    const Limits limits{above.minStep, above.maxStep, above.storedDeltaCM, above.storedDeltaTightM};
+    for (int q = 0; q < quadrantCount; ++q) {
+        const ChunkData& data = children[static_cast<std::size_t>(q)];
+        if (auto checked = checkChunk(tree.shape, data, childOf(above.id, q), limits); !checked)
+            return checked;
+    }
+    return {};
+}
+
+NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
+                      const std::array<std::uint32_t, quadrantCount>& slots) {
+    if (tree.nodes[parent].childrenState == ChildrenState::Absent)
+        changeState(tree.nodes[parent].childrenState, ChildrenState::Requested);
+    const NodeIndex first = takeGroup(tree);
+    for (std::uint32_t q = 0; q < quadrantCount; ++q) {
+        assert(children[q].id == childOf(tree.nodes[parent].id, static_cast<int>(q)));
+        tree.nodes[first + q] = makeNode(tree, std::move(children[q]), parent, slots[q]);
+    }
+    tree.nodes[parent].firstChild = first;
+    changeState(tree.nodes[parent].childrenState, ChildrenState::Resident);
+    tree.residentChunks += quadrantCount;
+    return first;
+}
+
+void removeChildren(ChunkTree& tree, NodeIndex parent) {
+    ChunkNode& above = tree.nodes[parent];
+    assert(above.childrenState == ChildrenState::Resident);
+    const NodeIndex first = above.firstChild;
+    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
+        assert(tree.nodes[child].childrenState != ChildrenState::Resident);
+        tree.nodes[child] = ChunkNode{};
+    }
+    tree.freeGroups.push_back(first);
+    above.firstChild = noNode;
+    changeState(above.childrenState, ChildrenState::Absent);
+    tree.residentChunks -= quadrantCount;
+}
+
+NodeIndex findNode(const ChunkTree& tree, const ChunkId& id) {
+    auto index = static_cast<NodeIndex>(id.face);
+    for (int level = 1; level <= id.level; ++level) {
+        const ChunkNode& node = tree.nodes[index];
+        if (node.childrenState != ChildrenState::Resident) return noNode;
+        const int below = id.level - level;
+        index = node.firstChild + ((id.x >> below) & 1) + 2 * ((id.y >> below) & 1);
+    }
+    return index;
+}
+
+void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, const ChunkNode&)>& visit) {
+    std::vector<NodeIndex> open = {0, 1, 2, 3, 4, 5};
+    while (!open.empty()) {
+        const NodeIndex index = open.back();
+        open.pop_back();
+        const ChunkNode& node = tree.nodes[index];
+        visit(index, node);
+        if (node.childrenState != ChildrenState::Resident) continue;
+        for (NodeIndex q = 0; q < quadrantCount; ++q) open.push_back(node.firstChild + q);
+    }
+}
+
+double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
+    const glm::dvec3 unit = glm::normalize(direction);
+    const FacePoint point = facePointFromDirection(unit);
+    const ChunkNode& node = tree.nodes[finestNodeAt(tree, point)];
+    const FaceSquare square = faceSquareOf(node.id);
+    const int cells = chunkCells(tree.shape);
+    const auto cellOf = [&](double t, double from) {
+        return std::clamp(static_cast<int>(std::floor((t - from) / square.side * cells)), 0, cells - 1);
+    };
+    const int column = cellOf(point.u, square.u);
+    const int row = cellOf(point.v, square.v);
+    TriangleHit best = hitCell(tree.shape, node, column, row, unit);
+    if (best.inside >= 0) return best.radiusM - tree.shape.radiusM;
+    // The edges of triangles are straight in space but not in (u, v), so a ray close to a cell's edge may
+    // meet the cell beside it.
+    for (int j = std::max(0, row - 1); j <= std::min(cells - 1, row + 1); ++j) {
+        for (int i = std::max(0, column - 1); i <= std::min(cells - 1, column + 1); ++i) {
+            const TriangleHit hit = hitCell(tree.shape, node, i, j, unit);
+            if (hit.inside > best.inside) best = hit;
+        }
+    }
+    return best.radiusM - tree.shape.radiusM;
+}
+
+std::size_t chunkBytesCpu(const PlanetShape& shape) {
+    // The heights' vector and the counts of those who share it lie in one allocation beside them.
+    constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
+    return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
+           sharing;
+}
+
+std::size_t chunkBytesGpu(const PlanetShape& shape) {
+    return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t);
+}
+
+}  // namespace planet

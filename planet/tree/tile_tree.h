@@ -1,0 +1,53 @@
+// The resident part of the six quadtrees of tiles, of colours or of normals: plain data that selection reads
+// and paging grows and prunes. What the texels are is the renderer's; a tile is a slot in its pool. One
+// thread at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planet/format/chunk_file_types.h"
+#include "planet/format/tile_layout.h"
+#include "planet/sphere/bounds.h"
+#include "planet/tree/block_state.h"
+#include "planet/tree/node_index.h"
+
+namespace planet {
+
+struct TileNode {
+    ChunkId id;
+    ChunkDirections directions;
+    NodeIndex parent = noNode;
+    NodeIndex firstChild = noNode;  // four in a row, in quadrant order
+    ChildrenState childrenState = ChildrenState::None;
+    BlockLocation children;  // in the file
+    bool hasFailed = false;  // its children could not be read: they are resident as a checker pattern
+    std::uint32_t slot = 0;  // in the pool of tiles
+    std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
+};
+
+struct TileTree {
+    int leafLevel = -1;                 // -1: there are no tiles
+    bool isDerived = false;             // tiles are made of heights: children need no place in the file
+    std::vector<TileNode> nodes;        // the first six are the roots, in face order; then free or in fours
+    std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
+    std::size_t residentTiles = 0;
+};
+
+// The tree with its six roots, given in face order; they stay resident and take slots 0 to 5. leafLevel: [0,
+// maxTileLevel].
+TileTree makeTileTree(int leafLevel, bool isDerived, const std::array<TileData, faceCount>& roots);
+
+// Adds the four tiles under one whose children are Requested, in slots from the first on; returns the
+// first. They must be that node's children.
+NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, quadrantCount>& children,
+                   std::uint32_t firstSlot);
+
+// Removes a node's four resident children, none of which may have resident children of its own.
+void removeTiles(TileTree& tree, NodeIndex parent);
+
+// The node of an id, or noNode if it is not resident.
+NodeIndex findTile(const TileTree& tree, const ChunkId& id);
+
+}  // namespace planet

@@ -1,0 +1,135 @@
+// The table of what the program holds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "app/editor/allocations.h"
+#include "app/editor/editor_state.h"
+#include "tests/app/session_fixture.h"
+#include "tests/support/panel_fixture.h"
+#include "ui/panels/frame/allocation_table.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+const ui::AllocationRow& rowNamed(std::string_view name) {
+    const auto rows = ui::allocationRows();
+    return *std::find_if(rows.begin(), rows.end(),
+                         [&](const ui::AllocationRow& row) { return row.name == name; });
+}
+
+TEST(AllocationTable, TellsWhatHasChangedSinceTheMark) {
+    ui::Allocations before, now;
+    before.heapBytes = 5 << 20;
+    now.heapBytes = 8 << 20;
+    before.threads = 7;
+    now.threads = 4;
+    before.openFiles = now.openFiles = 9;
+    EXPECT_EQ(ui::allocationChange(rowNamed("Heap in use"), before, now), "+3.00 MiB");
+    EXPECT_EQ(ui::allocationChange(rowNamed("Threads"), before, now), "-3");
+    EXPECT_EQ(ui::allocationChange(rowNamed("Open files"), before, now), "=");
+    EXPECT_EQ(ui::allocationText(rowNamed("Threads"), now), "4");
+    const std::string text = ui::allocationsText({now, before});
+    EXPECT_THAT(text, HasSubstr("kind\tnow\tmark\tchange\n"));
+    EXPECT_THAT(text, HasSubstr("Process: Threads\t4\t7\t-3\n"));
+    EXPECT_THAT(text, HasSubstr("Process: Heap in use\t8388608\t5242880\t+3145728\n"));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'),
+              static_cast<std::ptrdiff_t>(ui::allocationRows().size()) + 1);
+}
+
+TEST(AllocationTable, SortsByUnroundedValuesAndSignedChanges) {
+    ui::Allocations before, now;
+    before.heapBytes = 5 << 20;
+    now.heapBytes = (5 << 20) + 1;
+    before.threads = 7;
+    now.threads = 4;
+    const ui::AllocationsView view{now, before};
+    const auto key = [&](std::string_view name, ui::AllocationColumn column) {
+        const auto row = static_cast<std::size_t>(&rowNamed(name) - ui::allocationRows().data());
+        return ui::allocationSortKey(row, column, view);
+    };
+    using Column = ui::AllocationColumn;
+    EXPECT_EQ(key("Heap in use", Column::Change), ui::SortKey(1.0));
+    EXPECT_EQ(key("Threads", Column::Change), ui::SortKey(-3.0));
+    EXPECT_EQ(key("Threads", Column::Now), ui::SortKey(4.0));
+    EXPECT_EQ(key("Threads", Column::Mark), ui::SortKey(7.0));
+    EXPECT_EQ(key("Textures##objects", Column::Kind), ui::SortKey(std::string("Textures")));
+}
+
+TEST(AllocationTable, EachRowHasANameOfItsOwnAndSaysWhatItIs) {
+    std::set<std::string_view> names;
+    for (const ui::AllocationRow& row : ui::allocationRows()) {
+        EXPECT_TRUE(names.insert(row.name).second) << row.name;
+        EXPECT_GT(std::string_view(row.explanation).size(), 5u) << row.name;
+    }
+    EXPECT_NE(ui::allocationRows().front().group, nullptr);
+}
+
+TEST(AllocationTable, MarkAndCopyAreAskedFor) {
+    for (const float width : {300.0f, 900.0f}) {
+        ui::PanelWindow window({width, 900});
+        ui::AllocationsView view;
+        ui::Commands all;
+        const auto frame = [&] { window.frame([&] { ui::allocationTable(view, 5, all); }); };
+        frame();
+        EXPECT_FALSE(window.isShown("Mark"));  // nothing is counted yet
+        view.now.emplace();
+        frame();
+        frame();
+        EXPECT_TRUE(all.empty());
+        window.click("Mark", 0.5f, frame);
+        ASSERT_EQ(all.size(), 1u);
+        EXPECT_TRUE(all[0].as<ui::MarkAllocations>());
+        window.click("Copy##allocations", 0.5f, frame);
+        ASSERT_EQ(all.size(), 2u);
+        ASSERT_TRUE(all[1].as<ui::CopyText>());
+        EXPECT_EQ(all[1].as<ui::CopyText>()->text, ui::allocationsText(view));
+    }
+}
+
+class Counting : public test::SessionTest {};
+
+TEST_F(Counting, WhatASessionHoldsIsCountedByKind) {
+    Session session = sessionOf(bakeTo("a.chk", {.faceSize = 65, .chunkSize = 17}));
+    Editor editor;
+    watchAllocations(session, editor);
+    EXPECT_FALSE(editor.allocations.now);  // no planet yet
+    ASSERT_TRUE(advanceUntil(session, [&] { return session.open.has_value(); }));
+    watchAllocations(session, editor);
+    ASSERT_TRUE(editor.allocations.now);
+    const ui::Allocations first = *editor.allocations.now;
+    EXPECT_EQ(first.planets, 1u);
+    EXPECT_EQ(first.chunks, 6u);
+    EXPECT_GT(first.openFiles, 3u);
+    EXPECT_GE(first.threads, 2u);
+    EXPECT_GT(first.residentBytes, 1u << 20);
+    EXPECT_EQ(first.gpu.total(), session.open->scene.renderer.gpuMemory().total());
+    EXPECT_GT(first.objects.programs, 0u);
+    EXPECT_GT(first.objects.textures, 0u);
+    EXPECT_EQ(first.jobs, 0u);
+    // The same again is not counted before a second has passed; then another bake has come beside it.
+    startBake(session, requestFor(writeSource(), 33), log_);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    ASSERT_TRUE(session.previous) << (session.bakeProblem ? session.bakeProblem->message : "");
+    editor.timeS = 0.5;
+    watchAllocations(session, editor);
+    EXPECT_EQ(editor.allocations.now->planets, 1u);
+    editor.timeS = 1.5;
+    editor.settings.workspace.panels[static_cast<std::size_t>(ui::PanelId::Frame)].shown = false;
+    watchAllocations(session, editor);
+    EXPECT_EQ(editor.allocations.now->planets, 1u);  // nobody looks
+    editor.settings.workspace.panels[static_cast<std::size_t>(ui::PanelId::Frame)].shown = true;
+    watchAllocations(session, editor);
+    EXPECT_EQ(editor.allocations.now->planets, 2u);
+    EXPECT_EQ(editor.allocations.now->openFiles, first.openFiles + 1);
+    EXPECT_GT(editor.allocations.now->objects.buffers, first.objects.buffers);
+    EXPECT_EQ(editor.allocations.mark.planets, 1u);
+}
+
+}  // namespace
+}  // namespace worldy

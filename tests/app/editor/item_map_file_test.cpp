@@ -1,0 +1,27 @@
+#include "app/editor/item_map_file.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+TEST(ItemMapFile, aSymbolicLinkIsWrittenThrough) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path target = folder.path() / "target.txt";
+    const std::filesystem::path link = folder.path() / "link.txt";
+    std::ofstream(target) << "old";
+    std::filesystem::create_symlink("target.txt", link);
+    const std::array counters = {Counter{"frame", "7"}};
+    writeItemMap(link, {}, counters);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(tests::contentOf(target), "counter/frame\t7\n");
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,131 @@
+// The window's measuring of the true error, and what panels and tints make of it.
+#include "app/measure/error_job.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "planet/bake/bake.h"
+#include "tests/support/synthetic_source.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/model/overlay_colours.h"
+
+namespace worldy {
+namespace {
+
+class Errors : public testing::Test {
+protected:
+    Errors() {
+        const auto path = folder_ / "hills.chk";
+        planet::BakeSettings settings;
+        settings.chunkSize = 17;
+        settings.radiusM = 100'000;
+        if (!planet::bake(planet::test::hillsSource(), settings, path))
+            throw std::runtime_error("cannot bake");
+        planet_ = planet::Planet::open(path, {}).value();
+        lod_.tauPx = 3;
+        view_ = planet::viewFromPose(
+            {.latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 15'000, .pitchDeg = -20}, 100'000, 1.1, 800,
+            600);
+        planet_->settle(view_, lod_, planet::noUpload, 60);
+    }
+
+    // Frames until nothing is measured any more; fails after a minute.
+    void runUntilDone(std::uint64_t frame) {
+        for (int i = 0; i < 60'000; ++i) {
+            advanceErrorMeter(*planet_, frame, 0.5, meter_);
+            if (!meter_.job) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        FAIL() << "it never ends";
+    }
+
+    tests::TemporaryFolder folder_;
+    std::unique_ptr<planet::Planet> planet_;
+    planet::LodSettings lod_;
+    planet::View view_;
+    ErrorMeter meter_;
+};
+
+TEST_F(Errors, AreMeasuredOnceWhenAskedFor) {
+    advanceErrorMeter(*planet_, 6, 0.1, meter_);
+    EXPECT_FALSE(errorsViewOf(meter_, 6).running) << "nobody asked";
+    meter_.wanted = true;
+    EXPECT_TRUE(errorsViewOf(meter_, 6).running);
+    runUntilDone(7);
+    ASSERT_TRUE(meter_.last);
+    EXPECT_EQ(meter_.last->frame, 7u);
+    EXPECT_EQ(meter_.last->tauPx, 3);
+    planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(planet_->file()));
+    const auto directly = planet::measureTrueError(
+        planet::snapshotOf(planet_->tree(), planet_->selection().draw, view_, false), heights);
+    EXPECT_EQ(meter_.last->report, *directly);
+    EXPECT_GT(meter_.last->report.worstFacingPx, 0.1);
+    advanceErrorMeter(*planet_, 8, 0.6, meter_);
+    EXPECT_FALSE(meter_.job);
+}
+
+TEST_F(Errors, AreMeasuredAgainAndAgainWhileThatIsSet) {
+    meter_.keepMeasuring = true;
+    std::uint64_t frame = 1;
+    while (!meter_.last || meter_.last->frame < 3) {
+        ASSERT_LT(frame, 100'000u);
+        advanceErrorMeter(*planet_, frame++, 0, meter_);
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    EXPECT_TRUE(meter_.job);
+    forgetErrors(meter_);
+    EXPECT_FALSE(meter_.last);
+    EXPECT_FALSE(meter_.job);
+    EXPECT_TRUE(meter_.keepMeasuring);
+}
+
+TEST_F(Errors, ThatCannotBeMeasuredSayWhyAndStop) {
+    meter_.heights = std::make_shared<planet::FinestHeights>(
+        [](const planet::ChunkId& parent, planet::BlockLocation, std::span<const std::int16_t>) {
+            return planet::Result<planet::SiblingBlock>(
+                planet::ioError("hills.chk: reading the block of chunk " + planet::toString(parent)));
+        });
+    meter_.keepMeasuring = true;
+    advanceErrorMeter(*planet_, 1, 0, meter_);
+    for (int i = 0; i < 60'000 && meter_.keepMeasuring; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        advanceErrorMeter(*planet_, 2, 0, meter_);
+    }
+    EXPECT_FALSE(meter_.keepMeasuring);
+    EXPECT_NE(errorsViewOf(meter_, 2).problem.find("hills.chk"), std::string::npos);
+}
+
+TEST_F(Errors, TintChunksByWhatWasMeasuredAndGreyWhereNothingWas) {
+    meter_.wanted = true;
+    runUntilDone(1);
+    ui::OverlaySettings overlay;
+    overlay.colourBy = ui::ColourBy::Measured;
+    ui::ErrorMeasurement measured = *meter_.last;
+    measured.indexOf.erase(measured.report.chunks[0].id);
+    const auto tints = ui::chunkTints(*planet_, planet_->selection(), overlay, 3, true, &measured);
+    ASSERT_EQ(tints.size(), measured.report.chunks.size());
+    EXPECT_EQ(tints[0].rgba[0], 128);
+    EXPECT_EQ(tints[0].rgba[2], 128);
+    for (std::size_t i = 1; i < tints.size(); ++i) {
+        const glm::vec3 wanted = ui::errorColour(measured.report.chunks[i].facingPx / 3);
+        EXPECT_NEAR(tints[i].rgba[0], 255 * wanted.x, 1) << i;
+        EXPECT_NEAR(tints[i].rgba[1], 255 * wanted.y, 1) << i;
+    }
+    EXPECT_EQ(ui::legendOf(overlay, 3, 4).entries.back().label, "not measured");
+    EXPECT_EQ(ui::chunkTints(*planet_, planet_->selection(), overlay, 3, true).back().rgba[1], 128);
+}
+
+TEST(ErrorMeasurement, ListsViolationsFirstThenTheLargest) {
+    planet::TrueErrorReport report;
+    report.chunks.resize(3);
+    report.chunks[0] = {.id = {planet::Face::PosX, 1, 0, 0}, .drawnBoundPx = 5, .facingPx = 1};
+    report.chunks[1] = {.id = {planet::Face::PosX, 1, 1, 0}, .drawnBoundPx = 5, .facingPx = 2};
+    report.chunks[2] = {.id = {planet::Face::PosX, 1, 0, 1}, .drawnBoundPx = 0.1, .facingPx = 0.5};
+    const ui::ErrorMeasurement measured = ui::measurementOf(std::move(report));
+    EXPECT_EQ(measured.worstFirst, (std::vector<std::size_t>{2, 1, 0}));
+    EXPECT_EQ(measured.indexOf.at({planet::Face::PosX, 1, 1, 0}), 1u);
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,26 @@
+#include "app/scene/frame_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace worldy {
+
+namespace {
+
+TEST(FrameReport, totalsOfBlocksAreGivenPerKind) {
+    ui::FrameStats stats;
+    stats.paging = {.loaded = 1, .evicted = 2, .failed = 3, .bytesRead = 100};
+    stats.colourPaging = {.loaded = 4, .evicted = 5, .failed = 6, .bytesRead = 20};
+    stats.normalPaging = {.loaded = 7, .evicted = 8, .failed = 9, .bytesRead = 3};
+    const nlohmann::ordered_json report = statsJson(stats);
+    using Json = nlohmann::ordered_json;
+    EXPECT_EQ(report["loaded_blocks"], (Json{{"heights", 1}, {"colours", 4}, {"normals", 7}}));
+    EXPECT_EQ(report["evicted_blocks"], (Json{{"heights", 2}, {"colours", 5}, {"normals", 8}}));
+    EXPECT_EQ(report["failed_reads"], (Json{{"heights", 3}, {"colours", 6}, {"normals", 9}}));
+    EXPECT_EQ(report["bytes_read"], 123);
+}
+
+}  // namespace
+
+}  // namespace worldy

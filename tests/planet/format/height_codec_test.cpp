@@ -1,0 +1,373 @@
+#include "planet/format/height_codec.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "planet/format/height_residual_coder.h"
+#include "tests/support/earth_windows.h"
+
+namespace planet {
+namespace {
+
+using Samples = std::vector<std::int16_t>;
+using Bytes = std::vector<std::byte>;
+using test::Square;
+
+constexpr std::int16_t lowest = -32768;
+constexpr std::int16_t highestStep = 32767;
+
+Square squareOf(int side, const std::function<int(int x, int y)>& step) {
+    Square square{side, {}};
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            square.samples.push_back(
+                static_cast<std::int16_t>(std::clamp(step(x, y), int{lowest}, int{highestStep})));
+    return square;
+}
+
+int smoothStep(int x, int y) {
+    return static_cast<int>(std::lround(900 * std::sin(0.021 * x + 0.5) * std::cos(0.017 * y) + 3 * x));
+}
+
+struct Field {
+    std::string name;
+    std::function<Square(int side)> make;
+};
+
+Square noiseOf(int side, int range) {
+    std::mt19937 random(7);
+    return squareOf(side, [&](int, int) {
+        return static_cast<int>(random() % static_cast<unsigned>(range)) - range / 2;
+    });
+}
+
+std::vector<Field> fields() {
+    return {
+        {"zero", [](int side) { return squareOf(side, [](int, int) { return 0; }); }},
+        {"flat", [](int side) { return squareOf(side, [](int, int) { return -4711; }); }},
+        {"ramp", [](int side) { return squareOf(side, [](int x, int y) { return 17 * x - 5 * y; }); }},
+        {"steep ramp", [](int side) { return squareOf(side, [](int x, int y) { return 900 * (x - y); }); }},
+        {"smooth", [](int side) { return squareOf(side, smoothStep); }},
+        {"spike",
+         [](int side) {
+             return squareOf(side, [=](int x, int y) { return x == side / 2 && y == 1 ? 30000 : 3; });
+         }},
+        {"cliff",
+         [](int side) {
+             return squareOf(side, [=](int x, int) { return x < side / 2 ? lowest : highestStep; });
+         }},
+        {"chequered extremes",
+         [](int side) {
+             return squareOf(side, [](int x, int y) { return (x + y) % 2 ? lowest : highestStep; });
+         }},
+        {"extreme stripes",
+         [](int side) { return squareOf(side, [](int x, int) { return x % 2 ? lowest : highestStep; }); }},
+        {"lowest", [](int side) { return squareOf(side, [](int, int) { return lowest; }); }},
+        {"slight noise", [](int side) { return noiseOf(side, 3); }},
+        {"rough noise", [](int side) { return noiseOf(side, 700); }},
+        {"white noise", [](int side) { return noiseOf(side, 65536); }},
+    };
+}
+
+Bytes encoded(const Square& fine, int level = defaultCompressionLevel) {
+    Bytes bytes;
+    encodeRefinement(fine.samples, fine.side / 2, level, bytes);
+    return bytes;
+}
+
+Result<Samples> decoded(const Bytes& bytes, const Square& fine) {
+    const Square coarse = pieceOf(fine, 0, 0, fine.side / 2 + 1, 2);
+    Samples samples(fine.samples.size(), 12345);
+    const auto result = decodeRefinement(bytes, coarse.samples, fine.side / 2, samples);
+    if (!result) return tl::unexpected(result.error());
+    return samples;
+}
+
+std::size_t missingSamples(const Square& fine) {
+    const auto coarse = static_cast<std::size_t>(fine.side / 2 + 1);
+    return fine.samples.size() - coarse * coarse;
+}
+
+double bitsPerSample(const Square& fine, int level = defaultCompressionLevel) {
+    return 8.0 * static_cast<double>(encoded(fine, level).size()) / static_cast<double>(fine.samples.size());
+}
+
+// Bits for each sample of the square, its whole pyramid counted in.
+double pyramidBitsPerSample(const Square& square, int coarseCells, int level = defaultCompressionLevel) {
+    Bytes bytes;
+    for (const test::Block& block : test::pyramidBlocks(square, coarseCells))
+        encodeRefinement(block.fine.samples, coarseCells, level, bytes);
+    return 8.0 * static_cast<double>(bytes.size()) / static_cast<double>(square.samples.size());
+}
+
+// Sample 1025 x 1025: the Alps, the Sahara, the Mediterranean and the Atlantic.
+const Square& europeAndAfrica() {
+    static const Square window = test::earthWindow(1800, 450, 1025);
+    return window;
+}
+
+TEST(HeightCodec, EveryFieldComesBackAtEverySizeAndLevel) {
+    for (const Field& field : fields()) {
+        for (const int cells : {1, 2, 4, 16, 32, 64, 128}) {
+            const Square fine = field.make(2 * cells + 1);
+            for (int level = minCompressionLevel; level <= maxCompressionLevel; ++level) {
+                if (cells > 32 && level == maxCompressionLevel) continue;
+                const auto samples = decoded(encoded(fine, level), fine);
+                ASSERT_TRUE(samples) << samples.error().message;
+                ASSERT_EQ(*samples, fine.samples) << field.name << ", c " << cells << ", level " << level;
+            }
+        }
+    }
+}
+
+TEST(HeightCodec, CellsNeedNoPowerOfTwo) {
+    for (const int cells : {3, 7, 33, 127}) {
+        const Square fine = squareOf(2 * cells + 1, smoothStep);
+        const auto samples = decoded(encoded(fine), fine);
+        ASSERT_TRUE(samples) << samples.error().message;
+        EXPECT_EQ(*samples, fine.samples);
+    }
+}
+
+TEST(HeightCodec, EncodesTheSameBytesEveryTime) {
+    const Square fine = pieceOf(europeAndAfrica(), 300, 200, 65);
+    for (int level = minCompressionLevel; level <= maxCompressionLevel; ++level)
+        EXPECT_EQ(encoded(fine, level), encoded(fine, level));
+}
+
+// Pins the format: a change of the bytes must be a change of the chunk file's version.
+TEST(HeightCodec, BytesOfAKnownFieldNeverChange) {
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    for (const std::byte byte :
+         encoded(squareOf(65, [](int x, int y) { return x * x - 3 * y * (x ^ y) % 97; }))) {
+        hash ^= std::to_integer<std::uint64_t>(byte);
+        hash *= 1099511628211u;
+    }
+    EXPECT_EQ(hash, 15678521571796931786u);
+}
+
+TEST(HeightCodec, AppendsBehindWhatIsThere) {
+    const Square fine = squareOf(17, smoothStep);
+    Bytes bytes = {std::byte{1}, std::byte{2}};
+    encodeRefinement(fine.samples, 8, defaultCompressionLevel, bytes);
+    const Bytes alone = encoded(fine);
+    EXPECT_EQ(bytes.size(), alone.size() + 2);
+    EXPECT_TRUE(std::ranges::equal(std::span(bytes).subspan(2), alone));
+}
+
+TEST(HeightCodec, NoFieldTakesMoreThanPlainSamples) {
+    for (const Field& field : fields()) {
+        for (const int cells : {1, 4, 32}) {
+            const Square fine = field.make(2 * cells + 1);
+            EXPECT_LE(encoded(fine).size(), 1 + 2 * missingSamples(fine)) << field.name << ", c " << cells;
+        }
+    }
+}
+
+TEST(HeightCodec, FlatGroundAndSlopesCostAlmostNothing) {
+    EXPECT_LT(bitsPerSample(squareOf(65, [](int, int) { return -87; })), 0.05);
+    EXPECT_LT(bitsPerSample(squareOf(65, [](int x, int y) { return 40 * x - 12 * y; })), 0.1);
+}
+
+TEST(HeightCodec, SmoothGroundCostsLittle) {
+    EXPECT_LT(bitsPerSample(squareOf(65, smoothStep)), 1.0);
+}
+
+TEST(HeightCodec, EarthCostsLessThanSixBitsASample) {
+    EXPECT_LT(pyramidBitsPerSample(europeAndAfrica(), 32), 5.9);
+    EXPECT_LT(pyramidBitsPerSample(europeAndAfrica(), 64), 5.9);
+}
+
+TEST(HeightCodec, HigherLevelsMakeEarthSmaller) {
+    const Square window = pieceOf(europeAndAfrica(), 0, 0, 513);
+    double before = 16;
+    for (int level = minCompressionLevel + 1; level <= maxCompressionLevel; ++level) {
+        const double bits = pyramidBitsPerSample(window, 32, level);
+        EXPECT_LT(bits, before) << "level " << level;
+        before = bits;
+    }
+}
+
+TEST(HeightCodec, DecodeRejectsDataCutShortAnywhere) {
+    const Square fine = pieceOf(europeAndAfrica(), 400, 300, 33);
+    for (const int level : {minCompressionLevel, defaultCompressionLevel}) {
+        const Bytes bytes = encoded(fine, level);
+        for (std::size_t length = 0; length < bytes.size(); ++length) {
+            const auto samples =
+                decoded(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)), fine);
+            ASSERT_FALSE(samples) << length << " of " << bytes.size() << " bytes";
+            EXPECT_THAT(samples.error().message, testing::StartsWith("height block: "));
+        }
+    }
+}
+
+TEST(HeightCodec, DecodeRejectsBytesLeftOver) {
+    const Square fine = pieceOf(europeAndAfrica(), 400, 300, 33);
+    for (const int level : {minCompressionLevel, defaultCompressionLevel}) {
+        for (const std::size_t extra : {1u, 2u, 4u, 8u, 100u}) {
+            Bytes bytes = encoded(fine, level);
+            bytes.resize(bytes.size() + extra);
+            EXPECT_FALSE(decoded(bytes, fine));
+        }
+    }
+}
+
+TEST(HeightCodec, DecodeRejectsUnknownStorage) {
+    const Square fine = squareOf(17, smoothStep);
+    Bytes bytes = encoded(fine);
+    for (const int storage : {2, 3, 255}) {
+        bytes[0] = static_cast<std::byte>(storage);
+        const auto samples = decoded(bytes, fine);
+        ASSERT_FALSE(samples);
+        EXPECT_THAT(samples.error().message, testing::HasSubstr("unknown storage"));
+    }
+}
+
+TEST(HeightCodec, DecodeSurvivesEveryFlippedBitAndNoticesNearlyAll) {
+    const Square fine = pieceOf(europeAndAfrica(), 400, 300, 33);
+    const Bytes good = encoded(fine);
+    std::size_t noticed = 0;
+    for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+        Bytes bytes = good;
+        bytes[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
+        const auto samples = decoded(bytes, fine);
+        if (!samples || *samples != fine.samples) ++noticed;
+    }
+    EXPECT_GT(noticed, 8 * good.size() * 99 / 100);
+}
+
+TEST(HeightCodec, DecodeSurvivesNoiseAndIsAnErrorOrAGrid) {
+    std::mt19937 random(11);
+    for (const int side : {3, 5, 33, 65}) {
+        const Square fine = noiseOf(side, 65536);
+        for (int trial = 0; trial < 500; ++trial) {
+            Bytes bytes(random() % 6000);
+            for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+            if (!bytes.empty() && trial % 2) bytes[0] = std::byte{1};
+            const auto samples = decoded(bytes, fine);
+            if (!samples) {
+                EXPECT_THAT(samples.error().message, testing::StartsWith("height block: "));
+            } else {
+                EXPECT_EQ(samples->size(), fine.samples.size());
+            }
+        }
+    }
+}
+
+TEST(HeightCodec, DecodeKeepsTheCoarseSamples) {
+    const Square fine = squareOf(33, smoothStep);
+    const Square other = squareOf(33, [](int x, int y) { return 100 * x + y; });
+    const auto samples = decoded(encoded(fine, minCompressionLevel), other);
+    ASSERT_TRUE(samples);
+    const Square mixed{33, *samples};
+    EXPECT_EQ(pieceOf(mixed, 0, 0, 17, 2).samples, pieceOf(other, 0, 0, 17, 2).samples);
+    EXPECT_EQ(mixed.at(1, 0), fine.at(1, 0));
+}
+
+Bytes encodedGrid(const Square& grid) {
+    Bytes bytes;
+    encodeGrid(grid.samples, grid.side, bytes);
+    return bytes;
+}
+
+TEST(HeightCodec, EveryGridComesBack) {
+    for (const Field& field : fields()) {
+        for (const int side : {2, 3, 5, 17, 33, 65, 129}) {
+            const Square grid = field.make(side);
+            Samples samples(grid.samples.size());
+            const auto result = decodeGrid(encodedGrid(grid), side, samples);
+            ASSERT_TRUE(result) << result.error().message;
+            ASSERT_EQ(samples, grid.samples) << field.name << ", side " << side;
+        }
+    }
+}
+
+TEST(HeightCodec, GridsAreCompressed) {
+    const Square grid = pieceOf(europeAndAfrica(), 0, 0, 65, 16);
+    EXPECT_LT(encodedGrid(grid).size(), 2 * grid.samples.size() * 3 / 4);
+}
+
+TEST(HeightCodec, DecodeGridRejectsCutAndLongData) {
+    const Square grid = pieceOf(europeAndAfrica(), 0, 0, 17, 64);
+    Bytes bytes = encodedGrid(grid);
+    Samples samples(grid.samples.size());
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+        EXPECT_FALSE(decodeGrid(std::span(bytes).first(length), 17, samples)) << length;
+    bytes.push_back(std::byte{0});
+    EXPECT_FALSE(decodeGrid(bytes, 17, samples));
+}
+
+TEST(HeightCodec, DecodeGridSurvivesFlippedBits) {
+    const Square grid = pieceOf(europeAndAfrica(), 0, 0, 17, 64);
+    const Bytes good = encodedGrid(grid);
+    std::size_t harmless = 0;
+    for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+        Bytes bytes = good;
+        bytes[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
+        Samples samples(grid.samples.size());
+        if (decodeGrid(bytes, 17, samples) && samples == grid.samples) ++harmless;
+    }
+    EXPECT_LT(harmless, 8 * good.size() / 20);
+}
+
+TEST(ResidualCoder, EveryWidthCodesEveryResidual) {
+    Samples residuals = {lowest, highestStep, 0, 1, -1};
+    for (int r = -300; r <= 300; ++r) residuals.push_back(static_cast<std::int16_t>(r));
+    for (int r = lowest; r <= highestStep; r += 97) residuals.push_back(static_cast<std::int16_t>(r));
+    for (int width = 0; width < residualWidthCount; ++width) {
+        const std::vector<std::uint8_t> widths(residuals.size(), static_cast<std::uint8_t>(width));
+        ResidualEncoder encoder(residuals.size());
+        encoder.addRow(residuals, widths);
+        Bytes bytes;
+        encoder.finish(bytes);
+        ResidualDecoder decoder(bytes);
+        Samples read(residuals.size());
+        decoder.readRow(widths, read);
+        ASSERT_FALSE(decoder.failed());
+        EXPECT_TRUE(decoder.ended());
+        ASSERT_EQ(read, residuals) << "width " << width;
+    }
+}
+
+TEST(ResidualCoder, CostIsWhatTheBytesTake) {
+    std::mt19937 random(3);
+    for (const int width : {10, residualWidthOfOne, residualWidthOfOne + 12, residualWidthCount - 10}) {
+        Samples residuals;
+        std::int64_t cost256 = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const int magnitude = 1 << std::max(0, (width - residualWidthOfOne) / 4);
+            residuals.push_back(static_cast<std::int16_t>(static_cast<int>(random() % 3 - 1) * magnitude));
+            cost256 += residualCost(width, residuals.back());
+        }
+        const std::vector<std::uint8_t> widths(residuals.size(), static_cast<std::uint8_t>(width));
+        ResidualEncoder encoder(residuals.size());
+        encoder.addRow(residuals, widths);
+        Bytes bytes;
+        encoder.finish(bytes);
+        const double expectedBytes = static_cast<double>(cost256) / (256 * 8);
+        EXPECT_NEAR(static_cast<double>(bytes.size()), expectedBytes, 20 + 0.005 * expectedBytes)
+            << "width " << width;
+    }
+}
+
+// The encoder's choice of width would be worth nothing otherwise.
+TEST(ResidualCoder, AResidualIsCheapestAtItsOwnWidth) {
+    for (int octave = 0; octave < 12; ++octave) {
+        const int own = residualWidthOfOne + 4 * octave;
+        const int residual = 1 << octave;
+        EXPECT_LT(residualCost(own, residual), residualCost(own - 12, residual));
+        EXPECT_LT(residualCost(own, residual),
+                  residualCost(std::min(own + 12, residualWidthCount - 1), residual));
+    }
+}
+
+}  // namespace
+}  // namespace planet

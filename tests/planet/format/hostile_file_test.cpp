@@ -1,0 +1,172 @@
+// Chunk files that fuzzing, mutations and looking hard have shown to be more than the reader could take.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+
+#include "planet/bake/colour_report.h"
+#include "planet/bake/file_report.h"
+#include "planet/format/height_codec.h"
+#include "planet/planet.h"
+#include "planet/source/height_source.h"
+#include "tests/support/chunk_blocks.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planet {
+namespace {
+
+using testing::HasSubstr;
+using Bytes = std::vector<std::byte>;
+
+Result<ChunkFile> opened(const Bytes& bytes) {
+    return ChunkFile::open(
+        "hostile.chk", bytes.size(), [&bytes](std::uint64_t offset, std::span<std::byte> out) {
+            std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), out.size(), out.begin());
+            return Result<void>{};
+        });
+}
+
+// A file of six flat roots, each of which tells of the blocks that it is given; all checksums are right.
+struct HostileFile {
+    ChunkFileInfo info;
+    Bytes bytes = Bytes(chunkFileHeaderBytes);
+
+    HostileFile() {
+        info.shape.chunkCellsLog2 = 4;
+        info.shape.faceCellsLog2 = maxFaceCellsLog2;
+    }
+    BlockLocation add(const Bytes& content) {
+        const BlockLocation at{bytes.size(), static_cast<std::uint32_t>(content.size() + checksumBytes)};
+        bytes.insert(bytes.end(), content.begin(), content.end());
+        bytes.resize(bytes.size() + checksumBytes);
+        return at;
+    }
+    void addRoots(const ChunkEntry& entry, std::int16_t step = 0) {
+        const std::vector<std::int16_t> flat(static_cast<std::size_t>(chunkVertexCount(info.shape)), step);
+        for (BlockLocation& root : info.roots) {
+            Bytes content;
+            putEntry(content, entry, bytes.size());
+            encodeGrid(flat, chunkSize(info.shape), content);
+            root = add(content);
+        }
+    }
+    void addColourRoots(const BlockLocation& children) {
+        const Bytes packed = packColourTexels(ColourFormat::Bc1, checkerTexels(ColourFormat::Bc1));
+        info.colour = ColourPyramid{ColourFormat::Bc1, maxColourLevel, {}, {}};
+        for (BlockLocation& root : info.colour->roots) {
+            Bytes content;
+            putColourEntry(content, {children, static_cast<std::uint32_t>(packed.size())}, bytes.size());
+            content.insert(content.end(), packed.begin(), packed.end());
+            root = add(content);
+        }
+    }
+    const Bytes& sealed() {
+        const auto header = headerBytes(info, bytes.size());
+        std::copy(header.begin(), header.end(), bytes.begin());
+        test::reseal(bytes);
+        return bytes;
+    }
+};
+
+// Two blocks, each of which says that all of its children's lie in the other; returns the first.
+template <class PutEntry>
+BlockLocation addCircle(HostileFile& file, std::size_t entryBytes, const PutEntry& put) {
+    const auto blockBytes = static_cast<std::uint32_t>(quadrantCount * entryBytes + checksumBytes);
+    const BlockLocation first{chunkFileHeaderBytes, blockBytes};
+    const BlockLocation second{first.offset + first.size, first.size};
+    for (const auto& [own, other] : {std::pair(first, second), std::pair(second, first)}) {
+        Bytes content;
+        for (int q = 0; q < quadrantCount; ++q) put(content, other, own.offset);
+        file.add(content);
+    }
+    return first;
+}
+
+// Followed to the finest level they would be some 10^11 blocks.
+TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
+    HostileFile file;
+    const BlockLocation first =
+        addCircle(file, chunkEntryBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
+            putEntry(content, {1, 1, 0, 0, other}, own);
+        });
+    file.addRoots({1, 1, 0, 0, first});
+    const auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const auto report = reportFile(*chunks);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().kind, ErrorKind::BadInput);
+    EXPECT_THAT(report.error().message, HasSubstr("hostile.chk: the index is damaged"));
+}
+
+TEST(HostileFile, AnIndexOfColoursThatGoesInCirclesIsRefusedInAReport) {
+    HostileFile file;
+    const BlockLocation first =
+        addCircle(file, colourEntryBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
+            putColourEntry(content, {other, 0}, own);
+        });
+    file.addRoots({1, 1, 0, 0, first});
+    file.addColourRoots(first);
+    const auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const auto report = reportColours(*chunks);
+    ASSERT_FALSE(report);
+    EXPECT_THAT(report.error().message, HasSubstr("hostile.chk: the index is damaged"));
+}
+
+TEST(HostileFile, AnIndexOfBlocksTooSmallForOneIsRefused) {
+    HostileFile file;
+    const BlockLocation small{chunkFileHeaderBytes, quadrantCount * chunkEntryBytes};
+    file.add(Bytes(200));
+    file.addRoots({1, 1, 0, 0, small});
+    const auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const auto entries = chunks->readEntries({Face::PosX, 0, 0, 0}, small);
+    ASSERT_FALSE(entries);
+    EXPECT_THAT(entries.error().message, HasSubstr("too small"));
+}
+
+// Its checksums match, so the file has to be named by who looks at what the blocks say.
+TEST(HostileFile, RootsThatContradictThemselvesAreRefusedInTheFilesName) {
+    HostileFile file;
+    file.info.maxStep = 10;
+    const BlockLocation children = file.add(Bytes(200));
+    file.addRoots({1, 1, 0, 5, children}, 7);
+    auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const auto tree = makeChunkTree(*chunks);
+    ASSERT_FALSE(tree);
+    EXPECT_THAT(tree.error().message, HasSubstr("hostile.chk: chunk x_pos/0/0/0: heights"));
+    const auto planet = Planet::open(*std::move(chunks), {});
+    ASSERT_FALSE(planet);
+    EXPECT_EQ(planet.error().message, tree.error().message);
+}
+
+// Reading from some of them would wait for ever, or never end.
+TEST(HostileFile, RawFacesThatAreNoFilesAreRefused) {
+    const tests::TemporaryFolder folder;
+    for (const Face face : allFaces)
+        std::ofstream(folder / fmt::format("face_{}.raw", faceName(face))) << std::string(25, 'a');
+    const auto path = folder / "face_z_pos.raw";
+    ASSERT_TRUE(openHeightSource(path, {}));
+    const std::vector<std::function<void()>> replacements = {
+        [&] { ASSERT_EQ(mkfifo(path.c_str(), 0600), 0); },
+        [&] { std::filesystem::create_directory(path); },
+        [&] { std::filesystem::create_symlink("/dev/zero", path); },
+        [&] { std::filesystem::create_symlink(path, path); },
+        [&] { std::ofstream(path).close(); },
+    };
+    for (std::size_t i = 0; i < replacements.size(); ++i) {
+        std::filesystem::remove(path);
+        replacements[i]();
+        const auto source = openHeightSource(path, {});
+        ASSERT_FALSE(source) << i;
+        EXPECT_THAT(source.error().message, HasSubstr("face_z_pos.raw")) << i;
+    }
+}
+
+}  // namespace
+}  // namespace planet

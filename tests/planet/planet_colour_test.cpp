@@ -1,0 +1,351 @@
+// Tiles of colour beside chunks in one planet: what is wanted, what is resident, and what a pool is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "planet/paging/tile_paging.h"
+#include "planet/select/tile_select.h"
+#include "tests/support/held_tiles.h"
+#include "tests/support/planet_fixture.h"
+
+namespace planet {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int leafOfFile = 6;
+
+// A tile whose texels begin with its own name.
+TileData fakeTile(const ChunkId& id) {
+    TileData tile{id, {}, std::vector<std::byte>(colourTileBytes(ColourFormat::Bc1))};
+    if (id.level < leafOfFile) tile.children = {1000 + keyOf(id) % 100'000, 77};
+    const std::uint64_t key = keyOf(id);
+    std::memcpy(tile.texels.data(), &key, sizeof key);
+    return tile;
+}
+
+Result<TileBlock> loadFakeTiles(const ChunkId& parent, BlockLocation location) {
+    if (location != fakeTile(parent).children) return badInput("wrong place for " + toString(parent));
+    TileBlock block;
+    for (int q = 0; q < quadrantCount; ++q) block[static_cast<std::size_t>(q)] = fakeTile(childOf(parent, q));
+    return block;
+}
+
+PlanetSource colouredSource(LoadColours load = loadFakeTiles) {
+    PlanetSource source = fakePyramid().source();
+    source.colour =
+        ColourPyramid{.format = ColourFormat::Bc1, .leafLevel = leafOfFile, .roots = {}, .source = {}};
+    for (const Face face : allFaces)
+        source.colourRoots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
+    source.loadColours = std::move(load);
+    return source;
+}
+
+PagingSettings roomForColourTiles(std::uint32_t tiles) {
+    PagingSettings settings;
+    settings.budgetBytes = 2 * bytesOf(20'000);
+    settings.colourShare = 0.5;
+    settings.maxColourTiles = tiles;
+    return settings;
+}
+
+ViewInput coloured(const View& view, double texelsPerPixel = 1) {
+    return {.lodView = view,
+            .lod = fineSettings(),
+            .colours = {.enabled = true, .texelsPerPixel = texelsPerPixel}};
+}
+
+bool colouredSettled(Planet& planet, const View& view, double texelsPerPixel = 1) {
+    const ViewInput input = coloured(view, texelsPerPixel);
+    return planet.settle({&input, 1}, noUpload, timeoutS);
+}
+
+struct ColourPool : HeldTiles {
+    std::set<ChunkId> checkers;
+
+    void follow(Planet& planet) {
+        HeldTiles::follow(planet.takeColourChanges(), [this](const TileData& tile) {
+            if (tile.texels == checkerTexels(ColourFormat::Bc1)) checkers.insert(tile.id);
+        });
+    }
+};
+
+void expectHolds(const Planet& planet, const ColourPool& pool) {
+    expectHolds(planet.colourTree(), planet.colourPaging().tileCapacity, pool);
+}
+
+// The tiles that a view shows, whatever may be resident under them.
+std::set<ChunkId> shown(const Planet& planet) {
+    const TileTree& tree = planet.colourTree();
+    std::set<ChunkId> ids;
+    for (const NodeIndex i : planet.colourSelection().touched) ids.insert(tree.nodes[i].id);
+    for (const ChildrenRequest& split : planet.colourSelection().splits) ids.erase(split.parentId);
+    return ids;
+}
+
+TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
+    const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
+    ColourPool pool;
+    const View view = viewAt(20, 30, 40'000, -70);
+    for (const double wanted : {0.4, 0.8, 1.2}) {
+        ASSERT_TRUE(colouredSettled(*planet, view, wanted));
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        const TileSelection& selection = planet->colourSelection();
+        EXPECT_TRUE(selection.requests.empty());
+        EXPECT_EQ(selection.counters.waiting, 0u);
+        EXPECT_GT(selection.counters.deepestLevel, 1u);
+        EXPECT_GE(selection.counters.fewestTexelsPerPixel, wanted);
+    }
+}
+
+TEST(PlanetColours, ATexelIsAsWideAsTheMapStretchesItAtMost) {
+    const PlanetShape& shape = fakePyramid().shape;
+    for (const int level : {0, 3, 6}) {
+        const int cells = colourTileCells << level;
+        const auto at = [&](int column, int row) {
+            return shape.radiusM *
+                   sphereFromCube(cubePoint(Face::PosY, 2.0 * column / cells - 1, 2.0 * row / cells - 1));
+        };
+        double widestM = 0;
+        for (int i = 0; i < 64; ++i) {
+            const int column = i * (cells - 1) / 63;
+            for (const int row : {0, cells / 3, cells / 2})
+                widestM = std::max(widestM, glm::length(at(column + 1, row) - at(column, row)));
+        }
+        EXPECT_LE(widestM, texelM(shape, level) * (1 + 1e-9));
+        EXPECT_GE(widestM, texelM(shape, level) * 0.99);
+    }
+}
+
+TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
+    const auto withColours = Planet::open(colouredSource(), roomForColourTiles(800)).value();
+    const auto plain = openFake();
+    for (const double altitudeM : {1e7, 1e6, 1e5}) {
+        const View view = viewAt(10, 50, altitudeM);
+        ASSERT_TRUE(colouredSettled(*withColours, view));
+        ASSERT_TRUE(plain->settle(view, fineSettings(), noUpload, timeoutS));
+        EXPECT_EQ(drawn(*withColours), drawn(*plain));
+    }
+    EXPECT_EQ(withColours->paging().residentChunks, plain->paging().residentChunks);
+}
+
+TEST(PlanetColours, OffTheyAskForNothing) {
+    const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
+    ASSERT_TRUE(planet->settle(viewAt(10, 50, 1e5), fineSettings(), noUpload, timeoutS));
+    EXPECT_EQ(planet->colourTree().residentTiles, 6u);
+    EXPECT_EQ(planet->colourPaging().loaded, 0u);
+}
+
+TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
+    PagingSettings settings = roomForColourTiles(6 + 4 * 20);
+    settings.time = PagingTime::Simulated;
+    settings.badDisk = {.latencyMs = 20, .seed = 5};
+    const auto planet = Planet::open(colouredSource(), settings).value();
+    ColourPool pool;
+    for (int i = 0; i < 400; ++i) {
+        const ViewInput input = coloured(viewAt(20 + 0.05 * i, 30 + 0.4 * i, 60'000 - 100 * i, -60));
+        planet->step({&input, 1}, noUpload, 1.0 / 60);
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(planet->colourPaging().evicted, 10u);
+    ASSERT_TRUE(colouredSettled(*planet, viewAt(40, 190, 2e4, -60), 2));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    // What waits is wanted no more than half as much again as what is there.
+    ASSERT_GT(planet->colourPaging().budgetWaits, 0u);
+    const TileSelection& selection = planet->colourSelection();
+    float leastSplit = 1e9f;
+    for (const ChildrenRequest& split : selection.splits) leastSplit = std::min(leastSplit, split.priority);
+    ASSERT_FALSE(selection.requests.empty());
+    EXPECT_LE(selection.requests.front().priority, 1.5f * leastSplit);
+}
+
+TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
+    std::atomic<bool> broken = true;
+    const ChunkId bad{Face::PosX, 1, 1, 1};
+    PagingSettings settings = roomForColourTiles(800);
+    settings.retry.retries = 0;
+    const auto planet =
+        Planet::open(colouredSource([&](const ChunkId& parent, BlockLocation location) {
+                         if (broken && parent == bad)
+                             return Result<TileBlock>(ioError("colours of x_pos/1/1/1 are gone"));
+                         return loadFakeTiles(parent, location);
+                     }),
+                     settings)
+            .value();
+    ColourPool pool;
+    const View view = viewAt(20, 20, 40'000, -70);
+    ASSERT_TRUE(colouredSettled(*planet, view));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    EXPECT_THAT(planet->takeProblems(), testing::ElementsAre(HasSubstr("x_pos/1/1/1 are gone")));
+    ASSERT_EQ(pool.checkers.size(), 4u);
+    for (const ChunkId& id : pool.checkers) EXPECT_EQ(parentOf(id), bad);
+    EXPECT_EQ(planet->colourPaging().failed, 1u);
+    broken = false;
+    pool.checkers.clear();
+    planet->retryFailed();
+    ASSERT_TRUE(colouredSettled(*planet, view));
+    pool.follow(*planet);
+    expectHolds(*planet, pool);
+    EXPECT_TRUE(pool.checkers.empty());
+    EXPECT_TRUE(planet->takeProblems().empty());
+    EXPECT_GT(planet->colourSelection().counters.deepestLevel, 2u);
+}
+
+TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
+    const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
+    ColourPool pool;
+    const View view = viewAt(20, 20, 40'000, -70);
+    ASSERT_TRUE(colouredSettled(*planet, view));
+    pool.follow(*planet);
+    const std::set<ChunkId> before = shown(*planet);
+    const auto comesAgain = [&] {
+        pool.follow(*planet);
+        EXPECT_EQ(pool.tiles.size(), 6u);
+        ASSERT_TRUE(colouredSettled(*planet, view));
+        pool.follow(*planet);
+        expectHolds(*planet, pool);
+        EXPECT_EQ(shown(*planet), before);
+    };
+    planet->dropAll();
+    comesAgain();
+    planet->beginColoursAnew();
+    comesAgain();
+    planet->startAnew();
+    comesAgain();
+    PagingSettings fewer = planet->pagingSettings();
+    fewer.maxColourTiles = 500;
+    ASSERT_TRUE(planet->setPaging(fewer));
+    EXPECT_EQ(planet->colourPaging().tileCapacity, 498u);
+    comesAgain();
+}
+
+void expectTotalsOfEachKindAddUp(const Planet& planet) {
+    const PagingCounters& heights = planet.paging();
+    EXPECT_EQ(faceCount + quadrantCount * (heights.loaded - heights.evicted), heights.residentChunks);
+    const TilePagingCounters& colours = planet.colourPaging();
+    EXPECT_EQ(faceCount + quadrantCount * (colours.loaded - colours.evicted), colours.residentTiles);
+    EXPECT_EQ(planet.bytesRead(), heights.bytesRead + colours.bytesRead);
+}
+
+TEST(PlanetColours, TotalsOfEachKindCountThatKindAlone) {
+    PagingSettings settings = roomForColourTiles(6 + 4 * 20);
+    settings.time = PagingTime::Simulated;
+    const auto planet = Planet::open(colouredSource(), settings).value();
+    for (int i = 0; i < 200; ++i) {
+        const ViewInput input = coloured(viewAt(20 + 0.1 * i, 30 + 0.8 * i, 60'000 - 200 * i, -60));
+        planet->step({&input, 1}, noUpload, 1.0 / 60);
+        expectTotalsOfEachKindAddUp(*planet);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(planet->paging().loaded, 0u);
+    EXPECT_GT(planet->colourPaging().evicted, 10u);
+    planet->dropAll();
+    expectTotalsOfEachKindAddUp(*planet);
+    EXPECT_EQ(planet->paging().evicted, planet->paging().loaded);
+    EXPECT_EQ(planet->colourPaging().evicted, planet->colourPaging().loaded);
+    planet->setPaging(roomForColourTiles(6 + 4 * 24)).value();
+    expectTotalsOfEachKindAddUp(*planet);
+}
+
+TEST(PlanetColours, ACheckerPatternIsNeitherLoadedNorEvicted) {
+    PagingSettings settings = roomForColourTiles(800);
+    settings.retry.retries = 0;
+    const auto planet = Planet::open(colouredSource([](const ChunkId& parent, BlockLocation location) {
+                                         if (parent.level > 0) return Result<TileBlock>(ioError("gone"));
+                                         return loadFakeTiles(parent, location);
+                                     }),
+                                     settings)
+                            .value();
+    ASSERT_TRUE(colouredSettled(*planet, viewAt(20, 20, 40'000, -70)));
+    const std::uint64_t loaded = planet->colourPaging().loaded;
+    EXPECT_LE(loaded, faceCount);
+    EXPECT_GT(planet->colourPaging().residentTiles, faceCount + quadrantCount * loaded);
+    planet->dropAll();
+    EXPECT_EQ(planet->colourPaging().evicted, loaded);
+}
+
+TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
+    const auto tooFew = Planet::open(colouredSource(), roomForColourTiles(20));
+    ASSERT_FALSE(tooFew);
+    EXPECT_THAT(tooFew.error().message, HasSubstr("room for 20 tiles of colour is too little"));
+    PagingSettings settings = roomForColourTiles(800);
+    settings.colourShare = 0.95;
+    const auto tooLarge = Planet::open(colouredSource(), settings);
+    ASSERT_FALSE(tooLarge);
+    EXPECT_THAT(tooLarge.error().message, HasSubstr("a share of 0.95 for colours"));
+    EXPECT_TRUE(
+        Planet::open(fakePyramid().source(), roomForColourTiles(1)));  // without colours it does not matter
+}
+
+// As a recording does: what the loaders did is done again on a planet whose time is recorded.
+TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
+    PagingSettings settings = roomForColourTiles(6 + 4 * 30);
+    settings.time = PagingTime::Simulated;
+    settings.badDisk = {.latencyMs = 30, .failureRate = 0.05, .shuffledOrder = true, .seed = 9};
+    const auto planet = Planet::open(colouredSource(), settings).value();
+    settings.time = PagingTime::Recorded;
+    const auto other = Planet::open(colouredSource(), settings).value();
+    const std::size_t ofColours = followExactly(
+        *planet, *other, BlockKind::Colours, 200, 1.0 / 60,
+        [](int i) { return coloured(viewAt(20, 30 + 0.3 * i, 40'000, -60)); },
+        [&](int i) { EXPECT_EQ(shown(*other), shown(*planet)) << i; });
+    EXPECT_GT(ofColours, 20u);
+    EXPECT_GT(planet->colourPaging().failed, 0u);
+}
+
+// A tile that holds the eye in its bounds is wanted more than the one above it, whose bounds may not.
+TEST(PlanetColours, ABlockIsNotDroppedForWhatIsToComeUnderIt) {
+    TilePaging tiles;
+    tiles.leafLevel = leafOfFile;
+    tiles.checkers = ColourFormat::Bc1;
+    for (const Face face : allFaces) tiles.roots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
+    tiles.begin(faceCount + quadrantCount, 0);
+    PagingQueue queue;
+    std::uint64_t nextTicket = 1;
+    const TilePaging::Note ignore = [](const PagingRequest&, PagingOutcome) {};
+    const auto request = [&](const ChunkId& parent, float priority,
+                             const std::vector<MergedRequest>& splits) {
+        const MergedRequest wanted{findTile(tiles.tree, parent), parent, priority};
+        tiles.request(queue, {wanted}, splits, {1, 0, 0, nextTicket, ignore, nullptr});
+    };
+    const ChunkId root{Face::PosX, 0, 0, 0}, child = childOf(root, 2);
+    request(root, 2, {});
+    ASSERT_TRUE(queue.pop({root, BlockKind::Colours}));
+    tiles.finish(root, loadFakeTiles(root, fakeTile(root).children).value(), 1, 0);
+    tiles.use({0, findTile(tiles.tree, child)}, 1);
+    const MergedRequest split{findTile(tiles.tree, root), root, 2};
+    request(child, 100, {split});
+    EXPECT_EQ(queue.count(PagingType::PageIn), 0u);
+    EXPECT_EQ(tiles.counters.budgetWaits, 1u);
+    EXPECT_NE(findTile(tiles.tree, child), noNode);
+    // Elsewhere it yields.
+    const ChunkId other{Face::NegX, 0, 0, 0};
+    request(other, 100, {split});
+    EXPECT_TRUE(queue.find({other, BlockKind::Colours}));
+    EXPECT_EQ(findTile(tiles.tree, child), noNode);
+}
+
+TEST(PlanetColours, AChunksBlockAndATilesOfTheSameNameAreTwoRequests) {
+    PagingQueue queue;
+    const ChunkId id{Face::PosX, 1, 0, 1};
+    EXPECT_EQ(queue.submit({.parent = id, .priority = 1}), SubmitOutcome::Added);
+    EXPECT_EQ(queue.submit({.parent = id, .kind = BlockKind::Colours, .priority = 2}), SubmitOutcome::Added);
+    EXPECT_EQ(queue.count(PagingType::PageIn), 2u);
+    EXPECT_EQ(queue.worst(PagingType::PageIn)->kind, BlockKind::Heights);
+    EXPECT_EQ(queue.worst(PagingType::PageIn, BlockKind::Colours)->priority, 2);
+    EXPECT_EQ(queue.popBest(PagingType::PageIn)->kind, BlockKind::Colours);
+    EXPECT_EQ(queue.worst(PagingType::PageIn, BlockKind::Colours), nullptr);
+    EXPECT_TRUE(queue.find(id));
+    EXPECT_FALSE(queue.find({id, BlockKind::Colours}));
+}
+
+}  // namespace
+}  // namespace planet

@@ -1,0 +1,328 @@
+// Images whose tags, or size, say where their samples lie.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tiffio.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "planet/source/colour_source.h"
+#include "planet/source/image_placement.h"
+#include "tests/planet/source/height_source_fixture.h"
+
+namespace planet {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double radPerDegree = 3.14159265358979323846 / 180;
+
+// The tags that are written into the file. Empty ones are left out.
+struct GeoTiff {
+    int width = 0;
+    int height = 0;
+    std::vector<double> pixelScale{};
+    std::vector<double> tiepoint{};
+    std::vector<double> transformation{};
+    std::vector<std::uint16_t> keys{};  // fours of key, location, count, value
+    std::vector<double> doubleParams{};
+    std::string noData{};
+};
+
+constexpr std::array<std::uint16_t, 4> geographic = {1024, 0, 1, 2};
+constexpr std::array<std::uint16_t, 4> projected = {1024, 0, 1, 1};
+constexpr std::array<std::uint16_t, 4> pixelIsArea = {1025, 0, 1, 1};
+constexpr std::array<std::uint16_t, 4> pixelIsPoint = {1025, 0, 1, 2};
+
+std::vector<std::uint16_t> keysOf(const std::vector<std::array<std::uint16_t, 4>>& entries) {
+    std::vector<std::uint16_t> keys;
+    for (const auto& entry : entries) keys.insert(keys.end(), entry.begin(), entry.end());
+    return keys;
+}
+
+// Samples stepDeg apart from the raster's origin.
+GeoTiff placedAt(int width, int height, double westDeg, double northDeg, double stepDeg,
+                 const std::array<std::uint16_t, 4>& rasterType) {
+    return {.width = width,
+            .height = height,
+            .pixelScale = {stepDeg, stepDeg, 0},
+            .tiepoint = {0, 0, 0, westDeg, northDeg, 0},
+            .transformation = {},
+            .keys = keysOf({geographic, rasterType}),
+            .doubleParams = {},
+            .noData = {}};
+}
+
+using HeightAt = std::function<double(int column, int row)>;
+
+template <class T>
+void writeGeoTiff(const std::filesystem::path& path, const GeoTiff& tiff, const HeightAt& heightAt) {
+    std::array names = {std::string("scale"), std::string("tie"),     std::string("matrix"),
+                        std::string("keys"),  std::string("doubles"), std::string("nodata")};
+    const std::array<TIFFFieldInfo, 6> fields = {{
+        {33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[0].data()},
+        {33922, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[1].data()},
+        {34264, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[2].data()},
+        {34735, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, names[3].data()},
+        {34736, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[4].data()},
+        {42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[5].data()},
+    }};
+    TIFF* const out = TIFFOpen(path.c_str(), "w");
+    ASSERT_TRUE(out);
+    TIFFMergeFieldInfo(out, fields.data(), static_cast<std::uint32_t>(fields.size()));
+    TIFFSetField(out, TIFFTAG_IMAGEWIDTH, tiff.width);
+    TIFFSetField(out, TIFFTAG_IMAGELENGTH, tiff.height);
+    TIFFSetField(out, TIFFTAG_BITSPERSAMPLE, static_cast<int>(8 * sizeof(T)));
+    TIFFSetField(out, TIFFTAG_SAMPLESPERPIXEL, 1);
+    TIFFSetField(out, TIFFTAG_SAMPLEFORMAT,
+                 std::is_floating_point_v<T> ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_INT);
+    TIFFSetField(out, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    TIFFSetField(out, TIFFTAG_ROWSPERSTRIP, 16);
+    const auto set = [&](std::uint32_t tag, const auto& values) {
+        if (!values.empty()) TIFFSetField(out, tag, static_cast<int>(values.size()), values.data());
+    };
+    set(33550, tiff.pixelScale);
+    set(33922, tiff.tiepoint);
+    set(34264, tiff.transformation);
+    if (!tiff.keys.empty()) {
+        std::vector<std::uint16_t> directory = {1, 1, 0, static_cast<std::uint16_t>(tiff.keys.size() / 4)};
+        directory.insert(directory.end(), tiff.keys.begin(), tiff.keys.end());
+        set(34735, directory);
+    }
+    set(34736, tiff.doubleParams);
+    if (!tiff.noData.empty()) TIFFSetField(out, 42113, tiff.noData.c_str());
+    std::vector<T> samples(static_cast<std::size_t>(tiff.width));
+    for (int row = 0; row < tiff.height; ++row) {
+        for (int column = 0; column < tiff.width; ++column)
+            samples[static_cast<std::size_t>(column)] = static_cast<T>(heightAt(column, row));
+        ASSERT_EQ(TIFFWriteScanline(out, samples.data(), static_cast<std::uint32_t>(row), 0), 1);
+    }
+    TIFFClose(out);
+}
+
+HeightAt fieldFrom(double firstLongitudeDeg, double firstLatitudeDeg, double stepDeg) {
+    return [=](int column, int row) {
+        return smoothField(directionFromGeographic({(firstLatitudeDeg - row * stepDeg) * radPerDegree,
+                                                    (firstLongitudeDeg + column * stepDeg) * radPerDegree}));
+    };
+}
+
+// Half a sample off would be an error of some 25 m.
+void expectIsTheField(const std::filesystem::path& path) {
+    EXPECT_LT(largestError(mustOpen(path), 128, smoothField), 1) << path;
+}
+
+TEST(GeoTiff, AWholePlanetIsPlacedByItsTags) {
+    const TemporaryFolder folder;
+    writeGeoTiff<float>(folder / "area.tif", placedAt(360, 180, -180, 90, 1, pixelIsArea),
+                        fieldFrom(-179.5, 89.5, 1));
+    expectIsTheField(folder / "area.tif");
+    writeGeoTiff<float>(folder / "from0.tif", placedAt(360, 180, 0, 90, 1, pixelIsArea),
+                        fieldFrom(0.5, 89.5, 1));
+    expectIsTheField(folder / "from0.tif");
+    writeGeoTiff<float>(folder / "from-75.tif", placedAt(360, 180, -75, 90, 1, pixelIsArea),
+                        fieldFrom(-74.5, 89.5, 1));
+    expectIsTheField(folder / "from-75.tif");
+    writeGeoTiff<float>(folder / "points.tif", placedAt(361, 181, -180, 90, 1, pixelIsPoint),
+                        fieldFrom(-180, 90, 1));
+    expectIsTheField(folder / "points.tif");
+    writeGeoTiff<float>(folder / "pointsFrom0.tif", placedAt(361, 181, 0, 90, 1, pixelIsPoint),
+                        fieldFrom(0, 90, 1));
+    expectIsTheField(folder / "pointsFrom0.tif");
+    writeGeoTiff<float>(folder / "pointCentres.tif", placedAt(360, 180, -179.5, 89.5, 1, pixelIsPoint),
+                        fieldFrom(-179.5, 89.5, 1));
+    expectIsTheField(folder / "pointCentres.tif");
+    writeGeoTiff<float>(folder / "cellsAroundPoints.tif", placedAt(360, 181, -0.5, 90.5, 1, pixelIsArea),
+                        fieldFrom(0, 90, 1));
+    expectIsTheField(folder / "cellsAroundPoints.tif");
+}
+
+TEST(GeoTiff, ATransformationAndATiepointInTheMiddlePlaceTheSame) {
+    const TemporaryFolder folder;
+    GeoTiff matrix = placedAt(360, 180, 0, 0, 1, pixelIsArea);
+    matrix.pixelScale = matrix.tiepoint = {};
+    matrix.transformation = {1, 0, 0, 0, 0, -1, 0, 90, 0, 0, 0, 0, 0, 0, 0, 1};
+    writeGeoTiff<float>(folder / "matrix.tif", matrix, fieldFrom(0.5, 89.5, 1));
+    expectIsTheField(folder / "matrix.tif");
+    GeoTiff middle = placedAt(360, 180, 0, 0, 1, pixelIsArea);
+    middle.tiepoint = {180, 90, 0, 0, 0, 0};
+    writeGeoTiff<float>(folder / "middle.tif", middle, fieldFrom(-179.5, 89.5, 1));
+    expectIsTheField(folder / "middle.tif");
+}
+
+TEST(GeoTiff, EquirectangularMetresOfTheWholePlanetArePlaced) {
+    const TemporaryFolder folder;
+    constexpr double radiusM = 3'396'190;
+    const double stepM = radiusM * radPerDegree;
+    GeoTiff mars = placedAt(360, 180, -180 * stepM, 90 * stepM, stepM, pixelIsArea);
+    mars.keys = keysOf({projected, pixelIsArea, {2057, 34736, 1, 0}, {3075, 0, 1, 17}, {3076, 0, 1, 9001}});
+    mars.doubleParams = {radiusM};
+    writeGeoTiff<float>(folder / "mars.tif", mars, fieldFrom(-179.5, 89.5, 1));
+    expectIsTheField(folder / "mars.tif");
+}
+
+TEST(GeoTiff, TagsOfTheUsualPlaceChangeNoBit) {
+    const TemporaryFolder folder;
+    const HeightAt field = fieldFrom(-179.5, 89.5, 1);
+    writeGeoTiff<float>(folder / "plain.tif", {.width = 360, .height = 180}, field);
+    GeoTiff tagged = placedAt(360, 180, -180, 90, 0.99999999, pixelIsArea);
+    writeGeoTiff<float>(folder / "tagged.tif", tagged, field);
+    for (const Face face : allFaces)
+        EXPECT_EQ(sampledFace(mustOpen(folder / "tagged.tif"), face, 64),
+                  sampledFace(mustOpen(folder / "plain.tif"), face, 64));
+}
+
+TEST(GeoTiff, WithoutTagsTheSizeTellsAGridOfPoints) {
+    const TemporaryFolder folder;
+    writeGeoTiff<float>(folder / "points.tif", {.width = 361, .height = 181}, fieldFrom(-180, 90, 1));
+    expectIsTheField(folder / "points.tif");
+    EXPECT_EQ(mustOpen(folder / "points.tif").description,
+              "points.tif, 361 x 181 float, equirectangular grid points from pole to pole, the last column "
+              "repeats the first");
+    writeGeoTiff<float>(folder / "once.tif", {.width = 360, .height = 181}, fieldFrom(-180, 90, 1));
+    expectIsTheField(folder / "once.tif");
+    writeGeoTiff<float>(folder / "from0.tif", placedAt(360, 180, 0, 90, 1, pixelIsArea),
+                        fieldFrom(0.5, 89.5, 1));
+    EXPECT_EQ(mustOpen(folder / "from0.tif").description,
+              "from0.tif, 360 x 180 float, equirectangular from longitude 0");
+}
+
+TEST(GeoTiff, AGridOfPointsGivesItsOwnValuesAtItsPoints) {
+    const TemporaryFolder folder;
+    writeGeoTiff<float>(folder / "latitudes.tif", {.width = 361, .height = 181},
+                        [](int, int row) { return 90 - row; });
+    const HeightSource source = mustOpen(folder / "latitudes.tif");
+    EXPECT_NEAR(sampledNear(source, 4096, 45, 10), 45, 0.02);
+    EXPECT_NEAR(sampledNear(source, 4096, 90, 0), 90, 0.02);
+    EXPECT_NEAR(sampledNear(source, 4096, -89, 170), -89, 0.02);
+}
+
+TEST(GeoTiff, SharedEdgesAreBitIdenticalAndTilesAgreeWhereverTheImageBegins) {
+    const TemporaryFolder folder;
+    writeGeoTiff<std::int16_t>(folder / "a.tif", placedAt(361, 181, 0, 90, 1, pixelIsPoint),
+                               [](int column, int row) { return noise(column % 360, row, 4000); });
+    const HeightSource source = mustOpen(folder / "a.tif");
+    const SharedPoints points = sharedPoints(source, 64);
+    EXPECT_EQ(points.different, 0);
+    expectTilesAgree(source, 64, 8);
+}
+
+TEST(GeoTiff, RegionsAreRefusedWithWhatTheyCover) {
+    const TemporaryFolder folder;
+    const HeightAt flat = [](int, int) { return 5; };
+    writeGeoTiff<std::int16_t>(folder / "region.tif", placedAt(20, 10, 10, 50, 1, pixelIsArea), flat);
+    EXPECT_THAT(errorOf(folder / "region.tif"),
+                AllOf(HasSubstr("region.tif: covers longitude 10 to 30 and latitude 40 to 50 degrees"),
+                      HasSubstr("expected the whole planet")));
+    writeGeoTiff<std::int16_t>(folder / "band.tif", placedAt(360, 120, -180, 60, 1, pixelIsArea), flat);
+    EXPECT_THAT(errorOf(folder / "band.tif"), HasSubstr("latitude -60 to 60"));
+    writeGeoTiff<std::int16_t>(folder / "tile.tif", placedAt(61, 61, 86, 28, 1 / 60.0, pixelIsPoint), flat);
+    EXPECT_THAT(errorOf(folder / "tile.tif"), HasSubstr("longitude 85.9917 to 87.0083"));
+    EXPECT_FALSE(openColourSource(folder / "region.tif"));
+}
+
+TEST(GeoTiff, OtherProjectionsAndDirectionsAreRefused) {
+    const TemporaryFolder folder;
+    const HeightAt flat = [](int, int) { return 5; };
+    GeoTiff utm = placedAt(360, 180, 500'000, 4'600'000, 30, pixelIsArea);
+    utm.keys = keysOf({projected, pixelIsArea, {3072, 0, 1, 32633}});
+    writeGeoTiff<std::int16_t>(folder / "utm.tif", utm, flat);
+    EXPECT_THAT(errorOf(folder / "utm.tif"),
+                AllOf(HasSubstr("utm.tif: is in projected coordinates, EPSG 32633"),
+                      HasSubstr("expected longitude and latitude in degrees")));
+    GeoTiff southUp = placedAt(360, 180, 0, 0, 1, pixelIsArea);
+    southUp.pixelScale = southUp.tiepoint = {};
+    southUp.transformation = {1, 0, 0, -180, 0, 1, 0, -90, 0, 0, 0, 0, 0, 0, 0, 1};
+    writeGeoTiff<std::int16_t>(folder / "southUp.tif", southUp, flat);
+    EXPECT_THAT(errorOf(folder / "southUp.tif"), HasSubstr("expected north up"));
+    GeoTiff radians = placedAt(360, 180, -180, 90, 1, pixelIsArea);
+    radians.keys = keysOf({geographic, pixelIsArea, {2054, 0, 1, 9101}});
+    writeGeoTiff<std::int16_t>(folder / "radians.tif", radians, flat);
+    EXPECT_THAT(errorOf(folder / "radians.tif"), HasSubstr("angles in the unit of EPSG 9101"));
+    GeoTiff endless = placedAt(360, 180, -180, 90, 1, pixelIsArea);
+    endless.tiepoint[3] = std::numeric_limits<double>::infinity();
+    writeGeoTiff<std::int16_t>(folder / "endless.tif", endless, flat);
+    EXPECT_THAT(errorOf(folder / "endless.tif"), HasSubstr("numbers that are not finite"));
+}
+
+TEST(GeoTiff, ATileWithoutTagsIsNotToBeCropped) {
+    const TemporaryFolder folder;
+    writeGeoTiff<std::int16_t>(folder / "tile.tif", {.width = 361, .height = 361},
+                               [](int, int) { return 5; });
+    EXPECT_THAT(
+        errorOf(folder / "tile.tif"),
+        AllOf(HasSubstr("tile.tif: is 361 x 361 samples; expected an equirectangular image of the whole "
+                        "planet, twice as wide as high"),
+              HasSubstr("an image of a region cannot be placed on a planet yet"), Not(HasSubstr("180"))));
+}
+
+TEST(GeoTiff, SamplesOfTheNoDataValueAreMissing) {
+    const TemporaryFolder folder;
+    GeoTiff tiff = placedAt(72, 36, -180, 90, 5, pixelIsArea);
+    tiff.noData = "-32768";
+    const HeightAt hole = [](int column, int row) { return column < 10 && row < 3 ? -32768 : 100; };
+    writeGeoTiff<std::int16_t>(folder / "hole.tif", tiff, hole);
+    const HeightSource source = mustOpen(folder / "hole.tif");
+    EXPECT_EQ(source.missingCount, 30u);
+    EXPECT_EQ(source.minM, 0);
+    EXPECT_EQ(source.maxM, 100);
+    HeightSourceSettings settings;
+    settings.noDataValue = 100;
+    EXPECT_EQ(mustOpen(folder / "hole.tif", settings).missingCount, 72u * 36u - 30u)
+        << "the setting is meant";
+    tiff.noData = "-3.40282346638529e+38";  // as GDAL writes the lowest float
+    writeGeoTiff<float>(folder / "lowest.tif", tiff, [](int column, int) {
+        return column == 0 ? static_cast<double>(std::numeric_limits<float>::lowest()) : 7.0;
+    });
+    EXPECT_EQ(mustOpen(folder / "lowest.tif").missingCount, 36u);
+    EXPECT_EQ(mustOpen(folder / "lowest.tif").maxM, 7);
+}
+
+TEST(GeoTiff, ColoursArePlacedAsHeightsAre) {
+    const TemporaryFolder folder;
+    writeGeoTiff<float>(folder / "from0.tif", placedAt(360, 180, 0, 90, 1, pixelIsArea),
+                        [](int column, int) { return column < 180 ? 1.0 : 0.0; });
+    const auto source = openColourSource(folder / "from0.tif");
+    ASSERT_TRUE(source) << source.error().message;
+    const auto redAt = [&](double longitudeDeg) {
+        const FacePoint point =
+            facePointFromDirection(directionFromGeographic({0, longitudeDeg * radPerDegree}));
+        std::vector<glm::vec3> out(1);
+        const SampleTile tile{point.face,
+                              256,
+                              static_cast<int>(std::lround((point.u + 1) * 128)),
+                              static_cast<int>(std::lround((point.v + 1) * 128)),
+                              1,
+                              1};
+        EXPECT_TRUE(source->sample(tile, out));
+        return out[0].r;
+    };
+    EXPECT_EQ(redAt(90), 1);
+    EXPECT_EQ(redAt(-90), 0);
+}
+
+TEST(GeoTiff, BrokenTagsAreIgnoredOrRefusedAndNeverCrash) {
+    const TemporaryFolder folder;
+    const HeightAt flat = [](int, int) { return 5; };
+    GeoTiff cut = placedAt(360, 180, -180, 90, 1, pixelIsArea);
+    cut.tiepoint = {0, 0, 0};
+    writeGeoTiff<std::int16_t>(folder / "cut.tif", cut, flat);
+    EXPECT_EQ(errorOf(folder / "cut.tif"), "opened");
+    GeoTiff still = placedAt(360, 180, -180, 90, 0, pixelIsArea);
+    writeGeoTiff<std::int16_t>(folder / "still.tif", still, flat);
+    EXPECT_NE(errorOf(folder / "still.tif"), "opened");
+    GeoTiff keys = placedAt(360, 180, -180, 90, 1, pixelIsArea);
+    keys.keys = {1024, 34736, 1, 999};
+    writeGeoTiff<std::int16_t>(folder / "keys.tif", keys, flat);
+    EXPECT_EQ(errorOf(folder / "keys.tif"), "opened");
+}
+
+}  // namespace
+}  // namespace planet

@@ -1,0 +1,111 @@
+// The blocks of a chunk file's bytes, found by following its index whatever the checksums say, and checksums
+// made right again after bytes were changed. For the mutation test and the fuzzer.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planet/base/little_endian.h"
+#include "planet/format/chunk_file_format.h"
+
+namespace planet::test {
+
+struct FileBlock {
+    BlockId id;  // as messages name it: of a root block its own chunk, of the others the parent
+    bool isRoot = false;
+    BlockLocation at;
+    std::size_t entriesBytes = 0;  // at its beginning
+};
+
+template <class T>
+void putAt(std::span<std::byte> bytes, std::size_t offset, T value) {
+    std::vector<std::byte> encoded;
+    ByteWriter(encoded).put(value);
+    std::copy(encoded.begin(), encoded.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+}
+
+// Calls visit for each block that the index tells of and the file can hold, parents first, as often as it is
+// told of, but not more than `most` times. The header must be good.
+template <class Visit>
+void forEachBlock(std::span<const std::byte> file, const ChunkFileInfo& info, std::size_t most,
+                  const Visit& visit) {
+    std::vector<FileBlock> open;
+    const auto add = [&](const BlockId& id, bool isRoot, const BlockLocation& at, int levelsBelow) {
+        const std::size_t entryBytes =
+            id.kind == BlockKind::Colours ? colourEntryBytes : (levelsBelow > 0 ? chunkEntryBytes : 0);
+        const std::size_t entriesBytes = (isRoot ? 1 : quadrantCount) * entryBytes;
+        const bool fits = at.offset >= chunkFileHeaderBytes && at.offset <= file.size() &&
+                          at.size <= file.size() - at.offset && at.size >= entriesBytes + checksumBytes;
+        if (fits) open.push_back({id, isRoot, at, entriesBytes});
+    };
+    const int leaf = leafLevel(info.shape);
+    for (const Face face : allFaces) {
+        const ChunkId root{face, 0, 0, 0};
+        const auto f = static_cast<std::size_t>(face);
+        add(root, true, info.roots[f], leaf);
+        if (info.colour) add({root, BlockKind::Colours}, true, info.colour->roots[f], info.colour->leafLevel);
+    }
+    for (std::size_t done = 0; done < open.size() && done < most; ++done) {
+        const FileBlock block = open[done];
+        visit(block);
+        const bool colours = block.id.kind == BlockKind::Colours;
+        const int deepest = colours ? info.colour->leafLevel : leaf;
+        const auto bytes = file.subspan(static_cast<std::size_t>(block.at.offset), block.at.size);
+        for (int q = 0; q < (block.isRoot ? 1 : quadrantCount); ++q) {
+            const ChunkId chunk = block.isRoot ? block.id.parent : childOf(block.id.parent, q);
+            if (chunk.level >= deepest) continue;
+            const auto i = static_cast<std::size_t>(q);
+            const BlockLocation children =
+                colours
+                    ? colourEntryFrom(bytes.subspan(i * colourEntryBytes).template first<colourEntryBytes>(),
+                                      block.at.offset)
+                          .children
+                    : entryFrom(bytes.subspan(i * chunkEntryBytes).template first<chunkEntryBytes>(),
+                                block.at.offset)
+                          .children;
+            add({chunk, block.id.kind}, false, children, deepest - chunk.level - 1);
+        }
+    }
+}
+
+inline std::uint64_t checksumOf(const FileBlock& block, std::span<const std::byte> summed) {
+    const ChunkId& id = block.id.parent;
+    if (block.id.kind == BlockKind::Colours)
+        return block.isRoot ? colourRootChecksum(summed, id.face) : colourSiblingChecksum(summed, id);
+    return block.isRoot ? rootChecksum(summed, id.face) : siblingChecksum(summed, id);
+}
+
+inline void resealBlock(std::span<std::byte> file, const FileBlock& block) {
+    const auto bytes = file.subspan(static_cast<std::size_t>(block.at.offset), block.at.size);
+    const std::size_t summed = bytes.size() - checksumBytes;
+    putAt(bytes, summed, checksumOf(block, bytes.first(summed)));
+}
+
+// The header's checksum, and the file's length in it.
+inline void resealHeader(std::span<std::byte> file) {
+    constexpr std::size_t lengthAt = 16;
+    constexpr std::size_t summed = chunkFileHeaderBytes - checksumBytes;
+    if (file.size() < chunkFileHeaderBytes) return;
+    putAt(file, lengthAt, static_cast<std::uint64_t>(file.size()));
+    putAt(file, summed, headerChecksum(file.first(summed)));
+}
+
+inline Result<ChunkFileInfo> infoOf(std::span<const std::byte> file) {
+    if (file.size() < chunkFileHeaderBytes) return badInput("too short");
+    return infoFromHeader(file.first<chunkFileHeaderBytes>(), "file", file.size());
+}
+
+// All that is checked by checksums: what is nonsense then has to be found by looking.
+inline void reseal(std::span<std::byte> file, std::size_t mostBlocks = 1000) {
+    resealHeader(file);
+    const Result<ChunkFileInfo> info = infoOf(file);
+    if (!info) return;
+    std::vector<FileBlock> blocks;
+    forEachBlock(file, *info, mostBlocks, [&](const FileBlock& block) { blocks.push_back(block); });
+    for (const FileBlock& block : blocks) resealBlock(file, block);
+}
+
+}  // namespace planet::test

@@ -1,0 +1,115 @@
+// A planet that panels can look at without a window: opened, flown for some frames, and gathered into the
+// view that the application hands to panels.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "planet/planet.h"
+#include "ui/shell/panels.h"
+
+namespace worldy::test {
+
+class EditorFixture {
+public:
+    explicit EditorFixture(std::unique_ptr<planet::Planet> planet) : planet_(std::move(planet)) {}
+
+    // Flies towards the ground over some frames, a sixtieth of a second each.
+    void fly(const ui::ViewSettings& settings, int frames) {
+        planet::LodSettings lod;
+        lod.tauPx = settings.lod.tauPx;
+        lod.hysteresis = settings.lod.hysteresis;
+        lod.morph = settings.lod.morph;
+        for (int frame = 0; frame < frames; ++frame) {
+            const double share = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 1;
+            pose_.altitudeM = 4e6 * (1 - share) + altitudeM * share;
+            pose_.pitchDeg = -90 + 60 * share;
+            view_ = planet::viewFromPose(pose_, planet_->shape().radiusM, 1.05, 1280, 720);
+            const auto upload = [](std::uint32_t, std::span<const std::int16_t>) {};
+            if (frame + 1 == frames)
+                planet_->settle(view_, lod, upload, 60);
+            else
+                planet_->step(view_, lod, upload);
+            timeS_ += 1.0 / 60;
+            changes_.add(planet_->selection(), timeS_);
+            stats_.selection = planet_->selection().counters;
+            stats_.paging = planet_->paging();
+            stats_.stages = planet_->times();
+            stats_.frameMs = 16.7;
+            stats_.drawCpuMs = 2 + frame % 3;
+            stats_.panelsMs = 1;
+            history_.push_back({timeS_, stats_});
+        }
+    }
+
+    ui::EditorView view() const {
+        ui::EditorView view{.planet = planet_.get(),
+                            .stats = stats_,
+                            .history = history_,
+                            .changes = changes_,
+                            .log = log_,
+                            .lodView = view_,
+                            .renderView = view_,
+                            .timeS = timeS_};
+        view.data.name = "earth.chk";
+        view.data.hasColourImage = true;
+        view.camera.pose = pose_;
+        view.camera.heightAboveGroundM = pose_.altitudeM;
+        view.camera.bookmarks = bookmarks_;
+        view.presets = presets_;
+        view.allocations.now = allocations();
+        view.allocations.mark = allocations();
+        view.allocations.mark.heapBytes -= 3 << 20;
+        view.allocations.mark.threads = 5;
+        if (!planet_->selection().draw.empty()) {
+            view.focus.selected = planet_->selection().draw.front().id;
+            view.focus.hovered = planet_->selection().draw.back().id;
+        }
+        return view;
+    }
+
+    ui::Allocations allocations() const {
+        ui::Allocations held;
+        held.residentBytes = 412 << 20;
+        held.heapBytes = 138 << 20;
+        held.openFiles = 11;
+        held.threads = 7;
+        held.gpu.heightPool = 64 << 20;
+        held.gpu.textures = 31 << 20;
+        held.objects = {41, 57, 9, 12, 2, 14, 0, 18};
+        held.planets = 1;
+        held.chunks = planet_->paging().residentChunks;
+        held.chunkSlots = planet_->slotCapacity();
+        held.rememberedEnds = planet_->pagingHistory().size();
+        held.frameSamples = history_.size();
+        return held;
+    }
+
+    double altitudeM = 60'000;
+    std::deque<ui::LogLine> log_;
+    std::vector<ui::PresetView> presets_{
+        {"crack hunting",
+         "/usr/share/worldy/presets/crack hunting.toml",
+         {},
+         {{"overlay.outlines", "false", "true"}, {"overlay.skirt_paint", "as_ground", "loud"}},
+         true},
+        {"default", "/usr/share/worldy/presets/default.toml", {}, {}, true},
+        {"broken",
+         "/home/me/.config/worldy/presets/broken.toml",
+         "broken.toml: line 2: lod.tau_px is 1000",
+         {}},
+    };
+
+private:
+    std::unique_ptr<planet::Planet> planet_;
+    planet::CameraPose pose_{.latitudeDeg = 28, .longitudeDeg = 86, .altitudeM = 4e6};
+    planet::View view_;
+    planet::LodChanges changes_;
+    ui::FrameStats stats_;
+    std::deque<ui::FrameSample> history_;
+    std::vector<ui::Bookmark> bookmarks_{{"Himalaya", {}, true}, {"My ridge", {}, false}};
+    double timeS_ = 0;
+};
+
+}  // namespace worldy::test

@@ -1,0 +1,101 @@
+// The chunks of a planet of any size, each made from a formula when it is asked for: heights alone, without
+// true errors.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "planet/paging/finest_heights.h"
+#include "planet/paging/pager.h"
+#include "planet/planet.h"
+
+namespace planet::test {
+
+struct MadeChunks {
+    PlanetShape shape;
+    std::function<double(const glm::dvec3& direction)> heightM;
+    // Bounds that hold of every formula.
+    static constexpr std::int16_t lowest = std::numeric_limits<std::int16_t>::min();
+    static constexpr std::int16_t highest = std::numeric_limits<std::int16_t>::max();
+    std::optional<ChunkId> broken;  // whose block of children cannot be read
+    ErrorKind brokenBy = ErrorKind::BadInput;
+
+    MadeChunks(const PlanetShape& planetShape, std::function<double(const glm::dvec3&)> height)
+        : shape(planetShape), heightM(std::move(height)) {}
+
+    // Of a vertex of a grid of so many cells.
+    std::int16_t step(Face face, int column, int row, int cells) const {
+        const glm::dvec3 d = sphereFromCube(cubePoint(face, 2.0 * column / cells - 1, 2.0 * row / cells - 1));
+        return static_cast<std::int16_t>(std::lround((heightM(d) - shape.baseHeightM) / shape.quantumM));
+    }
+
+    ChunkData chunk(const ChunkId& id) const {
+        const int size = chunkCells(shape);
+        const int cells = size << id.level;
+        ChunkData data;
+        data.id = id;
+        for (int row = 0; row <= size; ++row) {
+            for (int column = 0; column <= size; ++column)
+                data.heights.push_back(step(id.face, static_cast<int>(id.x) * size + column,
+                                            static_cast<int>(id.y) * size + row, cells));
+        }
+        const auto [low, high] = std::minmax_element(data.heights.begin(), data.heights.end());
+        data.minStep = *low;
+        data.maxStep = *high;
+        if (id.level < leafLevel(shape)) {
+            data.children = {keyOf(id) + 1, 100};
+            data.minStep = lowest;
+            data.maxStep = highest;
+            // So that levels split as they come nearer.
+            data.deltaCM = data.deltaTightM =
+                static_cast<float>(shape.radiusM * 0.3 / (cells * static_cast<double>(cells)));
+        }
+        return data;
+    }
+
+    Result<SiblingBlock> children(const ChunkId& parent) const {
+        if (parent == broken) {
+            const std::string message = "made.chk: the block of chunk " + toString(parent) + " is damaged";
+            return tl::unexpected(Error{brokenBy, message});
+        }
+        SiblingBlock block;
+        for (int q = 0; q < quadrantCount; ++q)
+            block[static_cast<std::size_t>(q)] = chunk(childOf(parent, q));
+        return block;
+    }
+
+    // This must outlive them.
+    LoadChildren loader() const {
+        return [this](const ChunkId& parent, BlockLocation, std::span<const std::int16_t>) {
+            return children(parent);
+        };
+    }
+    std::array<HeldChunk, faceCount> roots() const {
+        std::array<HeldChunk, faceCount> held;
+        for (const Face face : allFaces) {
+            ChunkData root = chunk({face, 0, 0, 0});
+            held[static_cast<std::size_t>(face)] = {
+                root.id, std::make_shared<const std::vector<std::int16_t>>(std::move(root.heights)),
+                root.children};
+        }
+        return held;
+    }
+    PlanetSource source() const {
+        PlanetSource made;
+        made.shape = shape;
+        made.minStep = lowest;
+        made.maxStep = highest;
+        for (const Face face : allFaces) made.roots[static_cast<std::size_t>(face)] = chunk({face, 0, 0, 0});
+        made.loadChildren = loader();
+        return made;
+    }
+};
+
+}  // namespace planet::test

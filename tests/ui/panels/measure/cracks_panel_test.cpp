@@ -1,0 +1,90 @@
+// The buttons of the Cracks panel apply the values that it has found.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/panel_fixture.h"
+#include "tests/support/planet_fixture.h"
+#include "ui/shell/panels.h"
+
+namespace ui {
+namespace {
+
+class CracksPanel : public testing::Test {
+protected:
+    CracksPanel() {
+        measured_.required = {42.5, 0.75};
+        view_.planet = planet_.get();
+        view_.cracks = {&measured_, true, &smallest_};
+    }
+
+    Commands frame() {
+        Commands commands;
+        window_.frame([&] { drawPanel(PanelId::Cracks, view_, states_, settings_, commands); });
+        return commands;
+    }
+    void click(std::string_view label) {
+        frame();
+        frame();
+        window_.click(label, 0.5f, [&] { frame(); });
+    }
+    bool saysWhy(std::string_view label) {
+        frame();
+        const ItemPlace item = *window_.find(label);
+        PanelWindow::movePointer({item.rect.x + 2, item.rect.y + 2});
+        for (int i = 0; i < 3; ++i) frame();
+        return window_.isShown("Why grey");
+    }
+
+    PanelWindow window_{{400, 1200}};
+    std::unique_ptr<planet::Planet> planet_ = planet::openFake();
+    CrackMeasurement measured_;
+    SmallestSkirts smallest_{30, 0.021};
+    FrameStats stats_;
+    std::deque<FrameSample> history_;
+    planet::LodChanges changes_;
+    std::deque<LogLine> log_;
+    EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
+    PanelStates states_;
+    ViewSettings settings_;
+};
+
+TEST_F(CracksPanel, appliesTheSmallestDepthAsAFixedOne) {
+    settings_.seams.mode = planet::SeamMode::None;
+    click("Apply Smallest depth");
+    EXPECT_EQ(settings_.seams.mode, planet::SeamMode::Skirts);
+    EXPECT_EQ(settings_.seams.depth, planet::SkirtDepth::Fixed);
+    EXPECT_EQ(settings_.seams.skirtDepthM, 30);
+}
+
+TEST_F(CracksPanel, appliesTheSmallestFactorAsAnAutomaticOne) {
+    settings_.seams.depth = planet::SkirtDepth::Fixed;
+    click("Apply Smallest factor");
+    EXPECT_EQ(settings_.seams.depth, planet::SkirtDepth::Automatic);
+    EXPECT_EQ(settings_.seams.skirtFactor, 0.021);
+}
+
+TEST_F(CracksPanel, appliesWhatTheGapsAskFor) {
+    click("Apply Required depth (max gap)");
+    EXPECT_EQ(settings_.seams.skirtDepthM, 42.5);
+    click("Apply Required factor (max gap)");
+    EXPECT_EQ(settings_.seams.depth, planet::SkirtDepth::Automatic);
+    EXPECT_EQ(settings_.seams.skirtFactor, 0.75);
+}
+
+TEST_F(CracksPanel, aFactorThatNobodyMaySetIsGreyAndSaysWhy) {
+    smallest_.factor = std::numeric_limits<double>::infinity();
+    click("Apply Smallest factor");
+    EXPECT_EQ(settings_, ViewSettings{});
+    EXPECT_TRUE(saysWhy("Apply Smallest factor"));
+    EXPECT_FALSE(saysWhy("Apply Smallest depth"));
+}
+
+TEST_F(CracksPanel, findSmallestSkirtsSaysWhyItIsGrey) {
+    EXPECT_FALSE(saysWhy("Find smallest skirts"));
+    view_.cracks.current = false;
+    EXPECT_TRUE(saysWhy("Find smallest skirts"));
+}
+
+}  // namespace
+}  // namespace ui

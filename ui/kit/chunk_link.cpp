@@ -1,0 +1,52 @@
+#include "ui/kit/chunk_link.h"
+
+#include <string>
+
+namespace ui {
+
+namespace {
+
+// chunk: what is selected; square: what is looked at.
+void link(const planet::ChunkId& chunk, const planet::ChunkId& square, bool lit, Commands& commands,
+          ImGuiSelectableFlags flags) {
+    const std::string name = planet::toString(square);
+    if (ImGui::Selectable(name.c_str(), lit, flags | ImGuiSelectableFlags_AllowDoubleClick)) {
+        commands.push_back(SelectChunk{chunk});
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) commands.push_back(LookAtChunk{square});
+    }
+    if (ImGui::IsItemHovered()) commands.push_back(HoverChunk{chunk});
+    if (ImGui::BeginPopupContextItem()) {
+        if (ImGui::MenuItem(chunk == square ? "Select" : "Select chunk here"))
+            commands.push_back(SelectChunk{chunk});
+        if (ImGui::MenuItem("Look at")) commands.push_back(LookAtChunk{square});
+        if (ImGui::MenuItem("Copy id")) commands.push_back(CopyText{name});
+        ImGui::EndPopup();
+    }
+}
+
+}  // namespace
+
+void chunkLink(const planet::ChunkId& id, const EditorView& view, Commands& commands,
+               ImGuiSelectableFlags flags) {
+    link(id, id, view.focus.selected == id, commands, flags);
+}
+
+// Never lit: what is selected is a chunk.
+void colourLink(const planet::ChunkId& tile, const EditorView& view, Commands& commands,
+                ImGuiSelectableFlags flags) {
+    link(chunkAround(view.planet->tree(), tile), tile, false, commands, flags);
+}
+
+planet::ChunkId chunkAround(const planet::ChunkTree& tree, planet::ChunkId square) {
+    while (square.level > 0 && planet::findNode(tree, square) == planet::noNode)
+        square = planet::parentOf(square);
+    return square;
+}
+
+void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& commands,
+               ImGuiSelectableFlags flags) {
+    ImGui::TableNextColumn();
+    chunkLink(id, view, commands, flags);
+}
+
+}  // namespace ui

@@ -1,0 +1,31 @@
+#include "ui/kit/feature_knob.h"
+
+#include <fmt/format.h>
+
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+
+namespace ui {
+
+void featureKnob(const char* label, CostlyPart part, const EditorView& view, SurfaceSettings& surface,
+                 Commands& commands, const char* explanation, const char* costs) {
+    using planet::gl::FeatureUse;
+    FeatureUse& use = useOf(part, surface);
+    choice(label, use, FeatureUse::Automatic, "automatic\0on\0off\0", explanation);
+    if (use != FeatureUse::Automatic) return;
+    if (view.light.software) {
+        wrappedText(
+            fmt::format("Off: software rendering; {} would exceed the 50 ms budget of a frame.", costs),
+            palette().warning);
+    } else if (view.light.turnedDown.has(part)) {
+        wrappedText(fmt::format("Off: it took the GPU to {:.0f} ms per frame; the budget is {:.0f} ms.",
+                                view.light.turnedDown.tookMs[static_cast<std::size_t>(part)], affordedMs),
+                    palette().warning);
+        ImGui::PushID(label);
+        if (button("Try again", "Turns all reduced features back on until a frame exceeds the budget again."))
+            commands.emplace_back(TryCostlyParts{});
+        ImGui::PopID();
+    }
+}
+
+}  // namespace ui

@@ -1,0 +1,28 @@
+// Where controls are on the screen, by name: for scripts that drive the window, as the tests and the README's
+// pictures do. Nothing is noted unless it is asked for. One thread, as ImGui.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ui/model/layout.h"
+
+namespace ui {
+
+struct ItemPlace {
+    std::string name;  // "lod/Tolerance"
+    Rect rect;
+};
+
+// What follows is noted there, until told otherwise; null: nowhere. It must outlive the frame.
+void collectItems(std::vector<ItemPlace>* into);
+
+// What comes before the slash in the names of the items that follow: a panel's key.
+void setItemScope(std::string_view scope);
+
+// Notes the last ImGui item, if it is in sight.
+void noteItem(std::string_view label);
+// Where ImGui does not say afterwards where an item was.
+void noteRect(std::string_view label, const Rect& rect);
+
+}  // namespace ui

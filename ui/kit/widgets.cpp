@@ -1,0 +1,316 @@
+#include "ui/kit/widgets.h"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "ui/kit/item_map.h"
+#include "ui/kit/theme.h"
+#include "ui/model/font_symbols.h"
+
+namespace ui {
+
+namespace {
+
+// Share of the panel's width that labels take.
+constexpr float labelShare = 0.40f;
+// Share of a table's width that values may take.
+constexpr float valueShare = 0.65f;
+
+// Of each beginGrey() that is open: why it greys; empty: it does not. Beside ImGui's own stack, and of the
+// same lifetime.
+std::vector<std::string> greyReasons;
+
+// After the control. True where the user asks for the default.
+bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
+    bool reset = false;
+    if (ImGui::BeginPopupContextItem(label)) {
+        reset = ImGui::MenuItem(("Reset to " + defaultText).c_str(), nullptr, false, !isDefault);
+        noteItem("reset");
+        if (isDefault) tooltip("It already has its default.");
+        ImGui::EndPopup();
+    }
+    return reset;
+}
+
+template <class T>
+std::string formatted(const char* format, T value) {
+    std::array<char, 64> text{};
+    ImGui::DataTypeFormatString(text.data(), text.size(),
+                                std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32, &value,
+                                format);
+    return text.data();
+}
+
+template <class T>
+bool sliderOf(const char* label, T& value, T defaultValue, T min, T max, const char* format,
+              const char* explanation, ImGuiSliderFlags flags) {
+    ImGui::PushID(label);
+    litLabel(label, value != defaultValue, explanation);
+    bool changed =
+        ImGui::SliderScalar("##value", std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32,
+                            &value, &min, &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
+    noteItem(label);
+    tooltip(explanation);
+    if (offerDefault("default", value == defaultValue, formatted(format, defaultValue))) {
+        value = defaultValue;
+        changed = true;
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+}  // namespace
+
+void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags) {
+    ImGui::SetNextWindowPos({rect.x, rect.y});
+    ImGui::SetNextWindowSize({rect.width, rect.height});
+    ImGui::Begin(name, nullptr,
+                 flags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+}
+
+bool section(const char* title) {
+    ImGui::Spacing();
+    return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+}
+
+void tooltip(const char* text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    // The tooltip of what is grey is not grey itself.
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    const auto why = std::find_if(greyReasons.begin(), greyReasons.end(),
+                                  [](const std::string& reason) { return !reason.empty(); });
+    const bool grey = why != greyReasons.end();
+    if (grey) {
+        ImGui::TextColored(palette().warning, "%s", why->c_str());
+        noteItem("Why grey");
+    }
+    if (!grey || *why != text) ImGui::TextUnformatted(inFont(text).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+
+void beginGrey(bool grey, const char* why) {
+    ImGui::BeginDisabled(grey);
+    greyReasons.emplace_back(grey ? why : "");
+}
+
+void endGrey() {
+    greyReasons.pop_back();
+    ImGui::EndDisabled();
+}
+
+bool beginValues(const char* id) {
+    if (!ImGui::BeginTable(id, 2)) return false;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed);
+    return true;
+}
+
+void valueRow(const char* name, const std::string& value, const char* explanation, const ImVec4* colour) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(inFont(name).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    tooltip(explanation);
+    ImGui::TableNextColumn();
+    // The column is as wide as its widest value, but leaves room for the names: longer values are wrapped.
+    const float most = valueShare * ImGui::GetCurrentTable()->WorkRect.GetWidth();
+    const float width = std::min(ImGui::CalcTextSize(value.c_str()).x, most);
+    const float slack = ImGui::GetContentRegionAvail().x - width;
+    if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour ? *colour : palette().text);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width + 1);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    tooltip(explanation);
+}
+
+void endValues() {
+    ImGui::EndTable();
+}
+
+void labelledControl(const char* label, const char* explanation) {
+    const float start = ImGui::GetCursorPosX();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const std::string text = inFont(label);
+    const float labelWidth = ImGui::CalcTextSize(text.c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(text.c_str());
+    tooltip(explanation);
+    // A label that does not fit takes room from its control, or stands over it.
+    if (labelWidth < 0.6f * width)
+        ImGui::SameLine(start + std::round(std::max(width * labelShare, labelWidth)));
+    ImGui::SetNextItemWidth(-1);
+}
+
+void litLabel(const char* label, bool changed, const char* explanation) {
+    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    labelledControl(label, explanation);
+    if (changed) ImGui::PopStyleColor();
+}
+
+bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
+            const char* explanation, ImGuiSliderFlags flags) {
+    return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
+}
+
+bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format,
+            const char* explanation, ImGuiSliderFlags flags) {
+    return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
+}
+
+bool checkbox(const char* label, bool& value, bool defaultValue, const char* explanation) {
+    const bool isDefault = value == defaultValue;
+    if (!isDefault) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    bool changed = ImGui::Checkbox(label, &value);
+    noteItem(label);
+    if (!isDefault) ImGui::PopStyleColor();
+    tooltip(explanation);
+    if (offerDefault(label, value == defaultValue, defaultValue ? "on" : "off")) {
+        value = defaultValue;
+        changed = true;
+    }
+    return changed;
+}
+
+bool combo(const char* name, int& index, const char* items) {
+    const auto next = [](const char* item) { return item + std::char_traits<char>::length(item) + 1; };
+    const char* shown = items;
+    for (int i = 0; i < index && *shown; ++i) shown = next(shown);
+    bool changed = false;
+    ImGui::PushID(name);
+    if (ImGui::BeginCombo("##value", inFont(shown).c_str())) {
+        int i = 0;
+        for (const char* item = items; *item; item = next(item), ++i) {
+            if (ImGui::Selectable(inFont(item).c_str(), i == index)) {
+                changed = i != index;
+                index = i;
+            }
+            noteItem(std::string(name) + ": " + item);
+            if (i == index) ImGui::SetItemDefaultFocus();
+        }
+        ImGui::EndCombo();
+    }
+    noteItem(name);
+    ImGui::PopID();
+    return changed;
+}
+
+bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items,
+                 const char* explanation) {
+    ImGui::PushID(label);
+    litLabel(label, index != defaultIndex, explanation);
+    bool changed = combo(label, index, items);
+    tooltip(explanation);
+    const char* defaultItem = items;
+    for (int i = 0; i < defaultIndex; ++i) defaultItem += std::char_traits<char>::length(defaultItem) + 1;
+    if (offerDefault("default", index == defaultIndex, defaultItem)) {
+        index = defaultIndex;
+        changed = true;
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+bool button(const char* label, const char* explanation) {
+    const bool pressed = ImGui::Button(label);
+    noteItem(label);
+    tooltip(explanation);
+    return pressed;
+}
+
+void secondColumn(const char* label) {
+    const float left = ImGui::GetWindowContentRegionMin().x;
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    const float column = left + right * 0.5f;
+    const float last = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetScrollX();
+    if (last < column && column + checkboxWidth(label) <= right) ImGui::SameLine(column);
+}
+
+void sameLineIfRoom(float width) {
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width < right) ImGui::SameLine();
+}
+
+void sameLineForButton(const char* label) {
+    sameLineIfRoom(ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x);
+}
+
+float checkboxWidth(const char* label) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+}
+
+void wrappedText(const std::string& text, const ImVec4& colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", inFont(text).c_str());
+    ImGui::PopStyleColor();
+}
+
+void emptyState(const char* text) {
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float wrap = std::min(room.x * 0.9f, ImGui::GetFontSize() * 22);
+    const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, wrap);
+    const ImVec2 start = ImGui::GetCursorPos();
+    ImGui::SetCursorPos({start.x + std::max((room.x - size.x) / 2, 0.0f),
+                         start.y + std::max((room.y - size.y) * 0.4f, 0.0f)});
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+}
+
+bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    beginFixedWindow(id, rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
+    ImGui::InvisibleButton("bar", {rect.width, rect.height});
+    const bool active = ImGui::IsItemActive();
+    const bool lit = active || ImGui::IsItemHovered();
+    if (lit) ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    const ImGuiCol colour = active ? ImGuiCol_SliderGrabActive
+                            : lit  ? ImGuiCol_ScrollbarGrabHovered
+                                   : ImGuiCol_Separator;
+    ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
+                                              ImGui::GetColorU32(colour));
+    if (active)
+        movedPx += static_cast<double>(upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y);
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    return active;
+}
+
+void usageBar(double share, const std::string& text) {
+    if (share > 1) ImGui::PushStyleColor(ImGuiCol_PlotHistogram, palette().bad);
+    ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), {-1, 0}, text.c_str());
+    if (share > 1) ImGui::PopStyleColor();
+}
+
+ImU32 boxColour() {
+    return ImGui::GetColorU32(palette().box);
+}
+
+void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4& colour) {
+    const float pad = std::round(ImGui::GetFontSize() * 0.45f);
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    const ImVec2 end(position.x + size.x + 2 * pad, position.y + size.y + pad);
+    drawList.AddRectFilled(position, end, boxColour(), pad * 0.6f);
+    drawList.AddText({position.x + pad, position.y + pad / 2}, ImGui::GetColorU32(colour), text);
+}
+
+}  // namespace ui

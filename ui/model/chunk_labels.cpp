@@ -1,0 +1,174 @@
+#include "ui/model/chunk_labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+struct Candidate {
+    const planet::DrawItem* item = nullptr;
+    glm::vec2 at{0, 0};
+    double distanceM = 0;
+};
+
+// The middle of a chunk's surface, metres from the planet's centre.
+glm::dvec3 middleM(const planet::ChunkTree& tree, const planet::ChunkNode& node, bool cube) {
+    const planet::FaceSquare square = faceSquareOf(node.id);
+    const glm::dvec3 onCube = cubePoint(node.id.face, square.u + square.side / 2, square.v + square.side / 2);
+    const double height = heightM(tree.shape, (*node.heights)[node.heights->size() / 2]);
+    if (cube) return onCube * (tree.shape.radiusM / std::sqrt(3.0)) + height * glm::normalize(onCube);
+    return positionM(tree.shape, planet::sphereFromCube(onCube), height);
+}
+
+// Whether a sphere about the planet's centre stands between the eye and a point.
+bool isHidden(const glm::dvec3& eyeM, const glm::dvec3& pointM, double radiusM) {
+    if (glm::dot(eyeM, eyeM) <= radiusM * radiusM) return false;
+    const glm::dvec3 ray = pointM - eyeM;
+    const double along = -glm::dot(eyeM, ray) / glm::dot(ray, ray);
+    if (along <= 0 || along >= 1) return false;
+    const glm::dvec3 nearest = eyeM + along * ray;
+    return glm::dot(nearest, nearest) < radiusM * radiusM;
+}
+
+// The cube hides what lies on faces that the eye is not in front of.
+bool isHiddenByCube(const glm::dvec3& eyeM, planet::Face face, double radiusM) {
+    return glm::dot(eyeM, planet::faceAxes(face).normal) < radiusM / std::sqrt(3.0);
+}
+
+class Projector {
+public:
+    Projector(const planet::View& view, const glm::vec2& areaPx) : view_(view), areaPx_(areaPx) {
+        const double tanX = std::tan(view.horizontalFovRad / 2);
+        perX_ = 1 / tanX;
+        perY_ = perX_ * view.widthPx / view.heightPx;
+    }
+
+    std::optional<glm::vec2> onScreen(const glm::dvec3& pointM) const {
+        const glm::dvec3 offset = pointM - view_.eyeM;
+        const double ahead = -glm::dot(offset, view_.back);
+        if (ahead <= 0) return std::nullopt;
+        const double x = perX_ * glm::dot(offset, view_.right) / ahead;
+        const double y = perY_ * glm::dot(offset, view_.up) / ahead;
+        if (std::abs(x) > 1 || std::abs(y) > 1) return std::nullopt;
+        return glm::vec2(static_cast<float>((x + 1) / 2) * areaPx_.x,
+                         static_cast<float>((1 - y) / 2) * areaPx_.y);
+    }
+
+private:
+    const planet::View& view_;
+    glm::vec2 areaPx_;
+    double perX_ = 1;
+    double perY_ = 1;
+};
+
+std::vector<Candidate> visibleMiddles(const planet::View& view, const planet::ChunkTree& tree,
+                                      std::span<const planet::DrawItem> items,
+                                      const ChunkLabelSettings& settings) {
+    const Projector projector(view, settings.areaPx);
+    std::vector<Candidate> visible;
+    for (const planet::DrawItem& item : items) {
+        // The selection may be older than what paging has since taken out of the tree.
+        if (item.node >= tree.nodes.size() || !tree.nodes[item.node].heights) continue;
+        const glm::dvec3 middle = middleM(tree, tree.nodes[item.node], settings.cube);
+        const std::optional<glm::vec2> at = projector.onScreen(middle);
+        if (!at) continue;
+        const bool hidden = settings.cube ? isHiddenByCube(view.eyeM, item.id.face, tree.shape.radiusM)
+                                          : isHidden(view.eyeM, middle, tree.occluderRadiusM);
+        if (!hidden) visible.push_back({&item, *at, glm::length(middle - view.eyeM)});
+    }
+    std::stable_sort(visible.begin(), visible.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.distanceM < b.distanceM; });
+    return visible;
+}
+
+std::string labelText(const planet::DrawItem& item, ChunkLabels show) {
+    if (show == ChunkLabels::Level) return fmt::format("{}", item.id.level);
+    const std::string error = pixelsText(static_cast<double>(item.epsPx));
+    return show == ChunkLabels::Error ? error : fmt::format("{}: {}", item.id.level, error);
+}
+
+// What is taken of the picture, in cells that list the labels that touch them.
+class Occupancy {
+public:
+    explicit Occupancy(const glm::vec2& areaPx)
+        : columns_(std::max(1, static_cast<int>(areaPx.x / cellPx) + 1)),
+          rows_(std::max(1, static_cast<int>(areaPx.y / cellPx) + 1)),
+          cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+
+    bool isFree(const glm::vec2& low, const glm::vec2& high) {
+        bool free = true;
+        forCells(low, high, [&](const std::vector<Box>& cell) {
+            free = free && std::none_of(cell.begin(), cell.end(), [&](const Box& box) {
+                       return box.low.x < high.x && low.x < box.high.x && box.low.y < high.y &&
+                              low.y < box.high.y;
+                   });
+        });
+        return free;
+    }
+
+    void take(const glm::vec2& low, const glm::vec2& high) {
+        forCells(low, high, [&](std::vector<Box>& cell) { cell.push_back({low, high}); });
+    }
+
+private:
+    static constexpr float cellPx = 64;
+    struct Box {
+        glm::vec2 low, high;
+    };
+
+    template <class Visit>
+    void forCells(const glm::vec2& low, const glm::vec2& high, Visit&& visit) {
+        const auto cell = [](float value, int count) {
+            return std::clamp(static_cast<int>(value / cellPx), 0, count - 1);
+        };
+        for (int row = cell(low.y, rows_); row <= cell(high.y, rows_); ++row) {
+            for (int column = cell(low.x, columns_); column <= cell(high.x, columns_); ++column) {
+                visit(cells_[static_cast<std::size_t>(row * columns_ + column)]);
+            }
+        }
+    }
+
+    int columns_;
+    int rows_;
+    std::vector<std::vector<Box>> cells_;
+};
+
+}  // namespace
+
+std::vector<ChunkLabel> chunkLabels(const planet::View& view, const planet::ChunkTree& tree,
+                                    std::span<const planet::DrawItem> items,
+                                    const ChunkLabelSettings& settings, const TextSize& textSize) {
+    std::vector<ChunkLabel> labels;
+    if (settings.show == ChunkLabels::None) return labels;
+    Occupancy occupancy(settings.areaPx);
+    const glm::vec2 gap(settings.gapPx);
+    for (const Rect& rect : settings.taken) {
+        occupancy.take(glm::vec2(rect.x, rect.y) - gap,
+                       glm::vec2(rect.x + rect.width, rect.y + rect.height) + gap);
+    }
+    for (const Candidate& candidate : visibleMiddles(view, tree, items, settings)) {
+        // The text is made only where at least its middle has room.
+        if (!occupancy.isFree(candidate.at, candidate.at)) continue;
+        std::string text = labelText(*candidate.item, settings.show);
+        const glm::vec2 size = textSize(text);
+        const glm::vec2 low = glm::round(candidate.at - size / 2.0f);
+        const glm::vec2 high = low + size;
+        if (low.x < gap.x || low.y < gap.y || high.x + gap.x > settings.areaPx.x ||
+            high.y + gap.y > settings.areaPx.y || !occupancy.isFree(low, high)) {
+            continue;
+        }
+        occupancy.take(low - gap, high + gap);
+        labels.push_back({candidate.item->id, std::move(text), low, size});
+    }
+    return labels;
+}
+
+}  // namespace ui

@@ -1,0 +1,174 @@
+#include "ui/model/explanation_text.h"
+
+#include <fmt/format.h>
+
+#include "planet/sphere/chunk_id.h"
+#include "ui/model/font_symbols.h"
+
+namespace ui {
+
+namespace {
+
+using planet::ChunkExplanation;
+using planet::ChunkState;
+using planet::WhyNotSplit;
+
+// "1.2 px"; four digits where fewer would hide on which side of tau it is.
+std::string pixels(double px, double besidePx) {
+    const bool close = px != besidePx && fmt::format("{:.1f}", px) == fmt::format("{:.1f}", besidePx);
+    return close ? fmt::format("{:.4g} px", px) : fmt::format("{:.1f} px", px);
+}
+
+// "eps 3.1 px > tau 2.0 px"
+std::string comparison(const ChunkExplanation& chunk, const char* how) {
+    return fmt::format("{} {} {} {} {}", epsSymbol(), pixels(chunk.epsPx, chunk.tauPx), how, tauSymbol(),
+                       pixels(chunk.tauPx, chunk.epsPx));
+}
+
+// "14th of 60 in the queue"
+std::string gridPlaceText(const ChunkExplanation& chunk) {
+    if (!chunk.queuePlace) return "in the queue";
+    const std::size_t place = *chunk.queuePlace;
+    const bool teens = place % 100 / 10 == 1;
+    const char* ending = teens             ? "th"
+                         : place % 10 == 1 ? "st"
+                         : place % 10 == 2 ? "nd"
+                         : place % 10 == 3 ? "rd"
+                                           : "th";
+    return fmt::format("{}{} of {} in the queue", place, ending, chunk.queueLength);
+}
+
+std::string drawnText(const ChunkExplanation& chunk) {
+    const auto wanted = [&](const std::string& why) {
+        return fmt::format("Wanted to split: {}; {}.", comparison(chunk, ">"), why);
+    };
+    switch (chunk.notSplit) {
+        case WhyNotSplit::Leaf:
+            return fmt::format("Drawn: {}, but the file has no finer level here.", comparison(chunk, ">"));
+        case WhyNotSplit::LevelLimit:
+            return fmt::format("Drawn: {}, but level {} is the max LOD level.", comparison(chunk, ">"),
+                               chunk.id.level);
+        case WhyNotSplit::WaitingForMorph:
+            return wanted("it first morphs back to its own surface");
+        case WhyNotSplit::SeamLimit:
+            return wanted("a neighbour would then be too coarse for stitched seams");
+        case WhyNotSplit::WaitingInQueue:
+            return wanted("its children are " + gridPlaceText(chunk));
+        case WhyNotSplit::WaitingForRead:
+            return wanted("its children are being read");
+        case WhyNotSplit::WaitingForBudget:
+            return wanted("its children do not fit into the memory budget");
+        case WhyNotSplit::WaitingForRetry:
+            return wanted("its children could not be read and will be retried");
+        case WhyNotSplit::ChildrenFailed:
+            return wanted("its children could not be read");
+        case WhyNotSplit::IsSplit:
+        case WhyNotSplit::NotDrawn:
+        case WhyNotSplit::GoodEnough:
+            break;
+    }
+    return fmt::format("Drawn: {}.", comparison(chunk, "is within"));
+}
+
+std::string splitText(const ChunkExplanation& chunk) {
+    if (chunk.mergeWaits) return "Split: it merges when its children have morphed onto it.";
+    if (chunk.epsPx > chunk.tauPx) {
+        return fmt::format("Split: {}, so its descendants are drawn instead.", comparison(chunk, ">"));
+    }
+    return fmt::format("Split: {}, but hysteresis keeps it split.", comparison(chunk, "is within"));
+}
+
+// Why the chunk above that is drawn instead is not split.
+std::string insteadText(const ChunkExplanation& chunk) {
+    const std::string above = toString(chunk.decidedBy) + " above it";
+    switch (chunk.decidedByNotSplit) {
+        case WhyNotSplit::GoodEnough:
+            return fmt::format("{} is good enough ({} {}).", above, epsSymbol(),
+                               pixels(chunk.decidedByEpsPx, chunk.tauPx));
+        case WhyNotSplit::LevelLimit:
+            return fmt::format("{} is drawn, and level {} is the max LOD level.", above,
+                               chunk.decidedBy.level);
+        case WhyNotSplit::WaitingForMorph:
+            return above + " is drawn until it has morphed back to its own surface.";
+        case WhyNotSplit::SeamLimit:
+            return above + " is drawn, because a neighbour would otherwise be too coarse for stitched seams.";
+        case WhyNotSplit::WaitingInQueue:
+            return fmt::format("{} comes first, {}.", above, gridPlaceText(chunk));
+        case WhyNotSplit::WaitingForRead:
+            return above + " comes first, and is being read.";
+        case WhyNotSplit::WaitingForBudget:
+            return above + " is drawn, because its children do not fit into the memory budget.";
+        case WhyNotSplit::WaitingForRetry:
+            return above + " is drawn, because its children could not be read; they will be retried.";
+        case WhyNotSplit::ChildrenFailed:
+            return above + " is drawn, because its children could not be read.";
+        case WhyNotSplit::IsSplit:
+        case WhyNotSplit::NotDrawn:
+        case WhyNotSplit::Leaf:
+            break;
+    }
+    return "no view requests it.";
+}
+
+// "it" or, of one above it, its name.
+std::string decider(const ChunkExplanation& chunk) {
+    return chunk.decidedBy == chunk.id ? "it" : toString(chunk.decidedBy);
+}
+
+}  // namespace
+
+std::string whyText(const ChunkExplanation& chunk) {
+    switch (chunk.state) {
+        case ChunkState::Drawn:
+            return drawnText(chunk);
+        case ChunkState::Split:
+            return splitText(chunk);
+        case ChunkState::CulledFrustum:
+            return fmt::format("Not drawn: {} lies outside the view.", decider(chunk));
+        case ChunkState::CulledHorizon:
+            return fmt::format("Not drawn: {} lies below the horizon.", decider(chunk));
+        case ChunkState::Resident:
+            return "Not drawn: " + insteadText(chunk);
+        case ChunkState::Requested:
+            return fmt::format("Not loaded yet: it is {}.", gridPlaceText(chunk));
+        case ChunkState::Loading:
+            return "Not loaded yet: it is being read.";
+        case ChunkState::NotResident:
+            return "Not loaded: " + insteadText(chunk);
+        case ChunkState::Failed:
+            return fmt::format(
+                "Not loaded: {} could not be read{}.", decider(chunk),
+                chunk.decidedByNotSplit == WhyNotSplit::WaitingForRetry ? " and will be retried" : "");
+        case ChunkState::NotInFile:
+            break;
+    }
+    return fmt::format("No such chunk: {} above it is a leaf.", toString(chunk.decidedBy));
+}
+
+const char* stateText(ChunkState state) {
+    switch (state) {
+        case ChunkState::Drawn:
+            return "drawn";
+        case ChunkState::Split:
+            return "split";
+        case ChunkState::CulledFrustum:
+            return "culled by frustum";
+        case ChunkState::CulledHorizon:
+            return "culled by horizon";
+        case ChunkState::Resident:
+            return "resident";
+        case ChunkState::Requested:
+            return "requested";
+        case ChunkState::Loading:
+            return "loading";
+        case ChunkState::NotResident:
+            return "not resident";
+        case ChunkState::Failed:
+            return "failed";
+        case ChunkState::NotInFile:
+            break;
+    }
+    return "not in the file";
+}
+
+}  // namespace ui

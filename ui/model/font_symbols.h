@@ -1,0 +1,19 @@
+// Greek letters and arrows that the user interface's font may lack. One state per process: the thread of the
+// user interface only.
+#pragma once
+
+#include <string>
+
+namespace ui {
+
+// Tells whether the current font has Greek letters and arrows; the theme calls it when it loads a font.
+// Before the first call symbols are written out.
+void setFontHasGreek(bool hasGreek);
+
+// Return "τ" and "ε", or "tau" and "eps" if the font has no Greek.
+const char* tauSymbol();
+const char* epsSymbol();
+// Returns the text with "τ", "ε", "δ" and "→" written out if the font lacks them: "δc" becomes "delta_c".
+std::string inFont(std::string text);
+
+}  // namespace ui

@@ -1,0 +1,63 @@
+#include "ui/model/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ui {
+
+namespace {
+
+constexpr float viewportShare = 0.36f;  // of the window that no dock may take, each way
+
+bool holdsPanels(const Workspace& workspace, Dock dock) {
+    return std::any_of(workspace.panels.begin(), workspace.panels.end(),
+                       [&](const PanelPlace& place) { return place.shown && place.dock == dock; });
+}
+
+float sizeOf(const Workspace& workspace, Dock dock, double units, float unitPx) {
+    return holdsPanels(workspace, dock) ? std::round(static_cast<float>(units) * unitPx) : 0;
+}
+
+}  // namespace
+
+Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspace, float menuHeight,
+                float statusHeight, float unitPx) {
+    // A minimised window has no size at all.
+    const float width = std::max(windowWidth, 64.0f);
+    const float height = std::max(windowHeight - menuHeight - statusHeight, 64.0f);
+    const float bar = std::max(std::round(5 * unitPx), 3.0f);
+    float left = sizeOf(workspace, Dock::Left, workspace.leftWidth, unitPx);
+    float right = sizeOf(workspace, Dock::Right, workspace.rightWidth, unitPx);
+    float bottom = sizeOf(workspace, Dock::Bottom, workspace.bottomHeight, unitPx);
+    const float leftBar = left > 0 ? bar : 0;
+    const float rightBar = right > 0 ? bar : 0;
+    const float bottomBar = bottom > 0 ? bar : 0;
+    const float room = width * (1 - viewportShare) - leftBar - rightBar;
+    if (left + right > room) {
+        left = std::floor(left * room / (left + right));
+        right = right > 0 ? std::floor(room) - left : 0;
+    }
+    bottom = std::min(bottom, std::floor(height * (1 - viewportShare)) - bottomBar);
+    if (bottomBar == 0) bottom = 0;
+
+    const float viewX = left + leftBar;
+    const float viewWidth = width - viewX - right - rightBar;
+    const float upper = height - bottom - bottomBar;
+    Layout layout;
+    const auto dock = [&](Dock d) -> Rect& { return layout.docks[static_cast<std::size_t>(d)]; };
+    const auto splitter = [&](Dock d) -> Rect& { return layout.splitters[static_cast<std::size_t>(d)]; };
+    layout.menuBar = {0, 0, width, menuHeight};
+    layout.viewport = {viewX, menuHeight, viewWidth, upper};
+    dock(Dock::Left) = {0, menuHeight, left, upper};
+    splitter(Dock::Left) = {left, menuHeight, leftBar, upper};
+    dock(Dock::Right) = {width - right, menuHeight, right, height};
+    splitter(Dock::Right) = {width - right - rightBar, menuHeight, rightBar, height};
+    // Below the viewport and the left dock: what stands there is wide, and what stands right is tall.
+    const float bottomWidth = viewX + viewWidth;
+    splitter(Dock::Bottom) = {0, menuHeight + upper, bottomWidth, bottomBar};
+    dock(Dock::Bottom) = {0, menuHeight + upper + bottomBar, bottomWidth, bottom};
+    layout.statusBar = {0, menuHeight + height, width, statusHeight};
+    return layout;
+}
+
+}  // namespace ui

@@ -1,0 +1,28 @@
+// What the panels know of light and of what the parts of the picture cost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planet/surface/light_drawing.h"
+#include "ui/model/costly_parts.h"
+
+namespace ui {
+
+// A part of the picture beside nothing but the lit ground, drawn in turn. Milliseconds, medians of the
+// rounds.
+struct PartCost {
+    std::string part;
+    double withoutMs = 0;
+    double withMs = 0;
+};
+
+struct LightView {
+    bool software = false;  // the CPU draws: what is Automatic is turned down
+    TurnedDown turnedDown;  // where the GPU draws
+    planet::gl::AirFigures air;
+    std::vector<PartCost> costs;  // as last measured
+    double measured = 1;          // share of a measurement that is under way, [0, 1]; 1: none is
+};
+
+}  // namespace ui

@@ -1,0 +1,45 @@
+// Sorts tables by the column the user chose. Pure functions, any thread.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "planet/sphere/chunk_id.h"
+
+namespace ui {
+
+// The value a cell is sorted by: numbers ascend by value, texts alphabetically.
+using SortKey = std::variant<double, std::string>;
+
+struct TableSort {
+    std::size_t column = 0;
+    bool descending = false;
+};
+
+// Sorts texts that are numbers by value, before other texts.
+SortKey textSortKey(const std::string& text);
+// Sorts chunks by face, then level, x and y.
+SortKey sortKey(const planet::ChunkId& id);
+
+// Returns the row numbers [0, rows) in display order; key(row, column) is the SortKey of a cell. Equal rows
+// keep their order, and without a sort all rows do.
+template <class Key>
+std::vector<std::size_t> tableOrder(std::size_t rows, const std::optional<TableSort>& sort, const Key& key) {
+    std::vector<std::size_t> order(rows);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (!sort) return order;
+    std::vector<SortKey> keys;
+    keys.reserve(rows);
+    for (std::size_t row = 0; row < rows; ++row) keys.push_back(key(row, sort->column));
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return sort->descending ? keys[b] < keys[a] : keys[a] < keys[b];
+    });
+    return order;
+}
+
+}  // namespace ui

@@ -1,0 +1,216 @@
+#include "ui/panels/camera/camera_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "ui/kit/item_map.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/camera_heights.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+const CameraSettings defaultCamera;
+
+struct PoseField {
+    const char* label;
+    double planet::CameraPose::*value;
+    double min;
+    double max;
+    const char* format;
+    const char* explanation;
+};
+using Pose = planet::CameraPose;
+constexpr std::array<PoseField, 5> poseFields = {{
+    {"Latitude", &Pose::latitudeDeg, -90, 90, "%.5f deg", "Latitude in degrees, north positive."},
+    {"Longitude", &Pose::longitudeDeg, -360, 360, "%.5f deg", "Longitude in degrees, east positive."},
+    {"Altitude", &Pose::altitudeM, -1e8, 2e10, "%.1f m",
+     "Height in metres above the planet's radius (not above the ground). The camera cannot go below the "
+     "ground."},
+    {"Heading", &Pose::headingDeg, -360, 360, "%.2f deg", "Degrees clockwise from north."},
+    {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f deg", "Degrees above the horizontal; -90 looks straight down."},
+}};
+
+void modeControl(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    CameraMode mode = settings.camera.mode;
+    if (!choice("Mode", mode, defaultCamera.mode, "fly\0orbit\0follow a flight\0",
+                "Fly: drag moves the ground, the keys W A S D E Q move the camera. Orbit: drag turns the "
+                "camera around the ground point in the centre of the view, the wheel changes the distance, "
+                "the right button moves the point. Follow a flight: plays a recorded camera path; using the "
+                "controls ends it."))
+        return;
+    const bool follows = mode == CameraMode::FollowFlight;
+    if (follows && settings.camera.flight.empty()) {
+        if (!view.camera.flights.empty()) commands.push_back(StartFlight{view.camera.flights.front()});
+        return;
+    }
+    settings.camera.mode = mode;
+}
+
+void motionSection(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    modeControl(view, settings, commands);
+    slider("Field of view", settings.camera.fovDeg, defaultCamera.fovDeg, 5.0, 150.0, "%.0f deg",
+           "Horizontal field of view in degrees. Smaller: errors are magnified, so more detail is selected; "
+           "K' = W / (2 tan(fov / 2)).");
+    double factor = view.camera.speedFactor;
+    if (slider("Speed", factor, 1.0, 1.0 / 64, 64.0, "%.2f x",
+               "Speed of the movement keys; + and - change it. At 1 x the camera moves 0.6 of its height "
+               "above ground per second.",
+               ImGuiSliderFlags_Logarithmic))
+        commands.push_back(SetSpeedFactor{factor});
+}
+
+// One number of the pose. While it is typed, it stands still though the camera may move.
+bool poseControl(int index, Pose& pose, CameraPanelState& state) {
+    const PoseField& field = poseFields[static_cast<std::size_t>(index)];
+    ImGui::PushID(index);
+    labelledControl(field.label, field.explanation);
+    double value = state.typedField == index ? state.typedValue : pose.*field.value;
+    ImGui::InputDouble("##value", &value, 0, 0, field.format);
+    const bool entered = ImGui::IsItemDeactivatedAfterEdit();
+    if (ImGui::IsItemActive()) {
+        state.typedField = index;
+        state.typedValue = value;
+    } else if (state.typedField == index) {
+        state.typedField = -1;
+    }
+    tooltip(field.explanation);
+    ImGui::PopID();
+    if (entered) pose.*field.value = std::clamp(value, field.min, field.max);
+    return entered;
+}
+
+void poseSection(const EditorView& view, const ViewSettings& settings, CameraPanelState& state,
+                 Commands& commands) {
+    if (!section("Place")) return;
+    Pose pose = view.camera.pose;
+    for (int i = 0; i < static_cast<int>(poseFields.size()); ++i) {
+        if (poseControl(i, pose, state)) commands.push_back(MoveCamera{pose});
+    }
+    if (beginValues("height")) {
+        for (NamedHeight& height : namedHeights(cameraHeights(view, settings))) {
+            height.name[0] = 'A';
+            valueRow(height.name.c_str(), distanceText(height.heightM), height.explanation);
+        }
+        endValues();
+    }
+    if (button("Reset", "Moves the camera to where this session started (F3)."))
+        commands.push_back(ResetCamera{});
+    sameLineForButton("Set as start");
+    if (button("Set as start", "Future sessions start with this view."))
+        commands.push_back(KeepCameraAsStart{});
+}
+
+void bookmarkRow(const Bookmark& bookmark, Commands& commands) {
+    ImGui::PushID(bookmark.name.c_str());
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float remove = ImGui::CalcTextSize("remove").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    const float width = ImGui::GetContentRegionAvail().x - (bookmark.shipped ? 0 : remove);
+    if (ImGui::Selectable(bookmark.name.c_str(), false, 0, {width, 0}))
+        commands.push_back(MoveCamera{bookmark.pose});
+    noteItem(bookmark.name);
+    tooltip(fmt::format("{}\naltitude {}, heading {:.0f} deg, pitch {:.0f} deg{}",
+                        placeText(bookmark.pose.latitudeDeg, bookmark.pose.longitudeDeg),
+                        distanceText(bookmark.pose.altitudeM), bookmark.pose.headingDeg,
+                        bookmark.pose.pitchDeg, bookmark.shipped ? "\nBuilt-in." : "")
+                .c_str());
+    if (!bookmark.shipped) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("remove")) commands.push_back(RemoveBookmark{bookmark.name});
+        tooltip("Deletes this bookmark.");
+    }
+    ImGui::PopID();
+}
+
+void addBookmarkControl(CameraPanelState& state, Commands& commands) {
+    const float room =
+        ImGui::CalcTextSize("Add").x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - room);
+    const bool entered =
+        ImGui::InputTextWithHint("##name", "Bookmark name", state.bookmarkName.data(),
+                                 state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    noteItem("Name");
+    tooltip("Up to 60 characters. A bookmark of your own with the same name is replaced.");
+    ImGui::SameLine();
+    beginGrey(state.bookmarkName[0] == 0, "Type a name first.");
+    const bool pressed = button("Add", "Saves the current camera under this name.");
+    endGrey();
+    if ((!entered && !pressed) || state.bookmarkName[0] == 0) return;
+    commands.push_back(AddBookmark{state.bookmarkName.data()});
+    state.bookmarkName.fill(0);
+}
+
+void bookmarksSection(const EditorView& view, CameraPanelState& state, Commands& commands) {
+    if (!section("Bookmarks")) return;
+    for (const Bookmark& bookmark : view.camera.bookmarks) bookmarkRow(bookmark, commands);
+    addBookmarkControl(state, commands);
+}
+
+void followedFlight(const FlightView& flight, Commands& commands) {
+    double timeS = flight.timeS;
+    constexpr double start = 0;
+    const std::string format = fmt::format("%.1f s of {:.0f} s", flight.durationS);
+    if (ImGui::Button(flight.paused ? "Play" : "Pause")) commands.push_back(PauseFlight{!flight.paused});
+    tooltip("Pauses or resumes the flight. At its end it starts again.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &timeS, &start, &flight.durationS, format.c_str(),
+                            ImGuiSliderFlags_AlwaysClamp))
+        commands.push_back(MoveFlight{timeS});
+    tooltip("Time since the start of the flight, in seconds. Drag to seek.");
+}
+
+void flightsSection(const EditorView& view, const ViewSettings& settings, Commands& commands) {
+    if (!section("Flights")) return;
+    if (view.camera.flights.empty())
+        ImGui::TextColored(palette().dim,
+                           "No flights found. Flights are TOML files in a folder \"flights\".");
+    for (const std::filesystem::path& file : view.camera.flights) {
+        const bool followed = view.camera.flight && settings.camera.flight == file.string();
+        if (ImGui::Selectable(flightName(file).c_str(), followed)) commands.push_back(StartFlight{file});
+        noteItem(flightName(file));
+        tooltip(fmt::format("Follows this flight from the start.\n{}", file.string()).c_str());
+    }
+    if (view.camera.flight) followedFlight(*view.camera.flight, commands);
+}
+
+void observerSection(CameraSettings& camera) {
+    if (!section("Observer")) return;
+    choice("View", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
+           "A second camera that shows the LOD view's selection and culling from outside. Split: both views "
+           "side by side. The planet is drawn twice.");
+    beginGrey(camera.observer == ObserverMode::Off, "The observer is off: choose a view above.");
+    checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
+             "Draws the edges of the LOD view's frustum, up to the farthest visible ground.");
+    secondColumn("Horizon");
+    checkbox("Horizon", camera.showHorizon, defaultCamera.showHorizon,
+             "Draws the LOD view's horizon circle, beyond which the planet occludes itself.");
+    checkbox("Switch distance", camera.showSwitchDistances, defaultCamera.showSwitchDistances,
+             "Draws the switch distance d_m = δc K around the selected chunk, K = W / (2 τ tan(fov / 2)). A "
+             "camera within this distance requires the chunk to be split. Leaves have none.");
+    secondColumn("Own LOD");
+    checkbox("Own LOD", camera.observerOwnLod, defaultCamera.observerOwnLod,
+             "The observer uses its own LOD selection and requests instead of the LOD view's. This loads "
+             "more chunks.");
+    endGrey();
+}
+
+}  // namespace
+
+void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& settings,
+                 Commands& commands) {
+    if (!view.planet) return emptyState("No planet is open.");
+    motionSection(view, settings, commands);
+    poseSection(view, settings, state, commands);
+    bookmarksSection(view, state, commands);
+    flightsSection(view, settings, commands);
+    observerSection(settings.camera);
+}
+
+}  // namespace ui

@@ -1,0 +1,19 @@
+// Camera: how it moves, bookmarks, flights, and the observer.
+#pragma once
+
+#include <array>
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+struct CameraPanelState {
+    std::array<char, 64> bookmarkName{};
+    int typedField = -1;    // of the pose, while its number is being typed
+    double typedValue = 0;  // what has been typed so far
+};
+
+// Fills the current window.
+void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,182 @@
+#include "ui/panels/camera/presets_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+const PresetView* presetNamed(const EditorView& view, const std::string& name) {
+    const auto found = std::find_if(view.presets.begin(), view.presets.end(),
+                                    [&](const PresetView& preset) { return preset.name == name; });
+    return found == view.presets.end() ? nullptr : &*found;
+}
+
+std::string explanationOf(const PresetView& preset) {
+    if (!preset.problem.empty()) return preset.problem;
+    return fmt::format("{}\n{}\nDouble-click to load it. Undo reverts that.",
+                       preset.shipped ? "Built-in." : "User preset.", preset.file.string());
+}
+
+// What stands at the right of a preset's name.
+std::string noteOf(const PresetView& preset) {
+    if (!preset.problem.empty()) return "cannot be read";
+    if (preset.differences.empty()) return "current";
+    return fmt::format("{} change{}", preset.differences.size(), preset.differences.size() == 1 ? "" : "s");
+}
+
+void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& commands) {
+    ImGui::TableNextColumn();
+    ImGui::PushID(preset.file.c_str());
+    const ImGuiSelectableFlags flags =
+        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick;
+    if (ImGui::Selectable(preset.name.c_str(), preset.name == state.selected, flags)) {
+        state.selected = preset.name;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && preset.problem.empty())
+            commands.push_back(LoadPreset{preset.name});
+    }
+    noteItem(preset.name);
+    tooltip(explanationOf(preset).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", preset.shipped ? "built-in" : "user");
+    ImGui::TableNextColumn();
+    ImGui::TextColored(preset.problem.empty() ? palette().dim : palette().bad, "%s", noteOf(preset).c_str());
+    ImGui::PopID();
+}
+
+void presetList(const EditorView& view, PresetsPanelState& state, Commands& commands) {
+    if (view.presets.empty()) {
+        wrappedText("There are no presets.", palette().dim);
+        return;
+    }
+    constexpr std::array columns = {TableColumn{"Name", 2}, TableColumn{"Origin", 0.9f, nullptr, "built-in"},
+                                    TableColumn{"Changes", 1.2f, nullptr, "cannot be read"}};
+    if (!beginListTable("presets", columns, view.presets.size(), 16)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const PresetView& preset = view.presets[row];
+        if (column == 0) return preset.name;
+        if (column == 1) return preset.shipped ? 0.0 : 1.0;
+        return preset.problem.empty() ? static_cast<double>(preset.differences.size()) : -1;
+    };
+    tableRows(view.presets.size(), key,
+              [&](std::size_t row) { presetRow(view.presets[row], state, commands); });
+    ImGui::EndTable();
+}
+
+void saveControl(const EditorView& view, PresetsPanelState& state, Commands& commands) {
+    const PresetView* same = presetNamed(view, state.name.data());
+    const char* label = same ? "Replace" : "Save";
+    const float room = ImGui::CalcTextSize("Replace").x + 2 * ImGui::GetStyle().FramePadding.x +
+                       ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - room, ImGui::GetFontSize() * 4));
+    const bool entered = ImGui::InputTextWithHint("##name", "Preset name", state.name.data(),
+                                                  state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    noteItem("Name");
+    tooltip("Used as the file name: letters, digits, spaces, dots and dashes, up to 60 bytes.");
+    ImGui::SameLine();
+    beginGrey(state.name[0] == 0 || (same && same->shipped),
+              state.name[0] == 0 ? "Type a name first."
+                                 : "A preset of this name comes with Worldy and stays as it is.");
+    const bool pressed =
+        button(label, same && same->shipped ? "A built-in preset has this name and cannot be replaced."
+                                            : "Saves all current view settings under this name.");
+    endGrey();
+    // Enter replaces nothing: that wants the button's word for it.
+    if (!pressed && !(entered && !same)) return;
+    if (state.name[0] == 0) return;
+    commands.push_back(SavePreset{state.name.data()});
+    state.selected = state.name.data();
+    state.name.fill(0);
+}
+
+void deleteControl(const PresetView& preset, Commands& commands) {
+    beginGrey(preset.shipped, "Built-in presets cannot be deleted.");
+    if (button("Delete...", preset.shipped ? "Built-in presets cannot be deleted."
+                                           : "Deletes the file after confirmation."))
+        ImGui::OpenPopup("delete");
+    endGrey();
+    if (!ImGui::BeginPopup("delete")) return;
+    ImGui::Text("Delete \"%s\" permanently?", preset.name.c_str());
+    if (ImGui::Button("Delete")) {
+        commands.push_back(DeletePreset{preset.name});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+void textCell(const std::string& text) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text.c_str());
+    // What is too long for its column.
+    if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x) tooltip(text.c_str());
+}
+
+void differencesTable(const PresetView& preset) {
+    std::vector<std::array<std::string, 3>> rows;
+    for (const SettingDifference& difference : preset.differences) {
+        const auto [now, then] = shortNumberTexts(difference.here, difference.there);
+        rows.push_back({difference.setting, now, then});
+    }
+    constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"Now", 1},
+                                    TableColumn{"Preset", 1}};
+    if (!beginListTable("differences", columns, rows.size())) return;
+    const auto key = [&](std::size_t row, std::size_t column) { return textSortKey(rows[row][column]); };
+    tableRows(rows.size(), key, [&](std::size_t row) {
+        for (const std::string& text : rows[row]) textCell(text);
+    });
+    ImGui::EndTable();
+}
+
+void selectedSection(const EditorView& view, const PresetsPanelState& state, Commands& commands) {
+    const PresetView* preset = presetNamed(view, state.selected);
+    if (!preset) {
+        wrappedText("Select a preset to compare it with the current settings.", palette().dim);
+        return;
+    }
+    const bool readable = preset->problem.empty();
+    beginGrey(!readable || preset->differences.empty(),
+              readable ? "All that it holds is as it is now." : "The preset cannot be read.");
+    if (button("Load", "Applies the settings listed below. Undo reverts this."))
+        commands.push_back(LoadPreset{preset->name});
+    endGrey();
+    ImGui::SameLine();
+    deleteControl(*preset, commands);
+    if (!readable) {
+        wrappedText(preset->problem, palette().bad);
+    } else if (preset->differences.empty()) {
+        wrappedText("All its settings have their current values.", palette().dim);
+    } else {
+        differencesTable(*preset);
+    }
+}
+
+}  // namespace
+
+void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings&, Commands& commands) {
+    beginGrey(!view.planet, "Open a planet first.");
+    if (button("Copy as command line",
+               "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))
+        commands.push_back(CopyCommandLine{});
+    endGrey();
+    sameLineForButton("Reset all settings");
+    if (button("Reset all settings", "Resets all view settings to their defaults. Undo reverts this."))
+        commands.push_back(LoadPreset{"default"});
+    ImGui::Spacing();
+    presetList(view, state, commands);
+    saveControl(view, state, commands);
+    if (section("Changes")) selectedSection(view, state, commands);
+}
+
+}  // namespace ui

@@ -1,0 +1,20 @@
+// Presets: saved, loaded, and compared with the settings as they are.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+struct PresetsPanelState {
+    std::array<char, 64> name{};
+    std::string selected;  // compared with the settings as they are
+};
+
+// Fills the current window.
+void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings& settings,
+                  Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,266 @@
+#include "ui/panels/compare/compare_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+using With = StartCompare::With;
+
+// A combo that asks: its first item is what it asks for. The item chosen, from 0, or -1.
+int asked(const char* name, const char* question, const std::vector<std::string>& items,
+          const char* explanation) {
+    std::string list = question + std::string(1, '\0');
+    for (const std::string& item : items) list += item + std::string(1, '\0');
+    list += '\0';
+    int index = 0;
+    beginGrey(items.empty(), "There is nothing to choose from.");
+    ImGui::SetNextItemWidth(-1);
+    const bool chosen = combo(name, index, list.c_str());
+    tooltip(explanation);
+    endGrey();
+    return chosen ? index - 1 : -1;
+}
+
+void chooseB(const EditorView& view, Commands& commands) {
+    if (button(view.compare.on ? "Snapshot as B again" : "Snapshot as B",
+               "Takes a snapshot of the current settings as B, a second planet from the same file. Later "
+               "changes affect A. Doubles the memory."))
+        commands.push_back(StartCompare{});
+    if (view.data.hasPreviousBake) {
+        sameLineIfRoom(ImGui::CalcTextSize("Other bake as B").x + ImGui::GetFontSize());
+        if (button("Other bake as B", "Uses the bake that is not shown, with the current settings."))
+            commands.push_back(StartCompare{With::PreviousBake, {}, {}});
+    }
+    std::vector<std::string> presets, files;
+    for (const PresetView& preset : view.presets) presets.push_back(preset.name);
+    for (const std::filesystem::path& file : view.data.recent) files.push_back(file.filename().string());
+    const int preset = asked("Preset as B", "A preset as B...", presets,
+                             "B uses the current settings with the preset applied.");
+    if (preset >= 0)
+        commands.push_back(
+            StartCompare{With::Preset, view.presets[static_cast<std::size_t>(preset)].name, {}});
+    const int file = asked("File as B", "A file as B...", files,
+                           "Recently opened chunk files or baked sources. The radius must match, because one "
+                           "camera shows both.");
+    if (file >= 0)
+        commands.push_back(StartCompare{With::File, {}, view.data.recent[static_cast<std::size_t>(file)]});
+}
+
+void comparedCell(const std::string& text, const char* explanation = nullptr) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text.c_str());
+    if (explanation)
+        tooltip(explanation);
+    else if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
+        tooltip(text.c_str());
+}
+
+void differencesTable(const CompareView& compare) {
+    struct Row {
+        std::array<std::string, 3> texts;
+        std::array<const char*, 3> explanations{};
+    };
+    std::vector<Row> rows;
+    if (compare.fileA != compare.fileB)
+        rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
+                        {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
+    for (const SettingDifference& one : compare.different) {
+        const auto [a, b] = shortNumberTexts(one.here, one.there);
+        rows.push_back({{one.setting, a, b}});
+    }
+    constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"A", 1}, TableColumn{"B", 1}};
+    if (!beginListTable("sides", columns, rows.size())) return;
+    const auto key = [&](std::size_t row, std::size_t column) {
+        return textSortKey(rows[row].texts[column]);
+    };
+    tableRows(rows.size(), key, [&](std::size_t row) {
+        for (std::size_t column = 0; column < columns.size(); ++column)
+            comparedCell(rows[row].texts[column], rows[row].explanations[column]);
+    });
+    ImGui::EndTable();
+}
+
+void sides(const CompareView& compare, Commands& commands) {
+    wrappedText(fmt::format("A: live. B: {}.", compare.origin), palette().dim);
+    if (compare.different.empty() && compare.fileA == compare.fileB)
+        wrappedText("A and B are equal. Change a setting to change A.", palette().warning);
+    else
+        differencesTable(compare);
+    if (button(
+            "Swap A and B",
+            "Swaps the settings and, if they differ, the files of A and B. Undo reverts only the settings."))
+        commands.push_back(SwapCompare{});
+    sameLineIfRoom(ImGui::CalcTextSize("End comparison").x + ImGui::GetFontSize());
+    if (button("End comparison", "Closes B and frees its memory.")) commands.push_back(StopCompare{});
+}
+
+void pictureControls(const CompareView& compare, CompareKnobs& knobs) {
+    const CompareKnobs defaults;
+    choice("Show", knobs.mode, defaults.mode, "side by side\0wipe\0difference\0flip\0",
+           "Side by side: the middle half of each picture at the same pixel size. Wipe: a movable divider. "
+           "Difference: colour difference. Flip: one picture, F9 switches.");
+    if (knobs.mode == CompareMode::Difference) {
+        slider("Gain", knobs.gain, defaults.gain, 1.0, 255.0, "x %.0f",
+               "Factor applied to the difference of each channel. 255: any difference is full brightness.",
+               ImGuiSliderFlags_Logarithmic);
+    }
+    if (knobs.mode == CompareMode::Wipe) {
+        slider("Divider", knobs.wipe, defaults.wipe, 0.0, 1.0, "%.2f",
+               "Position of the divider as a fraction of the width, with A on the left and B on the right. "
+               "You can also drag it in the viewport.");
+    }
+    if (knobs.mode == CompareMode::Flip)
+        checkbox("Show B (F9)", knobs.showB, defaults.showB, "Off: shows A.");
+    // The rows stay where nothing is counted, so that what lies below them does not move.
+    if (!compare.on || !beginValues("difference")) return;
+    std::string pixels = "not counted";
+    std::string largest = pixels;
+    if (compare.difference) {
+        const PictureDifferenceNow& now = *compare.difference;
+        const double share =
+            100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
+        pixels = fmt::format("{} ({:.2g} %)", now.pixels, share);
+        largest = fmt::format("{} of 255", now.largestSteps);
+    }
+    valueRow("Pixels that differ", pixels,
+             "Pixels that differ by more than one 8-bit step in any channel, including lines and tints. They "
+             "are not counted while a picture waits for its shaders or is not shown.");
+    valueRow("Largest difference", largest, "Largest difference of any pixel and channel.");
+    endValues();
+}
+
+bool isMeasured(const CompareRow& row) {
+    return row.value == &ComparedFigures::worstErrorPx || row.value == &ComparedFigures::p99ErrorPx ||
+           row.value == &ComparedFigures::violations || row.value == &ComparedFigures::crackPx ||
+           row.value == &ComparedFigures::leakingPx;
+}
+
+// live: the table of the view as it is, else that of a flight.
+void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures, bool live, bool stale) {
+    std::vector<CompareRow> rows;
+    std::copy_if(compareRows().begin(), compareRows().end(), std::back_inserter(rows),
+                 [&](const CompareRow& row) { return live ? row.live : row.flight; });
+    constexpr std::array columns = {
+        TableColumn{"Figure", 1.5f, nullptr, "Max drawn bound"},
+        TableColumn{"A", 1, "The planet shown in the window.", "1023 MiB"},
+        TableColumn{"B", 1, "The planet it is compared with.", "1023 MiB"},
+        TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-1023 MiB"}};
+    if (!beginListTable(id, columns, rows.size(), rows.size() + 1)) return;
+    const auto key = [&](std::size_t row, std::size_t column) {
+        return figureSortKey(rows[row], static_cast<FigureColumn>(column), figures);
+    };
+    tableRows(rows.size(), key, [&](std::size_t i) {
+        const CompareRow& row = rows[i];
+        const auto& a = figures[0].*row.value;
+        const auto& b = figures[1].*row.value;
+        const ImVec4 colour = live && stale && isMeasured(row) ? palette().dim : palette().text;
+        cell(inFont(row.name), palette().dim);
+        tooltip(row.explanation);
+        for (const std::string& text : {figureText(row, a), figureText(row, b), changeText(row, a, b)}) {
+            rightCell(text, colour);
+            tooltip(row.explanation);
+        }
+    });
+    ImGui::EndTable();
+}
+
+void nowSection(const CompareView& compare, Commands& commands) {
+    if (!section("Now")) return;
+    figuresTable("now", compare.now, true, compare.stale);
+    beginGrey(compare.measuring, "The measurement is running.");
+    if (button("Measure this view",
+               "Measures the true error (in the background) and cracks of both for the current view."))
+        commands.push_back(MeasureCompare{});
+    endGrey();
+    if (compare.measuring)
+        usageBar(compare.measured, "measuring the true error");
+    else if (compare.stale)
+        wrappedText(
+            "Out of date: the view or the settings have changed since true error and cracks were measured.",
+            palette().dim);
+}
+
+void flightControls(const EditorView& view, ComparePanelState& state, Commands& commands) {
+    const auto& flights = view.camera.flights;
+    int chosen = 0;
+    std::string names;
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        names += flightName(flights[i]) + std::string(1, '\0');
+        if (flights[i] == state.flight) chosen = static_cast<int>(i);
+    }
+    names += '\0';
+    ImGui::SetNextItemWidth(-1);
+    if (combo("Flight", chosen, names.c_str())) state.flight = flights[static_cast<std::size_t>(chosen)];
+    tooltip("Flight used for both.");
+    slider("Sample frames", state.moments, 12, 2, 100, "%d",
+           "Number of frames measured, evenly spread over the flight, with all chunks loaded; pops are "
+           "measured over the whole flight. More: more reliable and slower.");
+    beginGrey(!view.compare.on, "Choose a B first: there is nothing to compare with.");
+    if (button("Measure over the flight",
+               "Flies twice with the settings of A and twice with those of B in the background: once to "
+               "measure frames, once with all loads on time to measure pops. worldy compare does the same "
+               "without a window."))
+        commands.push_back(CompareOverFlight{flights[static_cast<std::size_t>(chosen)], state.moments});
+    endGrey();
+}
+
+void flightSection(const EditorView& view, ComparePanelState& state, Commands& commands) {
+    if (!section("Over a flight")) return;
+    const FlightComparisonView& flight = view.compare.flight;
+    if (flight.running) {
+        usageBar(flight.progress,
+                 flight.stopping ? "cancelling" : fmt::format("{:.0f} %", 100 * flight.progress));
+        beginGrey(flight.stopping, "It is stopping.");
+        if (button("Cancel", "Cancels the measurement and discards its results."))
+            commands.push_back(CancelCompareFlight{});
+        endGrey();
+    } else if (view.camera.flights.empty()) {
+        wrappedText(
+            "There are no flights. Record one in the Flight panel, or put TOML files into a folder "
+            "\"flights\".",
+            palette().dim);
+    } else {
+        flightControls(view, state, commands);
+    }
+    if (!flight.problem.empty()) wrappedText(flight.problem, palette().bad);
+    if (flight.running || flight.last) wrappedText(flight.lastName, palette().dim);
+    if (flight.last) figuresTable("flight", *flight.last, false, false);
+}
+
+}  // namespace
+
+void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings& settings,
+                  Commands& commands) {
+    if (!view.planet) return emptyState("No planet is open. Open one to compare settings or bakes.");
+    const CompareView& compare = view.compare;
+    if (!compare.problem.empty()) wrappedText(compare.problem, palette().bad);
+    if (!compare.on) {
+        wrappedText(
+            "Compare what is shown (A) with something else (B): take a snapshot of the settings and change "
+            "some, or choose a preset or a file.",
+            palette().dim);
+        chooseB(view, commands);
+        if (compare.flight.running || compare.flight.last) flightSection(view, state, commands);
+        return;
+    }
+    sides(compare, commands);
+    pictureControls(compare, settings.compare);
+    nowSection(compare, commands);
+    flightSection(view, state, commands);
+    if (section("Another B")) chooseB(view, commands);
+}
+
+}  // namespace ui

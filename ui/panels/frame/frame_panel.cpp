@@ -1,0 +1,194 @@
+#include "ui/panels/frame/frame_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "ui/kit/columns.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/plots.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/glossary.h"
+#include "ui/model/history.h"
+#include "ui/model/text.h"
+#include "ui/panels/frame/allocation_table.h"
+
+namespace ui {
+
+namespace {
+
+// A part of the frame that is timed.
+struct Stage {
+    const char* name;
+    const char* explanation;
+    double (*ms)(const FrameStats&);
+};
+
+constexpr std::array<Stage, 7> cpuStages = {
+    {{"upload", "Uploading loaded chunks; bounded by the upload limit in the Paging panel.",
+      [](const FrameStats& s) { return s.stages.uploadMs; }},
+     {"select", "LOD selection; grows with the number of visited nodes.",
+      [](const FrameStats& s) { return s.stages.selectMs; }},
+     {"paging", "Evicting chunks and requesting new ones.",
+      [](const FrameStats& s) { return s.stages.pagingMs; }},
+     {"draw", "Issuing the planet's draw calls on the CPU.", [](const FrameStats& s) { return s.drawCpuMs; }},
+     {"overlays", "Drawing lines and labels over the planet.",
+      [](const FrameStats& s) { return s.overlaysMs; }},
+     {"panels", "Building the panels.", [](const FrameStats& s) { return s.panelsMs; }},
+     {"present", "Presenting the picture, including the wait for the monitor.",
+      [](const FrameStats& s) { return s.presentMs; }}}};
+
+constexpr std::array<Stage, 4> gpuStages = {
+    {{"chunks", "Drawing the ground, by a GPU timer query.",
+      [](const FrameStats& s) { return s.render.chunksMs; }},
+     {"sky", "Drawing the sky and the atmosphere, by a GPU timer query.",
+      [](const FrameStats& s) { return s.render.skyMs; }},
+     {"shadows", "Drawing the shadow maps, once per cascade, by a GPU timer query.",
+      [](const FrameStats& s) { return s.render.shadowsMs; }},
+     {"panels", "Drawing the panels, by a GPU timer query.",
+      [](const FrameStats& s) { return s.panelsGpuMs; }}}};
+
+void stagePlot(const EditorView& view, const char* id, const char* unit, std::span<const Stage> stages,
+               std::span<const float> times, float lines) {
+    std::vector<Series> series;
+    series.reserve(stages.size());
+    for (std::size_t i = 0; i < stages.size(); ++i)
+        series.push_back({stages[i].name, seriesColour(i), historyValues(view.history, stages[i].ms)});
+    linePlot(id, times, series, unit, 0, lines, true);
+}
+
+void pauseControls(const EditorView& view, Commands& commands) {
+    bool paused = view.framesPaused;
+    if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PauseFrames{paused});
+    noteItem("Pause");
+    tooltip("Pauses movement, LOD selection and loading; the panels stay active.");
+    sameLineForButton("Step");
+    beginGrey(!view.framesPaused, "Pause frames first.");
+    if (button("Step", "While paused: runs one frame.")) commands.push_back(StepFrame{});
+    endGrey();
+}
+
+void times(const EditorView& view, Commands& commands) {
+    pauseControls(view, commands);
+    const FrameStats& stats = view.stats;
+    if (!beginValues("times")) return;
+    const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
+    valueRow("Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time.");
+    valueRow("Frame", millisecondsText(stats.frameMs),
+             "Time from the start of one frame to the next, including the wait for the monitor.");
+    for (const Stage& stage : cpuStages)
+        valueRow(fmt::format("CPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
+                 stage.explanation);
+    for (const Stage& stage : gpuStages)
+        valueRow(fmt::format("GPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
+                 stage.explanation);
+    endValues();
+}
+
+// Of each frame, one stage on the other; times that no stage counts are left out. Timer queries answer some
+// frames late, since the CPU does not wait for them.
+void plots(const EditorView& view, bool wide) {
+    const std::vector<float> sampleTimes = historyTimes(view.history);
+    // The others: the legends.
+    const float lines = wide ? linesThatFit(2, 4, 12) : 4;
+    stagePlot(view, "cpu", "ms CPU", cpuStages, sampleTimes, lines);
+    stagePlot(view, "gpu", "ms GPU", gpuStages, sampleTimes, lines);
+}
+
+void counts(const EditorView& view) {
+    const FrameStats& stats = view.stats;
+    if (!beginValues("counts")) return;
+    valueRow("Chunks drawn", countText(stats.selection.drawn), "Chunks selected for the LOD view.");
+    valueRow(terms::triangles.name, countText(static_cast<double>(stats.selection.triangles())),
+             terms::triangles.meaning);
+    valueRow("Triangles, all pictures", countText(static_cast<double>(stats.render.triangles())),
+             "Triangles drawn in this frame in all pictures of the planet, the observer's included.");
+    valueRow("Uploads", countText(stats.render.uploads), "Chunks uploaded since the previous frame.");
+    valueRow("Nodes visited", countText(stats.selection.visited),
+             "Quadtree nodes visited by the LOD selection.");
+    endValues();
+}
+
+double asBytes(std::size_t bytes) {
+    return static_cast<double>(bytes);
+}
+
+Bar memoryBar(const char* name, double bytes, std::size_t colour) {
+    return {name, bytes, seriesColour(colour), bytesText(bytes)};
+}
+
+void memoryByKind(const EditorView& view) {
+    const FrameStats& stats = view.stats;
+    const double chunksCpu = asBytes(stats.paging.residentBytesCpu);
+    const double process = asBytes(stats.processBytes);
+    const std::array cpu = {memoryBar("Resident chunks", chunksCpu, 0),
+                            memoryBar("Other", std::max(process - chunksCpu, 0.0), 5)};
+    ImGui::TextDisabled("CPU: %s", bytesText(process).c_str());
+    tooltip("Resident memory of the whole program.");
+    barList("cpu", cpu);
+    tooltip("Resident chunks: nodes and heights. Other: the program, its pictures and the driver.");
+
+    const planet::gl::GpuMemory& gpu = stats.gpuMemory;
+    const double heightsUsed = asBytes(stats.paging.residentBytesGpu);
+    const std::array kinds = {
+        memoryBar("Heights in use", heightsUsed, 0),
+        memoryBar("Heights free", std::max(asBytes(gpu.heightPool) - heightsUsed, 0.0), 7),
+        memoryBar("Meshes", asBytes(gpu.meshes), 2),
+        memoryBar("Textures", asBytes(gpu.textures - gpu.colourTiles - gpu.colourClipmap), 1),
+        memoryBar("Colour tiles", asBytes(gpu.colourTiles), 3),
+        memoryBar("Colour clipmap", asBytes(gpu.colourClipmap), 6),
+        memoryBar("Shadow maps", asBytes(gpu.shadowMaps), 5),
+        memoryBar("Pictures", asBytes(stats.targetBytes), 4)};
+    ImGui::TextDisabled("GPU: %s", bytesText(asBytes(gpu.total() + stats.targetBytes)).c_str());
+    tooltip("Memory the program allocated from the driver.");
+    barList("gpu", kinds);
+    tooltip(
+        "Heights in use: pool slots with a resident chunk. Heights free: empty pool slots reserved by the "
+        "budget. Meshes: grid and instance buffers. Textures: the colour image and similar. Colour tiles and "
+        "clipmap: storage of streamed colours. Pictures: render targets.");
+}
+
+// Stages that one draw call does together cannot be timed in it: they are drawn with and without.
+void partCosts(const EditorView& view, Commands& commands) {
+    const bool measuring = view.light.measured < 1;
+    beginGrey(measuring || !view.planet,
+              view.planet ? "The measurement is running." : "Open a planet first.");
+    if (button("Measure features",
+               "Draws this view with and without each light and surface feature, each twice, five times, and "
+               "shows medians. The window is slow meanwhile."))
+        commands.emplace_back(MeasureCosts{});
+    endGrey();
+    if (measuring) usageBar(view.light.measured, fmt::format("{:.0f} %", 100 * view.light.measured));
+    if (view.light.costs.empty()) return;
+    if (!beginValues("parts")) return;
+    for (const PartCost& cost : view.light.costs)
+        valueRow(cost.part.c_str(),
+                 fmt::format("{:+.1f} ms, x {:.2f}", cost.withMs - cost.withoutMs,
+                             cost.withMs / std::max(cost.withoutMs, 1e-6)),
+                 "Additional frame time compared with the lit ground alone, which is 1.");
+    endValues();
+}
+
+}  // namespace
+
+void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
+    const bool wide = hasWideRoom();
+    const std::array columns = {Column{"Times", 0.8f, 0,
+                                       [&] {
+                                           times(view, commands);
+                                           partCosts(view, commands);
+                                       }},
+                                Column{"Last 10 seconds", 1.7f, 0, [&] { plots(view, wide); }},
+                                Column{"Counts and memory", 1, 0, [&] {
+                                           counts(view);
+                                           memoryByKind(view);
+                                           if (section("Allocations"))
+                                               allocationTable(view.allocations, view.timeS, commands);
+                                       }}};
+    drawColumns("frame", columns);
+}
+
+}  // namespace ui

@@ -1,0 +1,11 @@
+// Frame: what each stage takes, what is drawn and uploaded, where memory goes; pause and single step.
+#pragma once
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+// Fills the current window.
+void framePanel(const EditorView& view, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

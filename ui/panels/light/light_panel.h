@@ -1,0 +1,10 @@
+// The sun, the air, the sea, shadows and normals.
+#pragma once
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+void lightPanel(const EditorView& view, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,88 @@
+#include "ui/panels/light/normal_knobs.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "planet/paging/normal_tile.h"
+#include "ui/kit/feature_knob.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+// Milliseconds a tile of the blocks that loaders derived last; 0: none lately.
+double msATile(const planet::Planet& planet) {
+    double seconds = 0;
+    int blocks = 0;
+    for (const planet::PagingEvent& event : planet.pagingHistory()) {
+        if (event.kind != planet::BlockKind::Normals || event.outcome != planet::PagingOutcome::Loaded)
+            continue;
+        seconds += event.readS;
+        ++blocks;
+    }
+    return blocks > 0 ? 1000 * seconds / (planet::quadrantCount * blocks) : 0;
+}
+
+void figures(const planet::Planet& planet) {
+    const planet::TileCounters& seen = planet.normalSelection().counters;
+    const planet::TilePagingCounters& paging = planet.normalPaging();
+    if (!beginValues("normals")) return;
+    valueRow("Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
+             "Resident tiles and the number that fits into their share of the budget.");
+    valueRow(
+        "Memory", bytesText(static_cast<double>(paging.tileCapacity * planet::normalTileBytes)),
+        "GPU memory for that many tiles of 272 x 272 slopes, 4 bytes each. Nothing is stored in the file.");
+    valueRow(
+        "Finest level", fmt::format("{} of {}", seen.deepestLevel, planet.normalLeafLevel()),
+        "Finest level of the tiles in view, and of the heights; level l has 256 x 2^l cells along a face.");
+    const double perTileMs = msATile(planet);
+    valueRow("Time per tile", perTileMs > 0 ? millisecondsText(perTileMs) : "-",
+             "Loader thread time to read and decode heights and derive slopes: mean of the tiles among the "
+             "last 1000 requests.");
+    valueRow("Waiting", fmt::format("{}", seen.waiting), "Tiles in view that are coarser than requested.");
+    endValues();
+}
+
+// In place of the figures, where there are none.
+void whyNone(const EditorView& view) {
+    if (view.planet->normalLeafLevel() < 0) {
+        ImGui::TextDisabled("None: this planet's faces have fewer");
+        ImGui::TextDisabled("than 256 cells; the mesh is enough.");
+    } else if (view.planet->pagingSettings().normals) {
+        ImGui::TextDisabled("None: share too small. Increase the");
+        ImGui::TextDisabled("share, or the paging budget.");
+    }
+}
+
+}  // namespace
+
+void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    const ViewSettings defaults;
+    planet::gl::NormalDrawing& normals = settings.surface.light.normals;
+    beginGrey(!settings.surface.lighting, "Turn on Lighting first.");
+    featureKnob("Fine normals", CostlyPart::Normals, view, settings.surface, commands,
+                "Lights coarse chunks by slopes of the finest heights, up to the screen resolution, using "
+                "tiles derived from the file's heights. Off: lights by vertex normals, which are smooth "
+                "where the mesh is coarse; no memory is needed.",
+                "fine normals");
+    beginGrey(normals.use == planet::gl::FeatureUse::Off, "Fine normals are off.");
+    slider("Texels per pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
+           "%.2f",
+           "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
+           "doubling it needs up to four times the tiles, and it may shimmer. Smaller: softer.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Share", settings.paging.normalShare, defaults.paging.normalShare, 0.01, 0.9, "%.2f",
+           "Fraction of the paging budget that colours leave. Larger: finer shading of coarse chunks. "
+           "Smaller: finer ground when the budget is full.");
+    endGrey();
+    endGrey();
+    if (!view.planet) return;
+    if (view.planet->normalPaging().tileCapacity > 0)
+        figures(*view.planet);
+    else
+        whyNone(view);
+}
+
+}  // namespace ui

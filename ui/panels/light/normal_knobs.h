@@ -1,0 +1,11 @@
+// Normals finer than the mesh: their knobs, and what they hold.
+#pragma once
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+// A section's inside.
+void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

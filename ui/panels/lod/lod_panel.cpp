@@ -1,0 +1,300 @@
+#include "ui/panels/lod/lod_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/plots.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
+#include "ui/model/glossary.h"
+#include "ui/model/history.h"
+#include "ui/model/overlay_colours.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+// Of the list of chunks that flip back and forth.
+constexpr std::size_t thrashingShown = 6;
+
+void toleranceKnobs(LodKnobs& lod) {
+    const LodKnobs defaults;
+    slider(fmt::format("Tolerance {}", tauSymbol()).c_str(), lod.tauPx, defaults.tauPx, 0.1, 64, "%.2f px",
+           fmt::format("Screen-space error (SSE) threshold in pixels. A chunk is replaced by its children "
+                       "while {} = δc K' / D > {}. Larger: fewer triangles and less memory, but more visible "
+                       "error and larger pops. Smaller: more triangles and memory.",
+                       epsSymbol(), tauSymbol())
+               .c_str(),
+           ImGuiSliderFlags_Logarithmic);
+    slider("Hysteresis", lod.hysteresis, defaults.hysteresis, 0, 0.9, "%.2f",
+           fmt::format("Fraction of {0} by which a merge is delayed: a split chunk stays split until {1} <= "
+                       "{0} (1 - hysteresis). Larger: fewer chunks switch back and forth, but more triangles "
+                       "are drawn. 0: chunks near {0} may switch with every camera movement.",
+                       tauSymbol(), epsSymbol())
+               .c_str());
+    slider("Max LOD level", lod.maxLevel, defaults.maxLevel, 0, planet::maxLevel, "%d",
+           "Deepest level drawn; chunks of this level are not split. Level 0 is a whole cube face. Smaller: "
+           "coarse ground near the camera, regardless of the tolerance.");
+    checkbox("Morph", lod.morph, defaults.morph,
+             "Moves a chunk's vertices gradually onto its parent's surface before the parent replaces it. "
+             "Off: chunks pop when their level changes.");
+    beginGrey(!lod.morph, "Turn on Morph first.");
+    slider("Morph range", lod.morphRange, defaults.morphRange, 0.01, 4, "%.2f",
+           fmt::format("Fraction of {0} over which a chunk morphs: its morph is 0 where its parent's {1} is "
+                       "{0} (1 + range), and 1 where it is {0}. Larger: slower morphs, but more chunks are "
+                       "drawn coarser than necessary. Small: almost a pop.",
+                       tauSymbol(), epsSymbol())
+               .c_str(),
+           ImGuiSliderFlags_Logarithmic);
+    slider("Fade", lod.fadeS, defaults.fadeS, 0, 10, "%.2f s",
+           "Minimum duration of a complete morph, in seconds, for each level. It covers changes the morph "
+           "range cannot anticipate: late children, a new tolerance, a fast camera. Larger: smoother, but "
+           "chunks stay too coarse or too fine for longer. 0: such changes pop.",
+           ImGuiSliderFlags_Logarithmic);
+    endGrey();
+}
+
+// Of a file that was baked before there was one.
+bool lacksTightErrors(const planet::ChunkTree& tree) {
+    return std::all_of(tree.nodes.begin(), tree.nodes.begin() + planet::faceCount,
+                       [](const planet::ChunkNode& root) {
+                           return root.deltaTightM == 0 && root.childrenState != planet::ChildrenState::None;
+                       });
+}
+
+void metricKnob(const EditorView& view, LodKnobs& lod) {
+    const LodKnobs defaults;
+    choice("Error metric", lod.metric, defaults.metric, "additive\0tight\0",
+           "Which geometric error bound, in metres, is projected and compared with the tolerance. Additive: "
+           "δc, the sum of the largest errors of each level; safe but loose. Tight: the largest distance the "
+           "bake measured between the chunk's surface, or a descendant's, and the finest data; never larger "
+           "than δc, so it needs fewer triangles for the same tolerance.");
+    if (view.planet && lod.metric == planet::ErrorMetric::Tight && lacksTightErrors(view.planet->tree())) {
+        wrappedText("This file contains no tight errors, so no chunk is split. Bake it again.",
+                    palette().warning);
+    }
+}
+
+void cullingKnobs(const EditorView& view, LodKnobs& lod, Commands& commands) {
+    const LodKnobs defaults;
+    checkbox("Frustum culling", lod.frustumCulling, defaults.frustumCulling,
+             "Skips chunks outside the view frustum. Off: they are loaded and drawn too, several times as "
+             "many chunks; turning the camera then shows no coarse ground.");
+    secondColumn("Horizon culling");
+    checkbox("Horizon culling", lod.horizonCulling, defaults.horizonCulling,
+             "Skips chunks below the horizon. Off: the far side of the planet is loaded and drawn too, "
+             "without visible benefit.");
+    bool frozen = view.lodFrozen;
+    if (frozen) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+    if (ImGui::Checkbox("Freeze (F2)", &frozen)) commands.push_back(FreezeLod{frozen});
+    noteItem("Freeze (F2)");
+    if (view.lodFrozen) ImGui::PopStyleColor();
+    tooltip(
+        "Keeps the current selection while the camera moves, to inspect it from outside. No other chunks are "
+        "selected until it is turned off.");
+}
+
+// The index of a chunk size, or the number of sizes where it is none of them.
+std::size_t sizeIndex(int chunkSize) {
+    return static_cast<std::size_t>(
+        std::find(planet::chunkSizes.begin(), planet::chunkSizes.end(), chunkSize) -
+        planet::chunkSizes.begin());
+}
+
+void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
+    ImGui::AlignTextToFramePadding();
+    const bool running = view.bake.running.has_value();
+    ImGui::TextColored(palette().warning, "%s", running ? "baking" : "baked");
+    ImGui::SameLine();
+    beginGrey(!view.bake.canBake || running,
+              running ? "A bake is running." : "The source of this file is not known or no longer there.");
+    const char* explanation =
+        running ? "A bake is running; see the Bake panel."
+        : view.bake.canBake && !view.bake.lostColours.empty()
+            ? "Bakes the source again with this chunk size, but without colours, because the path of the "
+              "colour image is unknown; set it in the Bake panel."
+        : view.bake.canBake ? "Bakes the source again with this chunk size in the background. The current "
+                              "file stays open until the new one is complete."
+                            : "Cannot bake: the source of this file is unknown or missing. Open the "
+                              "elevation data itself to bake it.";
+    if (button("Bake", explanation)) {
+        BakeRequest request = view.bake.current;
+        request.settings.chunkSize = wantedSize;
+        commands.push_back(StartBake{request});
+    }
+    endGrey();
+}
+
+void chunkSizeKnob(const EditorView& view, Commands& commands) {
+    const int fileSize = planet::chunkSize(view.planet->shape());
+    // What the user would like to have; 0 while that is what the file has.
+    int* wanted = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wantedChunkSize"), 0);
+    if (*wanted == fileSize) *wanted = 0;
+    const auto fileIndex = static_cast<int>(sizeIndex(fileSize));
+    int index = *wanted == 0 ? fileIndex : static_cast<int>(sizeIndex(*wanted));
+    if (choiceIndex(
+            "Chunk size", index, fileIndex,
+            "17 x 17\0"
+            "33 x 33\0"
+            "65 x 65\0"
+            "129 x 129\0",
+            "Vertices along a side of a chunk, the same at every level. It is part of the file, so changing "
+            "it requires a bake. Larger: fewer, larger draw calls and reads, but more triangles than the "
+            "tolerance needs. Smaller: a finer selection, but more chunks to select, queue and draw.")) {
+        *wanted = index == fileIndex ? 0 : planet::chunkSizes[static_cast<std::size_t>(index)];
+    }
+    if (*wanted != 0) bakeOffer(view, *wanted, commands);
+}
+
+void formulas(const EditorView& view, double tauPx) {
+    const double screenScale = planet::screenScalePx(view.lodView);
+    const std::string formula = inFont("ε = δc K' / D     d_m = δc K");
+    ImGui::TextDisabled("%s", formula.c_str());
+    tooltip(
+        "Screen-space error in pixels of a chunk at the distance D in metres, and the switch distance d_m in "
+        "metres: a nearer chunk must be split. δc, in metres, is the chunk's geometric error from the bake.");
+    if (!beginValues("formulas")) return;
+    valueRow("K' = W / (2 tan(Hfov/2))", fmt::format("{:.1f} px", screenScale),
+             "W: viewport width in pixels; Hfov: horizontal field of view. An error of 1 m at a distance of "
+             "1 m covers K' pixels.");
+    valueRow(fmt::format("K = K' / {}", tauSymbol()).c_str(), fmt::format("{:.1f}", screenScale / tauPx),
+             fmt::format("W / (2 {} tan(Hfov/2)); d_m = δc K.", tauSymbol()).c_str());
+    valueRow("d_m for δc = 1 m", distanceText(screenScale / tauPx),
+             "A chunk with a geometric error of 1 m is split within this distance.");
+    endValues();
+}
+
+// Two decimals, to compare with the tolerance.
+std::string preciseErrorText(float px) {
+    return px < 1000 ? fmt::format("{:.2f} px", px) : pixelsText(static_cast<double>(px));
+}
+
+void drawnValues(const EditorView& view, double tauPx) {
+    const planet::SelectionCounters& s = view.stats.selection;
+    if (!beginValues("drawn")) return;
+    valueRow("Visited", countText(s.visited), "Quadtree nodes visited by the selection.");
+    valueRow("Culled", fmt::format("{} + {}", countText(s.culledFrustum), countText(s.culledHorizon)),
+             "Culled subtrees: outside the frustum + below the horizon.");
+    valueRow("Drawn", countText(s.drawn), "Number of chunks drawn.");
+    valueRow(
+        "Waiting", countText(s.waiting),
+        "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
+        s.waiting > 0 ? &palette().warning : nullptr);
+    valueRow("Fading", countText(s.fading),
+             "Chunks and chunk edges still morphing after a level change, and splits or merges that wait for "
+             "a morph. If this never drops to 0, the camera, the tolerance or loading changes faster than "
+             "the fade.");
+    const auto triangleRow = [](const Term& term, std::uint64_t count) {
+        valueRow(term.name, countText(static_cast<double>(count)), term.meaning);
+    };
+    triangleRow(terms::groundTriangles, s.groundTriangles);
+    triangleRow(terms::skirtTriangles, s.skirtTriangles);
+    triangleRow(terms::triangles, s.triangles());
+    valueRow("Deepest level", fmt::format("{}", s.deepestLevel),
+             "Deepest level drawn; level 0 is a whole cube face.");
+    const bool over = static_cast<double>(s.worstEpsPx) > tauPx;
+    valueRow(fmt::format("Max {}", epsSymbol()).c_str(), preciseErrorText(s.worstEpsPx),
+             "Largest predicted error on screen of a drawn chunk's own surface, in pixels.",
+             over ? &palette().warning : nullptr);
+    valueRow("Max drawn bound", preciseErrorText(s.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
+    endValues();
+}
+
+void levelBars(const planet::Planet& planet) {
+    std::array<int, planet::maxLevel + 1> chunks{};
+    for (const planet::DrawItem& item : planet.selection().draw) ++chunks[item.id.level];
+    const double cells = planet::chunkCells(planet.shape());
+    std::vector<Bar> bars;
+    for (std::size_t level = 0; level < chunks.size(); ++level) {
+        if (chunks[level] == 0) continue;
+        const glm::vec3 c = levelColour(static_cast<int>(level));
+        bars.push_back(
+            {fmt::format("{}", level),
+             static_cast<double>(chunks[level]),
+             {c.r, c.g, c.b, 1},
+             fmt::format("{}   {} tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
+    }
+    barList("levels", bars);
+    tooltip("Chunks drawn per level and their ground triangles. Level 0 is a whole cube face.");
+}
+
+void drawnPlots(const EditorView& view, double tauPx) {
+    const std::vector<float> times = historyTimes(view.history);
+    const std::array counts = {
+        Series{"drawn", seriesColour(0),
+               historyValues(view.history, [](const FrameStats& s) { return s.selection.drawn; })},
+        Series{"visited", seriesColour(1),
+               historyValues(view.history, [](const FrameStats& s) { return s.selection.visited; })}};
+    linePlot("counts", times, counts, "");
+    // A chunk that holds the eye has any error at all; the plot is about what comes near the tolerance.
+    const auto top = static_cast<float>(16 * tauPx);
+    const std::string name = fmt::format("max {} (clamped at 16 {})", epsSymbol(), tauSymbol());
+    const std::array errors = {
+        Series{name.c_str(), seriesColour(3), historyValues(view.history, [top](const FrameStats& s) {
+                   return std::min(s.selection.worstEpsPx, top);
+               })}};
+    linePlot("errors", times, errors, "px", 0, 3, false, tauPx);
+}
+
+// The chunks that flipped back last, newest first, each once.
+std::vector<planet::ChunkId> lastThrashing(const planet::LodChanges& changes) {
+    std::vector<planet::ChunkId> chunks;
+    if (changes.thrashRecent() == 0) return chunks;
+    const auto& recent = changes.recent();
+    for (auto change = recent.rbegin(); change != recent.rend() && chunks.size() < thrashingShown; ++change) {
+        if (change->thrash && std::find(chunks.begin(), chunks.end(), change->chunk) == chunks.end())
+            chunks.push_back(change->chunk);
+    }
+    return chunks;
+}
+
+void changes(const EditorView& view, Commands& commands) {
+    const planet::LodChanges& c = view.changes;
+    const std::size_t thrashing = c.thrashRecent();
+    if (beginValues("changes")) {
+        valueRow("Splits", fmt::format("{:.0f}/s", c.splitsPerS()),
+                 "Chunks replaced by their children in the last second.");
+        valueRow("Merges", fmt::format("{:.0f}/s", c.mergesPerS()),
+                 "Chunks that replaced their children in the last second.");
+        valueRow("Thrash, last 10 s", countText(static_cast<double>(thrashing)),
+                 "Chunks that switched back within a second, which wastes work and flickers. More hysteresis "
+                 "or a larger memory budget helps.",
+                 thrashing > 0 ? &palette().warning : nullptr);
+        valueRow("Thrash, total", countText(static_cast<double>(c.thrashTotal())),
+                 "Chunks that switched back within a second, since this planet was opened.");
+        endValues();
+    }
+    const std::vector<planet::ChunkId> chunks = lastThrashing(c);
+    if (chunks.empty()) return;
+    ImGui::TextDisabled("Last to switch back:");
+    for (const planet::ChunkId& id : chunks) chunkLink(id, view, commands);
+}
+
+}  // namespace
+
+void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    LodKnobs& lod = settings.lod;
+    if (section("Level of detail")) {
+        toleranceKnobs(lod);
+        metricKnob(view, lod);
+        cullingKnobs(view, lod, commands);
+        if (view.planet) chunkSizeKnob(view, commands);
+        formulas(view, lod.tauPx);
+    }
+    if (!view.planet) return emptyState("No planet is open. Open one to see its level-of-detail statistics.");
+    if (section("Drawn")) drawnValues(view, lod.tauPx);
+    if (section("By level")) levelBars(*view.planet);
+    if (section("Last 10 seconds")) drawnPlots(view, lod.tauPx);
+    if (section("Level changes")) changes(view, commands);
+}
+
+}  // namespace ui

@@ -1,0 +1,12 @@
+// Error overlay: what the colours of chunks show, their legend and scale, outlines, volumes, labels, and the
+// histogram of eps.
+#pragma once
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+// Fills the current window.
+void overlayPanel(const EditorView& view, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

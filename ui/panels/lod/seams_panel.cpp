@@ -1,0 +1,156 @@
+#include "ui/panels/lod/seams_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <vector>
+
+#include "planet/base/percentile.h"
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/plots.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+void depthKnobs(SeamKnobs& seams) {
+    const SeamKnobs defaults;
+    choice("Skirt depth", seams.depth, defaults.depth, "automatic\0fixed\0",
+           "Automatic: each skirt is as deep as the errors it must hide. Fixed: one depth for all chunks.");
+    if (seams.depth == planet::SkirtDepth::Automatic) {
+        slider(
+            "Factor", seams.skirtFactor, defaults.skirtFactor, 0, 10, "%.2f",
+            "Skirt depth = factor (δc of the chunk + the largest δc of its drawn neighbours). At 1 no crack "
+            "shows, because each surface is within its δc of the finest data. Smaller: cracks may show; 0: "
+            "no skirts. Larger: more overdraw, and longer walls where a skirt is seen from the side.");
+    } else {
+        slider("Depth", seams.skirtDepthM, defaults.skirtDepthM, 0, 100000, "%.1f m",
+               "Skirt depth in metres, towards the planet's centre. Smaller than a gap: a crack shows. "
+               "Larger: more overdraw.",
+               ImGuiSliderFlags_Logarithmic);
+    }
+}
+
+void knobs(SeamKnobs& seams) {
+    const SeamKnobs defaults;
+    choice("Seams", seams.mode, defaults.mode, "none\0skirts\0stitched\0",
+           "None: cracks show where levels differ. Skirts: vertical strips along chunk edges hide cracks at "
+           "the cost of more triangles. Stitched: edge vertices move onto the coarser neighbour's edge, so "
+           "no cracks exist; this limits the level difference of neighbours, so some chunks are drawn "
+           "coarser than the tolerance asks for.");
+    if (seams.mode == planet::SeamMode::Skirts) depthKnobs(seams);
+    checkbox("Highlight LOD seams", seams.showPairs, defaults.showPairs,
+             "Highlights edges between chunks of different levels in the viewport.");
+}
+
+// Largest and median of what is drawn, metres.
+struct Depths {
+    float largestM = 0;
+    float medianM = 0;
+};
+Depths drawnDepths(std::span<const planet::DrawItem> items) {
+    std::vector<float> depths;
+    depths.reserve(items.size());
+    for (const planet::DrawItem& item : items) depths.push_back(item.skirtDepthM);
+    if (depths.empty()) return {};
+    return {*std::max_element(depths.begin(), depths.end()), planet::percentileOf(depths, 0.5)};
+}
+
+int difference(const planet::LevelSeam& seam) {
+    return seam.finer.level - seam.coarser.level;
+}
+
+void values(const planet::Selection& selection) {
+    if (!beginValues("seams")) return;
+    const Depths depths = drawnDepths(selection.draw);
+    valueRow("Deepest skirt", distanceText(static_cast<double>(depths.largestM)),
+             "Skirt depth of the drawn chunks, in metres.");
+    valueRow("Median skirt", distanceText(static_cast<double>(depths.medianM)),
+             "Skirt depth of the drawn chunks, in metres.");
+    valueRow("LOD seams", countText(static_cast<double>(selection.seams.size())),
+             "Number of pairs of adjacent drawn chunks with different levels.");
+    valueRow("Max level difference", fmt::format("{}", selection.counters.widestSeam),
+             "Largest level difference of two drawn neighbours. The finer chunk's edge has 2^difference "
+             "times as many vertices as the coarser one's.");
+    endValues();
+}
+
+void differenceBars(std::span<const planet::LevelSeam> seams) {
+    std::array<int, planet::maxLevel + 1> counts{};
+    for (const planet::LevelSeam& seam : seams) ++counts[static_cast<std::size_t>(difference(seam))];
+    std::vector<Bar> bars;
+    for (std::size_t levels = 1; levels < counts.size(); ++levels) {
+        if (counts[levels] == 0) continue;
+        const ImVec4& colour = levels == 1 ? palette().good : levels == 2 ? palette().warning : palette().bad;
+        bars.push_back({fmt::format("{} level{}", levels, levels == 1 ? "" : "s"),
+                        static_cast<double>(counts[levels]), colour, fmt::format("{}", counts[levels])});
+    }
+    barList("differences", bars);
+    tooltip("LOD seams by level difference.");
+}
+
+const char* edgeName(planet::Edge edge) {
+    constexpr std::array names = {"west", "east", "south", "north"};
+    return names[static_cast<std::size_t>(edge)];
+}
+
+void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& commands) {
+    chunkCell(seam.finer, view, commands);
+    cell(edgeName(seam.edge));
+    chunkCell(seam.coarser, view, commands);
+    cell(fmt::format("{}", difference(seam)));
+}
+
+// Widest first, then by id. Only the rows that are seen are sorted.
+void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
+    constexpr std::array columns = {TableColumn{"Finer", 1.6f, nullptr, "z_pos/10/1023/1023"},
+                                    TableColumn{"Edge", 0.9f}, TableColumn{"Coarser", 1.6f},
+                                    TableColumn{"Difference", 1.0f, "Level difference."}};
+    if (!beginListTable("pairs", columns, seams.size(), 14)) return;
+    std::vector<const planet::LevelSeam*> order;
+    order.reserve(seams.size());
+    for (const planet::LevelSeam& seam : seams) order.push_back(&seam);
+    const auto wider = [](const planet::LevelSeam* a, const planet::LevelSeam* b) {
+        return std::make_tuple(-difference(*a), a->finer, a->edge, a->coarser) <
+               std::make_tuple(-difference(*b), b->finer, b->edge, b->coarser);
+    };
+    if (chosenSort()) {
+        const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+            const planet::LevelSeam& seam = seams[row];
+            if (column == 0) return sortKey(seam.finer);
+            if (column == 1) return std::string(edgeName(seam.edge));
+            if (column == 2) return sortKey(seam.coarser);
+            return static_cast<double>(difference(seam));
+        };
+        tableRows(seams.size(), key, [&](std::size_t row) { seamRow(seams[row], view, commands); });
+    } else {
+        sortedTableRows(order, wider,
+                        [&](const planet::LevelSeam* seam, std::size_t) { seamRow(*seam, view, commands); });
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    if (section("Seams")) knobs(settings.seams);
+    if (!view.planet) return emptyState("No planet is open. Open one to see its LOD seams.");
+    const planet::Selection& selection = view.planet->selection();
+    if (section("Drawn now")) {
+        values(selection);
+        differenceBars(selection.seams);
+    }
+    if (!section("LOD seams")) return;
+    if (selection.seams.empty())
+        return emptyState("All drawn neighbours have the same level: there are no seams.");
+    seamTable(view, selection.seams, commands);
+}
+
+}  // namespace ui

@@ -1,0 +1,11 @@
+// Skirts and seams: how cracks between chunks are hidden, and where levels differ.
+#pragma once
+
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+// Fills the current window.
+void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,29 @@
+// Filtering the lines of the log and copying them as text. Pure functions, any thread.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ui/model/log_lines.h"
+
+namespace ui {
+
+// Returns true if text contains part, ignoring the case of ASCII letters. Every text contains the empty one.
+bool holds(std::string_view text, std::string_view part);
+
+// Returns the indices of the lines of the chosen levels that contain the filter, oldest first.
+std::vector<std::size_t> filteredLines(const std::deque<LogLine>& lines, std::string_view filter,
+                                       std::span<const bool, 4> levels);
+
+// Returns "14:03:22 warning  the text".
+std::string lineText(const LogLine& line);
+// Returns the text of the lines `which`, each ended by a newline.
+std::string linesText(const std::deque<LogLine>& lines, std::span<const std::size_t> which);
+
+const char* levelName(LogLevel level);
+
+}  // namespace ui

@@ -1,0 +1,168 @@
+#include "ui/panels/log/log_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "ui/kit/item_map.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/panels/log/log_filter.h"
+#include "ui/panels/log/log_links.h"
+
+namespace ui {
+
+namespace {
+
+const ImVec4& colourOf(LogLevel level) {
+    switch (level) {
+        case LogLevel::Debug:
+            return palette().dim;
+        case LogLevel::Info:
+            return palette().text;
+        case LogLevel::Warning:
+            return palette().warning;
+        case LogLevel::Error:
+            return palette().bad;
+    }
+    return palette().text;
+}
+
+void refresh(const std::deque<LogLine>& lines, LogPanelState& state) {
+    LogPanelState::Shown& shown = state.shown;
+    const LogLine* oldest = lines.empty() ? nullptr : &lines.front();
+    const LogLine* newest = lines.empty() ? nullptr : &lines.back();
+    if (shown.count == lines.size() && shown.oldest == oldest && shown.newest == newest &&
+        (!newest || shown.newestText == newest->text) && shown.levels == state.levels &&
+        std::string_view(shown.filter.data()) == state.filter.data()) {
+        return;
+    }
+    shown.lines = filteredLines(lines, state.filter.data(), state.levels);
+    shown.filter = state.filter;
+    shown.levels = state.levels;
+    shown.count = lines.size();
+    shown.oldest = oldest;
+    shown.newest = newest;
+    shown.newestText = newest ? newest->text : std::string();
+}
+
+void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(std::min(font * 16, ImGui::GetContentRegionAvail().x));
+    ImGui::InputTextWithHint("##filter", "Filter", state.filter.data(), state.filter.size());
+    noteItem("Filter");
+    tooltip("Shows only lines that contain this text; not case-sensitive.");
+    for (std::size_t i = 0; i < state.levels.size(); ++i) {
+        const auto level = static_cast<LogLevel>(i);
+        sameLineIfRoom(checkboxWidth(levelName(level)));
+        ImGui::PushStyleColor(ImGuiCol_Text, colourOf(level));
+        ImGui::Checkbox(levelName(level), &state.levels[i]);
+        noteItem(levelName(level));
+        ImGui::PopStyleColor();
+        tooltip("Shows or hides lines of this level.");
+    }
+    sameLineIfRoom(checkboxWidth("Follow"));
+    ImGui::Checkbox("Follow", &state.autoScroll);
+    tooltip("Scrolls to new lines. Scrolling up turns this off.");
+    sameLineIfRoom(font * 3.5f);
+    beginGrey(state.shown.lines.empty(), "No line is shown.");
+    const std::string explanation = fmt::format(
+        "Copies the {} lines shown. Right-click a line to copy only that line.", state.shown.lines.size());
+    if (button("Copy", explanation.c_str()))
+        commands.push_back(CopyText{linesText(lines, state.shown.lines)});
+    endGrey();
+}
+
+// Selects the chunk that a line names, looks at the tile of colour, or else copies the path of the file.
+void follow(const LogLine& line, Commands& commands) {
+    if (const auto chunk = chunkNamedIn(line.text)) {
+        commands.push_back(SelectChunk{chunk});
+    } else if (const auto tile = colourTileNamedIn(line.text)) {
+        commands.push_back(LookAtChunk{*tile});
+    } else if (const auto file = fileNamedIn(line.text)) {
+        commands.push_back(CopyText{file->string()});
+    }
+}
+
+void lineMenu(const LogLine& line, Commands& commands) {
+    if (!ImGui::BeginPopupContextItem()) return;
+    if (ImGui::MenuItem("Copy line")) commands.push_back(CopyText{lineText(line)});
+    if (const auto chunk = chunkNamedIn(line.text)) {
+        const std::string name = planet::toString(*chunk);
+        if (ImGui::MenuItem(("Select " + name).c_str())) commands.push_back(SelectChunk{chunk});
+        if (ImGui::MenuItem(("Look at " + name).c_str())) commands.push_back(LookAtChunk{*chunk});
+    }
+    if (const auto tile = colourTileNamedIn(line.text)) {
+        if (ImGui::MenuItem(("Look at colour tile " + planet::toString(*tile)).c_str()))
+            commands.push_back(LookAtChunk{*tile});
+    }
+    if (const auto file = fileNamedIn(line.text)) {
+        if (ImGui::MenuItem("Copy path")) commands.push_back(CopyText{file->string()});
+    }
+    ImGui::EndPopup();
+}
+
+void lineTooltip(const LogLine& line, Commands& commands) {
+    if (!ImGui::IsItemHovered()) return;
+    if (const auto chunk = chunkNamedIn(line.text)) {
+        commands.push_back(HoverChunk{*chunk});
+        tooltip(fmt::format("Click: selects {}.", planet::toString(*chunk)).c_str());
+    } else if (const auto tile = colourTileNamedIn(line.text)) {
+        tooltip(fmt::format("Click: looks at colour tile {}.", planet::toString(*tile)).c_str());
+    } else if (const auto file = fileNamedIn(line.text)) {
+        tooltip(fmt::format("Click: copies {}.", file->string()).c_str());
+    }
+}
+
+void drawLine(const LogLine& line, std::size_t index, Commands& commands) {
+    ImGui::PushID(static_cast<int>(index));
+    const ImVec2 start = ImGui::GetCursorPos();
+    const float timeWidth = ImGui::CalcTextSize(line.time.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
+    const float textWidth = ImGui::CalcTextSize(line.text.c_str()).x;
+    // The whole line takes the click; its words are drawn over it.
+    if (ImGui::Selectable("##line", false, 0,
+                          {std::max(timeWidth + textWidth, ImGui::GetContentRegionAvail().x), 0}))
+        follow(line, commands);
+    noteItem(fmt::format("line {}", index));
+    lineTooltip(line, commands);
+    lineMenu(line, commands);
+    const ImVec2 next = ImGui::GetCursorPos();
+    ImGui::SetCursorPos(start);
+    ImGui::TextColored(palette().dim, "%s", line.time.c_str());
+    ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, colourOf(line.level));
+    ImGui::TextUnformatted(line.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::SetCursorPos(next);
+    ImGui::PopID();
+}
+
+}  // namespace
+
+void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
+    refresh(lines, state);
+    toolbar(lines, state, commands);
+    refresh(lines, state);
+
+    ImGui::BeginChild("lines", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    if (ImGui::IsWindowHovered() && ImGui::GetIO().MouseWheel > 0 && ImGui::GetScrollMaxY() > 0)
+        state.autoScroll = false;
+    const std::vector<std::size_t>& shown = state.shown.lines;
+    if (shown.empty()) emptyState(lines.empty() ? "The log is empty." : "No line matches the filters.");
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(shown.size()));
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const std::size_t index = shown[static_cast<std::size_t>(i)];
+            drawLine(lines[index], index, commands);
+        }
+    }
+    clipper.End();
+    if (state.autoScroll) ImGui::SetScrollHereY(1);
+    ImGui::EndChild();
+}
+
+}  // namespace ui

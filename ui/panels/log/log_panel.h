@@ -1,0 +1,35 @@
+// The log panel: lines are coloured by level, filtered, and lead to the chunks and files that they name.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "ui/model/commands.h"
+#include "ui/model/log_lines.h"
+
+namespace ui {
+
+struct LogPanelState {
+    std::array<char, 128> filter{};  // shows only lines that hold this; case does not matter
+    bool autoScroll = true;
+    std::array<bool, 4> levels{true, true, true, true};  // which are shown
+
+    // The lines that pass the filters; they are updated when the log or a filter changes.
+    struct Shown {
+        std::vector<std::size_t> lines;  // indices, oldest first
+        std::array<char, 128> filter{};
+        std::array<bool, 4> levels{};
+        std::size_t count = 0;  // of the log, as it was
+        const LogLine* oldest = nullptr;
+        const LogLine* newest = nullptr;
+        std::string newestText;
+    } shown;
+};
+
+// Fills the current window.
+void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands);
+
+}  // namespace ui

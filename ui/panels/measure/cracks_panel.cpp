@@ -1,0 +1,238 @@
+#include "ui/panels/measure/cracks_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/inspection.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+const char* whyNoSkirts(const CracksView& cracks) {
+    if (!cracks.measured) return "Measure first.";
+    if (!cracks.current) return "The camera or what is drawn has changed: measure again.";
+    return "Stitched seams have no skirts.";
+}
+
+void knobs(const EditorView& view, CrackKnobs& cracks, Commands& commands) {
+    const CrackKnobs defaults;
+    beginGrey(!view.planet, "Open a planet first.");
+    if (button("Measure",
+               "Renders the depth of the chunks three times (with full-depth skirts, without skirts, with "
+               "the current skirts) and compares them. Takes as long as several frames."))
+        commands.emplace_back(MeasureCracks{});
+    sameLineIfRoom(ImGui::CalcTextSize("Find smallest skirts").x + ImGui::GetFontSize());
+    beginGrey(!view.cracks.current || view.cracks.measured->seams == planet::SeamMode::Stitched,
+              whyNoSkirts(view.cracks));
+    if (button(
+            "Find smallest skirts",
+            "Searches for the smallest fixed depth and the smallest automatic factor that leave no uncovered "
+            "pixel in this view. For a whole flight use worldy cracks FILE --flight F --find-depth."))
+        commands.emplace_back(FindSmallestSkirts{});
+    endGrey();
+    endGrey();
+    checkbox("Measure while flying", cracks.live, defaults.live,
+             "Measures every few frames. Each measurement takes at least as long as drawing three frames, so "
+             "the picture stutters.");
+    if (cracks.live) {
+        slider("Every", cracks.everyFrames, defaults.everyFrames, 1, 1000, "%d frames",
+               "Number of frames between measurements. Fewer: lower frame rate. More: less current values.");
+    }
+    checkbox("Highlight in viewport", cracks.mark, defaults.mark,
+             "Highlights crack pixels in the viewport, each several pixels wide, while the view is the "
+             "measured one.");
+}
+
+// A value that was found, with a button that sets it. whyNot: empty where it can be set. True if it is to be
+// set.
+bool foundRow(const char* name, const std::string& value, const char* explanation,
+              const std::string& whyNot) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(palette().dim, "%s", name);
+    tooltip(explanation);
+    ImGui::TableNextColumn();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    // Each text by itself, as each is rounded up: a row wider than this would widen the column every frame.
+    const float wide = ImGui::CalcTextSize(value.c_str()).x + style.ItemSpacing.x +
+                       ImGui::CalcTextSize("Apply").x + 2 * style.FramePadding.x;
+    const float slack = ImGui::GetContentRegionAvail().x - wide;
+    if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
+    ImGui::TextUnformatted(value.c_str());
+    tooltip(explanation);
+    ImGui::SameLine();
+    ImGui::PushID(name);
+    beginGrey(!whyNot.empty(), whyNot.c_str());
+    const bool pressed = ImGui::SmallButton("Apply");
+    noteItem(std::string("Apply ") + name);
+    tooltip("Sets skirts of this in the Seams panel. Undo takes it back.");
+    endGrey();
+    ImGui::PopID();
+    return pressed;
+}
+
+void depthRow(const char* name, double depthM, const char* explanation, bool replayed, SeamKnobs& seams) {
+    const std::string whyNot = replayed ? "A replay has settings of its own; end it first." : "";
+    if (!foundRow(name, distanceText(depthM), explanation, whyNot)) return;
+    seams.mode = planet::SeamMode::Skirts;
+    seams.depth = planet::SkirtDepth::Fixed;
+    seams.skirtDepthM = std::clamp(depthM, 0.0, 100000.0);
+}
+
+void factorRow(const char* name, double factor, const char* explanation, bool replayed, SeamKnobs& seams) {
+    constexpr double mostFactor = 10;
+    const std::string whyNot = replayed              ? "A replay has settings of its own; end it first."
+                               : factor > mostFactor ? "A factor may be 10 at most: apply the depth instead."
+                                                     : "";
+    const std::string text = std::isfinite(factor) ? fmt::format("{:.3f}", factor) : std::string("none");
+    if (!foundRow(name, text, explanation, whyNot)) return;
+    seams.mode = planet::SeamMode::Skirts;
+    seams.depth = planet::SkirtDepth::Automatic;
+    seams.skirtFactor = factor;
+}
+
+void values(const CracksView& cracks, bool replayed, SeamKnobs& seams) {
+    const CrackMeasurement& measured = *cracks.measured;
+    if (!beginValues("cracks")) return;
+    const ImVec4 good = palette().good;
+    const ImVec4 bad = palette().bad;
+    valueRow("Crack pixels", fmt::format("{}", measured.map.pixels.size()),
+             "Pixels whose depth differs between rendering with full-depth skirts and without skirts.");
+    valueRow("Uncovered pixels", fmt::format("{}", measured.map.leaking),
+             "Crack pixels that the current skirts do not cover. Must be 0.",
+             measured.map.leaking == 0 ? &good : &bad);
+    valueRow("Crack clusters", fmt::format("{}", measured.spots.size()),
+             "Connected crack pixels between the same two chunks.");
+    valueRow("LOD seams", fmt::format("{}", measured.levelPairs),
+             "Pairs of adjacent drawn chunks with different levels.");
+    depthRow("Required depth (max gap)", measured.required.depthM,
+             "Largest height difference between two adjacent edges, in metres.", replayed, seams);
+    factorRow("Required factor (max gap)", measured.required.factor,
+              "Smallest automatic factor whose skirts reach every adjacent edge.", replayed, seams);
+    if (cracks.smallest) {
+        depthRow("Smallest depth", cracks.smallest->depthM,
+                 "Smallest fixed skirt depth that leaves no uncovered pixel in this view; within 0.5 %.",
+                 replayed, seams);
+        factorRow("Smallest factor", cracks.smallest->factor,
+                  "Smallest automatic factor that leaves no uncovered pixel in this view; within 0.5 %. "
+                  "None: a factor "
+                  "of 1000 is not enough.",
+                  replayed, seams);
+    }
+    valueRow("Picture", fmt::format("{} x {}", measured.map.widthPx, measured.map.heightPx),
+             "Size of the measured picture, in pixels.");
+    valueRow("Duration", millisecondsText(measured.tookMs),
+             "Duration of the measurement, including edges and pixels.");
+    endValues();
+}
+
+void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::dvec3& placeM,
+              Commands& commands) {
+    ImGui::TableNextColumn();
+    const CrackMeasurement& measured = *view.cracks.measured;
+    inspectButton(measured.lodView, measured.view, finer, placeM, view.planet->shape().radiusM, commands);
+}
+
+void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& commands) {
+    const CrackMeasurement& measured = *view.cracks.measured;
+    const bool hasPair = spot.pair != planet::noPair;
+    if (hasPair)
+        goButton(view, measured.items[measured.pairs[spot.pair].finer], spot.placeM, commands);
+    else
+        cell("");
+    cell(fmt::format("{}", spot.pixels));
+    cell(fmt::format("{}", spot.leaking), spot.leaking > 0 ? palette().bad : palette().dim);
+    if (!hasPair) return cell("no drawn neighbour");
+    chunkCell(measured.items[measured.pairs[spot.pair].finer], view, commands);
+    chunkCell(measured.items[measured.pairs[spot.pair].coarser], view, commands);
+}
+
+void spotTable(const EditorView& view, Commands& commands) {
+    const std::vector<planet::CrackSpot>& spots = view.cracks.measured->spots;
+    if (spots.empty()) return wrappedText("There are no crack pixels in this view.", palette().dim);
+    // Go comes first: a narrow panel scrolls the last columns out of sight.
+    constexpr std::array columns = {TableColumn{"##go", 0.5f}, TableColumn{"Pixels", 0.8f},
+                                    TableColumn{"Uncovered", 1.0f}, TableColumn{"Finer", 1.6f},
+                                    TableColumn{"Coarser", 1.6f}};
+    if (!beginListTable("spots", columns, spots.size())) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::CrackSpot& spot = spots[row];
+        if (column <= 1) return static_cast<double>(spot.pixels);
+        if (column == 2) return static_cast<double>(spot.leaking);
+        if (spot.pair == planet::noPair) return std::string();
+        const CrackMeasurement& measured = *view.cracks.measured;
+        const planet::DrawnPair& pair = measured.pairs[spot.pair];
+        return sortKey(measured.items[column == 3 ? pair.finer : pair.coarser]);
+    };
+    tableRows(spots.size(), key, [&](std::size_t row) { spotRow(view, spots[row], commands); });
+    ImGui::EndTable();
+}
+
+// The skirt of the higher edge, metres.
+float skirtOf(const planet::EdgeGap& gap) {
+    return gap.finerAboveM >= gap.coarserAboveM ? gap.finerSkirtM : gap.coarserSkirtM;
+}
+
+void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& commands) {
+    goButton(view, gap.finer, gap.placeM, commands);
+    cell(distanceText(gap.gapM));
+    tooltip("Largest distance between the two edges at the same position.");
+    cell(pixelsText(gap.facingPx, ""));
+    tooltip("The gap in pixels, facing the view.");
+    const bool tooShort = gap.finerAboveM > static_cast<double>(gap.finerSkirtM) ||
+                          gap.coarserAboveM > static_cast<double>(gap.coarserSkirtM);
+    cell(distanceText(static_cast<double>(skirtOf(gap))), tooShort ? palette().bad : palette().text);
+    tooltip("Skirt depth of the higher edge. Red: it does not reach the lower edge.");
+    chunkCell(gap.finer, view, commands);
+    chunkLink(gap.coarser, view, commands);
+}
+
+void gapTable(const EditorView& view, Commands& commands) {
+    const std::vector<planet::EdgeGap>& gaps = view.cracks.measured->gaps;
+    if (gaps.empty()) return wrappedText("All adjacent edges match.", palette().dim);
+    constexpr std::array columns = {TableColumn{"##go", 0.5f}, TableColumn{"Gap", 0.9f},
+                                    TableColumn{"px", 0.7f}, TableColumn{"Skirt", 0.9f},
+                                    TableColumn{"Finer, coarser", 1.7f}};
+    if (!beginListTable("gaps", columns, 2 * gaps.size())) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::EdgeGap& gap = gaps[row];
+        if (column <= 1) return gap.gapM;
+        if (column == 2) return gap.facingPx;
+        if (column == 3) return static_cast<double>(skirtOf(gap));
+        return sortKey(gap.finer);
+    };
+    tableRows(gaps.size(), key, [&](std::size_t row) { gapRow(view, gaps[row], commands); });
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settings, Commands& commands) {
+    if (section("Cracks")) knobs(view, settings.cracks, commands);
+    if (!view.planet) return emptyState("No planet is open. Open one to measure cracks.");
+    if (!view.cracks.measured)
+        return emptyState("Not measured yet. Press Measure to count the crack pixels of the current view.");
+    if (!view.cracks.current) {
+        wrappedText("Out of date: the camera or the drawn chunks have changed since this measurement.",
+                    palette().warning);
+    }
+    const float alpha = ImGui::GetStyle().Alpha * (view.cracks.current ? 1.0f : 0.6f);
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
+    if (section("Results")) values(view.cracks, view.recording.replay.has_value(), settings.seams);
+    if (section("Crack clusters")) spotTable(view, commands);
+    if (section("Edge gaps")) gapTable(view, commands);
+    ImGui::PopStyleVar();
+}
+
+}  // namespace ui

@@ -1,0 +1,13 @@
+// Cracks: cracks, leaks and edge gaps.
+#pragma once
+
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+struct CracksPanelState {};
+
+void cracksPanel(const EditorView& view, CracksPanelState& state, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,321 @@
+#include "ui/panels/measure/errors_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/columns.h"
+#include "ui/kit/inspection.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
+#include "ui/model/glossary.h"
+#include "ui/model/plot_scale.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+using planet::ChunkError;
+
+constexpr double logarithmicDecades = 4;
+
+// Finer than pixelsText: what is compared here is often a tenth of a pixel.
+std::string finePx(double px, const char* unit = " px") {
+    return fmt::format("{:.3g}{}", px, unit);
+}
+
+void errorsControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    const ErrorsView& errors = view.errors;
+    beginGrey(errors.running, "A measurement is running.");
+    if (button(
+            "Measure",
+            "Compares every finest sample under every drawn chunk with the drawn surface, for this frame's "
+            "view. Runs in the background and reads blocks that are not in memory from the chunk file."))
+        commands.push_back(MeasureErrors{});
+    endGrey();
+    sameLineIfRoom(checkboxWidth("Keep measuring"));
+    bool keep = errors.keepMeasuring;
+    if (ImGui::Checkbox("Keep measuring", &keep)) commands.push_back(KeepMeasuringErrors{keep});
+    noteItem("Keep measuring");
+    tooltip("Repeats the measurement continuously. Uses all cores but one, and the disk.");
+    sameLineIfRoom(checkboxWidth("Tint chunks"));
+    bool tint = settings.overlay.colourBy == ColourBy::Measured;
+    if (ImGui::Checkbox("Tint chunks", &tint))
+        settings.overlay.colourBy = tint ? ColourBy::Measured : ColourBy::None;
+    noteItem("Tint chunks");
+    tooltip(
+        "Tints the chunks in the viewport by their measured error relative to τ, like Colour by in the "
+        "Overlay panel. Chunks not drawn in the measured frame are grey.");
+    if (errors.running) {
+        ImGui::ProgressBar(static_cast<float>(errors.progress), {-1, 0},
+                           fmt::format("measuring, {:.0f} %", 100 * errors.progress).c_str());
+    }
+    if (!errors.problem.empty()) wrappedText(errors.problem, palette().bad);
+}
+
+// Which frame the figures are of.
+void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
+    const std::uint64_t since = view.errors.frame - std::min(view.errors.frame, last.frame);
+    wrappedText(
+        fmt::format("Frame {}, {} ago. {} {}, {} metric. Duration {}.", last.frame,
+                    since == 1 ? "1 frame" : fmt::format("{} frames", since), tauSymbol(),
+                    pixelsText(last.tauPx), last.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
+                    durationText(last.tookS)),
+        palette().dim);
+    tooltip(
+        "The list shows the chunks drawn in that frame for its LOD view. The camera may have moved since.");
+}
+
+void figures(const ErrorMeasurement& last) {
+    const planet::TrueErrorReport& report = last.report;
+    if (!beginValues("errors")) return;
+    const bool wrong = report.violations > 0;
+    valueRow("Violations", fmt::format("{}", report.violations),
+             "Chunks whose measured error exceeds the drawn bound, in facing pixels. Must be 0.",
+             wrong ? &palette().bad : &palette().good);
+    if (report.violationsInSeams > 0)
+        valueRow("  beside seams", fmt::format("{}", report.violationsInSeams),
+                 "Violations whose largest error lies in a cell beside an edge stitched to a coarser chunk. "
+                 "Triangles there span several cells, which δc does not cover.",
+                 &palette().bad);
+    valueRow("Max error, facing", finePx(report.worstFacingPx),
+             "Largest error of any finest sample, in pixels, as if the view faced it: K' times the angle "
+             "between its true and its drawn position. The drawn bound bounds this error.");
+    valueRow(
+        "Max error, screen space", finePx(report.worstScreenPx),
+        "Largest error in the projected picture, in pixels, of the samples inside the picture, including "
+        "hidden ones. The projection stretches towards the corners, so this can exceed the facing error.");
+    valueRow("99th percentile", finePx(report.p99FacingPx),
+             "99 % of the chunks have no larger error, in facing pixels; each chunk counts once.");
+    valueRow(fmt::format("Max {}", epsSymbol()).c_str(), finePx(report.worstEpsPx),
+             "Largest predicted error of a drawn chunk's own surface, in pixels. Morph is not counted in.");
+    valueRow("Max drawn bound", finePx(report.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
+    valueRow("Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
+             "1 - measured / bound, mean over the chunks. Larger: more triangles than the tolerance needs.");
+    valueRow("Chunks", fmt::format("{}", report.chunks.size()), "Chunks drawn in that frame.");
+    valueRow("Samples", countText(static_cast<double>(report.samples)), "Number of finest samples compared.");
+    endValues();
+}
+
+// The scatter.
+
+struct ScatterScale {
+    ImVec2 start;
+    ImVec2 end;
+    double top = 1;  // of both axes, pixels
+    bool logarithmic = true;
+
+    float share(double px) const {
+        const double position = logarithmic
+                                    ? logarithmicPosition(px, top * std::pow(10, -logarithmicDecades), top)
+                                    : linearPosition(px, 0, top);
+        return static_cast<float>(position);
+    }
+    ImVec2 at(double drawnBoundPx, double measuredPx) const {
+        return {start.x + share(drawnBoundPx) * (end.x - start.x),
+                end.y - share(measuredPx) * (end.y - start.y)};
+    }
+    ImVec2 at(const ChunkError& chunk) const { return at(chunk.drawnBoundPx, chunk.facingPx); }
+};
+
+// Where an eye stands in a chunk's bounds its prediction has no end, so a few times tau is enough.
+double topOf(const ErrorMeasurement& last) {
+    const double most = std::min(last.report.worstDrawnBoundPx, 4 * last.tauPx);
+    return roundedTop(std::max({most, last.report.worstFacingPx, 1.2 * last.tauPx}));
+}
+
+void drawAxes(const ScatterScale& scale, double tauPx) {
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    const float gap = ImGui::GetFontSize() * 0.3f;
+    drawList.AddRectFilled(scale.start, scale.end, ImGui::GetColorU32(ImGuiCol_FrameBg),
+                           ImGui::GetStyle().FrameRounding);
+    // Above the diagonal no chunk may lie.
+    drawList.AddTriangleFilled({scale.start.x, scale.end.y}, scale.start, {scale.end.x, scale.start.y},
+                               packed(palette().bad, 0.13f));
+    drawList.AddLine({scale.start.x, scale.end.y}, {scale.end.x, scale.start.y}, packed(palette().bad, 0.7f));
+    const ImVec2 tau = scale.at(tauPx, tauPx);
+    drawList.AddLine({tau.x, scale.start.y}, {tau.x, scale.end.y}, packed(palette().warning, 0.5f));
+    drawList.AddLine({scale.start.x, tau.y}, {scale.end.x, tau.y}, packed(palette().warning, 0.5f));
+    const std::string name = tauSymbol();
+    drawList.AddText({tau.x - ImGui::CalcTextSize(name.c_str()).x - gap, 0.5f * (tau.y + scale.end.y)},
+                     packed(palette().warning), name.c_str());
+    drawList.AddText({scale.start.x + gap, scale.start.y + gap}, packed(palette().dim),
+                     fmt::format("measured, to {} px", axisText(scale.top)).c_str());
+    const std::string bound = "drawn bound";
+    drawList.AddText({scale.end.x - ImGui::CalcTextSize(bound.c_str()).x - gap,
+                      scale.end.y - ImGui::GetTextLineHeight() - gap},
+                     packed(palette().dim), bound.c_str());
+}
+
+std::optional<std::size_t> nearestToPointer(const ScatterScale& scale,
+                                            const std::vector<ChunkError>& chunks) {
+    if (!ImGui::IsItemHovered()) return std::nullopt;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const float reach = ImGui::GetFontSize() * 0.8f;
+    float best = reach * reach;
+    std::optional<std::size_t> nearest;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        const ImVec2 at = scale.at(chunks[i]);
+        const float squared = (at.x - mouse.x) * (at.x - mouse.x) + (at.y - mouse.y) * (at.y - mouse.y);
+        if (squared >= best) continue;
+        best = squared;
+        nearest = i;
+    }
+    return nearest;
+}
+
+void ring(const ScatterScale& scale, const ErrorMeasurement& last, const std::optional<planet::ChunkId>& id,
+          const ImVec4& colour) {
+    if (!id) return;
+    const auto found = last.indexOf.find(*id);
+    if (found == last.indexOf.end()) return;
+    ImGui::GetWindowDrawList()->AddCircle(scale.at(last.report.chunks[found->second]),
+                                          ImGui::GetFontSize() * 0.35f, packed(colour), 0, 2);
+}
+
+void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& commands) {
+    commands.push_back(HoverChunk{chunk.id});
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) commands.push_back(SelectChunk{chunk.id});
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        const planet::View& from = view.errors.last->lodView;
+        commands.push_back(inspectionOf(from, from, chunk.worstM, view.planet->shape().radiusM));
+    }
+    ImGui::BeginTooltip();
+    ImGui::TextUnformatted(planet::toString(chunk.id).c_str());
+    ImGui::Text("measured %s, drawn bound %s", finePx(chunk.facingPx).c_str(),
+                finePx(chunk.drawnBoundPx).c_str());
+    ImGui::Text("max error %s", distanceText(chunk.errorM).c_str());
+    if (planet::isViolation(chunk)) ImGui::TextColored(palette().bad, "violation");
+    ImGui::TextDisabled("click: select   double-click: go to the worst place");
+    ImGui::EndTooltip();
+}
+
+void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands) {
+    const ErrorMeasurement& last = *view.errors.last;
+    checkbox("Logarithmic", state.logarithmic, true,
+             "Shows both axes over four decades. Off: linear from 0, where small errors overlap.");
+    const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
+    const float height = std::round(std::min(width, 13 * ImGui::GetTextLineHeightWithSpacing()));
+    const ImVec2 start = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("scatter", {width, height});
+    noteItem("scatter");
+    const ScatterScale scale{start, {start.x + width, start.y + height}, topOf(last), state.logarithmic};
+    ImGui::PushClipRect(scale.start, scale.end, true);
+    drawAxes(scale, last.tauPx);
+    const float half = std::max(std::round(ImGui::GetFontSize() * 0.13f), 1.0f);
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    const ImU32 usual = packed(palette().accent, 0.8f);
+    const ImU32 wrong = packed(palette().bad);
+    for (const ChunkError& chunk : last.report.chunks) {
+        const ImVec2 at = scale.at(chunk);
+        drawList.AddRectFilled({at.x - half, at.y - half}, {at.x + half, at.y + half},
+                               planet::isViolation(chunk) ? wrong : usual);
+    }
+    ring(scale, last, view.focus.selected, palette().text);
+    ring(scale, last, view.focus.hovered, palette().warning);
+    ImGui::PopClipRect();
+    if (const auto nearest = nearestToPointer(scale, last.report.chunks))
+        return pointerOnChunk(last.report.chunks[*nearest], view, commands);
+    tooltip(
+        "One dot per chunk: drawn bound on the horizontal axis, measured error on the vertical axis, in "
+        "facing pixels. On the diagonal the bound is exact; above it, it is violated; far below it, "
+        "triangles are wasted.");
+}
+
+void goToWorst(const ChunkError& chunk, const EditorView& view, Commands& commands) {
+    const planet::View& from = view.errors.last->lodView;
+    inspectButton(from, from, chunk.id, chunk.worstM, view.planet->shape().radiusM, commands);
+}
+
+void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& commands) {
+    const bool wrong = planet::isViolation(chunk);
+    if (wrong) ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
+    chunkCell(chunk.id, view, commands,
+              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
+    ImGui::TableNextColumn();
+    goToWorst(chunk, view, commands);
+    cell(finePx(chunk.facingPx, ""));
+    cell(finePx(chunk.drawnBoundPx, ""));
+    cell(fmt::format("{:.0f} %", 100 * planet::slackOf(chunk)));
+    cell(finePx(chunk.screenPx, ""));
+    cell(distanceText(chunk.errorM));
+    cell(finePx(chunk.meanPx, ""));
+    if (wrong) ImGui::PopStyleColor();
+}
+
+constexpr std::array worstColumns = {
+    TableColumn{"Chunk", 1.9f, "Click to select the chunk; double-click to look at it."},
+    TableColumn{"##go", 0.6f},
+    TableColumn{"Measured", 1.1f, terms::measuredPx.meaning},
+    TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning},
+    TableColumn{"Slack", 0.8f, "1 - measured / bound."},
+    TableColumn{"Screen space", 1.3f,
+                "Measured error in the projected picture, in pixels; 0 if no sample lies in it."},
+    TableColumn{
+        "Error", 0.9f,
+        "Distance in metres between the sample and the drawn surface, where the measured error is largest."},
+    TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
+
+void worstList(const EditorView& view, Commands& commands) {
+    if (!beginWideTable("worst", worstColumns, 30, 1)) return;
+    const ErrorMeasurement& last = *view.errors.last;
+    const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
+        return last.report.chunks[last.worstFirst[row]];
+    };
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const ChunkError& chunk = chunkOf(row);
+        switch (column) {
+            case 0:
+                return sortKey(chunk.id);
+            case 2:
+                return chunk.facingPx;
+            case 3:
+                return chunk.drawnBoundPx;
+            case 4:
+                return planet::slackOf(chunk);
+            case 5:
+                return chunk.screenPx;
+            case 6:
+                return chunk.errorM;
+            default:
+                return chunk.meanPx;
+        }
+    };
+    tableRows(last.worstFirst.size(), key, [&](std::size_t row) { chunkRow(chunkOf(row), view, commands); });
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& settings,
+                 Commands& commands) {
+    if (!view.planet)
+        return emptyState("No planet is open. Open one to measure the true error of drawn chunks.");
+    errorsControls(view, settings, commands);
+    if (!view.errors.last) {
+        return emptyState(view.errors.running
+                              ? "The first measurement is running."
+                              : "Press Measure to compare the drawn surface with the finest data.");
+    }
+    constexpr float tableLines = 12;
+    const std::array columns = {
+        Column{"Measured", 1, 0,
+               [&] {
+                   measuredWhen(view, *view.errors.last);
+                   figures(*view.errors.last);
+               }},
+        Column{"Measured against drawn bound", 1, 0, [&] { scatter(view, state, commands); }},
+        Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};
+    drawColumns("errors", columns);
+}
+
+}  // namespace ui

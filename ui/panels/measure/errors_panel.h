@@ -1,0 +1,15 @@
+// True error: the measured error of what is drawn, beside the bound of what is drawn.
+#pragma once
+
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+struct ErrorsPanelState {
+    bool logarithmic = true;  // the scatter's axes
+};
+
+void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,299 @@
+#include "ui/panels/measure/pops_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/columns.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/plots.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/plot_scale.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+using planet::PopEvent;
+using planet::PopMeter;
+
+constexpr double popsSampledEveryS = 0.25;
+constexpr std::size_t buckets = 40;
+
+void refresh(const EditorView& view, PopsPanelState& state) {
+    PopsPanelState::Sample& sample = state.sample;
+    const PopMeter& meter = *view.pops.meter;
+    const bool current = sample.meter == &meter && view.timeS >= sample.takenAtS &&
+                         view.timeS < sample.takenAtS + popsSampledEveryS &&
+                         meter.totals().switches >= sample.switches;
+    if (current) return;
+    sample = {};
+    sample.meter = &meter;
+    sample.takenAtS = view.timeS;
+    sample.switches = meter.totals().switches;
+    std::vector<float> positions;
+    for (const PopEvent& event : meter.events()) {
+        if (!planet::counts(event)) continue;
+        const double px = std::max(event.jump.largestPx, leastPopPx);
+        positions.push_back(static_cast<float>(logarithmicPosition(px, leastPopPx, mostPopPx)));
+    }
+    sample.seen = positions.size();
+    sample.counts = bucketCounts(positions, buckets);
+    sample.medianPx = meter.percentilePx(0.5);
+    sample.p99Px = meter.percentilePx(0.99);
+}
+
+void popsControls(const EditorView& view, PopsPanelState& state, Commands& commands) {
+    bool measuring = view.pops.measuring;
+    if (ImGui::Checkbox("Measure", &measuring)) commands.push_back(MeasurePops{measuring});
+    noteItem("Measure");
+    tooltip(fmt::format("Measures every level change as it happens; mean cost so far {:.0f} µs per change. "
+                        "Off: no changes are recorded and no time is spent.",
+                        view.pops.meter->measuredUsPerSwitch())
+                .c_str());
+    sameLineForButton("Clear");
+    if (button("Clear", "Discards all measurements.")) {
+        commands.push_back(ClearPops{});
+        state.selected.reset();
+    }
+}
+
+void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
+    popsControls(view, state, commands);
+    const PopsPanelState::Sample& sample = state.sample;
+    if (sample.seen == 0) {
+        wrappedText(view.pops.measuring ? "No level changes that count in the last five minutes. Fly, or "
+                                          "change a setting in the LOD panel."
+                                        : "Not measuring.",
+                    palette().dim);
+    } else {
+        // A line of its own: else it may be broken at its decimal point.
+        ImGui::TextWrapped("99 %% of switches move less than\n%s; %s measured.",
+                           popPxText(std::max(sample.p99Px, leastPopPx)).c_str(),
+                           countText(static_cast<double>(sample.seen)).c_str());
+        tooltip(
+            "Level changes in the last five minutes that are visible and do not follow a camera jump: the "
+            "largest screen-space distance, in "
+            "pixels, that a surface point jumps in the frame of the switch, including morphing. Less than "
+            "0.1 px is invisible.");
+    }
+    const std::array marks = {
+        HistogramMark{logarithmicPosition(std::max(sample.p99Px, leastPopPx), leastPopPx, mostPopPx),
+                      fmt::format("99 %: {}", popPxText(sample.p99Px))}};
+    histogram("jumps", sample.counts, fmt::format("{} px", leastPopPx), fmt::format("{} px", mostPopPx),
+              sample.seen > 0 ? std::span<const HistogramMark>(marks) : std::span<const HistogramMark>(), 4,
+              [](double position) { return popPxText(logarithmicValue(position, leastPopPx, mostPopPx)); });
+    tooltip("Histogram of switches by largest jump in pixels, on a logarithmic axis.");
+}
+
+void totals(const EditorView& view, const PopsPanelState& state) {
+    const PopMeter& meter = *view.pops.meter;
+    const planet::PopTotals& t = meter.totals();
+    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
+    if (!beginValues("totals")) return;
+    constexpr std::array<const char*, planet::popCauseCount> meanings = {
+        "The chunk's screen-space error crossed the tolerance because the camera moved.",
+        "A setting that affects LOD selection was changed: tolerance, hysteresis, metric, max LOD level, "
+        "culling, stitched seams, field of view, picture size or exaggeration. A switch that fades keeps "
+        "this cause.",
+        "The chunk was drawn too coarse until its children were loaded.",
+        "The chunk's children were evicted although they were needed: the memory budget is too small.",
+        "Stitched seams limit the level difference of neighbours, and a neighbour changed.",
+        "Stitched seams limit the level difference of neighbours, and a neighbour entered or left the view."};
+    for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
+        const auto cause = static_cast<planet::PopCause>(i);
+        const ImVec4 colour = popColour(cause);
+        valueRow(planet::popCauseName(cause), count(t.byCause[i]), meanings[i],
+                 t.byCause[i] > 0 ? &colour : nullptr);
+    }
+    valueRow("median jump", popPxText(state.sample.medianPx),
+             "Median of the switches in the histogram, in pixels.");
+    valueRow("max jump", popPxText(t.worstPx),
+             "Largest jump of the switches that count since the list was cleared, in pixels.");
+    valueRow("max adjacent jump", popPxText(t.worstBesidePx),
+             "Largest jump along an edge of an unchanged chunk beside a switch, in pixels; the edge follows "
+             "its neighbour.");
+    valueRow(
+        "late now", count(meter.lateOpen()),
+        "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
+        meter.lateOpen() > 0 ? &palette().warning : nullptr);
+    valueRow("late, total", count(t.late), "Late chunks since the list was cleared.");
+    valueRow("outside picture", count(t.outsidePicture),
+             "Switches outside the picture; they count only in the totals by cause.");
+    valueRow(
+        "under sea", count(t.underSea),
+        "Switches of the sea bed under a sea that is drawn as water. They are not visible and count only "
+        "in the totals by cause.");
+    valueRow("after jump", count(t.afterJump),
+             "Switches caused by a camera jump or by the start of the measurement: the loads and fades that "
+             "were due then. They are listed last and count only in the totals by cause.");
+    endValues();
+}
+
+void flip(const EditorView& view, Commands& commands) {
+    const PopsView& pops = view.pops;
+    constexpr std::array<const char*, 3> names = {"Live", "Before", "After"};
+    constexpr std::array<const char*, 3> meanings = {"Draws the current selection.",
+                                                     "Draws all chunks as in the frame before the switch.",
+                                                     "Draws all chunks as in the frame of the switch."};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) ImGui::SameLine();
+        const auto side = static_cast<PopSide>(i);
+        if (ImGui::RadioButton(names[i], pops.side == side)) commands.push_back(ShowPopSide{side});
+        noteItem(names[i]);
+        tooltip(fmt::format("Switch of {}: {}", planet::toString(pops.shown->chunk), meanings[i]).c_str());
+    }
+    if (!pops.problem.empty()) wrappedText(pops.problem, palette().warning);
+}
+
+void selectedValues(const PopEvent& event) {
+    if (!beginValues("selected")) return;
+    valueRow("levels", fmt::format("{} to {}", event.fromLevel, event.toLevel),
+             "Level of the finest chunk drawn there, before and after.");
+    const ImVec4 colour = popColour(event.cause);
+    valueRow("cause", planet::popCauseName(event.cause), "Cause of the level change.", &colour);
+    if (!planet::counts(event))
+        valueRow("note", planet::popNote(event), "Why the switch does not count.", &palette().warning);
+    valueRow("largest", popPxText(event.jump.largestPx),
+             "Largest screen-space distance that a point jumps, in pixels, between the projections before "
+             "and after through the new view.");
+    valueRow("facing", popPxText(event.jump.largestFacingPx),
+             "Largest jump in pixels as if the view faced the place, without the stretching towards the "
+             "picture's corners.");
+    valueRow("mean", popPxText(event.jump.meanPx),
+             "Mean over its screen area in the picture, in pixels, without what a drawn sea covers.");
+    valueRow("adjacent", popPxText(event.besidePx),
+             "Largest jump along edges of unchanged adjacent chunks, in pixels.");
+    endValues();
+}
+
+void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& commands) {
+    const auto& events = view.pops.meter->events();
+    const auto found = std::find_if(events.begin(), events.end(), [&](const PopEvent& event) {
+        return state.selected && keyOf(event) == *state.selected;
+    });
+    if (found == events.end()) {
+        wrappedText(
+            "Click a tick or a row to select a switch. Drag the timeline to pan; use the wheel to zoom.",
+            palette().dim);
+    } else {
+        if (button(
+                "Go to view",
+                "Moves the camera to where the switch was seen, freezes LOD there, and selects its chunk."))
+            commands.push_back(GoBackToPop{found->frame, found->chunk});
+        ImGui::SameLine();
+        chunkLink(found->chunk, view, commands);
+    }
+    if (view.pops.shown) flip(view, commands);
+    if (found != events.end()) selectedValues(*found);
+}
+
+void timeline(const EditorView& view, PopsPanelState& state, bool wide, Commands& commands) {
+    const float spare = ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing();
+    const float lines = wide ? std::clamp(spare * 0.4f, 3.0f, 12.0f) : 6;
+    if (const auto clicked = popTimeline(*view.pops.meter, lines, state.selected, state.timeline))
+        state.selected = clicked;
+    ImGui::TextDisabled("%s up to %s", durationText(state.timeline.spanS).c_str(),
+                        state.timeline.behindS > 0
+                            ? fmt::format("{} ago", durationText(state.timeline.behindS)).c_str()
+                            : "now");
+    if (state.timeline.behindS > 0) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("Now")) state.timeline.behindS = 0;
+        noteItem("Now");
+    }
+    selectedEvent(view, state, commands);
+}
+
+void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, PopsPanelState& state) {
+    ImGui::TableNextColumn();
+    const bool isSelected = state.selected == keyOf(event);
+    const double agoS = std::max(view.pops.meter->lastTimeS() - event.timeS, 0.0);
+    // The same row whatever the time.
+    const std::string ago = fmt::format("{:.{}f} s###row", agoS, agoS < 10 ? 1 : 0);
+    if (ImGui::Selectable(ago.c_str(), isSelected, ImGuiSelectableFlags_SpanAllColumns))
+        state.selected = keyOf(event);
+    if (row < 3) noteItem(fmt::format("Row {}", row));
+    cell(popPxText(event.jump.largestPx));
+    cell(planet::toString(event.chunk));
+    cell(fmt::format("{} > {}", event.fromLevel, event.toLevel));
+    cell(planet::popCauseName(event.cause), popColour(event.cause));
+    cell(popPxText(event.jump.meanPx));
+    cell(popPxText(event.besidePx));
+    cell(planet::popNote(event), palette().dim);
+}
+
+void worstFirst(const EditorView& view, PopsPanelState& state) {
+    const auto& events = view.pops.meter->events();
+    if (events.empty()) return emptyState("No level changes recorded.");
+    constexpr std::array columns = {TableColumn{"Ago", 0.8f},
+                                    TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
+                                    TableColumn{"Chunk", 1.6f},
+                                    TableColumn{"Levels", 0.9f},
+                                    TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
+                                    TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
+                                    TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"},
+                                    TableColumn{"Note", 1.3f, nullptr, "outside picture"}};
+    if (!beginWideTable("worst", columns, 40)) return;
+    std::vector<std::size_t> order(events.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto worse = [&](std::size_t a, std::size_t b) { return planet::isWorsePop(events[a], events[b]); };
+    if (const std::optional<TableSort> sort = chosenSort()) {
+        const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+            const PopEvent& event = events[row];
+            switch (column) {
+                case 0:
+                    return -event.timeS;
+                case 1:
+                    return event.jump.largestPx;
+                case 2:
+                    return sortKey(event.chunk);
+                case 3:
+                    return static_cast<double>(event.fromLevel);
+                case 4:
+                    return std::string(planet::popCauseName(event.cause));
+                case 5:
+                    return event.jump.meanPx;
+                case 6:
+                    return event.besidePx;
+                default:
+                    return std::string(planet::popNote(event));
+            }
+        };
+        order = tableOrder(events.size(), sort, key);
+        tableRows(order.size(), [&](std::size_t row) { eventRow(view, events[order[row]], row, state); });
+    } else {
+        sortedTableRows(order, worse, [&](std::size_t event, std::size_t row) {
+            eventRow(view, events[event], row, state);
+        });
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings&, Commands& commands) {
+    if (!view.planet || !view.pops.meter)
+        return emptyState("No planet is open. Open one to measure jumps at level changes.");
+    refresh(view, state);
+    const bool wide = hasWideRoom();
+    const auto rows =
+        static_cast<float>(std::clamp<std::size_t>(view.pops.meter->events().size() + 2, 3, 14));
+    const std::array columns = {Column{"Jumps", 1, 0,
+                                       [&] {
+                                           jumps(view, state, commands);
+                                           totals(view, state);
+                                       }},
+                                Column{"Timeline", 1.5f, 0, [&] { timeline(view, state, wide, commands); }},
+                                Column{"Level changes", 1.6f, rows, [&] { worstFirst(view, state); }}};
+    drawColumns("pops", columns);
+}
+
+}  // namespace ui

@@ -1,0 +1,31 @@
+// Pops: how far the surface jumps at changes of level, when, why, and what it looked like.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+#include "ui/panels/measure/pops_timeline.h"
+
+namespace ui {
+
+struct PopsPanelState {
+    PopTimelineState timeline;
+    std::optional<PopKey> selected;
+
+    // What is worked out from all events now and then.
+    struct Sample {
+        const planet::PopMeter* meter = nullptr;
+        double takenAtS = -1;
+        std::uint64_t switches = 0;
+        std::vector<float> counts;  // histogram
+        std::size_t seen = 0;       // switches in it
+        double medianPx = 0;
+        double p99Px = 0;
+    } sample;
+};
+
+void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

@@ -1,0 +1,13 @@
+// Precision: what floats and the depth buffer make of a point.
+#pragma once
+
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace ui {
+
+struct ProbePanelState {};
+
+void probePanel(const EditorView& view, ProbePanelState& state, ViewSettings& settings, Commands& commands);
+
+}  // namespace ui

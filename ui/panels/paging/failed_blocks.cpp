@@ -1,0 +1,90 @@
+#include "ui/panels/paging/failed_blocks.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <tuple>
+
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/paging_text.h"
+
+namespace ui {
+
+namespace {
+
+void failedRow(const EditorView& view, const planet::FailedBlock& failed, Commands& commands) {
+    ImGui::TableNextColumn();
+    if (ImGui::SmallButton("Retry")) commands.push_back(RetryFailed{failed.block});
+    noteItem("Retry " + planet::toString(failed.block));
+    tooltip("Retries this block now and resets its failure count.");
+    const bool isTile = failed.block.kind != planet::BlockKind::Heights;
+    ImGui::TableNextColumn();
+    if (isTile)
+        colourLink(failed.block.parent, view, commands);
+    else
+        chunkLink(failed.block.parent, view, commands);
+    cell(retryText(failed.retryInS), failed.retryInS ? palette().warning : palette().bad);
+    cell(fmt::format("{}", failed.attempts));
+    cell(kindText(failed.block.kind), isTile ? palette().accent : palette().text);
+    cell(failed.message);
+    tooltip(failed.message.c_str());
+}
+
+}  // namespace
+
+void sortFailed(std::vector<planet::FailedBlock>& blocks) {
+    const auto place = [](const planet::FailedBlock& failed) {
+        return std::tuple(failed.retryInS.value_or(-1), failed.block);
+    };
+    std::sort(blocks.begin(), blocks.end(),
+              [&](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+std::string retryText(const std::optional<double>& retryInS) {
+    if (!retryInS) return "never";
+    return *retryInS > 0 ? "in " + latencyText(*retryInS) : "when needed";
+}
+
+void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands) {
+    if (blocks.empty())
+        return emptyState("No read has failed. \"Failure rate\" under I/O fault injection makes reads fail.");
+    // As wide as their texts, in heights of the font.
+    constexpr std::array columns = {
+        TableColumn{"##retry", 3.6f},
+        TableColumn{"Parent", 7, "Click to select the chunk; double-click to look at it."},
+        TableColumn{"Retry", 6.8f,
+                    "When the block is retried automatically: after a delay that doubles with each failure, "
+                    "if a view needs it. Never: the block has failed permanently and only the Retry button "
+                    "requests it again. \"Retries\" and \"Retry delay\" set the number and the delay; "
+                    "corrupt blocks fail permanently at once."},
+        TableColumn{"Attempts", 3.2f, "Failed reads since the block was last loaded or retried manually."},
+        TableColumn{"Kind", 4.4f, "Kind of block: heights of a chunk, colour tile or normal tile."},
+        TableColumn{"Reason", 24, "The last error; its tooltip shows the full text."}};
+    if (!beginWideTable("failed", columns, 49, 2)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::FailedBlock& failed = blocks[row];
+        switch (column) {
+            case 1:
+                return sortKey(failed.block.parent);
+            case 2:
+                return failed.retryInS.value_or(std::numeric_limits<double>::infinity());
+            case 3:
+                return static_cast<double>(failed.attempts);
+            case 4:
+                return std::string(kindText(failed.block.kind));
+            default:
+                return failed.message;
+        }
+    };
+    tableRows(blocks.size(), key, [&](std::size_t row) { failedRow(view, blocks[row], commands); });
+    ImGui::EndTable();
+}
+
+}  // namespace ui

@@ -1,0 +1,734 @@
+#include "ui/panels/paging/paging_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "planet/base/percentile.h"
+#include "planet/select/screen_error.h"
+#include "ui/kit/chunk_link.h"
+#include "ui/kit/columns.h"
+#include "ui/kit/item_map.h"
+#include "ui/kit/plots.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
+#include "ui/model/history.h"
+#include "ui/model/paging_text.h"
+#include "ui/model/plot_scale.h"
+#include "ui/model/text.h"
+#include "ui/panels/paging/failed_blocks.h"
+
+namespace ui {
+
+namespace {
+
+constexpr double pagingSampledEveryS = 0.1;
+// The latency axis, seconds, logarithmic.
+constexpr double fastestS = 1e-4;
+constexpr double slowestS = 100;
+constexpr std::size_t latencyBuckets = 36;
+
+// Controls.
+
+void knobs(PagingKnobs& paging, bool hasColours) {
+    const PagingKnobs defaults;
+    slider("Budget", paging.budgetMB, defaults.budgetMB, 16, 65536, "%d MiB",
+           "Memory budget for resident chunks and colour tiles, CPU and GPU together, in MiB. Smaller: once "
+           "the budget is full, some chunks stay coarse and evicted chunks must be loaded again. Larger: "
+           "less memory for everything else.",
+           ImGuiSliderFlags_Logarithmic);
+    if (hasColours) {
+        slider("Colour share", paging.colourShare, defaults.colourShare, 0.01, 0.9, "%.2f",
+               "Fraction of the budget for streamed colour tiles. Larger: sharper colours, but coarser "
+               "ground once the budget is full.");
+    }
+    slider("Loaders", paging.loaderThreads, defaults.loaderThreads, 1, 64, "%d",
+           "Number of threads that read and decode chunks. More: more reads in flight on a slow disk, but "
+           "less CPU time for drawing.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Upload limit", paging.uploadLimitMs, defaults.uploadLimitMs, 0.1, 100, "%.1f ms",
+           "Time per frame for uploading loaded chunks, in milliseconds; at least one block is uploaded per "
+           "frame. Larger: detail arrives sooner, but frames may stutter.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Retries", paging.retries, defaults.retries, 0, 10, "%d",
+           "How often a failed read is retried before it counts as permanently failed. Fewer: an unreliable "
+           "disk leaves chunks coarse. More: a broken disk is retried for longer. Corrupt blocks are never "
+           "retried.");
+    slider("Retry delay", paging.retryDelayS, defaults.retryDelayS, 0, 60, "%.2f s",
+           "Delay before the first retry of a failed read, in seconds; it doubles with each further retry. "
+           "Smaller: detail arrives sooner, but a failing disk is read more often.",
+           ImGuiSliderFlags_Logarithmic);
+}
+
+void buttons(const EditorView& view, Commands& commands) {
+    bool paused = view.pagingPaused;
+    if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PausePaging{paused});
+    noteItem("Pause");
+    tooltip("Stops loaders from taking requests from the queue. Missing chunks stay coarse.");
+    sameLineForButton("Load one");
+    beginGrey(!view.pagingPaused, "Pause paging first.");
+    if (button("Load one", "While paused: processes the most urgent request.")) commands.push_back(LoadOne{});
+    endGrey();
+    sameLineForButton("Evict all");
+    if (button("Evict all",
+               "Evicts all chunks and colour tiles except the six roots, and cancels all queued requests, to "
+               "show how the picture loads again."))
+        commands.push_back(DropAll{});
+    const planet::PagingCounters& p = view.stats.paging;
+    if (p.failedForGood + p.awaitingRetry == 0) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, p.failedForGood > 0 ? palette().bad : palette().warning);
+    const std::string label = fmt::format("Retry {} failed###retry", p.failedForGood + p.awaitingRetry);
+    const bool retry = ImGui::Button(label.c_str());
+    noteItem("Retry failed");
+    if (retry) commands.push_back(RetryFailed{});
+    ImGui::PopStyleColor();
+    tooltip(
+        "Retries all blocks that failed permanently. Where a block could not be read, its parent is drawn "
+        "instead; permanently failed colour tiles are drawn as a checkerboard. The Failed tab lists them.");
+}
+
+std::size_t tileBytes(const planet::Planet& planet) {
+    return planet::colourTileBytes(planet.colour()->format);
+}
+
+void colourMemory(const EditorView& view) {
+    const planet::TilePagingCounters& p = view.stats.colourPaging;
+    const double bytes = static_cast<double>(tileBytes(*view.planet));
+    const double used = static_cast<double>(p.residentTiles) * bytes;
+    const double room = p.tileCapacity * bytes;
+    usageBar(room > 0 ? used / room : 0, fmt::format("colours {} of {}", bytesText(used), bytesText(room)));
+    const planet::PagingSettings& settings = view.planet->pagingSettings();
+    tooltip(
+        fmt::format(
+            "Resident colour tiles and their share of the budget, all on the GPU: {} of {} tiles of {} each. "
+            "The share, {:.2f}, is {}. It is limited to the number of tiles in the file and to {} tiles.",
+            p.residentTiles, p.tileCapacity, bytesText(bytes), settings.colourShare,
+            bytesText(settings.colourShare * static_cast<double>(settings.budgetBytes)),
+            settings.maxColourTiles)
+            .c_str());
+    if (p.budgetWaits > 0) {
+        wrappedText(
+            fmt::format("{} requested colour tiles do not fit into their share.", countText(p.budgetWaits)),
+            palette().warning);
+    }
+}
+
+void residentMemory(const EditorView& view) {
+    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingSettings& settings = view.planet->pagingSettings();
+    const bool hasColours = view.planet->colour().has_value();
+    const double used = static_cast<double>(p.residentBytesCpu + p.residentBytesGpu);
+    const double budget =
+        static_cast<double>(settings.budgetBytes) * (hasColours ? 1 - settings.colourShare : 1);
+    usageBar(budget > 0 ? used / budget : 0,
+             fmt::format("{}{} of {}", hasColours ? "heights " : "", bytesText(used), bytesText(budget)));
+    tooltip(fmt::format("Resident chunks and {}: {} chunks, {} on the CPU and {} on the GPU.",
+                        hasColours ? "the budget minus the colour share" : "the budget",
+                        countText(static_cast<double>(p.residentChunks)),
+                        bytesText(static_cast<double>(p.residentBytesCpu)),
+                        bytesText(static_cast<double>(p.residentBytesGpu)))
+                .c_str());
+    if (p.budgetWaits > 0) {
+        wrappedText(fmt::format("{} requested blocks do not fit into the budget.", countText(p.budgetWaits)),
+                    palette().warning);
+    }
+    if (hasColours) colourMemory(view);
+}
+
+double asNumber(std::uint64_t value) {
+    return static_cast<double>(value);
+}
+std::string countCell(std::uint64_t value) {
+    return countText(asNumber(value));
+}
+std::string bytesCell(std::uint64_t value) {
+    return bytesText(asNumber(value));
+}
+
+struct KindTotals {
+    const char* kind;
+    std::uint64_t loaded, evicted, failed, bytesRead;
+    std::size_t resident;
+    std::uint32_t budgetWaits;
+};
+
+KindTotals totalsOf(const char* kind, const planet::PagingCounters& p) {
+    return {kind, p.loaded, p.evicted, p.failed, p.bytesRead, p.residentChunks, p.budgetWaits};
+}
+KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& p) {
+    return {kind, p.loaded, p.evicted, p.failed, p.bytesRead, p.residentTiles, p.budgetWaits};
+}
+
+void totalsByKind(const FrameStats& stats) {
+    const std::array kinds = {totalsOf("Heights", stats.paging), totalsOf("Colours", stats.colourPaging),
+                              totalsOf("Normals", stats.normalPaging)};
+    constexpr std::array columns = {
+        TableColumn{"Kind", 0.6f},
+        TableColumn{"Loaded", 0.6f, "Blocks read and made resident."},
+        TableColumn{
+            "Evicted", 0.6f,
+            "Loaded blocks that are no longer resident, to stay within the budget or dropped by hand."},
+        TableColumn{"Failed", 0.6f, "Failed reads, including those retried later."},
+        TableColumn{"Read", 0.7f,
+                    "Bytes read from the chunk file. Normals are derived from heights, which are read again "
+                    "for them.",
+                    "1023 MiB"},
+        TableColumn{
+            "Resident", 0.7f,
+            "Resident chunks and tiles of 256 x 256 texels; the six roots of each are always resident."},
+        TableColumn{"Over budget", 1,
+                    "Blocks requested in the last frame that do not fit into the budget or its share."}};
+    if (!beginListTable("kinds", columns, kinds.size(), 12, 1)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const KindTotals& of = kinds[row];
+        if (column == 0) return std::string(of.kind);
+        const std::array<double, 6> values = {asNumber(of.loaded),   asNumber(of.evicted),
+                                              asNumber(of.failed),   asNumber(of.bytesRead),
+                                              asNumber(of.resident), asNumber(of.budgetWaits)};
+        return values[column - 1];
+    };
+    tableRows(kinds.size(), key, [&](std::size_t row) {
+        const KindTotals& of = kinds[row];
+        cell(of.kind, palette().dim);
+        cell(countCell(of.loaded));
+        cell(countCell(of.evicted));
+        cell(countCell(of.failed), of.failed > 0 ? palette().bad : palette().text);
+        cell(bytesCell(of.bytesRead));
+        cell(countCell(of.resident));
+        cell(countCell(of.budgetWaits), of.budgetWaits > 0 ? palette().warning : palette().text);
+    });
+    ImGui::EndTable();
+}
+
+void totals(const EditorView& view) {
+    const planet::PagingCounters& p = view.stats.paging;
+    if (!beginValues("totals")) return;
+    valueRow("Requested", countCell(p.requested),
+             "Load requests of all kinds queued since the file was opened.");
+    valueRow("Merged", countCell(p.merged), "Requests repeated while they were queued.");
+    valueRow("Cancelled", countCell(p.cancelled),
+             "Requests cancelled by the opposite request or no longer needed.");
+    endValues();
+    totalsByKind(view.stats);
+}
+
+void seedKnob(std::uint32_t& seed) {
+    constexpr const char* explanation = "Seed of the injected faults; the same seed gives the same faults.";
+    labelledControl("Seed", explanation);
+    const std::uint32_t step = 1;
+    ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed, &step);
+    tooltip(explanation);
+}
+
+void badDisk(PagingKnobs& paging) {
+    planet::BadDiskSettings& disk = paging.badDisk;
+    const planet::BadDiskSettings defaults;
+    if (isBad(disk)) {
+        wrappedText(fmt::format("Injecting I/O faults: {}.", badDiskText(disk)), palette().warning);
+        if (button("Off", "Turns all fault injection off. The seed is kept.")) {
+            const std::uint32_t seed = disk.seed;
+            disk = {};
+            disk.seed = seed;
+        }
+    }
+    slider("Latency", disk.latencyMs, defaults.latencyMs, 0, 10000, "%.1f ms",
+           "Latency added to each read, in milliseconds, varied randomly by ±50 %. Larger: detail arrives "
+           "later; more loaders hide part of it.",
+           ImGuiSliderFlags_Logarithmic);
+    slider("Bandwidth", disk.bandwidthMBs, defaults.bandwidthMBs, 0, 100000,
+           disk.bandwidthMBs > 0 ? "%.2f MB/s" : "unlimited",
+           "Bandwidth per loader thread, in MB/s (10^6 bytes); 0 is unlimited. Smaller: large blocks take "
+           "longer.",
+           ImGuiSliderFlags_Logarithmic);
+    slider(
+        "Failure rate", disk.failureRate, defaults.failureRate, 0, 1, "%.3f",
+        "Fraction of reads that fail, [0, 1]. The parent of a failed block is drawn until a retry succeeds.");
+    checkbox("Shuffled order", disk.shuffledOrder, defaults.shuffledOrder,
+             "Serves reads in a random order given by the seed instead of by priority, to show the benefit "
+             "of priorities.");
+    seedKnob(disk.seed);
+    int time = paging.simulated ? 1 : 0;
+    if (choiceIndex("Read timing", time, 0, "real time\0simulated\0",
+                    "Real time: loader threads read as fast as they can. Simulated: a read takes exactly the "
+                    "time given by the settings above and the seed, counted in frame time, so that a flight "
+                    "loads the same blocks in the same frames on any machine. Without latency and bandwidth "
+                    "a read takes no time. Changing this restarts reads in progress."))
+        paging.simulated = time == 1;
+}
+
+// What is read from the planet now and then.
+
+void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::Sample& sample) {
+    std::vector<PagingRow>& queue = sample.queue;
+    queue.clear();
+    sample.hidden = 0;
+    for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
+        const auto requests = shownView < 0
+                                  ? planet.pendingRequests(type)
+                                  : planet.pendingRequests(type, static_cast<std::size_t>(shownView));
+        for (const planet::PagingRequest& request : requests) {
+            if (sample.shownKind && request.kind != *sample.shownKind) {
+                ++sample.hidden;
+                continue;
+            }
+            PagingRow row{request.parent,   request.kind,     type,
+                          request.priority, request.askedAtS, request.timesAsked};
+            for (std::size_t v = 0; v < request.viewPriority.size(); ++v)
+                if (request.viewPriority[v] > 0) row.views |= 1u << v;
+            queue.push_back(row);
+        }
+    }
+}
+
+bool isShown(planet::BlockKind kind, const std::optional<planet::BlockKind>& shownKind) {
+    return !shownKind || kind == *shownKind;
+}
+
+void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelState::Sample& sample) {
+    std::vector<float> seconds;
+    std::vector<float> positions;
+    for (const planet::PagingEvent& event : planet.pagingHistory()) {
+        if (event.outcome != planet::PagingOutcome::Loaded) continue;
+        if (!isShown(event.kind, sample.shownKind)) continue;
+        const double s = ofReading ? event.readS : event.waitedS;
+        seconds.push_back(static_cast<float>(s));
+        positions.push_back(static_cast<float>(logarithmicPosition(s, fastestS, slowestS)));
+    }
+    sample.latencies = seconds.size();
+    sample.latencyCounts = bucketCounts(positions, latencyBuckets);
+    sample.medianS = planet::percentileOf(seconds, 0.5);
+    sample.slowestS = planet::percentileOf(seconds, 0.99);
+}
+
+void refresh(const EditorView& view, PagingPanelState& state) {
+    if (state.shownView >= static_cast<int>(view.planet->viewCount())) state.shownView = -1;
+    if (!view.planet->colour()) state.shownKind.reset();
+    PagingPanelState::Sample& sample = state.sample;
+    const bool current = sample.planet == view.planet && sample.shownView == state.shownView &&
+                         sample.shownKind == state.shownKind &&
+                         sample.latencyOfReading == state.latencyOfReading &&
+                         sample.failedShown == state.failedShown && view.timeS >= sample.takenAtS &&
+                         view.timeS < sample.takenAtS + pagingSampledEveryS;
+    if (current) return;
+    sample.takenAtS = view.timeS;
+    sample.planet = view.planet;
+    sample.shownView = state.shownView;
+    sample.shownKind = state.shownKind;
+    sample.latencyOfReading = state.latencyOfReading;
+    sample.failedShown = state.failedShown;
+    sampleQueue(*view.planet, state.shownView, sample);
+    sample.failed = state.failedShown ? view.planet->failedBlocks() : std::vector<planet::FailedBlock>();
+    sortFailed(sample.failed);
+    sampleLatency(*view.planet, state.latencyOfReading, sample);
+}
+
+// Tables.
+
+// The first view that wants it, or the first of all.
+std::size_t wantingView(std::uint32_t views, std::size_t viewCount) {
+    for (std::size_t v = 0; v < viewCount; ++v)
+        if (views >> v & 1u) return v;
+    return 0;
+}
+
+std::string reason(const planet::Planet& planet, const PagingRow& row, int shownView, double ageS) {
+    if (row.type == planet::PagingType::PageOut) return pageOutReason(ageS);
+    if (row.kind == planet::BlockKind::Colours) return colourReason(row.priority);
+    const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
+    if (index == planet::noNode) return "parent evicted";
+    const std::size_t v =
+        shownView >= 0 ? static_cast<std::size_t>(shownView) : wantingView(row.views, planet.viewCount());
+    const planet::ChunkNode& node = planet.tree().nodes[index];
+    const planet::View& lodView = planet.lodView(v);
+    const planet::LodSettings& lod = planet.lodSettings(v);
+    const double epsPx = planet::epsPxOf(node, lodView.eyeM, planet::screenScalePx(lodView), lod.metric);
+    std::string text = pageInReason(epsPx, lod.tauPx, lod.hysteresis, epsSymbol(), tauSymbol());
+    if (planet.viewCount() > 1) text += fmt::format(", view {}", v + 1);
+    return text;
+}
+
+// A link as long as the row, after its kind where there are two.
+void rowLink(const planet::ChunkId& id, planet::BlockKind kind, const EditorView& view, Commands& commands) {
+    const bool colours = kind == planet::BlockKind::Colours;
+    if (view.planet->colour()) cell(kindText(kind), colours ? palette().accent : palette().text);
+    if (!colours) return chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+    ImGui::TableNextColumn();
+    colourLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+}
+
+// Columns of a table of requests, the kind before the name where there are two.
+std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableColumn> columns,
+                                  std::size_t name) {
+    std::vector<TableColumn> all(columns.begin(), columns.end());
+    if (view.planet->colour())
+        all.insert(all.begin() + static_cast<std::ptrdiff_t>(name),
+                   TableColumn{"Kind", 0.9f,
+                               "Kind of block: heights of a chunk, or colour tiles. Click a tile to select "
+                               "the chunk it covers; double-click to look at it."});
+    return all;
+}
+
+// The column's place in a table without kinds; none: the kind itself.
+std::optional<std::size_t> withoutKind(const EditorView& view, std::size_t column, std::size_t name) {
+    if (!view.planet->colour() || column < name) return column;
+    return column == name ? std::nullopt : std::optional(column - 1);
+}
+
+void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = true) {
+    if (!view.planet->colour()) return;
+    const float width = ImGui::CalcTextSize("heights, colours").x + 2 * ImGui::GetFrameHeight();
+    if (goesOn) sameLineIfRoom(width);
+    ImGui::SetNextItemWidth(std::min(width, ImGui::GetContentRegionAvail().x));
+    int index = state.shownKind ? static_cast<int>(*state.shownKind) + 1 : 0;
+    if (combo("Kind", index, "heights, colours\0heights\0colours\0")) {
+        state.shownKind =
+            index == 0 ? std::nullopt : std::optional(static_cast<planet::BlockKind>(index - 1));
+    }
+    tooltip("Shows requests and latencies of both kinds of blocks or of one.");
+}
+
+void queueFilter(const EditorView& view, PagingPanelState& state) {
+    ImGui::Checkbox("Load", &state.showPageIns);
+    tooltip("Load requests, most urgent first.");
+    ImGui::SameLine();
+    ImGui::Checkbox("Evict", &state.showPageOuts);
+    tooltip(
+        "Eviction candidates: unused blocks, least recently used first. They stay resident until their "
+        "memory is needed. Colour tiles are not listed; they are evicted directly when memory is needed.");
+    kindFilter(view, state);
+    if (view.planet->viewCount() < 2) return;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    int index = state.shownView + 1;
+    const std::array<const char*, planet::maxViews + 1> names = {"all views", "view 1", "view 2", "view 3",
+                                                                 "view 4"};
+    if (ImGui::Combo("##view", &index, names.data(), static_cast<int>(view.planet->viewCount()) + 1))
+        state.shownView = index - 1;
+    tooltip("Shows the requests of one view; each view requests blocks with its own priorities.");
+}
+
+// The part of the queue that is shown: page-ins stand before page-outs.
+std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
+    const std::span<const PagingRow> queue = state.sample.queue;
+    const auto firstOut = static_cast<std::size_t>(
+        std::partition_point(queue.begin(), queue.end(),
+                             [](const PagingRow& row) { return row.type == planet::PagingType::PageIn; }) -
+        queue.begin());
+    const std::size_t first = state.showPageIns ? 0 : firstOut;
+    return queue.subspan(first, (state.showPageOuts ? queue.size() : firstOut) - first);
+}
+
+const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
+    if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No requests of this kind.";
+    const planet::PagingCounters& p = view.stats.paging;
+    if (p.awaitingRetry > 0)
+        return "The queue is empty: missing blocks could not be read and will be retried.";
+    if (p.failedForGood > 0) return "The queue is empty: missing blocks could not be read.";
+    const bool waiting =
+        view.stats.selection.waiting > 0 || view.planet->colourSelection().counters.waiting > 0;
+    return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
+}
+
+void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    queueFilter(view, state);
+    const std::span<const PagingRow> queue = shownQueue(state);
+    if (queue.empty()) return emptyState(emptyQueueText(view, state));
+    constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Parent", 1.7f},
+                                    TableColumn{"Priority", 0.9f}, TableColumn{"Age", 1.15f},
+                                    TableColumn{"Reason", 2.4f}};
+    const std::vector<TableColumn> shown = withKind(view, columns, 1);
+    if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 31 : 27)) return;
+    const auto ageOf = [&](const PagingRow& row) {
+        return std::max(view.planet->seconds() - row.askedAtS, 0.0);
+    };
+    const auto key = [&](std::size_t at, std::size_t column) -> SortKey {
+        const PagingRow& row = queue[at];
+        const std::optional<std::size_t> plain = withoutKind(view, column, 1);
+        if (!plain) return std::string(kindText(row.kind));
+        switch (*plain) {
+            case 0:
+                return row.type == planet::PagingType::PageIn ? 0.0 : 1.0;
+            case 1:
+                return sortKey(row.parent);
+            case 2:
+                return static_cast<double>(row.priority);
+            case 3:
+                return ageOf(row);
+            default:
+                return reason(*view.planet, row, state.shownView, ageOf(row));
+        }
+    };
+    tableRows(queue.size(), key, [&](std::size_t at) {
+        const PagingRow& row = queue[at];
+        const double ageS = ageOf(row);
+        cell(row.type == planet::PagingType::PageIn ? "load" : "evict");
+        rowLink(row.parent, row.kind, view, commands);
+        cell(axisText(row.priority));
+        cell(latencyText(ageS));
+        cell(reason(*view.planet, row, state.shownView, ageS));
+    });
+    ImGui::EndTable();
+}
+
+void loadingTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    std::vector<planet::LoadInProgress> loading = view.planet->loadingNow();
+    const bool any = !loading.empty();
+    std::erase_if(loading, [&](const auto& load) { return !isShown(load.kind, state.shownKind); });
+    kindFilter(view, state, false);
+    if (any && loading.empty()) return emptyState("No block of this kind is being read.");
+    if (loading.empty())
+        return emptyState(view.pagingPaused ? "Paging is paused." : "No block is being read.");
+    constexpr std::array columns = {TableColumn{"Parent", 1.7f}, TableColumn{"Priority"}, TableColumn{"Size"},
+                                    TableColumn{"Elapsed"}};
+    const std::vector<TableColumn> shown = withKind(view, columns, 0);
+    if (!beginWideTable("loading", shown, shown.size() > columns.size() ? 24 : 20)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::LoadInProgress& load = loading[row];
+        const std::optional<std::size_t> plain = withoutKind(view, column, 0);
+        if (!plain) return std::string(kindText(load.kind));
+        switch (*plain) {
+            case 0:
+                return sortKey(load.parent);
+            case 1:
+                return static_cast<double>(load.priority);
+            case 2:
+                return static_cast<double>(load.bytes);
+            default:
+                return load.seconds;
+        }
+    };
+    tableRows(loading.size(), key, [&](std::size_t row) {
+        rowLink(loading[row].parent, loading[row].kind, view, commands);
+        cell(axisText(loading[row].priority));
+        cell(bytesText(loading[row].bytes));
+        cell(latencyText(loading[row].seconds));
+    });
+    ImGui::EndTable();
+}
+
+struct OutcomeLook {
+    const char* name;
+    const ImVec4& colour;
+};
+OutcomeLook lookOf(planet::PagingOutcome outcome) {
+    switch (outcome) {
+        case planet::PagingOutcome::Loaded:
+            return {"loaded", palette().good};
+        case planet::PagingOutcome::Failed:
+            return {"failed", palette().bad};
+        case planet::PagingOutcome::Evicted:
+            return {"evicted", palette().warning};
+        case planet::PagingOutcome::Cancelled:
+            return {"cancelled", palette().dim};
+    }
+    return {"", palette().text};
+}
+
+bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
+    if (state.onlyMerged && event.timesAsked < 2) return false;
+    if (!isShown(event.kind, state.shownKind)) return false;
+    switch (event.outcome) {
+        case planet::PagingOutcome::Loaded:
+            return state.showLoaded;
+        case planet::PagingOutcome::Failed:
+            return state.showFailed;
+        case planet::PagingOutcome::Evicted:
+            return state.showEvicted;
+        case planet::PagingOutcome::Cancelled:
+            return state.showCancelled;
+    }
+    return true;
+}
+
+void historyFilter(const EditorView& view, PagingPanelState& state) {
+    ImGui::Checkbox("Loaded", &state.showLoaded);
+    tooltip("Blocks read and made resident.");
+    sameLineIfRoom(checkboxWidth("Failed"));
+    ImGui::Checkbox("Failed", &state.showFailed);
+    tooltip("Blocks that could not be read.");
+    sameLineIfRoom(checkboxWidth("Cancelled"));
+    ImGui::Checkbox("Cancelled", &state.showCancelled);
+    tooltip("Requests cancelled before a loader took them.");
+    sameLineIfRoom(checkboxWidth("Evicted"));
+    ImGui::Checkbox("Evicted", &state.showEvicted);
+    tooltip("Blocks evicted to stay within the budget.");
+    sameLineIfRoom(checkboxWidth("Merged only"));
+    ImGui::Checkbox("Merged only", &state.onlyMerged);
+    tooltip("Shows only blocks requested more than once.");
+    kindFilter(view, state);
+}
+
+void historyRow(const EditorView& view, const planet::PagingEvent& event, Commands& commands) {
+    const OutcomeLook look = lookOf(event.outcome);
+    const bool read = event.outcome == planet::PagingOutcome::Loaded;
+    cell(look.name, look.colour);
+    rowLink(event.parent, event.kind, view, commands);
+    cell(latencyText(event.waitedS));
+    cell(read ? latencyText(event.readS) : "");
+    cell(read ? bytesText(event.bytes) : "");
+    cell(fmt::format("{}x", event.timesAsked));
+    cell(fmt::format("{} ago", latencyText(std::max(view.planet->seconds() - event.atS, 0.0))));
+}
+
+void historyTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    historyFilter(view, state);
+    const std::deque<planet::PagingEvent>& history = view.planet->pagingHistory();
+    std::vector<const planet::PagingEvent*> shown;
+    shown.reserve(history.size());
+    for (auto event = history.rbegin(); event != history.rend(); ++event)
+        if (isShown(*event, state)) shown.push_back(&*event);
+    if (shown.empty())
+        return emptyState(history.empty() ? "No request has finished yet." : "No requests of this kind.");
+    constexpr std::array columns = {TableColumn{"Outcome", 1.1f}, TableColumn{"Parent", 1.7f},
+                                    TableColumn{"Waited"},        TableColumn{"Reading"},
+                                    TableColumn{"Size"},          TableColumn{"Requests", 0.7f},
+                                    TableColumn{"Finished", 1.2f}};
+    const std::vector<TableColumn> all = withKind(view, columns, 1);
+    if (!beginWideTable("history", all, all.size() > columns.size() ? 38 : 34)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::PagingEvent& event = *shown[row];
+        const std::optional<std::size_t> plain = withoutKind(view, column, 1);
+        if (!plain) return std::string(kindText(event.kind));
+        switch (*plain) {
+            case 0:
+                return std::string(lookOf(event.outcome).name);
+            case 1:
+                return sortKey(event.parent);
+            case 2:
+                return event.waitedS;
+            case 3:
+                return event.readS;
+            case 4:
+                return static_cast<double>(event.bytes);
+            case 5:
+                return static_cast<double>(event.timesAsked);
+            default:
+                return -event.atS;
+        }
+    };
+    tableRows(shown.size(), key, [&](std::size_t row) { historyRow(view, *shown[row], commands); });
+    ImGui::EndTable();
+}
+
+// Plots.
+
+void latencyHistogram(PagingPanelState& state, float lines) {
+    const PagingPanelState::Sample& sample = state.sample;
+    int index = state.latencyOfReading ? 1 : 0;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::Combo("##latency", &index, "total latency\0read latency\0"))
+        state.latencyOfReading = index == 1;
+    tooltip(
+        "Total latency: from the first request of a block until it is loaded. Read latency: reading and "
+        "decoding it, including injected delays.");
+    std::vector<HistogramMark> marks;
+    if (sample.latencies > 0) {
+        marks.push_back({logarithmicPosition(static_cast<double>(sample.medianS), fastestS, slowestS),
+                         "median " + latencyText(static_cast<double>(sample.medianS))});
+        marks.push_back({logarithmicPosition(static_cast<double>(sample.slowestS), fastestS, slowestS),
+                         "99 % " + latencyText(static_cast<double>(sample.slowestS))});
+    }
+    histogram("latencies", sample.latencyCounts, latencyText(fastestS), latencyText(slowestS), marks, lines,
+              [](double position) { return latencyText(logarithmicValue(position, fastestS, slowestS)); });
+}
+
+void plots(const EditorView& view, PagingPanelState& state, bool wide) {
+    // The others: two legends, the choice of a latency, and the histogram's axis.
+    const float lines = wide ? linesThatFit(3, 5.6f, 8) : 2.5f;
+    const std::vector<float> times = historyTimes(view.history);
+    const std::array queue = {
+        Series{"queued", seriesColour(0),
+               historyValues(view.history, [](const FrameStats& s) { return s.paging.queued; })},
+        Series{"loading", seriesColour(1),
+               historyValues(view.history, [](const FrameStats& s) { return s.paging.loading; })}};
+    linePlot("queueLength", times, queue, "", 0, lines);
+    constexpr double windowS = 0.5;
+    const auto read = historyValues<double>(
+        view.history, [](const FrameStats& s) { return static_cast<double>(bytesReadOf(s)) / 1e6; });
+    std::vector<Series> rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
+    if (view.planet->colour()) {
+        const auto colours = historyValues<double>(view.history, [](const FrameStats& s) {
+            return static_cast<double>(s.colourPaging.bytesRead) / 1e6;
+        });
+        rate.push_back({"colours", seriesColour(3), growthPerS(times, colours, windowS)});
+    }
+    linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
+    latencyHistogram(state, lines);
+}
+
+void pagingControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
+    residentMemory(view);
+    knobs(settings.paging, view.planet->colour().has_value());
+    buttons(view, commands);
+}
+
+// Beside those that are read or to be read; its name says that there are any.
+void failedTab(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    const planet::PagingCounters& p = view.stats.paging;
+    const std::uint32_t failed = p.failedForGood + p.awaitingRetry;
+    const ImVec4 colour = p.failedForGood > 0 ? palette().bad : palette().warning;
+    if (failed > 0) ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    const bool open = ImGui::BeginTabItem(fmt::format("Failed {}###failed", failed).c_str());
+    if (failed > 0) ImGui::PopStyleColor();
+    noteItem("Failed blocks");
+    tooltip("Blocks that could not be read: those that will be retried, and those that failed permanently.");
+    state.failedShown = open;
+    if (!open) return;
+    failedTable(view, state.sample.failed, commands);
+    ImGui::EndTabItem();
+}
+
+void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
+    if (!ImGui::BeginTabBar("tables")) return;
+    const planet::PagingCounters& p = view.stats.paging;
+    if (ImGui::BeginTabItem(fmt::format("Queue {}###queue", p.queued).c_str())) {
+        queueTable(view, state, commands);
+        ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem(fmt::format("Loading {}###loading", p.loading).c_str())) {
+        loadingTable(view, state, commands);
+        ImGui::EndTabItem();
+    }
+    failedTab(view, state, commands);
+    if (ImGui::BeginTabItem("History")) {
+        historyTable(view, state, commands);
+        ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("Totals")) {
+        totals(view);
+        ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+}
+
+}  // namespace
+
+void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& settings,
+                 Commands& commands) {
+    if (!view.planet) {
+        knobs(settings.paging, false);
+        badDisk(settings.paging);
+        return emptyState("No planet is open. Open one to see its paging requests.");
+    }
+    refresh(view, state);
+    const bool wide = hasWideRoom();
+    constexpr float tableLines = 13;
+    const std::array columns = {Column{"Paging", 1.2f, 0,
+                                       [&] {
+                                           pagingControls(view, settings, commands);
+                                           if (wide && section("I/O fault injection"))
+                                               badDisk(settings.paging);
+                                       }},
+                                Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
+                                Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
+    drawColumns("paging", columns);
+    if (!wide && section("I/O fault injection")) badDisk(settings.paging);
+}
+
+}  // namespace ui

@@ -1,0 +1,14 @@
+// A sweep as a table: a row a setting, sorted by what column one clicks.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "ui/model/sweep_points.h"
+
+namespace ui {
+
+// Fills what room there is. A click on a row selects its point.
+void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected);
+
+}  // namespace ui

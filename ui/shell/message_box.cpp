@@ -1,0 +1,72 @@
+#include "ui/shell/message_box.h"
+
+#include <imgui.h>
+
+#include <utility>
+
+#include "ui/kit/item_map.h"
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+
+namespace ui {
+
+void messageBox(Message& message, Commands& commands) {
+    constexpr const char* popup = "###message";
+    if (message.title.empty()) return;
+    if (std::exchange(message.opening, false)) ImGui::OpenPopup(popup);
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+    const std::string title = message.title + popup;
+    if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+        if (!ImGui::IsPopupOpen(popup)) message = {};  // Esc has closed it
+        return;
+    }
+    setItemScope("message");
+    ImGui::PushTextWrapPos(32 * ImGui::GetFontSize());
+    ImGui::TextColored(palette().bad, "%s", message.text.c_str());
+    noteItem("Text");
+    if (!message.advice.empty()) {
+        ImGui::Spacing();
+        ImGui::TextUnformatted(message.advice.c_str());
+    }
+    ImGui::PopTextWrapPos();
+    ImGui::Spacing();
+    const bool opens =
+        message.offersOpen && button("Open another file...", "Shows the open dialog (Ctrl+O).");
+    if (message.offersOpen) ImGui::SameLine();
+    bool closed = button("Close", "The Log panel keeps the message (Esc).") || opens;
+    // Not with the Enter that has led here.
+    if (!ImGui::IsWindowAppearing()) closed |= ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    if (opens) commands.push_back(AskForFile{});
+    if (closed) {
+        message = {};
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void confirmationLine(Confirmation& confirmation, double timeS, const Rect& viewport) {
+    if (confirmation.text.empty()) return;
+    if (timeS > confirmation.untilS) {
+        confirmation = {};
+        return;
+    }
+    const float line = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + 0.7f * line}, ImGuiCond_Always,
+                            {0.5f, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.6f * line, 0.3f * line});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, palette().box);
+    ImGui::Begin("confirmation", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    setItemScope("confirmation");
+    ImGui::TextColored(palette().good, "%s", confirmation.text.c_str());
+    noteItem("Text");
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace ui

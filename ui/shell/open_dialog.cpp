@@ -1,0 +1,171 @@
+#include "ui/shell/open_dialog.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <system_error>
+
+#include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
+#include "ui/kit/theme.h"
+#include "ui/model/text.h"
+
+namespace ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* popup = "###open a file";
+
+void setPath(OpenDialogState& state, const std::string& path) {
+    const std::size_t length = std::min(path.size(), state.path.size() - 1);
+    std::memcpy(state.path.data(), path.data(), length);
+    state.path[length] = '\0';
+}
+
+// A click picks, a double click goes in or opens. True where the file is to be opened.
+bool entryRows(OpenDialogState& state) {
+    bool chosen = false;
+    fs::path entered;
+    // Folders stay before files however they are sorted.
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const OpenDialogEntry& entry = state.entries[row];
+        if (column == 0) return entry.path.filename().string();
+        return entry.bytes;
+    };
+    std::vector<std::size_t> order = tableOrder(state.entries.size(), chosenSort(), key);
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t row) { return state.entries[row].isFolder; });
+    for (const std::size_t row : order) {
+        const OpenDialogEntry& entry = state.entries[row];
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const std::string name = entry.path.filename().string() + (entry.isFolder ? "/" : "");
+        const bool picked = entry.path.string() == state.path.data();
+        if (entry.isFolder) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+        if (ImGui::Selectable(name.c_str(), picked,
+                              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
+                                  ImGuiSelectableFlags_DontClosePopups)) {
+            setPath(state, entry.path.string());
+            const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            if (twice && entry.isFolder) entered = entry.path;
+            if (twice && !entry.isFolder) chosen = true;
+        }
+        if (entry.isFolder) ImGui::PopStyleColor();
+        ImGui::TableNextColumn();
+        if (!entry.isFolder) ImGui::TextDisabled("%s", bytesText(entry.bytes).c_str());
+    }
+    if (!entered.empty()) listFolder(entered, state);
+    return chosen;
+}
+
+bool folderList(OpenDialogState& state) {
+    bool chosen = false;
+    const float height = ImGui::GetFontSize() * 18;
+    if (ImGui::BeginTable("files", 2,
+                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter |
+                              ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate,
+                          {ImGui::GetFontSize() * 36, height})) {
+        ImGui::TableSetupScrollFreeze(0, 1);
+        ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableHeadersRow();
+        chosen = entryRows(state);
+        ImGui::EndTable();
+    }
+    return chosen;
+}
+
+// A folder that was typed is gone into; a file is opened.
+bool accept(OpenDialogState& state, Commands& commands) {
+    const fs::path path(state.path.data());
+    if (path.empty()) return false;
+    std::error_code status;
+    if (fs::is_directory(path, status)) {
+        listFolder(path, state);
+        return false;
+    }
+    if (state.forColours)
+        commands.push_back(ChooseColourImage{path});
+    else
+        commands.push_back(OpenFile{path});
+    return true;
+}
+
+}  // namespace
+
+bool mayBeOpened(const fs::path& file) {
+    static constexpr std::array<std::string_view, 12> endings = {
+        ".chk", ".tif", ".tiff", ".png", ".pgm", ".exr", ".hdr", ".jp2", ".jpg", ".raw", ".toml", ".flt"};
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+void listFolder(const fs::path& folder, OpenDialogState& state) {
+    state.entries.clear();
+    state.problem.clear();
+    std::error_code status;
+    state.folder = fs::absolute(folder, status).lexically_normal();
+    fs::directory_iterator files(state.folder, fs::directory_options::skip_permission_denied, status);
+    if (status) state.problem = state.folder.string() + ": " + status.message();
+    for (; files != fs::directory_iterator(); files.increment(status)) {
+        if (status) break;
+        const fs::path path = files->path();
+        if (path.filename().string().starts_with('.')) continue;
+        const bool isFolder = files->is_directory(status);
+        if (!isFolder && !mayBeOpened(path)) continue;
+        const std::uintmax_t size = isFolder ? 0 : files->file_size(status);
+        state.entries.push_back({path, isFolder, status ? 0 : static_cast<double>(size)});
+    }
+    std::sort(state.entries.begin(), state.entries.end(), [](const auto& a, const auto& b) {
+        return a.isFolder != b.isFolder ? a.isFolder : a.path < b.path;
+    });
+}
+
+void openDialog(OpenDialogState& state, Commands& commands) {
+    if (state.opening) {
+        std::error_code status;
+        if (state.folder.empty()) state.folder = fs::current_path(status);
+        listFolder(state.folder, state);
+        ImGui::OpenPopup(popup);
+        state.opening = false;
+    }
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+    const std::string title = std::string(state.forColours ? "Choose a colour image" : "Open a file") + popup;
+    if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+        return;
+    setItemScope("open");
+    if (ImGui::Button("Up") && state.folder.has_parent_path()) listFolder(state.folder.parent_path(), state);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(state.folder.string().c_str());
+    bool accepted = folderList(state);
+    if (!state.problem.empty())
+        ImGui::TextColored(palette().bad, "%s", state.problem.c_str());
+    else if (state.entries.empty())
+        ImGui::TextDisabled("This folder contains no file that Worldy can open.");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    accepted |=
+        ImGui::InputTextWithHint("##path",
+                                 state.forColours ? "Path of a colour image or of one of six faces"
+                                                  : "Path of a chunk file, an elevation image or a cube face",
+                                 state.path.data(), state.path.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    noteItem("Path");
+    accepted |= ImGui::Button(state.forColours ? "Choose" : "Open");
+    ImGui::SameLine();
+    // Elsewhere Esc closes all popups by itself; a text field takes it for itself alone.
+    const bool left =
+        ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    const bool cancelled = ImGui::Button("Cancel") || left;
+    if (cancelled || (accepted && accept(state, commands))) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+}  // namespace ui

@@ -1,0 +1,51 @@
+#include "ui/shell/panels.h"
+
+namespace ui {
+
+void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSettings& settings,
+               Commands& commands) {
+    switch (id) {
+        case PanelId::Lod:
+            return lodPanel(view, settings, commands);
+        case PanelId::Seams:
+            return seamsPanel(view, settings, commands);
+        case PanelId::Overlay:
+            return overlayPanel(view, settings, commands);
+        case PanelId::Surface:
+            return surfacePanel(view, states.surface, settings, commands);
+        case PanelId::Camera:
+            return cameraPanel(view, states.camera, settings, commands);
+        case PanelId::Presets:
+            return presetsPanel(view, states.presets, settings, commands);
+        case PanelId::Quadtree:
+            return quadtreePanel(view, states.quadtree, settings, commands);
+        case PanelId::Chunk:
+            return chunkPanel(view, states.chunk, settings, commands);
+        case PanelId::Paging:
+            return pagingPanel(view, states.paging, settings, commands);
+        case PanelId::Frame:
+            return framePanel(view, settings, commands);
+        case PanelId::Bake:
+            return bakePanel(view, states.bake, settings, commands);
+        case PanelId::Log:
+            return logPanel(view.log, states.log, commands);
+        case PanelId::Errors:
+            return errorsPanel(view, states.errors, settings, commands);
+        case PanelId::Cracks:
+            return cracksPanel(view, states.cracks, settings, commands);
+        case PanelId::Pops:
+            return popsPanel(view, states.pops, settings, commands);
+        case PanelId::Probe:
+            return probePanel(view, states.probe, settings, commands);
+        case PanelId::Flight:
+            return flightPanel(view, states.flight, settings, commands);
+        case PanelId::Compare:
+            return comparePanel(view, states.compare, settings, commands);
+        case PanelId::Sweep:
+            return sweepPanel(view, states.sweep, settings, commands);
+        case PanelId::Light:
+            return lightPanel(view, settings, commands);
+    }
+}
+
+}  // namespace ui

@@ -1,0 +1,52 @@
+// All panels, each of which has a file of its own, behind one function.
+#pragma once
+
+#include "ui/model/editor_view.h"
+#include "ui/model/panel_list.h"
+#include "ui/panels/bake/bake_panel.h"
+#include "ui/panels/camera/camera_panel.h"
+#include "ui/panels/camera/presets_panel.h"
+#include "ui/panels/compare/compare_panel.h"
+#include "ui/panels/flight/flight_panel.h"
+#include "ui/panels/frame/frame_panel.h"
+#include "ui/panels/light/light_panel.h"
+#include "ui/panels/lod/chunk_panel.h"
+#include "ui/panels/lod/lod_panel.h"
+#include "ui/panels/lod/overlay_panel.h"
+#include "ui/panels/lod/quadtree_panel.h"
+#include "ui/panels/lod/seams_panel.h"
+#include "ui/panels/log/log_panel.h"
+#include "ui/panels/measure/cracks_panel.h"
+#include "ui/panels/measure/errors_panel.h"
+#include "ui/panels/measure/pops_panel.h"
+#include "ui/panels/measure/probe_panel.h"
+#include "ui/panels/paging/paging_panel.h"
+#include "ui/panels/surface/surface_panel.h"
+#include "ui/panels/sweep/sweep_panel.h"
+
+namespace ui {
+
+// What panels remember from frame to frame that is no setting.
+struct PanelStates {
+    QuadtreePanelState quadtree;
+    ChunkPanelState chunk;
+    PagingPanelState paging;
+    BakePanelState bake;
+    SurfacePanelState surface;
+    CameraPanelState camera;
+    PresetsPanelState presets;
+    LogPanelState log;
+    ErrorsPanelState errors;
+    CracksPanelState cracks;
+    PopsPanelState pops;
+    ProbePanelState probe;
+    FlightPanelState flight;
+    ComparePanelState compare;
+    SweepPanelState sweep;
+};
+
+// Fills the current window with a panel.
+void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSettings& settings,
+               Commands& commands);
+
+}  // namespace ui

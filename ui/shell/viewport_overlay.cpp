@@ -1,0 +1,320 @@
+#include "ui/shell/viewport_overlay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
+#include "ui/model/chunk_labels.h"
+#include "ui/model/overlay_colours.h"
+#include "ui/model/paging_text.h"
+#include "ui/shell/compare_overlay.h"
+
+namespace ui {
+
+namespace {
+
+// The longest that fits is shown.
+constexpr std::array helpLines = {
+    "Left drag: move   Right drag: look   Wheel: nearer   Click: select   W A S D E Q: fly   F10: all keys",
+    "Drag: move, look   Wheel: nearer   W A S D E Q: fly   F10: keys", "F10: keys and mouse"};
+
+// As much of a text's end as fits, after an ellipsis.
+std::string endThatFits(const std::string& text, float widthPx) {
+    std::string shown = text;
+    std::size_t start = 0;
+    while (start < text.size() && ImGui::CalcTextSize(shown.c_str()).x > widthPx) {
+        ++start;
+        while (start < text.size() && (static_cast<unsigned char>(text[start]) & 0xC0u) == 0x80u) ++start;
+        shown = "..." + text.substr(start);
+    }
+    return shown;
+}
+
+float marginPx() {
+    return std::round(ImGui::GetFontSize() * 0.7f);
+}
+
+float badgeStepPx() {
+    return std::round(ImGui::GetFontSize() * 1.8f);
+}
+
+struct LegendLayout {
+    int rows = 0;
+    int columns = 1;
+    float rowPx = 0;
+    float columnPx = 0;
+    float padPx = 0;
+    ImVec2 size{0, 0};
+};
+
+// As many columns as the height asks for.
+LegendLayout layoutOf(const Legend& legend, float heightPx) {
+    LegendLayout layout;
+    if (legend.entries.empty()) return layout;
+    const int count = static_cast<int>(legend.entries.size());
+    layout.rowPx = std::round(ImGui::GetFontSize() * 1.25f);
+    layout.padPx = std::round(ImGui::GetFontSize() * 0.5f);
+    const int most = std::max(1, static_cast<int>((heightPx - 2 * layout.padPx) / layout.rowPx) - 1);
+    layout.columns = (count + most - 1) / most;
+    layout.rows = (count + layout.columns - 1) / layout.columns;
+    float label = 0;
+    for (const LegendEntry& entry : legend.entries) {
+        label = std::max(label, ImGui::CalcTextSize(entry.label.c_str()).x);
+    }
+    layout.columnPx = 1.6f * layout.rowPx + label + layout.padPx;
+    const float title = ImGui::CalcTextSize(legend.title.c_str()).x + layout.padPx;
+    layout.size = {std::max(layout.columnPx * static_cast<float>(layout.columns), title) + layout.padPx,
+                   layout.rowPx * static_cast<float>(layout.rows + 1) + 2 * layout.padPx};
+    return layout;
+}
+
+// In the top right corner, one row a colour.
+void drawLegend(ImDrawList& drawList, const Legend& legend, const LegendLayout& layout, const Rect& rect) {
+    if (legend.entries.empty()) return;
+    const ImVec2 start(rect.x, rect.y);
+    drawList.AddRectFilled(start, {start.x + layout.size.x, start.y + layout.size.y}, boxColour(),
+                           layout.padPx * 0.6f);
+    drawList.AddText({start.x + layout.padPx, start.y + layout.padPx}, ImGui::GetColorU32(palette().dim),
+                     legend.title.c_str());
+    for (std::size_t i = 0; i < legend.entries.size(); ++i) {
+        const int column = static_cast<int>(i) / layout.rows;
+        const int row = static_cast<int>(i) % layout.rows;
+        const ImVec2 at(start.x + layout.padPx + layout.columnPx * static_cast<float>(column),
+                        start.y + layout.padPx + layout.rowPx * static_cast<float>(row + 1));
+        drawList.AddRectFilled({at.x, at.y + 2}, {at.x + 1.2f * layout.rowPx, at.y + layout.rowPx - 3},
+                               packed(legend.entries[i].colour), 2);
+        drawList.AddText({at.x + 1.6f * layout.rowPx, at.y}, ImGui::GetColorU32(palette().text),
+                         legend.entries[i].label.c_str());
+    }
+}
+
+std::vector<Rect> fromCorner(std::vector<Rect> rects, const Rect& viewport) {
+    for (Rect& rect : rects) {
+        rect.x -= viewport.x;
+        rect.y -= viewport.y;
+    }
+    return rects;
+}
+
+// A picture of the planet, in which labels have to find their room.
+struct Picture {
+    const planet::View& through;
+    std::size_t selection = 0;  // which of the planet's views chose what is drawn
+    Rect rect;
+    std::vector<Rect> taken;  // in the window
+};
+
+void drawLabels(ImDrawList& drawList, const planet::Planet* planet, const OverlaySettings& overlay,
+                const Picture& picture) {
+    if (!planet || overlay.labels == ChunkLabels::None) return;
+    const float pad = std::round(ImGui::GetFontSize() * 0.2f);
+    const auto textSize = [&](std::string_view text) {
+        const ImVec2 size = ImGui::CalcTextSize(text.data(), text.data() + text.size());
+        return glm::vec2(size.x + 2 * pad, size.y);
+    };
+    const ChunkLabelSettings wanted{.show = overlay.labels,
+                                    .areaPx = {picture.rect.width, picture.rect.height},
+                                    .gapPx = std::round(ImGui::GetFontSize() * 0.25f),
+                                    .cube = overlay.cube,
+                                    .taken = fromCorner(picture.taken, picture.rect)};
+    const planet::Selection& drawn = planet->selection(picture.selection);
+    for (const ChunkLabel& label :
+         chunkLabels(picture.through, planet->tree(), drawn.draw, wanted, textSize)) {
+        const ImVec2 at(picture.rect.x + label.topLeft.x, picture.rect.y + label.topLeft.y);
+        drawList.AddRectFilled(at, {at.x + label.size.x, at.y + label.size.y}, boxColour(), pad);
+        drawList.AddText({at.x + pad, at.y}, ImGui::GetColorU32(palette().text), label.text.c_str());
+    }
+}
+
+struct PlacedBadge {
+    ViewportBadge badge;
+    Rect rect;
+};
+
+PlacedBadge placed(ViewportBadge badge, float x, float y) {
+    const ImVec2 size = ImGui::CalcTextSize(badge.text.c_str());
+    return {std::move(badge), {x, y, size.x + ImGui::GetFontSize(), badgeStepPx()}};
+}
+
+// At the bottom; nothing where even the shortest has no room.
+void placeHelp(const Rect& viewport, std::vector<PlacedBadge>& badges) {
+    const float room = viewport.width - 2 * marginPx() - ImGui::GetFontSize();
+    for (const char* text : helpLines) {
+        if (ImGui::CalcTextSize(text).x > room) continue;
+        const float y = viewport.y + viewport.height - badgeStepPx() - marginPx() / 2;
+        badges.push_back(placed({text, palette().dim}, viewport.x + marginPx(), y));
+        return;
+    }
+}
+
+// In a column on the left, as many as there is room for.
+std::vector<PlacedBadge> placeBadges(const EditorView& view, const ViewSettings& settings,
+                                     const Rect& viewport, float widthPx, float bottomPx) {
+    std::vector<PlacedBadge> column;
+    float y = viewport.y + marginPx();
+    const auto add = [&](const ViewportBadge& one) {
+        if (y + badgeStepPx() > bottomPx) return;
+        column.push_back(placed({endThatFits(one.text, widthPx), one.colour}, viewport.x + marginPx(), y));
+        y += badgeStepPx();
+    };
+    if (!view.data.name.empty()) add({view.data.name, palette().text});
+    for (const ViewportBadge& one : viewportBadges(view, settings)) add(one);
+    return column;
+}
+
+void addPagingBadges(const EditorView& view, const ViewSettings& settings,
+                     std::vector<ViewportBadge>& badges) {
+    const planet::PagingCounters& paging = view.planet->paging();
+    const std::uint32_t waiting = paging.queued + paging.loading;
+    if (view.pagingPaused) {
+        badges.push_back({waiting > 0 ? fmt::format("Paging paused, {} waiting", waiting) : "Paging paused",
+                          palette().warning});
+    }
+    if (isBad(settings.paging.badDisk)) badges.push_back({"I/O fault injection", palette().warning});
+    if (paging.budgetWaits > 0)
+        badges.push_back({fmt::format("Memory full, {} waiting", paging.budgetWaits), palette().bad});
+    if (!view.pagingPaused && waiting > 0)
+        badges.push_back({fmt::format("Loading {}", waiting), palette().good});
+}
+
+bool showsMarks(const EditorView& view, const ViewSettings& settings) {
+    return settings.cracks.mark && view.cracks.current && view.cracks.measured;
+}
+
+// Pixels side by side as one rectangle, none so small that it is overlooked.
+void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const Rect& viewport) {
+    const float scale = viewport.width / static_cast<float>(std::max(map.widthPx, 1));
+    const float rim = std::max(0.0f, (ImGui::GetFontSize() * 0.2f - scale) / 2);
+    for (std::size_t i = 0; i < map.pixels.size();) {
+        const planet::CrackPixel& first = map.pixels[i];
+        int count = 0;
+        const auto goesOn = [&](const planet::CrackPixel& pixel) {
+            return pixel.y == first.y && pixel.x == first.x + count && pixel.leaks == first.leaks;
+        };
+        while (i < map.pixels.size() && goesOn(map.pixels[i])) ++i, ++count;
+        const ImVec2 from(viewport.x + scale * static_cast<float>(first.x) - rim,
+                          viewport.y + scale * static_cast<float>(first.y) - rim);
+        const ImVec2 to(viewport.x + scale * static_cast<float>(first.x + count) + rim,
+                        viewport.y + scale * static_cast<float>(first.y + 1) + rim);
+        drawList.AddRectFilled(from, to, packed(first.leaks ? palette().bad : palette().warning));
+    }
+}
+
+Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
+    if (!planet) return {};
+    // The levels of all views: an observer with its own LOD may draw finer chunks.
+    std::uint32_t deepest = 0;
+    for (std::size_t view = 0; view < planet->viewCount(); ++view)
+        deepest = std::max(deepest, planet->selection(view).counters.deepestLevel);
+    return legendOf(overlay, planet->lodSettings().tauPx, deepest);
+}
+
+// While comparing that of A, or of B where only its chunks are coloured.
+Legend shownLegend(const EditorView& view, const OverlaySettings& overlay) {
+    Legend legend = legendFor(view.planet, overlay);
+    if (!view.compare.on) return legend;
+    const bool ofA = !legend.entries.empty();
+    if (!ofA) legend = legendFor(view.compare.planetB, view.compare.settingsB->overlay);
+    legend.title = (ofA ? "A: " : "B: ") + legend.title;
+    return legend;
+}
+
+void pushClip(const Rect& rect) {
+    ImGui::PushClipRect({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height}, true);
+}
+
+}  // namespace
+
+std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
+    std::vector<ViewportBadge> badges;
+    if (view.stats.render.standIn)
+        badges.push_back({"Compiling shaders: not drawn as set", palette().warning});
+    if (view.framesPaused) badges.push_back({"Paused, F6 steps (F5)", palette().warning});
+    if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
+    if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
+    if (view.pops.side != PopSide::Live && view.pops.problem.empty())
+        badges.push_back({view.pops.side == PopSide::Before ? "Before the switch" : "After the switch",
+                          palette().warning});
+    if (view.planet) addPagingBadges(view, settings, badges);
+    if (showsMarks(view, settings)) {
+        const planet::gl::CrackMap& map = view.cracks.measured->map;
+        const auto leaking = static_cast<std::size_t>(map.leaking);
+        if (leaking > 0)
+            badges.push_back({fmt::format("Uncovered crack pixels: {}", leaking), palette().bad});
+        if (map.pixels.size() > leaking) {
+            badges.push_back({fmt::format("Crack pixels covered by skirts: {}", map.pixels.size() - leaking),
+                              palette().warning});
+        }
+        if (map.pixels.empty()) badges.push_back({"No cracks", palette().good});
+    }
+    if (settings.overlay.wireframe) badges.push_back({"Wireframe (F1)", palette().accent});
+    if (settings.overlay.cube) badges.push_back({"Unprojected cube (F4)", palette().accent});
+    if (settings.surface.exaggeration != 1)
+        badges.push_back(
+            {fmt::format("Exaggeration {:.3g} x", settings.surface.exaggeration), palette().accent});
+    return badges;
+}
+
+void viewportPicture(ImTextureID picture, const Rect& viewport) {
+    ImGui::InvisibleButton("picture", {viewport.width, viewport.height},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    const ImVec2 end(viewport.x + viewport.width, viewport.y + viewport.height);
+    ImGui::GetWindowDrawList()->AddImage(picture, {viewport.x, viewport.y}, end, {0, 1}, {1, 0});
+}
+
+void viewportOverlay(const EditorView& view, const ViewSettings& settings, const Rect& viewport) {
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
+                        true);
+    const std::vector<ShownPart> parts = shownParts(view.compare, settings.compare, viewport);
+    for (const ShownPart& one : parts) {
+        if (one.isB || !showsMarks(view, settings)) continue;
+        pushClip(one.part);
+        drawCrackMarks(drawList, view.cracks.measured->map, one.whole);
+        ImGui::PopClipRect();
+    }
+    const Legend legend = shownLegend(view, settings.overlay);
+    const bool hasHelp = viewport.height > 9 * badgeStepPx();
+    const float bottom = viewport.y + viewport.height - (hasHelp ? badgeStepPx() + marginPx() : marginPx());
+    const LegendLayout layout = layoutOf(legend, bottom - viewport.y - marginPx());
+    const float besideLegend = viewport.width - layout.size.x - 3 * marginPx() - ImGui::GetFontSize();
+    std::vector<PlacedBadge> badges = placeBadges(view, settings, viewport, besideLegend, bottom);
+    if (hasHelp) placeHelp(viewport, badges);
+    std::vector<Rect> taken = {{viewport.x + viewport.width - marginPx() - layout.size.x,
+                                viewport.y + marginPx(), layout.size.x, layout.size.y}};
+    for (const PlacedBadge& one : badges) taken.push_back(one.rect);
+    for (const ShownPart& one : parts) {
+        pushClip(one.part);
+        drawLabels(drawList, one.isB ? view.compare.planetB : view.planet,
+                   one.isB ? view.compare.settingsB->overlay : settings.overlay,
+                   {view.renderView, 0, one.whole, taken});
+        ImGui::PopClipRect();
+    }
+    compareOverlay(view.compare, settings.compare, viewport);
+    drawLegend(drawList, legend, layout, taken.front());
+    for (const PlacedBadge& one : badges) {
+        badge(drawList, {one.rect.x, one.rect.y}, one.badge.text.c_str(), one.badge.colour);
+    }
+    ImGui::PopClipRect();
+}
+
+void observerOverlay(const EditorView& view, const ViewSettings& settings, const planet::View& observer,
+                     const Rect& viewport) {
+    ImDrawList& drawList = *ImGui::GetWindowDrawList();
+    ImGui::PushClipRect({viewport.x, viewport.y}, {viewport.x + viewport.width, viewport.y + viewport.height},
+                        true);
+    const PlacedBadge name =
+        placed({settings.camera.observerOwnLod ? "Observer, own LOD" : "Observer", palette().accent},
+               viewport.x + marginPx(), viewport.y + marginPx());
+    const bool ownSelection = settings.camera.observerOwnLod && view.planet && view.planet->viewCount() > 1;
+    drawLabels(drawList, view.planet, settings.overlay,
+               {observer, ownSelection ? std::size_t{1} : std::size_t{0}, viewport, {name.rect}});
+    badge(drawList, {name.rect.x, name.rect.y}, name.badge.text.c_str(), name.badge.colour);
+    ImGui::PopClipRect();
+}
+
+}  // namespace ui
