@@ -1,6 +1,6 @@
 #!/bin/bash
-# Takes the README's pictures: opens Worldy on the Earth in windows under an X server of its own, drives it to
-# states worth showing, and crops the program's own screenshots.
+# Takes the pictures of the README and the manual: opens Worldy on the Earth in windows under an X server of its own,
+# drives it to states worth showing, and crops the program's own screenshots.
 #     tests/readme_pictures.sh [NAME...]          all of them, or those named, into data/pictures/
 # WORLDY is the program, build/worldy by default; OUT another folder for the pictures. Needs Xvfb, xdotool and
 # ImageMagick.
