@@ -1,4 +1,4 @@
-// The physical atmosphere, as planet/atmosphere.h has it: light that is scattered once summed along the ray,
+// The physical atmosphere, as planet/surface/atmosphere.h has it: light that is scattered once summed along the ray,
 // light scattered more often and what is left of the sun's from tables.
 //   Bruneton and Neyret, "Precomputed Atmospheric Scattering" (EGSR 2008), with the table of transmittance of
 //   the revision of 2017

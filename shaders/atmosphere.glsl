@@ -62,14 +62,20 @@ float airAboveGround(float height, float rise) {
     return grazing / ((grazing - 1.0) * rise + 1.0) * exp(-height);
 }
 
-// Air between the eye and a place of the surface, thinner before near ground and thicker before far, for the same reason: its ray, unit, the direction up there, and the height, scale
-// heights.
+// Air between the eye and a place of the surface, thinner before near ground and thicker before far, for the same
+// reason: its ray, unit, the direction up there, and the height, scale heights. A ray that falls from the eye and rises
+// where it ends, to ground beyond the horizon, passes its lowest point on the way.
 float airBefore(vec3 ray, vec3 up, float height) {
     float fall = dot(eyeUp.xyz, ray);
     float rise = dot(up, ray);
-    float ground = airAboveGround(height, fall < 0.0 ? max(-rise, 0.0) : max(rise, 0.0));
+    float ground = airAboveGround(height, abs(rise));
     float here = airAbove(eyeUp.w, abs(fall));
-    float air = max(fall < 0.0 ? ground - here : here - ground, 0.0);
+    float air = fall < 0.0 ? ground - here : here - ground;
+    if (fall < 0.0 && rise > 0.0) {
+        float lowest = (atmosphere.x + eyeUp.w) * sqrt(max(1.0 - fall * fall, 0.0));
+        air = airAlong(eyeUp.w, fall, max(lowest, atmosphere.x - 8.0)) - ground;
+    }
+    air = max(air, 0.0);
     return air * mix(1.0, air * (1.0 + 0.125 * air) / (air + 1.8), atmosphere.w);
 }
 

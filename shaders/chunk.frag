@@ -124,8 +124,14 @@ vec3 landByHeight(float height, float latitudeSine, float steep) {
 
 struct Material {
     vec3 albedo;
-    float water;  // 1 where light falls on open sea
+    float water;       // 1 where light falls on open sea
+    float shownWater;  // 1 where the image shows water, at any height: sea, lakes and rivers
+    vec3 bed;          // albedo of the bed below a sea that is drawn as water
 };
+
+float anyWater(Material material) {
+    return max(material.water, material.shownWater);
+}
 
 // The ramp's own stops, mixed one after the other: those above the height add nothing, those below it are covered.
 vec3 stopsAt(float height) {
@@ -138,23 +144,12 @@ vec3 stopsAt(float height) {
 Material rampMaterial(vec3 up, float height, float steep, float below) {
     if (isOn(switchRamp)) {
         vec3 stops = stopsAt(height);
-        return Material(mix(stops, seaByDepth(height), below * (1.0 - surfacing.y)), below);
+        return Material(mix(stops, seaByDepth(height), below * (1.0 - surfacing.y)), below, 0.0, sandyBed);
     }
     vec3 land = landByHeight(height, up.z, steep);
     float ice = below * smoothstep(0.955, 0.985, abs(up.z));
     vec3 sea = mix(seaByDepth(height), vec3(0.70, 0.76, 0.82), ice);
-    return Material(mix(land, sea, below), below * (1.0 - ice));
-}
-
-// The image says which low land is dry, but knows nothing of a sea that has risen.
-Material imageMaterial(float height, float below, Detail detail, float strength) {
-    vec4 image = imageColour(detail, strength);
-    float flooded = clamp(heights.w * (6.371e6 / 30.0) / planet.x, 0.0, 1.0);
-    // Nor of shallows, whose colour is their bed's; dry land lies nowhere so deep.
-    if (isOn(switchSeaSurface)) flooded = max(flooded, smoothstep(150.0, 450.0, -height * 6.371e6 / planet.x));
-    float water = below * max(image.a, flooded);
-    vec3 sea = mix(image.rgb, seaByDepth(height), mix(0.8, 0.4, image.a));
-    return Material(mix(image.rgb * 1.2, sea, water), water);
+    return Material(mix(land, sea, below), below * (1.0 - ice), 0.0, sandyBed);
 }
 
 // Returns whether the sea's surface is drawn here: over ground below the sea level, as the mesh has it. Water that the
@@ -163,16 +158,36 @@ bool isUnderSea() {
     return isOn(switchSeaSurface) && facePlace.z < heights.w;
 }
 
+// Returns 1 where the ground lies as deep as the shore or deeper, 0 above the sea level. shoreM: on the Earth.
+float belowSea(float height, float shoreM) {
+    if (!isOn(switchSea)) return 0.0;
+    return 1.0 - smoothstep(-shoreM * planet.x / 6.371e6, 0.0, height);
+}
+
+// The image says which low land is dry and which ground is water, but knows nothing of a sea that has risen. Where the
+// sea's surface is drawn, the image's colour is its bed's: it shows shallows as they look.
+Material imageMaterial(float height, float below, Detail detail, float strength) {
+    vec4 image = imageColour(detail, strength);
+    float flooded = clamp(heights.w * (6.371e6 / 30.0) / planet.x, 0.0, 1.0);
+    // The mesh's coast is coarser than the image's, and lakes may be deeper than the sea level: in water that the image
+    // shows, the drawn surface fades in with its depth.
+    float deep = isUnderSea() ? belowSea(height, 30.0) : below;
+    float water = max(below * flooded, deep * image.a);
+    vec3 shown = image.rgb * 1.2;
+    if (isUnderSea()) return Material(shown, water, image.a, shown);
+    vec3 sea = mix(image.rgb, seaByDepth(height), mix(0.8, 0.4, image.a));
+    return Material(mix(shown, sea, water), water, image.a, shown);
+}
+
 // Height above the sea level.
 Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
-    float shore = (isUnderSea() ? 2.0 : 30.0) * planet.x / 6.371e6;
-    float below = 1.0 - smoothstep(-shore, 0.0, height);
-    if (!isOn(switchSea)) below = 0.0;
+    float below = belowSea(height, isUnderSea() ? 2.0 : 30.0);
     if (!isOn(switchImage)) return rampMaterial(up, height, steep, below);
     Material image = imageMaterial(height, below, detail, strength);
     if (!isOn(switchImageOverRamp)) return image;
     Material ramp = rampMaterial(up, height, steep, below);
-    return Material(mix(ramp.albedo, image.albedo, surfacing.x), mix(ramp.water, image.water, surfacing.x));
+    return Material(mix(ramp.albedo, image.albedo, surfacing.x), mix(ramp.water, image.water, surfacing.x),
+                    surfacing.x * image.shownWater, mix(ramp.bed, image.bed, surfacing.x));
 }
 
 // The chunk's mesh: lines one pixel wide along rows, columns and diagonals, smooth whatever their distance.
@@ -250,11 +265,11 @@ vec3 lightByPixel() {
     }
     Material material = materialAt(up, height, steepness(normal, up), detail, ragged);
     if (isOn(switchDetail))
-        material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - material.water) * detail.height;
+        material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - anyWater(material)) * detail.height;
     float glint = 0.0;
     if (isOn(switchLayers)) {
         Layered layered = layeredGround(position, up, bare, facePlace.z - heights.w, material.albedo);
-        float amount = layered.amount * (1.0 - material.water);
+        float amount = layered.amount * (1.0 - anyWater(material));
         material.albedo = mix(material.albedo, layered.albedo, amount);
         vec3 tilt = layered.tilt - normal * dot(layered.tilt, normal);
         normal = normalize(normal - amount * tilt);
@@ -270,7 +285,8 @@ vec3 lightByPixel() {
     vec3 light = material.albedo * (sunlight * max(dot(facing, sun.xyz), 0.0) + skylight) +
                  sunlight * (wet * seaGlint(facing, -ray) + glint);
     if (sea > 0.0)
-        light = mix(light, seaLight(position, ray, up, facePlace.z - heights.w, sunlight, skylight), sea);
+        light = mix(light,
+                    seaLight(position, ray, up, facePlace.z - heights.w, material.bed, sunlight, skylight), sea);
     return throughAir(light, position, ray, up);
 }
 
@@ -287,7 +303,7 @@ vec3 flatSurface() {
     vec3 albedo = material.albedo;
     if (isOn(switchLayers)) {
         Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - heights.w, albedo);
-        albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - material.water));
+        albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - anyWater(material)));
     }
     return encodeSrgb(clamp(albedo, 0.0, 1.0));
 }

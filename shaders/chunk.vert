@@ -119,7 +119,7 @@ mat2 slopes(ivec3 corner, ivec2 vertex, int last, int here, int apart) {
                 slope(corner, vertex, ivec2(0, 1), last, here, beside.z, beside.w, apart));
 }
 
-// How a vertex of the grid is drawn while its chunk turns into a coarser one, as planet/drawn_surface.h has it.
+// How a vertex of the grid is drawn while its chunk turns into a coarser one, as planet/select/drawn_surface.h has it.
 struct Slide {
     ivec2 vertex;    // itself; or, along a coarser chunk, that one's vertex that it is drawn with
     ivec2 aside;     // from it to either end of the edge or diagonal that will replace it; 0 where it stays

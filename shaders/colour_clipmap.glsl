@@ -1,5 +1,5 @@
-// Streamed colours from a clipmap instead of from the tiles themselves: planet/colour_clipmap.h says where its windows
-// stand, planet/gl/colour_clipmap.h what the textures hold.
+// Streamed colours from a clipmap instead of from the tiles themselves: planet/surface/colour_clipmap.h says where its windows
+// stand, planet/gl/store/colour_clipmap.h what the textures hold.
 
 uniform sampler2DArray clipmapStack;  // a window a layer, wrapped around; sRGB decoded by the sampler
 uniform sampler2DArray clipmapBase;   // a face a layer: the levels that are kept whole, side by side
@@ -12,7 +12,7 @@ layout(std140) uniform Clipmap {
     ivec4 clipmapWhole;       // finest level kept whole; unused
 };
 
-// clipmapDistance of planet/colour_clipmap.h.
+// clipmapDistance of planet/surface/colour_clipmap.h.
 float clipmapDistance(vec2 place, int face) {
     vec3 outward = abs(faces[face].normal.xyz);
     vec3 point = faces[face].normal.xyz + (2.0 * place.x - 1.0) * faces[face].u.xyz +
@@ -29,7 +29,7 @@ float clipmapDistance(vec2 place, int face) {
     return max(max(down + dot(apart, outward), dot(apart, side)), down + corner);
 }
 
-// clipmapFinest of planet/colour_clipmap.h.
+// clipmapFinest of planet/surface/colour_clipmap.h.
 float finestOfClipmap(float away) {
     float level = log2(clipmapSizes.y / max(away, 1e-9));
     float holding = floor(level);

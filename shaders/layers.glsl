@@ -1,5 +1,5 @@
 // Texture layers: how much of each lies at a pixel, and what they look like there. The weights are those of
-// planet/layer_set.h, whose doubles are the reference.
+// planet/surface/layer_set.h, whose doubles are the reference.
 
 const int mostLayers = 8;
 const int repeatLevels = 10;
@@ -28,7 +28,7 @@ layout(std140) uniform Layers {
 uniform sampler2DArray layerAlbedo;   // sRGB; relief
 uniform sampler2DArray layerSurface;  // normal's x and y; roughness; unused
 
-// planet/layer_noise.h, with the eye's cell in whole numbers: on an Earth floats would tell cells apart no more.
+// planet/surface/layer_noise.h, with the eye's cell in whole numbers: on an Earth floats would tell cells apart no more.
 vec4 latticeValue(ivec3 cell) {
     uint h = uint(cell.x) * 0x8DA6B343u + uint(cell.y) * 0xD8163841u + uint(cell.z) * 0xCB1AB31Fu;
     h = (h ^ (h >> 16u)) * 0x7FEB352Du;

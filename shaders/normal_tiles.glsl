@@ -1,5 +1,5 @@
 // Normals finer than the mesh: slopes from tiles that are as fine as the heights, as far as the screen shows
-// them (planet/normal_tile.h).
+// them (planet/paging/normal_tile.h).
 //
 // A tile is taken where it is as fine as the chunk's own mesh or finer; elsewhere the mesh's normal stands. Of
 // one level the two are the same central differences, so going from pixels as wide as the mesh's cells to

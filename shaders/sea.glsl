@@ -14,6 +14,9 @@ layout(std140) uniform Sea {
     vec4 roughness;              // variance of all slopes; the largest slope of a wave; unused
 };
 
+// Albedo of a bed that no image shows.
+const vec3 sandyBed = vec3(0.30, 0.27, 0.19);
+
 struct Waves {
     vec3 tilt;       // slope of those that are seen, world axes, along the surface
     float variance;  // of the slopes of the others, along both axes together
@@ -62,15 +65,14 @@ vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
 
 // Light that comes back out of water so deep, metres: from the bed as far as it is not taken away on both ways,
 // and scattered by the water itself.
-vec3 fromWater(float depth, vec3 downwelling) {
-    const vec3 bed = vec3(0.30, 0.27, 0.19);
+vec3 fromWater(float depth, vec3 bed, vec3 downwelling) {
     const vec3 deep = vec3(0.0022, 0.014, 0.040);  // reflectance of a sea without a bed
     vec3 kept = exp(-2.0 * water.rgb * depth);
     return downwelling * mix(deep, bed, kept);
 }
 
-// height: of the ground below, metres above the sea level, as drawn.
-vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 sunlight, vec3 skylight) {
+// height: of the ground below, metres above the sea level, as drawn. bed: its albedo.
+vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 bed, vec3 sunlight, vec3 skylight) {
     Waves waves = wavesAt(position, up);
     vec3 normal = normalize(up - waves.tilt);
     vec3 toEye = -ray;
@@ -82,7 +84,7 @@ vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 sunlight, vec
     vec3 direction = reflect(ray, normal);
     direction = normalize(direction + up * (max(-dot(direction, up), 0.0) + 0.5 * sqrt(waves.variance)));
     vec3 downwelling = sunlight * max(dot(up, sun.xyz), 0.0) + skylight;
-    vec3 below = fromWater(max(-height, 0.0) * water.w, downwelling);
+    vec3 below = fromWater(max(-height, 0.0) * water.w, bed, downwelling);
     return mix(below, skyRadianceAlong(direction, up), mirrored) +
            sunGlitter(normal, toEye, sunlight, waves.variance);
 }

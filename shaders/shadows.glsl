@@ -1,4 +1,4 @@
-// How much of the sun the ground sees past other ground. planet/shadow_cascades.h.
+// How much of the sun the ground sees past other ground. planet/select/shadow_cascades.h.
 
 const int cascadeCount = 3;
 

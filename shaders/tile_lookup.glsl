@@ -1,7 +1,7 @@
 // Finding the tile of a quadtree that lies over a place, and what it shows there: of colours as of normals.
-// planet/gl/tile_pool.h says what the textures hold.
+// planet/gl/store/tile_pool.h says what the textures hold.
 
-// planet/tile_layout.h.
+// planet/format/tile_layout.h.
 const float tileCells = 256.0;
 const float tileBorder = 7.0;
 const float tileTexels = 272.0;

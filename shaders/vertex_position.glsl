@@ -1,4 +1,4 @@
-// planet/vertex_position.cpp, line by line; that header says why.
+// planet/sphere/vertex_position.cpp, line by line; that header says why.
 
 const int fineGridLog2 = 22;
 const float fineCell = 1.0 / 2097152.0;  // 2 / 2^22

@@ -12,7 +12,8 @@
 // the grid points alone.
 //
 // A drawn sea is part of the surface: what lies below it is drawn at its level. Places that it covers before
-// and after do not count, neither for the largest jump nor for the mean.
+// and after do not count, neither for the largest jump nor for the mean. This holds for all ground below the
+// level: where a colour image shows dry land there, the shader paints no water, but draws it at the level too.
 //
 // Pure functions, any thread.
 #pragma once

@@ -272,8 +272,8 @@ TEST_F(Air, APlanetThatTakesAnothersPlaceNeedNotWaitForItsTables) {
 }
 
 TEST_F(Air, InTheBackgroundTheLastTablesStayUntilNewOnesHaveCome) {
-    ASSERT_TRUE(textures_.follow({}, true));
-    EXPECT_FALSE(textures_.figures().working);  // the first ones are waited for
+    ASSERT_TRUE(textures_.follow({}, false));
+    EXPECT_FALSE(textures_.figures().working);
     EXPECT_GT(textures_.figures().tablesMs, 0);
     EXPECT_GT(textures_.figures().tableBytes, 0u);
     const AirSettings hazy{.haze = 4};
@@ -285,6 +285,17 @@ TEST_F(Air, InTheBackgroundTheLastTablesStayUntilNewOnesHaveCome) {
     ASSERT_TRUE(textures_.follow(clear, false));
     EXPECT_FALSE(textures_.figures().working);
     EXPECT_EQ(textures_.tables().air.hazeScattered, atmosphereOf(clear).hazeScattered);
+}
+
+TEST_F(Air, InTheBackgroundTheFirstTablesAreNotWaitedForEither) {
+    const AirSettings hazy{.haze = 5.25};  // that no other test has tables of
+    ASSERT_TRUE(textures_.follow(hazy, true));
+    EXPECT_TRUE(textures_.figures().working);
+    EXPECT_FALSE(textures_.exist());
+    ASSERT_TRUE(textures_.follow(hazy, false));
+    EXPECT_FALSE(textures_.figures().working);
+    EXPECT_TRUE(textures_.exist());
+    EXPECT_EQ(textures_.tables().air.hazeScattered, atmosphereOf(hazy).hazeScattered);
 }
 
 class AirPicture : public GlTest {
@@ -380,6 +391,29 @@ TEST_F(AirPicture, NoPixelIsBlackByDayWhereverTheEyeIs) {
             }
         }
     }
+}
+
+// Rays that fall from the eye to a black plateau beyond the horizon rise again before they end, behind some 100 km of
+// air: all of it is bright.
+TEST_F(AirPicture, AnalyticAirLiesBeforeHighGroundAtTheHorizonToo) {
+    TestPlanet plateau({}, 384);
+    plateau.addLevel(3, [](const glm::dvec3& d) { return d.y > 0.015 ? 8000.0 : 0.0; });
+    settings_.light.air.use = FeatureUse::Off;
+    settings_.ramp = {{0, {0.05f, 0.05f, 0.05f}}};
+    settings_.detail = false;
+    settings_.sunDirection = directionFromGeographic({0.5, 0.1});
+    View view = viewFrom(plateau.shape(), 0.1, 0, 3000, 0, 90, 160, 240);
+    view.horizontalFovRad = 0.17;
+    const Picture picture = drawPicture(plateau.renderer(), view, plateau.items(), settings_);
+    int aboveTheEye = 0;
+    for (int x = 0; x < picture.width; ++x) {
+        for (int y = 0; y < picture.height / 2 + 15; ++y) {
+            if (!picture.isGround(x, y)) continue;
+            aboveTheEye += y < picture.height / 2 ? 1 : 0;
+            EXPECT_GT(picture.brightness(x, y), 300) << x << ' ' << y;
+        }
+    }
+    EXPECT_GT(aboveTheEye, 4 * picture.width);
 }
 
 // Light and air worked out at the corners of small triangles or at each pixel: the same picture.

@@ -341,6 +341,36 @@ TEST_F(Layers, AreLeftOffWhereTheyAreNotWanted) {
     drawPicture(planet_.renderer(), viewFrom(fineShape(), 0, 0, 1e6), planet_.items(), settings_);
 }
 
+TEST_F(Layers, LakesThatTheImageShowsAreNotPainted) {
+    use(plainPicture({255, 0, 0, 128}));
+    settings_.surface = SurfaceColour::Image;
+    settings_.sea = true;
+    const glm::dvec3 pointM = addGround(
+        {1, 0.01, 0.01}, [](const glm::dvec3&) { return 900.0; }, 12);
+    const glm::dvec3 eyeM = pointM + 100.0 * glm::normalize(pointM);
+    settings_.sunDirection = pointM;
+    const auto setImage = [&](const std::array<std::uint8_t, 3>& rgb) {
+        std::vector<std::uint8_t> image;
+        for (int i = 0; i < 64 * 32; ++i) image.insert(image.end(), rgb.begin(), rgb.end());
+        ASSERT_TRUE(planet_.renderer().setColourImage(image, 64, 32));
+    };
+    for (const bool lit : {false, true}) {
+        settings_.lighting = lit;
+        for (const std::array<std::uint8_t, 3>& water :
+             {std::array<std::uint8_t, 3>{10, 40, 80}, {0, 3, 12}}) {
+            setImage(water);
+            const glm::ivec3 lake = colourAt(eyeM, pointM);
+            EXPECT_GE(lake.z, lake.x) << lit << ' ' << int{water[2]};
+            settings_.layers.use = FeatureUse::Off;
+            EXPECT_TRUE(areNear(colourAt(eyeM, pointM), lake)) << lit << ' ' << int{water[2]};
+            settings_.layers.use = FeatureUse::On;
+        }
+        setImage({120, 120, 90});
+        const glm::ivec3 land = colourAt(eyeM, pointM);
+        EXPECT_GT(land.x, land.z + 100) << lit;
+    }
+}
+
 TEST_F(Layers, AreLitAndBentByTheirNormals) {
     LayerPicture bent = plainPicture({180, 180, 180, 128});
     for (std::size_t i = 0; i < bent.surface.size(); i += 4)

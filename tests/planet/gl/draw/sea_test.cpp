@@ -96,6 +96,55 @@ TEST_F(SeaTest, waterAboveTheSeaLevelKeepsTheImagesColour) {
     EXPECT_EQ(different, 0);
 }
 
+class SeaOfAnImage : public SeaTest {
+protected:
+    SeaOfAnImage() : planet_({}, 24) { settings_.surface = SurfaceColour::Image; }
+
+    // The middle of level ground of one height and one colour, from above.
+    glm::ivec3 colourOf(const glm::ivec3& image, double heightM) {
+        std::vector<std::uint8_t> rgb;
+        for (int i = 0; i < 64 * 32; ++i) {
+            for (int channel = 0; channel < 3; ++channel)
+                rgb.push_back(static_cast<std::uint8_t>(image[channel]));
+        }
+        EXPECT_TRUE(planet_.renderer().setColourImage(rgb, 64, 32));
+        planet_.items().clear();
+        const View view = viewFrom({}, 15, 15, 1e5, -90, 0, 17, 17);
+        settings_.sunDirection = directionFromGeographic({0.9, 0.26});
+        planet_.add(chunkAt(facePointFromDirection(view.eyeM), 1),
+                    [=](const glm::dvec3&) { return heightM; });
+        return drawPicture(planet_.renderer(), view, planet_.items(), settings_).at(8, 8);
+    }
+
+    TestPlanet planet_;
+};
+
+constexpr glm::ivec3 darkWater{1, 5, 12};
+constexpr glm::ivec3 blueWater{10, 40, 80};
+
+TEST_F(SeaOfAnImage, landBelowTheSeaLevelStaysDry) {
+    for (const double depthM : {50.0, 200.0, 400.0, 700.0})
+        EXPECT_TRUE(areNear(colourOf({150, 140, 100}, -depthM), colourOf({150, 140, 100}, 100), 2)) << depthM;
+}
+
+TEST_F(SeaOfAnImage, shallowsKeepTheImagesColour) {
+    for (const double depthM : {0.5, 2.0, 5.0}) {
+        EXPECT_TRUE(areNear(colourOf(darkWater, -depthM), colourOf(darkWater, 4), 12)) << depthM;
+        EXPECT_TRUE(areNear(colourOf(blueWater, -depthM), colourOf(blueWater, 4), 12)) << depthM;
+    }
+}
+
+TEST_F(SeaOfAnImage, nearlyBlackWaterIsSeaAtAnyDepth) {
+    for (const double depthM : {100.0, 400.0, 6000.0})
+        EXPECT_TRUE(areNear(colourOf(darkWater, -depthM), colourOf(blueWater, -depthM), 2)) << depthM;
+}
+
+TEST_F(SeaOfAnImage, aRisenSeaCoversDryLand) {
+    settings_.seaLevelM = 1000;
+    const glm::ivec3 flooded = colourOf({150, 140, 100}, 500);
+    EXPECT_GT(flooded.z, flooded.x + 20);
+}
+
 TEST_F(SeaTest, WhatIsMeasuredIsTheBed) {
     TestPlanet planet({}, 24);
     addDepth(planet, 4000);
