@@ -20,23 +20,26 @@ using Clock = std::chrono::steady_clock;
 
 Result<void> checkSettings(const PagingSettings& settings) {
     if (settings.loaderThreads < 1 || settings.loaderThreads > maxLoaderThreads) {
-        return badInput(
-            fmt::format("{} loader threads; 1 to {} will do", settings.loaderThreads, maxLoaderThreads));
+        return badInput(fmt::format("loader threads: {} is out of range; expected [1, {}]",
+                                    settings.loaderThreads, maxLoaderThreads));
     }
     if (!(settings.uploadLimitMs >= 0)) {
-        return badInput(fmt::format("an upload limit of {} ms; 0 or more will do", settings.uploadLimitMs));
+        return badInput(
+            fmt::format("upload limit: {} ms is negative; expected 0 ms or more", settings.uploadLimitMs));
     }
     if (!(settings.colourShare >= 0.01 && settings.colourShare <= 0.9)) {
-        return badInput(fmt::format("a share of {} for colours; 0.01 to 0.9 will do", settings.colourShare));
+        return badInput(
+            fmt::format("colour share: {} is out of range; expected [0.01, 0.9]", settings.colourShare));
     }
     if (!(settings.normalShare >= 0.01 && settings.normalShare <= 0.9)) {
-        return badInput(fmt::format("a share of {} for normals; 0.01 to 0.9 will do", settings.normalShare));
+        return badInput(
+            fmt::format("normal share: {} is out of range; expected [0.01, 0.9]", settings.normalShare));
     }
     if (settings.retry.retries < 0 || settings.retry.retries > 10)
-        return badInput(fmt::format("{} retries of a failed read; 0 to 10 will do", settings.retry.retries));
+        return badInput(fmt::format("retries: {} is out of range; expected [0, 10]", settings.retry.retries));
     if (!(settings.retry.delayS >= 0 && settings.retry.delayS <= 60)) {
         return badInput(
-            fmt::format("a retry {} s after a failed read; 0 to 60 s will do", settings.retry.delayS));
+            fmt::format("retry delay: {} s is out of range; expected [0, 60] s", settings.retry.delayS));
     }
     return checkBadDisk(settings.badDisk);
 }
@@ -63,15 +66,14 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
     Room room;
     std::size_t chunkBytes = shares.chunks;
     if (hasNormals) {
-        const TilePyramid pyramid{"tiles of normals", normalLeafLevel(shape), normalTileBytes};
+        const TilePyramid pyramid{"normal tiles", normalLeafLevel(shape), normalTileBytes};
         const Result<std::uint32_t> normals = tilesFor(pyramid, shares.normals, settings.maxNormalTiles);
         if (normals && slotsFor(shape, chunkBytes)) {
             room.normals = *normals;
             room.normalHeightBytes = shares.normalHeights;
         } else {
-            room.problem = (normals ? "what normals leave of the budget is too little for the chunks"
-                                    : normals.error().message) +
-                           "; the light follows the meshes' normals";
+            room.problem = (normals ? "budget too small for chunks and normals" : normals.error().message) +
+                           "; using mesh normals";
             chunkBytes = sharesOf(settings, colour.has_value(), false).chunks;
         }
     }
@@ -80,7 +82,7 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
     room.slots = *slots;
     if (!colour) return room;
     const Result<std::uint32_t> tiles =
-        tilesFor({"tiles of colour", colour->leafLevel, colourTileBytes(colour->format)}, shares.colours,
+        tilesFor({"colour tiles", colour->leafLevel, colourTileBytes(colour->format)}, shares.colours,
                  settings.maxColourTiles);
     if (!tiles) return tl::unexpected(tiles.error());
     room.colours = *tiles;
@@ -118,6 +120,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
             roots[face] = {root.id, root.heights, root.children};
         }
         state->deriver = std::make_unique<NormalDeriver>(source.shape, roots, source.loadChildren);
+        for (const Face face : allFaces) state->normals.roots[static_cast<std::size_t>(face)].id.face = face;
     }
     state->beginNormals(room->normals, room->normalHeightBytes, room->problem);
     BlockLoaders loaders{std::move(source.loadChildren), std::move(source.loadColours)};
@@ -168,6 +171,7 @@ void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upl
 
     Clock::time_point start = Clock::now();
     if (settings.time != PagingTime::Clock) pager->advance(elapsedS);
+    followNormalRoots();
     dropYielding();
     uploadFinished(upload);
     times.uploadMs = msSince(start);
@@ -201,6 +205,10 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
         state_->step(views, upload, state_->clockS(), std::numeric_limits<double>::infinity());
         if (settled()) return true;
         if (Clock::now() >= deadline || state_->settings.time == PagingTime::Recorded) return false;
+        if (state_->normalsArePending()) {
+            state_->normalRootComing.wait_until(deadline);
+            continue;
+        }
         const PagerStatus status = state_->pager->status();
         const std::optional<double> untilRetryS = state_->untilRetryS();
         if (status.held && status.atRest() && (status.queued > 0 || untilRetryS)) return false;  // paused
@@ -245,7 +253,7 @@ bool Planet::settled() const {
     const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
     return state.frame > 0 && !state.changed && state.pager->status().idle() &&
            (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome &&
-           !state.normals.roomToCome && !state.untilRetryS();
+           !state.normals.roomToCome && !state.normalsArePending() && !state.untilRetryS();
 }
 
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
@@ -263,8 +271,10 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     const bool resized = room->slots != state.slotCapacity;
     if (resized) state.resize(room->slots);
     if (room->colours != state.colours.tileCapacity) state.resizeTiles(state.colours, room->colours);
-    if (room->normals != state.normals.tileCapacity || room->problem != state.normalProblem)
+    if (room->normals != state.normalCapacity || room->problem != state.normalProblem)
         state.beginNormals(room->normals, room->normalHeightBytes, room->problem);
+    else if (otherTime && state.normalsArePending())
+        state.finishNormalRoots();
     state.count();
     return resized;
 }
@@ -291,6 +301,10 @@ void Planet::forgetSelections() {
 }
 
 void Planet::keepMoves(bool kept) {
+    if (kept && state_->normalsArePending()) {
+        state_->finishNormalRoots();
+        state_->count();
+    }
     state_->keepsMoves = kept;
     state_->moves = {};
 }
@@ -427,6 +441,9 @@ const TileTree& Planet::normalTree() const {
 const TileSelection& Planet::normalSelection(std::size_t view) const {
     assert(view < viewCount());
     return state_->views[view].normals;
+}
+bool Planet::normalsArePending() const {
+    return state_->normalsArePending();
 }
 const TilePagingCounters& Planet::normalPaging() const {
     return state_->normals.counters;

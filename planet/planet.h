@@ -124,6 +124,8 @@ public:
     // The finest level of tiles of normals that the heights fill, whether they are on or not; -1: there are
     // none.
     int normalLeafLevel() const;
+    // Whether tiles of normals begin as soon as their roots are derived, which a thread of its own does.
+    bool normalsArePending() const;
     // Of the same as above, of normals. A tree without nodes where they are off.
     const TileTree& normalTree() const;
     const TileSelection& normalSelection(std::size_t view = 0) const;

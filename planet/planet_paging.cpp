@@ -26,7 +26,7 @@ Result<std::uint32_t> slotsFor(const PlanetShape& shape, std::size_t budgetBytes
     const std::size_t wanted = faceCount + 4 * quadrantCount * static_cast<std::size_t>(leafLevel(shape));
     const std::size_t least = std::min<std::uint64_t>(wanted, chunkCountOf(shape));
     if (budgetBytes < least * bytes) {
-        return badInput(fmt::format("a budget of {} bytes is too small for this planet: it needs at least {}",
+        return badInput(fmt::format("budget too small for this planet: {} bytes; expected at least {}",
                                     budgetBytes, least * bytes));
     }
     constexpr std::uint64_t most = std::uint64_t{1} << 31;
@@ -481,26 +481,51 @@ void PlanetState::beginNormals(std::uint32_t tileCapacity, std::size_t heightByt
     if (pager) resizeTiles(normals, 0);
     if (!problem.empty() && problem != normalProblem) tell(problem);
     normalProblem = problem;
+    normalCapacity = deriver ? tileCapacity : 0;
     if (!deriver) return;
     deriver->keepHeights(heightBytes);
-    for (std::size_t face = 0; face < faceCount; ++face)
-        normals.roots[face] = {{static_cast<Face>(face), 0, 0, 0}, {}, {}};
-    if (tileCapacity > 0) deriveNormalRoots();
-    normals.begin(tileCapacity, sinceAnewS);
+    nextNormalRoot = 0;
+    if (pager && settings.time == PagingTime::Clock && !keepsMoves)
+        followNormalRoots();
+    else
+        finishNormalRoots();
+}
+
+void PlanetState::followNormalRoots() {
+    if (!normalsArePending()) return;
+    if (normalRootComing.valid()) {
+        if (normalRootComing.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+        takeNormalRoot(normalRootComing.get());
+    }
+    while (nextNormalRoot < faceCount && !normals.roots[nextNormalRoot].texels.empty()) ++nextNormalRoot;
+    if (nextNormalRoot == faceCount) {
+        normals.begin(normalCapacity, sinceAnewS);
+        return afterDrops();
+    }
+    normalRootComing = std::async(std::launch::async, [this, id = normals.roots[nextNormalRoot++].id] {
+        return readRoot([&] { return deriver->tile(id); });
+    });
+}
+
+void PlanetState::finishNormalRoots() {
+    if (normalRootComing.valid()) takeNormalRoot(normalRootComing.get());
+    if (normalCapacity > 0) deriveNormalRoots();
+    normals.begin(normalCapacity, sinceAnewS);
     if (pager) afterDrops();
+}
+
+bool PlanetState::takeNormalRoot(Result<TileData>&& derived) {
+    if (derived)
+        normals.roots[static_cast<std::size_t>(derived->id.face)] = std::move(*derived);
+    else
+        tell(std::move(derived.error().message));
+    return derived.has_value();
 }
 
 bool PlanetState::deriveNormalRoots() {
     bool any = false;
-    for (TileData& root : normals.roots) {
-        if (!root.texels.empty()) continue;
-        Result<TileData> derived = readRoot([&] { return deriver->tile(root.id); });
-        if (derived) {
-            root = std::move(*derived);
-            any = true;
-        } else {
-            tell(std::move(derived.error().message));
-        }
+    for (const TileData& root : normals.roots) {
+        if (root.texels.empty()) any |= takeNormalRoot(readRoot([&] { return deriver->tile(root.id); }));
     }
     return any;
 }
@@ -557,6 +582,7 @@ void PlanetState::startAnew() {
         note(request, PagingOutcome::Cancelled);
     }
     pager->forgetAttempts();
+    paging.evicted += (tree.residentChunks - faceCount) / quadrantCount;
     tree.nodes.resize(faceCount);
     tree.freeGroups.clear();
     tree.residentChunks = faceCount;
@@ -640,6 +666,8 @@ void PlanetState::count() {
     paging.requested = counters.added[static_cast<std::size_t>(PagingType::PageIn)];
     paging.merged = counters.merged;
     paging.cancelled = counters.opposed + counters.withdrawn + thrownAway;
+    paging.pageOutsQueued = counters.added[static_cast<std::size_t>(PagingType::PageOut)];
+    paging.pageOutsCancelled = counters.cancelled[static_cast<std::size_t>(PagingType::PageOut)];
     colours.count();
     normals.count();
     if (deriver) normals.counters.bytesRead = deriver->bytesRead();

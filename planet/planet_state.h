@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -80,8 +81,11 @@ struct PlanetState {
     std::optional<ColourPyramid> colour;
     TilePaging colours;  // only where there is a pyramid
     TilePaging normals;
-    std::string normalProblem;               // the last that was told
-    std::unique_ptr<NormalDeriver> deriver;  // only where there may be normals; loader threads use it
+    std::string normalProblem;                       // the last that was told
+    std::unique_ptr<NormalDeriver> deriver;          // only where there may be normals; loader threads use it
+    std::uint32_t normalCapacity = 0;                // of normals; theirs is 0 until their roots are derived
+    std::size_t nextNormalRoot = 0;                  // the first that followNormalRoots() has not asked for
+    std::future<Result<TileData>> normalRootComing;  // uses deriver, so is destroyed before it
     std::unique_ptr<Pager> pager;
 
     double clockS();
@@ -110,6 +114,12 @@ struct PlanetState {
     void beginNormals(std::uint32_t tileCapacity, std::size_t heightBytes, const std::string& problem);
     // Those of whole faces that are not there yet. True if any is now.
     bool deriveNormalRoots();
+    // Normals begin once their roots are there: derived on a thread of their own, one after the other, or at
+    // once where each step must be the same on any machine.
+    bool normalsArePending() const { return normals.tileCapacity != normalCapacity; }
+    void followNormalRoots();
+    void finishNormalRoots();
+    bool takeNormalRoot(Result<TileData>&& derived);
     void fail(NodeIndex parent, const FinishedLoad& load, Error error);
     void tell(std::string problem);
     void noteFailure(const FinishedLoad& load, const BlockFailures& known, bool badData);

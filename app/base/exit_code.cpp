@@ -4,14 +4,22 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <string>
+#include <system_error>
 
 #include "app/base/message.h"
-#include "planet/base/open_file.h"
 
 namespace worldy {
+
+namespace {
+
+// Of the first write to standard output that failed; 0: none, or not known.
+std::atomic<int> outputError = 0;
+
+}  // namespace
 
 int reportError(const planet::Error& error) {
     printMessage("worldy: {}\n", error.message);
@@ -26,16 +34,22 @@ void occupyStandardStreams() {
     }
 }
 
+void keepOutputError(int error) {
+    if (outputError == 0) outputError = error;
+}
+
+void flushStandardOutput() {
+    if (std::fflush(stdout) != 0) keepOutputError(errno);
+}
+
 int afterStandardOutput(int exitCode) {
-    // A write that failed earlier left no errno behind.
-    const bool failedBefore = std::ferror(stdout) != 0;
-    const bool flushed = std::fflush(stdout) == 0;
-    if (!failedBefore && flushed) return exitCode;
-    const std::string why = flushed ? std::string("a write failed") : planet::lastSystemError();
-    const int failed = reportError(
-        {planet::ErrorKind::Io, fmt::format("standard output: cannot be written: {}; what was printed is "
-                                            "not complete",
-                                            why)});
+    flushStandardOutput();
+    if (std::ferror(stdout) == 0 && outputError == 0) return exitCode;
+    const std::string why =
+        outputError == 0 ? std::string("a write failed") : std::generic_category().message(outputError);
+    const int failed =
+        reportError({planet::ErrorKind::Io,
+                     fmt::format("standard output: cannot be written: {}; output truncated", why)});
     return exitCode == exitOk || exitCode == exitCheckFailed ? failed : exitCode;
 }
 

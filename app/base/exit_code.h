@@ -17,6 +17,12 @@ int reportError(const planet::Error& error);
 // would take its number, and with it the text that is meant for the terminal.
 void occupyStandardStreams();
 
+// Flushes standard output, and keeps the reason if that fails for afterStandardOutput. Use it in place of
+// std::fflush, which leaves the reason to whatever fails next.
+void flushStandardOutput();
+// Keeps an errno for the same, of a write to standard output that has just failed.
+void keepOutputError(int error);
+
 // Flushes standard output. Returns exitCode, or where text was lost writes why to stderr and returns
 // exitBadInput instead of exitOk and exitCheckFailed. Call last.
 int afterStandardOutput(int exitCode);

@@ -1,4 +1,4 @@
-// Writing texts so that a killed program leaves the old file whole (planet/atomic_file.h).
+// Writing texts so that a killed program leaves the old file whole (planet/base/atomic_file.h).
 #pragma once
 
 #include <filesystem>

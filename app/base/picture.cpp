@@ -30,7 +30,7 @@ planet::Result<Picture> readPicture(const std::filesystem::path& file) {
     if (!input) return notAnImage(file);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > maxSidePx || spec.height > maxSidePx) {
-        return planet::badInput(fmt::format("{}: is {} x {} pixels; expected 1 to {} a side", file.string(),
+        return planet::badInput(fmt::format("{}: is {} x {} pixels; expected [1, {}] per side", file.string(),
                                             spec.width, spec.height, maxSidePx));
     }
     const int channels = spec.nchannels >= 3 ? 3 : 1;
@@ -75,17 +75,14 @@ Picture placedPicture(const Picture& picture, const planet::ImagePlacement& plac
 planet::Result<Picture> readPlanetPicture(const std::filesystem::path& file) {
     planet::Result<Picture> picture = readPicture(file);
     if (!picture) return picture;
-    planet::GeoTags tags;
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
-    if (input && std::string_view(input->format_name()) == "tiff") {
-        planet::Result<planet::GeoTags> read = planet::readGeoTags(file);
-        if (!read) return tl::unexpected(std::move(read.error()));
-        tags = *std::move(read);
-    }
-    const auto placement = planet::placementOf(file.string(), picture->width, picture->height, tags);
+    const planet::Result<planet::GeoTags> tags =
+        planet::geoTagsOf(file, input && std::string_view(input->format_name()) == "tiff");
+    if (!tags) return tl::unexpected(tags.error());
+    const auto placement = planet::placementOf(file.string(), picture->width, picture->height, *tags);
     if (placement) return placedPicture(*picture, *placement);
     // Without tags a picture of another shape is stretched over the planet.
-    if (!tags.placement) return picture;
+    if (!tags->placement) return picture;
     return tl::unexpected(placement.error());
 }
 

@@ -22,7 +22,7 @@ struct Picture {
 planet::Result<Picture> readPicture(const std::filesystem::path& file);
 
 // A picture of a whole planet, moved to pixel centres from longitude -180 to 180: its GeoTIFF tags or its
-// size tell where it lies (planet/image_placement.h). One without tags may have any shape. The Error of a
+// size tell where it lies (planet/source/image_placement.h). One without tags may have any shape. The Error of a
 // region or of another projection says what was found.
 planet::Result<Picture> readPlanetPicture(const std::filesystem::path& file);
 

@@ -11,7 +11,7 @@ namespace worldy {
 
 // The version of the reports' keys and their meanings, the member "schema_version" of every JSON report and
 // the first column of every CSV table. It grows by one whenever a key is removed or changes its meaning.
-inline constexpr int schemaVersion = 1;
+inline constexpr int schemaVersion = 2;
 
 // Returns the report, an object, as lines of text with "schema_version" before its members; the last line
 // ends with a newline. File names may hold any bytes but JSON is UTF-8: invalid bytes are replaced by U+FFFD.

@@ -13,8 +13,7 @@ namespace {
 constexpr std::uintmax_t mostTomlBytes = 16u << 20;
 
 std::string wanted(std::string_view kind, const NumberRange& range) {
-    const std::string unit = range.unit.empty() ? std::string() : fmt::format(" of {}", range.unit);
-    return fmt::format("expected {}{} from {} to {}", kind, unit, range.min, range.max);
+    return fmt::format("expected {} in {}", kind, textOf(range));
 }
 
 tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, std::string_view name,
@@ -58,6 +57,11 @@ std::size_t lineOfEndlessKey(std::string_view text) {
 }
 
 }  // namespace
+
+std::string textOf(const NumberRange& range) {
+    const std::string_view gap = range.unit.empty() || range.unit == "°" ? "" : " ";
+    return fmt::format("[{}, {}]{}{}", range.min, range.max, gap, range.unit);
+}
 
 bool isUtf8(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
@@ -129,7 +133,7 @@ planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std:
                                          const toml::node& node, const NumberRange& range) {
     const std::optional<std::int64_t> value = node.value_exact<std::int64_t>();
     if (!value || static_cast<double>(*value) < range.min || static_cast<double>(*value) > range.max) {
-        return wrong(file, name, node, wanted("a whole number", range));
+        return wrong(file, name, node, wanted("an integer", range));
     }
     return *value;
 }

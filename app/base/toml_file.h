@@ -14,7 +14,7 @@ namespace worldy {
 struct NumberRange {
     double min = 0;
     double max = 0;
-    std::string_view unit;  // "pixels"; may be empty
+    std::string_view unit;  // "px"; may be empty
 };
 
 // A file of at most 16 MiB.
@@ -30,6 +30,9 @@ std::string shownValue(const toml::node& node);
 
 // "settings.toml: line 3"; without the line where the node was not read from a text.
 std::string placeOf(const std::filesystem::path& file, const toml::node& node);
+
+// "[0.1, 64] px".
+std::string textOf(const NumberRange& range);
 
 // A finite number of the range, integers included.
 planet::Result<double> readNumber(const std::filesystem::path& file, std::string_view name,

@@ -9,7 +9,8 @@ struct AppOptions {
     std::filesystem::path file;          // empty: the settings' data set, or the Earth
     std::filesystem::path settingsFile;  // empty: the user's own
     std::filesystem::path shaderFolder;  // empty: the shaders built in
-    std::filesystem::path itemMapFile;   // where to write where controls are (ui/item_map.h); empty: nowhere
+    std::filesystem::path
+        itemMapFile;  // where to write where controls are (ui/kit/item_map.h); empty: nowhere
 };
 
 // The program's exit code.

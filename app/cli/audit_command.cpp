@@ -151,7 +151,7 @@ Json jsonOf(const AuditedView& view) {
     const TrueErrorReport& report = view.report;
     Json json = {{"camera", poseJson(view.pose)},
                  {"settled", view.settled},
-                 {"chunks", report.chunks.size()},
+                 {ui::terms::drawnChunks.key, report.chunks.size()},
                  {ui::terms::groundTriangles.key, view.groundTriangles},
                  {ui::terms::skirtTriangles.key, view.skirtTriangles},
                  {ui::terms::triangles.key, view.groundTriangles + view.skirtTriangles}};
@@ -211,7 +211,7 @@ void printRow(const std::string& name, std::size_t chunks, std::uint64_t triangl
 void printWorst(const Audit& audit, int count) {
     const std::vector<Listed> worst = worstChunks(audit, count);
     if (worst.empty() || worst.front().chunk->facingPx <= 0) return;
-    fmt::print("\n{:>5}  {:24}{:>11}{:>11}{:>11}{:>12}  {}\n", "view", "worst chunks", "bound", "measured",
+    fmt::print("\n{:>5}  {:24}{:>11}{:>11}{:>11}{:>12}  {}\n", "view", "chunks by error", "bound", "measured",
                "screen", "error", "at");
     for (const Listed& one : worst) {
         const ChunkError& chunk = *one.chunk;
@@ -267,10 +267,11 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
                auditedLod(options).metric == planet::ErrorMetric::Tight ? "tight" : "additive",
                options.size.widthPx, options.size.heightPx);
     fmt::print(
-        "eps: predicted error of the chunk's own surface; bound: bound of the error of what is drawn, morph "
-        "counted in;\nmeasured: true error, the view turned to face the sample; screen: true error in the "
-        "flat picture; all in pixels, the\nlargest of any chunk. p99: of the chunks' measured error. Slack: "
-        "in % of the bound.\n\n");
+        "eps: predicted error of the chunk's own surface; bound: bound of the error of what is drawn, "
+        "including "
+        "morph;\nmeasured: true error, facing the sample; screen: screen-space error; all in pixels, the "
+        "largest of any chunk.\np99: 99th percentile of the chunks' measured error. slack: in % of the "
+        "bound.\n\n");
     fmt::print("{:>5}{:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>8}{:>12}\n", "view", "chunks", "triangles",
                "eps", "bound", "measured", "p99", "screen", "slack", "violations");
     std::size_t chunks = 0;
@@ -281,7 +282,7 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
         const std::uint64_t ofView = view.groundTriangles + view.skirtTriangles;
         triangles += ofView;
         printRow(fmt::format("{}", i + 1), view.report.chunks.size(), ofView, view.report);
-        if (!view.settled) printMessage("worldy: view {}: not everything was loaded in time\n", i + 1);
+        if (!view.settled) printMessage("worldy: view {}: loading timed out; chunks are missing\n", i + 1);
     }
     printRow("all", chunks, triangles, totalsOf(audit));
     printWorst(audit, options.worst);

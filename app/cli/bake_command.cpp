@@ -29,7 +29,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"output", options.output.string()},
                                          {"face_size", planet::faceCells(report.shape) + 1},
                                          {"chunk_size", planet::chunkSize(report.shape)},
-                                         {"levels", planet::leafLevel(report.shape) + 1},
+                                         {"level_count", planet::leafLevel(report.shape) + 1},
                                          {"radius_m", report.shape.radiusM},
                                          {"quantum_m", report.shape.quantumM},
                                          {"samples", report.samples},
@@ -56,10 +56,10 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
                ui::bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
                ui::durationText(report.seconds));
     if (report.colourTiles > 0) {
-        fmt::print("{} tiles of colour, {}\n", report.colourTiles,
+        fmt::print("{} colour tiles, {}\n", report.colourTiles,
                    ui::bytesText(static_cast<double>(report.colourBytes)));
     }
-    fmt::print("largest error of a root: delta_c {}, tight {}\n",
+    fmt::print("max root error: delta_c {}, tight {}\n",
                ui::distanceText(static_cast<double>(report.largestDeltaCM)),
                ui::distanceText(static_cast<double>(report.largestDeltaTightM)));
 }
@@ -72,8 +72,8 @@ void printWarnings(const BakeOptions& options, const planet::BakeReport& report)
 }
 
 void printField(const planet::TerrainField& field, const planet::TerrainSettings& defaults) {
-    fmt::print("    {:<14} {:>8} {:<10} {} to {}{}\n", field.name, fmt::format("{}", field.get(defaults)),
-               field.unit, field.least, field.most, field.whole ? ", whole" : "");
+    fmt::print("    {:<14} {:>8} {:<3} [{}, {}]{}\n", field.name, fmt::format("{}", field.get(defaults)),
+               field.unit, field.least, field.most, field.whole ? ", integer" : "");
 }
 
 // The worlds, and the kinds of made terrain with their settings.
@@ -85,7 +85,7 @@ void printPresets() {
                    world.request.source.string(), settings.radiusM / 1000,
                    settings.faceSize ? fmt::format(", faces of {}", *settings.faceSize) : "");
     }
-    fmt::print("\nMade terrain: worldy bake KIND,NAME=VALUE,... -o OUT.chk; defaults and ranges are\n");
+    fmt::print("\nProcedural terrain: worldy bake KIND,NAME=VALUE,... -o OUT.chk; defaults and ranges are\n");
     for (const planet::TerrainKind& kind : planet::terrainKinds()) {
         const bool isDetail = kind.name == "detail";
         fmt::print("  {:<16} {}\n", isDetail ? "detail:...,of=" : kind.name, kind.about);

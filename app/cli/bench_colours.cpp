@@ -28,7 +28,7 @@ using planet::Result;
 // Where there is no image: patches with grain, of a size that takes next to no time.
 planet::ColourSource madeColours() {
     planet::ColourSource source;
-    source.description = "made colours";
+    source.description = "synthetic colours";
     source.naturalFaceSize = 513;
     source.sample = [](const planet::SampleTile& tile, std::span<glm::vec3> out) -> Result<void> {
         std::size_t at = 0;
@@ -132,15 +132,15 @@ std::vector<BenchRow> rateRows(const std::string& name, double tiles,
     const std::vector<double> ours = perSecond(tiles, ms[0]);
     const std::vector<double> plain = perSecond(tiles, ms[1]);
     const Spread ratio = spreadOf(ratios(ours, plain));
-    return {{name + ", paged in and uploaded", "rate", "tiles/s", spreadOf(ours), ratio, loop},
-            {name + ", paged in and uploaded", "rate", "Mtexel/s",
+    return {{name + ", loaded and uploaded", "rate", "tiles/s", spreadOf(ours), ratio, loop},
+            {name + ", loaded and uploaded", "rate", "Mtexel/s",
              spreadOf(perSecond(tiles * megatexelsPerTile, ms[0])), ratio, loop},
             {loop, "rate", "tiles/s", spreadOf(plain)}};
 }
 
 BenchRow once(const std::string& name, const char* quantity, double bytes) {
     const double kibibytes = bytes / 1024;
-    return {name + ", a tile", quantity, "KiB", {kibibytes, kibibytes, kibibytes}};
+    return {name + ", per tile", quantity, "KiB", {kibibytes, kibibytes, kibibytes}};
 }
 
 BenchRows benchFormat(const planet::ColourSource& colours, ColourFormat format, const BenchOptions& options,

@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/base/exit_code.h"
 #include "app/base/places.h"
 #include "app/base/report.h"
 #include "app/cli/bench_parts.h"
@@ -99,7 +100,7 @@ void print(const Section& section) {
         fmt::print("  {:<44}{:<16}{:>28} {:<11}{}\n", row.subject, row.quantity, spreadText(row.value),
                    row.unit, ratio);
     }
-    std::fflush(stdout);
+    flushStandardOutput();
 }
 
 Json jsonOf(const Spread& spread, bool isCount = false) {
@@ -182,12 +183,12 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
         {"dynamic", "The whole planet pass against a static draw of the very same triangles",
          [&, largest] { return benchDynamicAgainstStatic(largest(), options); }},
         {"selection", "Selection", [&, largest] { return benchSelection(largest(), options); }},
-        {"page_in", "Page-in against a plain loop", [&, largest] { return benchPageIn(largest(), options); }},
+        {"page_in", "Load against a plain loop", [&, largest] { return benchPageIn(largest(), options); }},
         {"bake", "Bake against reading the source and zstd -1",
          [&] { return benchBake(source, planets.front().faceSize, options, folder); }},
         {"file_size", "File size against the finest heights alone",
          [&, largest] { return benchFileSize(largest(), folder); }},
-        {"colours", "Page-in of colours against a plain loop",
+        {"colours", "Load of colours against a plain loop",
          [&] {
              return benchColours(
                  ui::ownColourImage(options.source.empty() ? earthElevation() : options.source), options,

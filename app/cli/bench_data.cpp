@@ -207,10 +207,9 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
                 static_cast<void>(file->readChildren(block.parent, block.location, *block.parentHeights));
         }};
     const std::vector<std::vector<double>> ms = timeInTurn(jobs, options.rounds);
-    if (blocks.empty())
-        return planet::badInput(planet.chunkFile.string() + ": nothing of it could be loaded");
+    if (blocks.empty()) return planet::badInput(planet.chunkFile.string() + ": no block could be loaded");
     std::vector<BenchRow> rows =
-        pairedRates({"paging in, by one loader", "the same blocks in a loop"}, "MB/s", bytes / 1e6, ms);
+        pairedRates({"loading, one loader", "the same blocks in a loop"}, "MB/s", bytes / 1e6, ms);
     const auto count = static_cast<double>(blocks.size());
     rows.push_back({"either", "blocks", "", {count, count, count}});
     return rows;
@@ -246,7 +245,7 @@ BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& 
     const auto ours = static_cast<double>(file->sizeBytes());
     const auto add = [&](const char* subject, std::size_t bytes) {
         const double bits = 8 * static_cast<double>(bytes) / (6 * side * side);
-        BenchRow row{subject, "a finest sample", "bits", {bits, bits, bits}};
+        BenchRow row{subject, "per finest sample", "bits", {bits, bits, bits}};
         const double ratio = static_cast<double>(bytes) / ours;
         if (!rows.empty()) row.ratio = {ratio, ratio, ratio}, row.yardstick = "chunk file";
         rows.push_back(std::move(row));

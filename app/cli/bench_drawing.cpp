@@ -74,7 +74,7 @@ Result<Contender> openContender(std::string name, const ui::ViewSettings& settin
     if (!scene) return tl::unexpected(scene.error());
     Contender contender{std::move(name), settings, std::move(*scene)};
     if (!settleScene(contender.scene, view, settings, loadTimeoutS)) {
-        return planet::ioError(fmt::format("{}: not all of it could be loaded in {:.0f} s",
+        return planet::ioError(fmt::format("{}: loading timed out after {:.0f} s: requested blocks missing",
                                            planet.chunkFile.string(), loadTimeoutS));
     }
     return contender;
@@ -218,10 +218,10 @@ void addSelection(planet::Planet& planet, const planet::View& view, double tauPx
     for (double& value : ns) value *= 1e6 / selection.counters.visited;
     const std::string subject =
         fmt::format("{}, {} nodes visited",
-                    tauPx == everyLeafPx ? "every leaf from on high" : fmt::format("tau {:g} px", tauPx),
+                    tauPx == everyLeafPx ? "all leaves, high altitude" : fmt::format("tau {:g} px", tauPx),
                     selection.counters.visited);
-    rows.push_back({subject, "a visited node", "ns", spreadOf(ns)});
-    rows.push_back({subject, "a frame", "ms", spreadOf(ms)});
+    rows.push_back({subject, "per visited node", "ns", spreadOf(ns)});
+    rows.push_back({subject, "per frame", "ms", spreadOf(ms)});
 }
 
 }  // namespace
@@ -272,7 +272,7 @@ BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOption
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
     const planet::View view = benchView(file->info().shape, options.size);
-    Result<Contender> dynamic = openContender("choosing and drawing", settings, planet, view);
+    Result<Contender> dynamic = openContender("selection and draw", settings, planet, view);
     if (!dynamic) return tl::unexpected(dynamic.error());
     drawFrame(*dynamic, view);
     const Result<StaticMesh> mesh = makeStaticMesh(dynamic->scene, view, settings);
@@ -282,7 +282,7 @@ BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOption
                                                          [&] { drawStatic(*mesh, view, projection); }};
     for (const auto& frame : frames) frame();
     std::vector<BenchRow> rows;
-    addTimes({"choosing and drawing", "the same triangles, static"}, timeInTurn(frames, options.rounds),
+    addTimes({"selection and draw", "the same triangles, static"}, timeInTurn(frames, options.rounds),
              "static", rows);
     rows.push_back({"either", "triangles", "", exactly(static_cast<double>(mesh->indexCount) / 3)});
     return rows;

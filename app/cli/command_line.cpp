@@ -8,7 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -33,6 +36,7 @@
 #include "app/cli/write_plan.h"
 #include "app/data/layer_materials.h"
 #include "app/settings/camera_text.h"
+#include "app/settings/settings_text.h"
 #include "app/settings/view_options.h"
 
 namespace worldy {
@@ -44,6 +48,28 @@ using planet::Result;
 template <std::size_t count>
 CLI::IsMember oneOf(const std::array<std::string_view, count>& names) {
     return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+std::optional<planet::ColourFormat> colourFormatNamed(const std::string& text) {
+    const std::string name = CLI::detail::to_lower(text);
+    if (name == "bc1") return planet::ColourFormat::Bc1;
+    return name == "lossless" ? std::optional(planet::ColourFormat::Lossless) : std::nullopt;
+}
+
+void addColourFormat(CLI::App& command, planet::ColourBakeSettings& colour) {
+    const auto check = [](const std::string& text) {
+        return colourFormatNamed(text)
+                   ? std::string()
+                   : fmt::format("{} is not a colour format; expected bc1 or lossless", text);
+    };
+    const std::function<void(const std::string&)> take = [&colour](const std::string& text) {
+        colour.format = colourFormatNamed(text).value_or(colour.format);
+    };
+    command
+        .add_option_function("--colour-format", take,
+                             "Colour format: bc1 (0.5 bytes per texel) or lossless (bc1)")
+        ->check(CLI::Validator(check, ""))
+        ->option_text("bc1|lossless");
 }
 
 void addBake(CLI::App& command, BakeOptions& options) {
@@ -58,8 +84,10 @@ void addBake(CLI::App& command, BakeOptions& options) {
                   "Add fractal detail below the source's resolution; --detail=strength=0.8,octaves=4 sets "
                   "its parameters")
         ->type_name("PARAMETERS");
-    command.add_option("--face-size", settings.faceSize,
-                       "Samples per face side, 2^n + 1 (the source's resolution)");
+    command
+        .add_option("--face-size", settings.faceSize,
+                    "Samples per face side, 2^n + 1 (the source's resolution)")
+        ->check(faceSize());
     command.add_option("--chunk-size", settings.chunkSize, "Vertices per chunk side: 17, 33, 65 or 129 (33)")
         ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
     command.add_option("--radius", options.radiusM, "Planet radius, metres (the preset's, or 6371000)")
@@ -80,21 +108,18 @@ void addBake(CLI::App& command, BakeOptions& options) {
                        "Also write each level of each face as PNG to this folder");
     command.add_option("--colour", options.colour,
                        "Colour image of the whole planet, or of six cube faces, to bake into the file");
-    command.add_option("--colour-face-size", settings.colour.faceSize,
-                       "Colour texels per face side, 2^n + 1, at least 257 (the image's resolution)");
-    const std::map<std::string, planet::ColourFormat> formats = {
-        {"bc1", planet::ColourFormat::Bc1}, {"lossless", planet::ColourFormat::Lossless}};
     command
-        .add_option("--colour-format", settings.colour.format,
-                    "Colour format: bc1 (0.5 bytes per texel) or lossless (bc1)")
-        ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
-        ->option_text("bc1|lossless");
+        .add_option("--colour-face-size", settings.colour.faceSize,
+                    "Colour texels per face side, 2^n + 1, at least 257 (the image's resolution)")
+        ->check(faceSize());
+    addColourFormat(command, settings.colour);
 }
 
 void addMakeLayers(CLI::App& command, MakeLayersOptions& options) {
     command.add_option("--texels", options.texels, "Texels per side, a power of two (512)")
         ->check(CLI::IsMember(std::vector<int>{16, 32, 64, 128, 256, 512, 1024, 2048, 4096}));
-    command.add_option("--seed", options.seed, "Seed of the textures (1)");
+    command.add_option("--seed", options.seed, "Seed of the textures (1)")
+        ->check(wholeNumber(0, std::numeric_limits<std::uint32_t>::max()));
 }
 
 void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
@@ -263,6 +288,14 @@ planet::ErrorMetric metricOf(const std::string& name) {
     return name == errorMetricNames[0] ? planet::ErrorMetric::Additive : planet::ErrorMetric::Tight;
 }
 
+template <typename Value>
+Result<void> checkOnce(std::string_view option, std::vector<Value> values) {
+    std::sort(values.begin(), values.end());
+    const auto twice = std::adjacent_find(values.begin(), values.end());
+    if (twice == values.end()) return {};
+    return planet::badInput(fmt::format("{}: {} is given twice; expected each value once", option, *twice));
+}
+
 // Copies the shared options into those that the command's own have a place for. The settings come back for
 // what else a command wants of them.
 template <typename Options>
@@ -279,6 +312,8 @@ Result<Settings> takeShared(const CommandSpec& spec, const SharedTexts& texts, O
     }
     if constexpr (requires { options.tausPx; }) {
         if (!texts.tausPx.empty()) options.tausPx = texts.tausPx;
+        if (Result<void> once = checkOnce("--tau", texts.tausPx); !once)
+            return tl::unexpected(std::move(once.error()));
     }
     if constexpr (requires { options.size; }) {
         const Result<PictureSize> size = pictureSizeFromText(texts.view.size);
@@ -319,6 +354,10 @@ Result<void> finish(BakeOptions& options) {
 Result<void> finish(SweepOptions& options, const SweepTexts& texts) {
     options.cost = static_cast<SweepCost>(
         std::find(sweepCostNames.begin(), sweepCostNames.end(), texts.cost) - sweepCostNames.begin());
+    const Result<void> once = checkOnce("--chunk", options.chunkSizes).and_then([&] {
+        return checkOnce("--metric", texts.metrics);
+    });
+    if (!once) return once;
     if (!texts.metrics.empty()) options.metrics.clear();
     for (const std::string& name : texts.metrics) options.metrics.push_back(metricOf(name));
     if (texts.goal.empty()) return {};
@@ -330,10 +369,12 @@ Result<void> finish(CompareOptions& options, const SharedTexts& shared, const Co
     for (std::size_t i = 0; i < sides.size(); ++i) {
         ViewTexts texts = shared.view;
         if (!sides[i].settingsFile.empty()) texts.settingsFile = sides[i].settingsFile;
-        texts.assignments.insert(texts.assignments.end(), sides[i].assignments.begin(),
-                                 sides[i].assignments.end());
-        const Result<Settings> settings = settingsFrom(texts);
+        Result<Settings> settings = settingsFrom(texts);
         if (!settings) return tl::unexpected(settings.error());
+        for (const std::string& assignment : sides[i].assignments) {
+            if (const Result<void> set = setSetting(*settings, assignment); !set)
+                return planet::badInput(fmt::format("--set-{} {}", i == 0 ? 'a' : 'b', set.error().message));
+        }
         options.settings[i] = settings->view;
     }
     return {};
@@ -429,8 +470,26 @@ struct CommandLine {
     CommandLine& operator=(const CommandLine&) = delete;
 };
 
-planet::Error errorOf(const CLI::ParseError& error) {
-    return {planet::ErrorKind::BadInput, fmt::format("{}; see worldy --help", error.what())};
+// The parser's own text of arguments that are too many has them in reverse.
+std::string problemOf(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error.what();
+    const std::vector<std::string> extras = app.remaining(true);
+    return fmt::format("{}: {} not expected", fmt::join(extras, " "), extras.size() == 1 ? "is" : "are");
+}
+
+planet::Error errorOf(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    const std::string help =
+        commands.empty() ? "worldy --help" : fmt::format("worldy {} --help", commands.front()->get_name());
+    return {planet::ErrorKind::BadInput, fmt::format("{}; see {}", problemOf(app, error), help)};
+}
+
+// Through the stream whose failures are told (exit_code.h).
+int printHelp(const CLI::App& app, const CLI::ParseError& error) {
+    std::ostringstream text;
+    const int code = app.exit(error, text, text);
+    fmt::print("{}", text.str());
+    return code;
 }
 
 }  // namespace
@@ -440,7 +499,7 @@ Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments) {
     try {
         line.app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::ParseError& error) {
-        return tl::unexpected(errorOf(error));
+        return tl::unexpected(errorOf(line.app, error));
     }
     if (!line.app.got_subcommand("shot"))
         return planet::badInput("not a worldy shot command; expected worldy shot FILE -o PICTURE");
@@ -459,7 +518,7 @@ int runCommand(int argumentCount, const char* const* arguments) {
     try {
         line.app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {
-        return error.get_exit_code() == 0 ? app.exit(error) : reportError(errorOf(error));
+        return error.get_exit_code() == 0 ? printHelp(app, error) : reportError(errorOf(app, error));
     }
     // A command's options, complete; what it would write is checked; then it runs.
     const auto command = [&line](std::string_view name, auto& options, auto run, auto prepare) {
@@ -509,7 +568,10 @@ int runCommand(int argumentCount, const char* const* arguments) {
         if (app.got_subcommand(name)) return run();
     }
     const CommandFiles files = filesOf(line.window);
-    const Result<void> safe = checkNotInputs(files).and_then([&] { return checkKinds(files.outputs); });
+    const Result<void> safe =
+        checkNotInputs(files).and_then([&] { return checkPlaces(files.outputs); }).and_then([&] {
+            return checkKinds(files.outputs);
+        });
     if (!safe) return reportError(safe.error());
     return runApp(line.window);
 }
@@ -520,9 +582,10 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
     occupyStandardStreams();
     try {
         return afterStandardOutput(runCommand(argumentCount, arguments));
-    } catch (const std::system_error&) {
+    } catch (const std::system_error& error) {
         // fmt::print throws where standard output takes no more.
         if (std::ferror(stdout) == 0) throw;
+        keepOutputError(error.code().value());
         return afterStandardOutput(exitBadInput);
     }
 }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 
 #include "app/settings/view_options.h"
+#include "ui/model/sweep_points.h"
 
 namespace worldy {
 
@@ -70,7 +72,7 @@ constexpr std::array<CommandSpec, 15> commandTable = {{
      .takes = pictureOptions | takes::output | takes::mustFlight | takes::worst,
      .output = reportHelp,
      .sampling = everySeconds(1.0 / 60),
-     .worst = "Switches"},
+     .worst = "Level changes"},
     {.name = "audit",
      .about =
          "Compare the true error of the drawn surface with its bound; exits with 1 if it exceeds the bound",
@@ -177,13 +179,37 @@ void addCamera(CLI::App& command, const CommandSpec& spec, SharedTexts& texts) {
 }  // namespace
 
 CLI::Validator number(double min, double max, bool zeroToo) {
-    const std::string wanted = fmt::format("a number from {} to {}{}", min, max, zeroToo ? "" : " but 0");
+    const std::string wanted = fmt::format("a number in [{}, {}]{}", min, max, zeroToo ? "" : ", not 0");
     const auto check = [=](const std::string& text) {
         double value = 0;
         const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool good =
             problem == std::errc{} && end == text.data() + text.size() && value >= min && value <= max;
         return good && (zeroToo || value != 0) ? std::string() : fmt::format("{} is not {}", text, wanted);
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator wholeNumber(std::uint32_t min, std::uint32_t max) {
+    const auto check = [=](const std::string& text) {
+        std::uint32_t value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good =
+            problem == std::errc{} && end == text.data() + text.size() && value >= min && value <= max;
+        return good ? std::string()
+                    : fmt::format("{} is not valid; expected a whole number in [{}, {}]", text, min, max);
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator faceSize() {
+    const auto check = [](const std::string& text) {
+        std::uint32_t value = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = problem == std::errc{} && end == text.data() + text.size() && value > 2;
+        return good && std::has_single_bit(value - 1)
+                   ? std::string()
+                   : fmt::format("{} is not valid; expected 2^n + 1, for example 1025, 2049 or 4097", text);
     };
     return CLI::Validator(check, "");
 }
@@ -215,14 +241,14 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
         command
             .add_option("--tau", texts.view.tauPx,
                         "Screen-space error threshold tau, pixels (from the settings)")
-            ->check(number(1e-6, 1000));
+            ->check(number(ui::smallestTauPx, ui::largestTauPx));
     }
     if (takesAny(takes::taus)) {
         command
             .add_option("--tau", texts.tausPx,
                         fmt::format("Screen-space error thresholds tau, pixels ({})", spec.defaultTaus))
             ->delimiter(',')
-            ->check(number(0.1, 64));
+            ->check(number(ui::smallestTauPx, ui::largestTauPx));
     }
     if (takesAny(takes::set)) {
         command
@@ -246,6 +272,20 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
     return command;
 }
 
+namespace {
+
+// The parser drops what is empty between two commas.
+Result<void> checkList(std::string_view option, std::string_view value) {
+    constexpr std::array<std::string_view, 3> lists = {"--tau", "--chunk", "--metric"};
+    if (std::find(lists.begin(), lists.end(), option) == lists.end()) return {};
+    const bool gap = value.starts_with(',') || value.ends_with(',') || value.find(",,") != value.npos;
+    if (!gap) return {};
+    return planet::badInput(
+        fmt::format("{}: {} has an empty entry; expected values with one comma between them", option, value));
+}
+
+}  // namespace
+
 Result<void> checkSpellings(std::span<const char* const> arguments) {
     if (arguments.size() < 2) return {};
     const std::string_view command = arguments[1];
@@ -255,6 +295,7 @@ Result<void> checkSpellings(std::span<const char* const> arguments) {
         const std::string_view value = option.size() < argument.size() ? argument.substr(option.size() + 1)
                                        : i + 1 < arguments.size()      ? std::string_view(arguments[i + 1])
                                                                        : std::string_view();
+        if (Result<void> whole = checkList(option, value); !whole) return whole;
         for (const OldSpelling& old : oldSpellings) {
             if (old.command == command && old.option == option && value.ends_with(old.value)) {
                 return planet::badInput(

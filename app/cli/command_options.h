@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -63,10 +64,14 @@ struct SharedTexts {
 // Adds the command with the shared options that the table gives it. The texts must outlive the app.
 CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts);
 
-// An Error for a spelling that is no longer taken; it says the one that is. The program's name comes first.
+// An Error for a spelling that is no longer taken, which says the one that is, and for a list with an empty
+// entry. The program's name comes first.
 planet::Result<void> checkSpellings(std::span<const char* const> arguments);
 
 // A number in a closed range; CLI11's own lets "nan" through.
 CLI::Validator number(double min, double max, bool zeroToo = true);
+CLI::Validator wholeNumber(std::uint32_t min, std::uint32_t max);
+// 2^n + 1.
+CLI::Validator faceSize();
 
 }  // namespace worldy

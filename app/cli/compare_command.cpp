@@ -12,6 +12,7 @@
 #include "app/flight/flight_path_file.h"
 #include "app/measure/comparison.h"
 #include "app/settings/settings_text.h"
+#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -37,8 +38,10 @@ void printTable(const ComparisonPlan& plan, std::span<const ui::SettingDifferenc
         fmt::print("A is {}, B is {}\n", plan.sides[0].chunkFile.string(), plan.sides[1].chunkFile.string());
     }
     if (different.empty()) fmt::print("equal settings\n");
-    for (const ui::SettingDifference& one : different)
-        fmt::print("{}: A {}, B {}\n", one.setting, one.here, one.there);
+    for (const ui::SettingDifference& one : different) {
+        const auto [a, b] = ui::shortNumberTexts(one.here, one.there);
+        fmt::print("{}: A {}, B {}\n", one.setting, a, b);
+    }
     fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "", "A", "B", "B to A");
     for (const ui::CompareRow& row : ui::compareRows()) {
         if (!row.flight) continue;

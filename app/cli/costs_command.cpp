@@ -48,7 +48,7 @@ Result<void> runCosts(const CostsOptions& options) {
     const double radiusM = offscreen->scene.planet->shape().radiusM;
     const SettledView at =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), all);
-    if (!at.settled) printMessage("worldy: not everything was loaded in time\n");
+    if (!at.settled) printMessage("worldy: loading timed out; chunks are missing\n");
     Result<CostMeter> meter = CostMeter::create(offscreen->scene, at.view, options.view, options.rounds);
     if (!meter) return tl::unexpected(meter.error());
     while (meter->step(offscreen->scene)) {

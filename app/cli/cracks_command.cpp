@@ -203,6 +203,7 @@ Json reportOf(const CracksOptions& options, const Measured& all, const std::opti
                    {"spots", totals.spots},
                    {"worst_gap_m", totals.worstGapM},
                    {"worst_gap_px", totals.worstGapPx},
+                   {"cracks_by_rounding", *ui::roundingNote(totals.cracks, totals.worstGapM) != '\0'},
                    {"depth_by_gaps_m", totals.requiredDepthM},
                    {"factor_by_gaps", numberOrNull(totals.requiredFactor)}};
     if (options.findDepth) {
@@ -232,16 +233,18 @@ Json reportOf(const CracksOptions& options, const Measured& all, const std::opti
 }
 
 void printTable(const Measured& all) {
-    fmt::print("{:>8}{:>8}{:>14}{:>14}{:>12}{:>12}{:>8}\n", "time s", "seams", "worst gap m", "worst gap px",
-               "crack px", "leaking px", "spots");
+    fmt::print("{:>8}{:>8}{:>14}{:>14}{:>12}{:>14}{:>10}\n", "time, s", "seams", "max gap, m", "max gap, px",
+               "crack px", "uncovered px", "clusters");
     for (const MeasuredView& view : all.views) {
-        fmt::print("{:8.1f}{:8}{:14.3f}{:14.3f}{:12}{:12}{:8}{}\n", view.timeS, view.seams, view.worst().gapM,
-                   view.worst().facingPx, view.cracks, view.leaking, view.spots.size(),
-                   view.at.settled ? "" : "  not all loaded");
+        fmt::print("{:8.1f}{:8}{:14.3f}{:14.3f}{:12}{:14}{:10}{}\n", view.timeS, view.seams,
+                   view.worst().gapM, view.worst().facingPx, view.cracks, view.leaking, view.spots.size(),
+                   view.at.settled ? "" : "  chunks missing");
     }
     const Totals totals = totalsOf(all.views);
-    fmt::print("{:>16}{:14.3f}{:14.3f}{:12}{:12}{:8}\n", "all views", totals.worstGapM, totals.worstGapPx,
+    fmt::print("{:>16}{:14.3f}{:14.3f}{:12}{:14}{:10}\n", "all views", totals.worstGapM, totals.worstGapPx,
                totals.cracks, totals.leaking, totals.spots);
+    const std::string note = ui::roundingNote(totals.cracks, totals.worstGapM);
+    if (!note.empty()) fmt::print("{}\n", note);
 }
 
 // The largest clusters and the widest gaps of all views.
@@ -269,19 +272,19 @@ void printWorst(const std::vector<MeasuredView>& views, int worst) {
     spots.resize(std::min(spots.size(), listed));
     gaps.resize(std::min(gaps.size(), listed));
     if (!spots.empty()) {
-        fmt::print("\nlargest crack clusters\n{:>8}{:>10}{:>12}{:>8}{:>8}  {:22}{}\n", "time s", "crack px",
-                   "leaking px", "x", "y", "finer", "coarser");
+        fmt::print("\nlargest crack clusters\n{:>8}{:>10}{:>14}{:>8}{:>8}  {:22}{}\n", "time, s", "crack px",
+                   "uncovered px", "x", "y", "finer", "coarser");
     }
     const auto nameOf = [](const std::optional<planet::ChunkId>& id) {
         return id ? planet::toString(*id) : std::string("-");
     };
     for (const Spot& one : spots) {
         const planet::CrackSpot& spot = one.reported->spot;
-        fmt::print("{:8.1f}{:10}{:12}{:8.0f}{:8.0f}  {:22}{}\n", one.timeS, spot.pixels, spot.leaking,
+        fmt::print("{:8.1f}{:10}{:14}{:8.0f}{:8.0f}  {:22}{}\n", one.timeS, spot.pixels, spot.leaking,
                    spot.centre.x, spot.centre.y, nameOf(one.reported->finer), nameOf(one.reported->coarser));
     }
     if (!gaps.empty())
-        fmt::print("\nwidest gaps\n{:>8}{:>14}{:>14}  {:22}{}\n", "time s", "gap m", "gap px", "finer",
+        fmt::print("\nwidest gaps\n{:>8}{:>14}{:>14}  {:22}{}\n", "time, s", "gap, m", "gap, px", "finer",
                    "coarser");
     for (const Gap& one : gaps) {
         fmt::print("{:8.1f}{:14.3f}{:14.3f}  {:22}{}\n", one.timeS, one.gap->gapM, one.gap->facingPx,
@@ -300,14 +303,13 @@ Result<Proof> prove(Offscreen& offscreen, const CracksOptions& options, const Me
 
 void print(const Proof& proof, const Measured& all) {
     const Totals totals = totalsOf(all.views);
-    fmt::print(
-        "\nsmallest depth without a leak: {:.2f} m ({:.2f} m by the gaps); measured again: {} leaking\n",
-        all.smallest.depthM, totals.requiredDepthM, proof.leaksByDepth);
+    fmt::print("\nsmallest depth: {:.2f} m (required by max gap: {:.2f} m); verified: {} uncovered px\n",
+               all.smallest.depthM, totals.requiredDepthM, proof.leaksByDepth);
     if (!proof.leaksByFactor) {
         fmt::print("no automatic factor up to 1000 is enough\n");
         return;
     }
-    fmt::print("smallest factor without a leak: {:.3f} ({:.3f} by the gaps); measured again: {} leaking\n",
+    fmt::print("smallest factor: {:.3f} (required by max gap: {:.3f}); verified: {} uncovered px\n",
                all.smallest.factor, totals.requiredFactor, *proof.leaksByFactor);
 }
 

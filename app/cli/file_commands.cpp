@@ -130,13 +130,16 @@ void printVerified(const FileCommandOptions& options, const planet::VerifyReport
         return;
     }
     for (const std::string& problem : problems) fmt::print("{}\n", problem);
-    fmt::print("{}: {} chunks and {} shared edges checked, {} samples compared with the source, {}\n",
-               options.file.string(), report.chunks, report.edges, report.leafSamples,
-               problemsText(report.problemCount));
+    const std::string compared =
+        options.source.empty() ? ""
+                               : fmt::format("{} samples compared with the source, ", report.leafSamples);
+    fmt::print("{}: {} chunks and {} shared edges checked, {}{}\n", options.file.string(), report.chunks,
+               report.edges, compared, problemsText(report.problemCount));
     if (colours.tiles > 0) {
-        fmt::print("{}: {} tiles of colour and {} shared edges checked, {} compared with the image, {}\n",
-                   options.file.string(), colours.tiles, colours.edges, colours.compared,
-                   problemsText(colours.problemCount));
+        const std::string comparedTiles =
+            options.colour.empty() ? "" : fmt::format("{} compared with the image, ", colours.compared);
+        fmt::print("{}: {} colour tiles and {} shared edges checked, {}{}\n", options.file.string(),
+                   colours.tiles, colours.edges, comparedTiles, problemsText(colours.problemCount));
     }
 }
 
@@ -164,17 +167,18 @@ Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& rep
                  {"u", report.place.u},
                  {"v", report.place.v},
                  {"height_m", report.heightM},
-                 {"chunks", Json::array()}};
+                 {"levels_here", Json::array()}};
     for (const planet::ProbeChunk& chunk : report.chain) {
         const planet::OrientedBox& box = chunk.bounds.box;
-        json["chunks"].push_back({{"id", planet::toString(chunk.id)},
-                                  {"delta_c_m", chunk.deltaCM},
-                                  {"tight_m", chunk.deltaTightM},
-                                  {"height_m", chunk.heightM},
-                                  {"min_height_m", chunk.minHeightM},
-                                  {"max_height_m", chunk.maxHeightM},
-                                  {"box_centre_m", {box.centreM.x, box.centreM.y, box.centreM.z}},
-                                  {"box_half_size_m", {box.halfSizeM.x, box.halfSizeM.y, box.halfSizeM.z}}});
+        json["levels_here"].push_back(
+            {{"id", planet::toString(chunk.id)},
+             {"delta_c_m", chunk.deltaCM},
+             {"tight_m", chunk.deltaTightM},
+             {"height_m", chunk.heightM},
+             {"min_height_m", chunk.minHeightM},
+             {"max_height_m", chunk.maxHeightM},
+             {"box_centre_m", {box.centreM.x, box.centreM.y, box.centreM.z}},
+             {"box_half_size_m", {box.halfSizeM.x, box.halfSizeM.y, box.halfSizeM.z}}});
     }
     return json;
 }
@@ -233,8 +237,13 @@ Result<bool> runVerify(const FileCommandOptions& options) {
     printVerified(options, *report, *colours);
     const std::uint64_t problems = report->problemCount + colours->problemCount;
     if (problems == 0) return true;
-    printMessage("worldy: {}: {} found, 0 expected; bake the file again\n", options.file.string(),
-                 problemsText(problems));
+    // A file that is whole in itself may have been compared with what it was not baked from.
+    const bool onlySource = problems == report->sourceProblems + colours->sourceProblems;
+    printMessage("worldy: {}: {} found, 0 expected; {}\n", options.file.string(), problemsText(problems),
+                 onlySource
+                     ? "the file is whole but differs from the given source: bake it again, or name the "
+                       "source and the options that it was baked with"
+                     : "bake the file again");
     return false;
 }
 

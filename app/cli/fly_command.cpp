@@ -45,7 +45,7 @@ constexpr std::array<Quantity, 24> quantities = {{
     {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
     {"culled",
      [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
-    {"drawn_chunks", [](const Stats& s) { return double{1} * s.selection.drawn; }},
+    {ui::terms::drawnChunks.key, [](const Stats& s) { return double{1} * s.selection.drawn; }},
     {ui::terms::groundTriangles.key,
      [](const Stats& s) { return static_cast<double>(s.selection.groundTriangles); }},
     {ui::terms::skirtTriangles.key,

@@ -71,15 +71,16 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, double stepS, co
                    {"under_sea", flown.totals.underSea},
                    {"outside_picture", flown.totals.outsidePicture},
                    {"late", flown.totals.late},
+                   {"sea_surface_drawn", flown.seaSurfaceDrawn},
                    {"worst_beside_px", flown.totals.worstBesidePx},
                    {"measuring_us_per_switch", flown.usPerSwitch}};
     std::vector<double> jumps = jumpsOf(flown);
     for (std::size_t i = 0; i < shares.size(); ++i)
-        report["largest_px"][shareNames[i]] = percentileOf(jumps, shares[i]);
+        report["largest_px_by_percentile"][shareNames[i]] = percentileOf(jumps, shares[i]);
     for (std::size_t i = 0; i < planet::popCauseCount; ++i)
-        report["cause"][planet::popCauseName(static_cast<planet::PopCause>(i))] = flown.totals.byCause[i];
-    report["worst"] = Json::array();
-    for (const PopEvent* event : rankedEvents(flown)) report["worst"].push_back(jsonOf(*event, radiusM));
+        report["causes"][planet::popCauseName(static_cast<planet::PopCause>(i))] = flown.totals.byCause[i];
+    report["events"] = Json::array();
+    for (const PopEvent* event : rankedEvents(flown)) report["events"].push_back(jsonOf(*event, radiusM));
     return report;
 }
 
@@ -88,10 +89,12 @@ void printSummary(const FlightPath& path, const PopsOptions& options, double ste
     fmt::print("{}: {} frames, {:.4g} s apart\n", path.name, flown.frames, stepS);
     const planet::PopTotals& totals = flown.totals;
     fmt::print(
-        "{} switches of level, {:.0f} us to measure one; {} counted, {} after jump, {} under sea, "
+        "{} level changes, {:.0f} µs to measure one; {} counted, {} after jump, {} under sea, "
         "{} outside picture\n",
         totals.switches, flown.usPerSwitch, totals.counted, totals.afterJump, totals.underSea,
         totals.outsidePicture);
+    fmt::print("sea surface drawn: {}\n",
+               flown.seaSurfaceDrawn ? "yes, as a GPU does with these settings; it hides the bed" : "no");
     for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
         if (flown.totals.byCause[i] == 0) continue;
         fmt::print("  {:18}{:8}\n", planet::popCauseName(static_cast<planet::PopCause>(i)),
@@ -99,8 +102,8 @@ void printSummary(const FlightPath& path, const PopsOptions& options, double ste
     }
     if (!jumps.empty()) {
         fmt::print(
-            "99% of those counted move less than {:.4f} px; median {:.4f}, 90% {:.4f}, worst {:.4f} px; "
-            "edges beside them {:.4f} px\n",
+            "jump of those counted: P99 {:.4f} px, median {:.4f}, P90 {:.4f}, max {:.4f} px; "
+            "max jump of adjacent edges {:.4f} px\n",
             percentileOf(jumps, 0.99), percentileOf(jumps, 0.5), percentileOf(jumps, 0.9),
             percentileOf(jumps, 1), flown.totals.worstBesidePx);
     }
@@ -108,7 +111,7 @@ void printSummary(const FlightPath& path, const PopsOptions& options, double ste
     worst.resize(std::min(worst.size(), static_cast<std::size_t>(options.worst)));
     if (worst.empty()) return;
     fmt::print("\n{:>10}  {:22}{:>8}{:>14}{:>14}{:>14}  {:18}{}\n", "time", "chunk", "levels", "largest px",
-               "mean px", "beside px", "cause", "note");
+               "mean px", "adjacent px", "cause", "note");
     for (const PopEvent* event : worst) {
         const std::string note = planet::popNote(*event);
         fmt::print("{:8.2f} s  {:22}{:>8}{:14.4f}{:14.4f}{:14.4f}  {:{}}{}\n", event->timeS,
@@ -130,8 +133,9 @@ Result<void> runPops(const PopsOptions& options) {
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(options.view.surface.exaggeration);
     const InterruptWatch watch;
-    const Result<PopsFlight> flown = flyForPops(**planet, *path, options.view, options.size, frames->stepS,
-                                                [&](double) { return !watch.interrupted(); });
+    const Result<PopsFlight> flown =
+        flyForPops(**planet, *path, options.view, options.size, frames->stepS,
+                   /*software=*/false, [&](double) { return !watch.interrupted(); });
     if (!flown) return tl::unexpected(flown.error());
     for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
     if (!options.report.json) printSummary(*path, options, frames->stepS, *flown);

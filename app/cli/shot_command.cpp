@@ -42,7 +42,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
             {"output", options.output.string()},     {"width_px", options.size.widthPx},
             {"height_px", options.size.heightPx},    {"tau_px", options.view.lod.tauPx},
             {"fov_deg", options.view.camera.fovDeg}, {"settled", view.settled},
-            {"camera", poseJson(view.pose)},         {"levels", levelHistogram(selection)}};
+            {"camera", poseJson(view.pose)},         {"drawn_by_level", drawnByLevel(selection)}};
         nlohmann::ordered_json drawn = statsJson(stats);
         // Of a run of frames, and there was one.
         drawn.erase("frame_ms");
@@ -51,7 +51,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
         fmt::print("{}", jsonText(report));
         return;
     }
-    fmt::print("{}: {} chunks, {} triangles, worst eps {:.2f} px, worst drawn bound {:.2f} px, {} read\n",
+    fmt::print("{}: {} chunks, {} triangles, max ε {:.2f} px, max drawn bound {:.2f} px, {} read\n",
                options.output.string(), stats.selection.drawn,
                ui::countText(static_cast<double>(stats.selection.triangles())), stats.selection.worstEpsPx,
                stats.selection.worstDrawnBoundPx, ui::bytesText(static_cast<double>(ui::bytesReadOf(stats))));

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/base/output_file.h"
 #include "app/data/bake_progress.h"
@@ -96,7 +97,7 @@ void print(const SweepPoint& point) {
                point.chunkSize, errorMetricNames[static_cast<std::size_t>(point.metric)], point.tauPx,
                f.meanTriangles, f.meanChunks, f.mostResidentMiB, f.medianFrameMs,
                boundText(f.worstDrawnBoundPx), f.worstMeasuredPx, f.p99MeasuredPx, f.violations);
-    std::fflush(stdout);
+    flushStandardOutput();
 }
 
 bool isCsvTable(const std::filesystem::path& file) {
@@ -107,8 +108,8 @@ bool isCsvTable(const std::filesystem::path& file) {
 Result<void> checkTableFile(const SweepOptions& options) {
     const std::filesystem::path& file = options.report.file;
     if (file.empty() || file.extension() == ".json" || (isCsvTable(file) && !options.goal)) return {};
-    return planet::badInput(fmt::format("{}: the name does not say the table's format; expected {}",
-                                        file.string(), options.goal ? ".json" : ".csv or .json"));
+    return planet::badInput(fmt::format("{}: unknown table format; expected {}", file.string(),
+                                        options.goal ? ".json" : ".csv or .json"));
 }
 
 struct Swept {
@@ -139,10 +140,10 @@ void print(const ui::SweepSuggestion& suggestion) {
     const TauSuggestion& found = suggestion.found;
     fmt::print("{}: tau {:.3g} px, {} {:.6g}, {} {:g}{}\n",
                errorMetricNames[static_cast<std::size_t>(suggestion.metric)], found.tauPx,
-               goal.limitsError ? "worst measured error, px" : costName(goal.cost), found.value,
+               goal.limitsError ? "max measured error, px" : costName(goal.cost), found.value,
                found.met ? "within" : "over", goal.limit,
-               found.met ? "" : ", and no tau from 0.1 to 64 keeps it");
-    std::fflush(stdout);
+               found.met ? "" : ", and no tau in [0.1, 64] px meets the limit");
+    flushStandardOutput();
 }
 
 }  // namespace

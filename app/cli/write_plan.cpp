@@ -57,7 +57,7 @@ void addLevelImages(CommandFiles& files, const fs::path& folder) {
 
 CommandFiles filesOf(const AppOptions& options) {
     CommandFiles files;
-    addSource(files, options.file);
+    addSource(files, options.file.empty() ? earthElevation() : options.file);
     files.inputs.insert(files.inputs.end(), {options.settingsFile, options.shaderFolder});
     files.outputs = {{options.itemMapFile, OutputKind::ItemMap}};
     return files;
@@ -97,7 +97,7 @@ CommandFiles filesOf(const CompareOptions& options) {
     files.outputs = {{options.report.file, OutputKind::Json}};
     if (options.pictures.empty()) return files;
     for (const char* name : {"side_by_side.png", "difference.png"})
-        files.outputs.push_back({options.pictures / name, OutputKind::Picture});
+        files.outputs.push_back({options.pictures / name, OutputKind::Picture, true});
     return files;
 }
 
@@ -133,11 +133,11 @@ CommandFiles filesOf(const MakeLayersOptions& options) {
     for (const std::string_view material : planet::materialNames) {
         for (const char* what : {"albedo", "normal", "roughness"}) {
             files.outputs.push_back(
-                {options.output / fmt::format("{}_{}.png", material, what), OutputKind::PngImage});
+                {options.output / fmt::format("{}_{}.png", material, what), OutputKind::PngImage, true});
         }
     }
     for (const char* name : {"earth.toml", "two_layer_height_blend.toml"})
-        files.outputs.push_back({options.output / name, OutputKind::LayerSet});
+        files.outputs.push_back({options.output / name, OutputKind::LayerSet, true});
     return files;
 }
 

@@ -1,4 +1,4 @@
-// The files that each command reads and writes, as its options name them (app/write_check.h).
+// The files that each command reads and writes, as its options name them (app/data/write_check.h).
 #pragma once
 
 #include "app/cli/app.h"

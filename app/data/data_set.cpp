@@ -37,17 +37,6 @@ std::string shortened(const std::string& name) {
 // What a bake of the Earth that comes with Worldy says of its source.
 constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
 
-// A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
-fs::path colourImageOf(const fs::path& chunkFile) {
-    const fs::path beside = ui::colourImageBeside(chunkFile);
-    if (!beside.empty()) return beside;
-    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
-    if (!file) return {};
-    if (file->info().source == ourEarth) return ui::colourImageBeside(earthElevation());
-    const fs::path source = sourceOf(file->info());
-    return source.empty() ? fs::path() : ui::ownColourImage(source);
-}
-
 // A file tells the name of the image that its colours were made of, and not where it lay.
 fs::path bakedColourOf(const fs::path& chunkFile, const fs::path& colourImage) {
     if (colourImage.empty()) return {};
@@ -96,6 +85,17 @@ bool opensWhole(const fs::path& chunkFile) {
 
 }  // namespace
 
+// A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
+fs::path colourImageOf(const fs::path& chunkFile) {
+    const fs::path beside = ui::colourImageBeside(chunkFile);
+    if (!beside.empty()) return beside;
+    const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
+    if (!file) return {};
+    if (file->info().source == ourEarth) return ui::colourImageBeside(earthElevation());
+    const fs::path source = sourceOf(file->info());
+    return source.empty() ? fs::path() : ui::ownColourImage(source);
+}
+
 fs::path sourceOf(const planet::ChunkFileInfo& info) {
     const bool made = planet::isTerrainText(info.source) && planet::heightSourceExists(info.source);
     return made ? fs::path(info.source) : fs::path();
@@ -111,7 +111,7 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
     identity += identityOf(sourceSettings);
     const planet::HeightSourceFiles sourceFiles = planet::heightSourceFiles(source);
     identity += identityOf(sourceFiles.files);
-    identity += " placed";  // bakes made before the tags of a GeoTIFF were read are not taken
+    identity += " placed, scaled";  // bakes made before an image's tags and sidecars were read are not taken
     if (planet::isTerrainText(source))
         identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
     identity += identityOf(colour, settings.colour);

@@ -31,6 +31,10 @@ planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const pl
                                     const planet::HeightSourceSettings& sourceSettings = {},
                                     const std::optional<std::filesystem::path>& colour = std::nullopt);
 
+// Returns the colour image that a chunk file is drawn with: that beside it, that beside the image that its
+// detail was added to, or our Earth's for its bakes. Empty if there is none.
+std::filesystem::path colourImageOf(const std::filesystem::path& chunkFile);
+
 // What a chunk file was made from, where it says so in a way that it can be made again: a terrain's text.
 // Empty otherwise.
 std::filesystem::path sourceOf(const planet::ChunkFileInfo& info);

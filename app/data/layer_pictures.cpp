@@ -43,7 +43,7 @@ Result<Texels> readTexels(const fs::path& file) {
     const bool powerOfTwo = spec.width > 0 && (spec.width & (spec.width - 1)) == 0;
     if (spec.width != spec.height || !powerOfTwo || spec.width < leastSize || spec.width > mostSize) {
         return planet::badInput(
-            fmt::format("{}: is {} x {} pixels; expected a square with a power-of-two side from {} to {}",
+            fmt::format("{}: is {} x {} pixels; expected a square with a power-of-two side in [{}, {}]",
                         file.string(), spec.width, spec.height, leastSize, mostSize));
     }
     Texels texels{spec.width, spec.nchannels, {}};

@@ -35,15 +35,13 @@ std::vector<ui::World> worlds() {
     // The grid is twice as fine as the image's own samples, so from step to step it shows half their relief.
     const planet::DetailTerrain detail{.strength = 2};
     return {
-        world("earth", "Earth", "Elevation and sea floor every 5 arc minutes, as they come with Worldy.",
-              earth, earthRadiusM, std::nullopt),
+        world("earth", "Earth", "Built-in elevation and bathymetry, 5 arcmin.", earth, earthRadiusM,
+              std::nullopt),
         world("earth-amplified", "Earth amplified",
-              "The same with detail below its 9 km, as rough as the land around it: at its face size down to "
-              "1.2 km, down to 100 m for face sizes up to 131073.",
+              "Earth with fractal detail: 1.2 km at this face size, 100 m at 131073.",
               planet::terrainText({detail, earth}), earthRadiusM, 8193),
         world("moon", "Moon",
-              "Craters of many sizes on rolling ground, the size of our Moon. Without sea and air under the "
-              "settings preset \"airless moon\".",
+              "Craters of many sizes on rolling ground. Moon-sized. Use preset \"airless moon\".",
               "noise:craters,seed=11", 1'737'400, 2049),
         world("ridged", "Ridged world", "Mountain chains with sharp crests, the size of Mars.",
               "noise:ridged,seed=4,gain=0.6,amplitude_m=12000,feature_deg=25,offset_m=1500", 3'389'500, 2049),

@@ -12,11 +12,14 @@
 #include <string>
 #include <string_view>
 
+#include "app/data/data_set.h"
 #include "app/data/worlds.h"
 #include "app/settings/layer_file.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
+#include "planet/base/atomic_file.h"
 #include "planet/format/chunk_file_format.h"
+#include "planet/source/geo_tags.h"
 #include "planet/source/height_source.h"
 #include "ui/model/own_colour.h"
 
@@ -53,7 +56,10 @@ std::vector<fs::path> filesIn(const fs::path& path) {
     return files;
 }
 
+// Empty for what is not a regular file: opening a pipe would wait for its writer.
 std::string startOf(const fs::path& file, std::size_t bytes) {
+    std::error_code status;
+    if (!fs::is_regular_file(file, status)) return {};
     std::string start(bytes, '\0');
     std::ifstream stream(file, std::ios::binary);
     stream.read(start.data(), static_cast<std::streamsize>(bytes));
@@ -71,21 +77,20 @@ bool isChunkFile(const fs::path& file) {
     return start.size() == magicBytes && std::memcmp(start.data(), header.data(), magicBytes) == 0;
 }
 
+// Every report begins with its schema_version (report.h).
 bool isJson(const fs::path& file) {
-    const std::string start = startOf(file, lookedAtBytes);
-    const std::size_t first = start.find_first_not_of(" \t\r\n");
-    return first != std::string::npos && start[first] == '{' && start.find('\0') == std::string::npos;
+    std::string start = startOf(file, lookedAtBytes);
+    std::erase_if(start, [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; });
+    return start.starts_with("{\"schema_version\":");
 }
 
-// A first line of at least two names.
 bool isCsv(const fs::path& file) {
-    const std::string start = startOf(file, lookedAtBytes);
-    const std::string_view line = std::string_view(start).substr(0, start.find_first_of("\r\n"));
-    const auto mayStandInName = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-               c == ' ' || c == ',';
-    };
-    return line.find(',') != std::string_view::npos && std::all_of(line.begin(), line.end(), mayStandInName);
+    return startOf(file, lookedAtBytes).starts_with("schema_version,");
+}
+
+bool hasGeoTags(const fs::path& file) {
+    const Result<planet::GeoTags> tags = planet::readGeoTags(file);
+    return !tags || tags->placement || tags->noDataValue;
 }
 
 bool isOwnPicture(const fs::path& file) {
@@ -94,7 +99,9 @@ bool isOwnPicture(const fs::path& file) {
     OIIO::geterror();  // kept for the next failure if nobody takes it
     if (!input || !output) return false;
     const OIIO::ImageSpec& spec = input->spec();
-    return spec.nchannels == 3 && std::string_view(input->format_name()) == output->format_name();
+    return spec.nchannels == 3 && spec.format == OIIO::TypeDesc::UINT8 &&
+           std::string_view(input->format_name()) == output->format_name() &&
+           (std::string_view(input->format_name()) != "tiff" || !hasGeoTags(file));
 }
 
 bool isOfKind(const fs::path& file, OutputKind kind) {
@@ -124,11 +131,11 @@ std::string_view nameOf(OutputKind kind) {
         case OutputKind::ChunkFile:
             return "a chunk file";
         case OutputKind::Json:
-            return "a JSON report";
+            return "a JSON report of Worldy";
         case OutputKind::Csv:
-            return "a CSV table";
+            return "a CSV table of Worldy";
         case OutputKind::Picture:
-            return "an RGB picture in the format that its name says";
+            return "an 8-bit RGB picture in the format of its extension, without GeoTIFF tags";
         case OutputKind::PngImage:
             return "a PNG image";
         case OutputKind::LayerSet:
@@ -156,14 +163,23 @@ Result<void> checkApart(const fs::path& output, const FileIdentity& identity, co
     return {};
 }
 
+// A link that leads nowhere is in the way of a folder.
+Result<void> checkFolderCanBeMade(const fs::path& folder) {
+    std::error_code status;
+    fs::path there = fs::absolute(folder, status);
+    while (!fs::exists(fs::symlink_status(there, status)) && there.has_relative_path())
+        there = there.parent_path();
+    if (fs::is_directory(there, status)) return planet::checkWritable(there / "file");
+    return planet::badInput(fmt::format(
+        "{}: {} {}; expected a folder, or a name that is free", folder.string(), there.string(),
+        fs::exists(there, status) ? "is not a folder" : "is a link to a folder that is not there"));
+}
+
 // The name without links, of files that are not there yet too.
 fs::path canonicalOf(const fs::path& path) {
-    constexpr int mostLinks = 40;  // as the kernel follows
     std::error_code status;
-    fs::path target = fs::absolute(path, status);
-    for (int i = 0; i < mostLinks && fs::is_symlink(target, status); ++i)
-        target = target.parent_path() / fs::read_symlink(target, status);
-    const fs::path canonical = fs::weakly_canonical(target, status);
+    const fs::path absolute = fs::absolute(path, status);
+    const fs::path canonical = fs::weakly_canonical(planet::linkTarget(absolute).value_or(absolute), status);
     return status ? path : canonical;
 }
 
@@ -171,6 +187,7 @@ fs::path canonicalOf(const fs::path& path) {
 
 void addSource(CommandFiles& files, const fs::path& source) {
     if (source.empty()) return;
+    if (source.extension() == ".chk") return addChunkFile(files, source);
     const Result<NamedSource> named = sourceNamed(source, {});
     const fs::path path = named ? named->source : source;
     for (const fs::path& file : planet::heightSourceFiles(path).files) files.inputs.push_back(file);
@@ -180,7 +197,7 @@ void addSource(CommandFiles& files, const fs::path& source) {
 void addChunkFile(CommandFiles& files, const fs::path& chunkFile) {
     if (chunkFile.empty()) return;
     files.inputs.push_back(chunkFile);
-    files.inputs.push_back(ui::colourImageBeside(chunkFile));
+    files.inputs.push_back(colourImageOf(chunkFile));
 }
 
 Result<void> checkNotInputs(const CommandFiles& files) {
@@ -212,8 +229,29 @@ Result<void> checkKinds(const std::vector<OutputFile>& outputs) {
     return {};
 }
 
+Result<void> checkPlaces(const std::vector<OutputFile>& outputs) {
+    for (const OutputFile& output : outputs) {
+        if (output.path.empty()) continue;
+        const fs::path folder = output.path.parent_path();
+        std::error_code status;
+        const bool willBeMade = output.makesFolder && !fs::is_directory(folder, status);
+        const Result<void> writable =
+            willBeMade ? checkFolderCanBeMade(folder) : planet::checkWritable(output.path);
+        if (!writable) return writable;
+        if (output.kind == OutputKind::Picture && !OIIO::ImageOutput::create(output.path.string())) {
+            OIIO::geterror();  // kept for the next failure if nobody takes it
+            return planet::badInput(
+                fmt::format("{}: the extension names no picture format; expected a name "
+                            "ending in .png, .jpg or .tif",
+                            output.path.string()));
+        }
+    }
+    return {};
+}
+
 Result<void> checkOutputs(const CommandFiles& files, bool overwrite) {
-    if (Result<void> apart = checkNotInputs(files); !apart || overwrite) return apart;
+    Result<void> good = checkNotInputs(files).and_then([&] { return checkPlaces(files.outputs); });
+    if (!good || overwrite) return good;
     return checkKinds(files.outputs).map_error([](planet::Error error) {
         error.message += ", or --overwrite to replace it";
         return error;

@@ -14,7 +14,7 @@ enum class OutputKind : std::uint8_t {
     ChunkFile,
     Json,
     Csv,
-    Picture,   // as writePicture makes it: RGB, in the format that the file's extension names
+    Picture,  // as writePicture makes it: 8-bit RGB without geographic tags, in the format that its name says
     PngImage,  // any PNG
     LayerSet,  // TOML
     Preset,    // TOML, settings files too
@@ -24,6 +24,7 @@ enum class OutputKind : std::uint8_t {
 struct OutputFile {
     std::filesystem::path path;  // empty: not written
     OutputKind kind = OutputKind::Json;
+    bool makesFolder = false;  // the command makes its folder where that is not there
 };
 
 struct CommandFiles {
@@ -33,19 +34,23 @@ struct CommandFiles {
 };
 
 // Adds the files that a source of heights or colours stands for (a preset's name, a terrain's text, one of
-// six faces) and the colour image beside it.
+// six faces) and the colour image beside it; of a chunk file what addChunkFile adds.
 void addSource(CommandFiles& files, const std::filesystem::path& source);
-// Adds a chunk file and the colour image beside it.
+// Adds a chunk file and the colour image that it is drawn with.
 void addChunkFile(CommandFiles& files, const std::filesystem::path& chunkFile);
 
 // An Error where an output is the same file as an input or as another output. Files are compared by device
 // and inode, so links are seen through.
 planet::Result<void> checkNotInputs(const CommandFiles& files);
-// An Error where an output exists, is not empty and is of another kind. Devices and folders pass: writing
-// refuses them itself.
+// An Error where an output exists, is not empty and is of another kind.
 planet::Result<void> checkKinds(const std::vector<OutputFile>& outputs);
 
-// Both, for a command; overwrite: files of any kind may be replaced.
+// An Error where an output cannot be written: it is a folder or a device, its folder is not there or takes no
+// files, its links lead nowhere, or no picture format has its extension. What is found before the work starts
+// is not lost after it.
+planet::Result<void> checkPlaces(const std::vector<OutputFile>& outputs);
+
+// All three, for a command; overwrite: files of any kind may be replaced.
 planet::Result<void> checkOutputs(const CommandFiles& files, bool overwrite);
 
 }  // namespace worldy

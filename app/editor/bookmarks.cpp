@@ -39,11 +39,11 @@ struct PoseField {
     NumberRange range;
 };
 constexpr std::array<PoseField, 5> poseFields = {{
-    {"latitude_deg", &Pose::latitudeDeg, {-90, 90, "degrees"}},
-    {"longitude_deg", &Pose::longitudeDeg, {-360, 360, "degrees"}},
-    {"altitude_m", &Pose::altitudeM, {-1e9, 2e10, "metres"}},
-    {"heading_deg", &Pose::headingDeg, {-360, 360, "degrees"}},
-    {"pitch_deg", &Pose::pitchDeg, {-90, 90, "degrees"}},
+    {"latitude_deg", &Pose::latitudeDeg, {-90, 90, "°"}},
+    {"longitude_deg", &Pose::longitudeDeg, {-360, 360, "°"}},
+    {"altitude_m", &Pose::altitudeM, {-1e9, 2e10, "m"}},
+    {"heading_deg", &Pose::headingDeg, {-360, 360, "°"}},
+    {"pitch_deg", &Pose::pitchDeg, {-90, 90, "°"}},
 }};
 
 Result<void> readField(const fs::path& file, std::string_view key, const toml::node& node,
@@ -75,8 +75,8 @@ Result<ui::Bookmark> readBookmark(const fs::path& file, const toml::table& table
     }
     for (const PoseField& field : poseFields) {
         if (!table.contains(field.name)) {
-            return planet::badInput(fmt::format("{}: {} is missing; expected a number of {}",
-                                                placeOf(file, table), field.name, field.range.unit));
+            return planet::badInput(fmt::format("{}: {} is missing; expected a number in {}",
+                                                placeOf(file, table), field.name, textOf(field.range)));
         }
     }
     return bookmark;
@@ -186,7 +186,7 @@ Result<void> removeBookmark(Bookmarks& bookmarks, std::string_view name) {
     Bookmarks changed = bookmarks;
     const auto found = findByName(changed.list, name);
     if (found == changed.list.end() || found->shipped) {
-        return planet::badInput(fmt::format("there is no bookmark \"{}\" of your own", name));
+        return planet::badInput(fmt::format("unknown bookmark \"{}\"; expected a user bookmark", name));
     }
     changed.list.erase(found);
     return commit(bookmarks, std::move(changed));

@@ -283,7 +283,6 @@ ui::CameraView cameraViewOf(const CameraRig& rig, const Ground& ground,
                             std::span<const ui::Bookmark> bookmarks, std::span<const fs::path> flights) {
     ui::CameraView view;
     view.pose = poseOf(rig.camera, ground.radiusM);
-    view.heightAboveGroundM = heightAboveGroundM(rig.camera, ground);
     view.speedFactor = rig.speedFactor;
     view.bookmarks = bookmarks;
     view.flights = flights;

@@ -7,7 +7,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/base/places.h"
-#include "app/data/recent_files.h"
 #include "app/editor/allocations.h"
 #include "app/editor/bookmarks.h"
 #include "app/editor/editor_actions.h"
@@ -26,10 +25,10 @@ constexpr int costRounds = 5;
 
 ui::Message openingFailed(const std::filesystem::path& file, const planet::Error& error) {
     return {fmt::format("{} cannot be opened", file.filename().string()), error.message,
-            "What is open stays. Correct the file as the message says, or open another one: a chunk file "
-            "(.chk), an "
-            "elevation image, a cube face, settings (.toml), a recorded flight (.flt) or one of Worldy's own "
-            "screenshots (.png).",
+            fmt::format("The open planet is kept. Fix the file or open another: a "
+                        "chunk file (.chk), an elevation image, a cube face, settings (.toml), a recorded "
+                        "flight ({}) or one of Worldy's own screenshots (.png).",
+                        ui::recordedFlightEnding),
             true};
 }
 
@@ -40,10 +39,6 @@ struct CommandHandler {
     Editor& editor;
     Log& log;
 
-    bool succeeded(const Result<void>& result) const {
-        if (!result) log->error("{}", result.error().message);
-        return result.has_value();
-    }
     // failed: what the user asked for, as the title of a message that says why it was not done.
     bool succeeded(const Result<void>& result, const std::string& failed) const {
         if (!result) tellError(editor, log, {failed, result.error().message, ""});
@@ -53,6 +48,8 @@ struct CommandHandler {
         tellError(editor, log, openingFailed(file, error));
     }
     void confirm(const std::string& text) const { worldy::confirm(editor, log, text); }
+    // Confirms in the viewport alone.
+    void show(const std::string& text) const { editor.confirmation = {text, editor.timeS + confirmationS}; }
     void moveCamera(const Camera& camera) const {
         if (editor.rig) placeRig(*editor.rig, camera, editor.settings.view.camera);
     }
@@ -63,9 +60,7 @@ struct CommandHandler {
     void operator()(const ui::SelectChunk& command) const { editor.focus.selected = command.id; }
     void operator()(const ui::LookAtChunk& command) const;
     void operator()(const ui::FreezeLod& command) const {
-        if (!maySet()) return;
-        editor.lodFrozen = command.frozen;
-        editor.beforeInspection.reset();  // the user takes over from here
+        if (maySet()) freezeLod(editor, command.frozen);
     }
     void operator()(const ui::InspectPlace& command) const {
         if (shownScene(session) && editor.rig)
@@ -188,17 +183,20 @@ struct CommandHandler {
         if (meter)
             editor.costs.meter = std::move(*meter);
         else
-            log->error("{}", meter.error().message);
+            tellError(editor, log, {"The features were not measured", meter.error().message, ""});
     }
     void operator()(const ui::MeasureCracks&) const {
         Scene* scene = shownScene(session);
         if (!scene || !editor.rig) return;
-        succeeded(measureNow(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view));
+        if (!succeeded(measureNow(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view),
+                       "The cracks were not measured"))
+            editor.settings.view.cracks.live = false;  // it would only fail again
     }
     void operator()(const ui::FindSmallestSkirts&) const {
         Scene* scene = shownScene(session);
         if (!scene || !editor.rig) return;
-        succeeded(findSmallestNow(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view));
+        succeeded(findSmallestNow(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view),
+                  "The smallest skirts were not found");
     }
 
     void operator()(const ui::MeasurePops& command) const { editor.pops.measuring = command.on; }
@@ -214,17 +212,30 @@ struct CommandHandler {
     void operator()(const ui::StopRecording&) const {
         Scene* scene = shownScene(session);
         stopRecording(editor.desk, scene ? scene->planet.get() : nullptr, log);
+        tellSaved();
         editor.flights = availableFlights();
     }
+    // Reports what became of the recording that was just stopped; the log has it already.
+    void tellSaved() const {
+        const FlightDesk& desk = editor.desk;
+        if (!desk.saveProblem.empty())
+            editor.message = {
+                "The recording was not saved", desk.saveProblem,
+                desk.unwritten ? "The recording is kept: free disk space and stop it again." : ""};
+        else if (!desk.saved.empty())
+            show(fmt::format("Recording {} saved", desk.saved));
+    }
     void operator()(const ui::DeleteRecording& command) const {
-        succeeded(deleteRecording(editor.desk, command.file), "The recording was not deleted");
+        if (succeeded(deleteRecording(editor.desk, command.file), "The recording was not deleted"))
+            confirm(fmt::format("Recording {} deleted", command.file.stem().string()));
         editor.flights = availableFlights();
     }
     void operator()(const ui::StartReplay& command) const;
     void operator()(const ui::MoveReplay& command) const { moveReplay(editor.desk, command.frame); }
     void operator()(const ui::MoveReplayTo& command) const { moveReplayTo(editor.desk, command.timeS); }
     void operator()(const ui::SetReplay& command) const {
-        if (Scene* scene = shownScene(session)) succeeded(setReplay(editor.desk, *scene, command.controls));
+        if (Scene* scene = shownScene(session))
+            succeeded(setReplay(editor.desk, *scene, command.controls), "The replay was not changed");
     }
     void operator()(const ui::StopReplay&) const { endReplay(editor, shownScene(session)); }
 
@@ -235,7 +246,9 @@ struct CommandHandler {
     void operator()(const ui::SaveSweep& command) const {
         const Result<std::filesystem::path> plot = saveSweep(editor.sweep, command.cost, picturesFolder());
         if (plot)
-            confirm(fmt::format("Sweep saved: {}, with its table as .csv and .json", plot->string()));
+            worldy::confirm(editor, log,
+                            fmt::format("Sweep saved: {} (.png, .csv, .json)", plot->stem().string()),
+                            fmt::format("Sweep saved: {}, with its table as .csv and .json", plot->string()));
         else
             tellError(editor, log, {"The sweep was not saved", plot.error().message, ""});
     }
@@ -253,11 +266,13 @@ struct CommandHandler {
     void operator()(const ui::MeasureCompare&) const {
         Scene* scene = shownScene(session);
         if (!scene || !editor.rig) return;
-        succeeded(measureCompared(editor.compare, *scene, editor.settings.view, editor.viewport.main.view));
+        succeeded(measureCompared(editor.compare, *scene, editor.settings.view, editor.viewport.main.view),
+                  "This view was not measured");
     }
     void operator()(const ui::CompareOverFlight& command) const {
         succeeded(
-            compareFlight(editor.compare, session, editor.settings.view, editor.viewport.main.view, command));
+            compareFlight(editor.compare, session, editor.settings.view, editor.viewport.main.view, command),
+            "The flight was not measured");
     }
     void operator()(const ui::CancelCompareFlight&) const {
         if (editor.compare.job) editor.compare.job->cancel();
@@ -292,7 +307,7 @@ void CommandHandler::operator()(const ui::StartRecording& command) const {
     Scene* scene = shownScene(session);
     if (!scene || !editor.rig) return;
     endReplay(editor, scene);
-    if (succeeded(startRecording(editor.desk, *scene->planet, command.name), "The flight is not recorded"))
+    if (succeeded(startRecording(editor.desk, *scene->planet, command.name), "Recording failed"))
         log->info("Recording {}: starting with the six root chunks", editor.desk.recorder->name());
     forgetChanges(editor);
     editor.stepOneFrame = true;  // nothing is chosen any more
@@ -312,7 +327,9 @@ void CommandHandler::operator()(const ui::StartReplay& command) const {
         return cannotOpen(command.file,
                           {planet::ErrorKind::BadInput,
                            fmt::format("{}: no planet is open; open one first", command.file.string())});
+    const bool wasRecording = editor.desk.recorder || editor.desk.unwritten;
     stopRecording(editor.desk, scene->planet.get(), log);
+    if (wasRecording) tellSaved();
     endInspection(editor);
     endReplay(editor, scene);
     const BeforeReplay before{editor.settings.view, editor.rig->camera, editor.pagingPaused, editor.lodView,
@@ -339,7 +356,8 @@ void CommandHandler::operator()(const ui::AddBookmark& command) const {
 }
 
 void CommandHandler::operator()(const ui::RemoveBookmark& command) const {
-    succeeded(removeBookmark(editor.bookmarks, command.name), "The bookmark was not removed");
+    if (succeeded(removeBookmark(editor.bookmarks, command.name), "The bookmark was not removed"))
+        confirm(fmt::format("Bookmark {} removed", command.name));
 }
 
 void CommandHandler::openPreset(const std::filesystem::path& file) const {
@@ -348,7 +366,8 @@ void CommandHandler::openPreset(const std::filesystem::path& file) const {
     if (!loaded) return cannotOpen(file, loaded.error());
     editor.undo.add(editor.settings.view, *loaded, "settings of " + file.filename().string());
     editor.settings.view = *loaded;
-    confirm(fmt::format("Settings of {} taken over", file.string()));
+    worldy::confirm(editor, log, fmt::format("Settings of {} loaded", file.filename().string()),
+                    fmt::format("Settings of {} loaded", file.string()));
 }
 
 // False where the picture carries no settings, so is something else.
@@ -364,7 +383,8 @@ bool CommandHandler::openScreenshot(const std::filesystem::path& file) const {
     editor.undo.add(editor.settings.view, settings->view, "settings of " + file.filename().string());
     editor.settings.view = settings->view;
     if (shownScene(session)) moveCamera(cameraFromPose(note->camera, radiusM()));
-    confirm(fmt::format("Camera and settings of {} taken over", file.string()));
+    worldy::confirm(editor, log, fmt::format("Camera and settings of {} loaded", file.filename().string()),
+                    fmt::format("Camera and settings of {} loaded", file.string()));
     return true;
 }
 
@@ -378,9 +398,7 @@ void CommandHandler::operator()(const ui::OpenFile& command) const {
         editor.message = openingFailed(command.file, *session.problem);  // the log has it already
         return;
     }
-    addRecentFile(editor.recent, command.file);
-    editor.recentShown = shownRecentFiles(editor.recent);
-    succeeded(saveRecentFiles(editor.recent, recentFilesFile()));
+    editor.opening = command.file;  // its bake may fail yet
 }
 
 void CommandHandler::operator()(const ui::LoadPreset& command) const {
@@ -423,7 +441,7 @@ void CommandHandler::operator()(const ui::CopyCommandLine&) const {
     const std::string line = lineOf(session, editor);
     window.setClipboard(line);
     log->info("Copied: {}", line);
-    editor.confirmation = {"Command line copied", editor.timeS + confirmationS};
+    show("Command line copied");
 }
 
 void CommandHandler::operator()(const ui::TakeScreenshot& command) const {
@@ -434,7 +452,6 @@ void CommandHandler::operator()(const ui::GoBackToPop& command) const {
     const planet::PopEvent* event = findPop(editor.pops, command.frame, command.chunk);
     if (!event || !shownScene(session) || !editor.rig) return;
     editor.pops.shown = *event;
-    editor.pops.side = ui::PopSide::Live;
     editor.focus.selected = event->chunk;
     inspect(editor, {event->view.eyeM, event->view.right, event->view.back}, event->view);
 }
@@ -480,7 +497,8 @@ void keepScreenshot(const Window& window, const Session& session, Editor& editor
     }
     const Result<std::filesystem::path> file = writeNewScreenshot(picture, note);
     if (file)
-        confirm(editor, log, fmt::format("Screenshot: {}", file->string()));
+        confirm(editor, log, fmt::format("Screenshot: {}", file->filename().string()),
+                fmt::format("Screenshot: {}", file->string()));
     else
         tellError(editor, log, {"The screenshot was not saved", file.error().message, ""});
 }

@@ -115,9 +115,8 @@ void drawB(CompareDesk& desk, Viewport& viewport, const ui::ChunkFocus& focus, c
     PictureContent content;
     content.view = viewport.main.view;
     const ErrorMeter& errors = desk.meters[1].errors;
-    const std::vector<planet::gl::ChunkTint> tints =
-        ui::chunkTints(planet, drawn, b.settings.overlay, b.settings.lod.tauPx, b.settings.surface.lighting,
-                       errors.last ? &*errors.last : nullptr);
+    const std::vector<planet::gl::ChunkTint> tints = ui::chunkTints(
+        planet, drawn, b.settings.overlay, b.settings.lod.tauPx, errors.last ? &*errors.last : nullptr);
     content.tints = tints;
     content.hiddenLines = linesOver(b.planet.scene, drawn, content.view, b.settings);
     content.frontLines = focusLines(planet.tree(), focus, content.view);
@@ -183,8 +182,8 @@ void findDifferences(CompareDesk& desk, const ui::ViewSettings& settings) {
 std::string sidesText(const CompareDesk& desk) {
     std::string a, b;
     for (const ui::SettingDifference& one : desk.different) {
-        a += fmt::format("{}{} {}", a.empty() ? "" : ", ", one.setting, one.here);
-        b += fmt::format("{}{} {}", b.empty() ? "" : ", ", one.setting, one.there);
+        a += fmt::format("{}{} {}", a.empty() ? "" : ", ", one.label, one.here);
+        b += fmt::format("{}{} {}", b.empty() ? "" : ", ", one.label, one.there);
     }
     if (a.empty()) return "Settings are equal.";
     return fmt::format("A: {}. B: {}.", a, b);

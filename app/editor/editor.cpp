@@ -71,13 +71,11 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
         else
             commands.push_back(ui::OpenFile{file});
     }
-    const bool hadProblem = session.problem.has_value();
     advanceSession(session, editor.settings.view, log);
-    // With no planet the viewport itself says why; the log has it already.
-    if (!hadProblem && session.problem && shownScene(session) &&
-        session.problem->kind != planet::ErrorKind::Cancelled)
-        editor.message = {"The file cannot be baked", session.problem->message,
-                          "The planet that is open stays. Correct the file, or open another one."};
+    if (followOpening(session, editor)) {
+        if (const auto saved = saveRecentFiles(editor.recent, recentFilesFile()); !saved)
+            log->error("{}", saved.error().message);
+    }
     advanceSweep(editor.sweep, log);
     reloadChangedShaders(session, log);
     ui::FrameStats stats;

@@ -1,7 +1,11 @@
 #include "app/editor/editor_actions.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
+
+#include "app/data/recent_files.h"
 
 namespace worldy {
 
@@ -16,6 +20,7 @@ void inspect(Editor& editor, const Camera& camera, const planet::View& lodView) 
     if (!editor.beforeInspection)
         editor.beforeInspection = BeforeInspection{editor.rig->camera, editor.lodView, editor.lodFrozen,
                                                    desk.replay && desk.replay->controls.playing};
+    editor.pops.side = ui::PopSide::Live;
     placeRig(*editor.rig, camera, editor.settings.view.camera);
     if (desk.replay) {
         desk.replay->controls.playing = false;
@@ -30,6 +35,7 @@ void inspect(Editor& editor, const Camera& camera, const planet::View& lodView) 
 void endInspection(Editor& editor) {
     const std::optional<BeforeInspection> before = std::exchange(editor.beforeInspection, std::nullopt);
     if (!before) return;
+    editor.pops.side = ui::PopSide::Live;
     if (editor.rig) placeRig(*editor.rig, before->camera, editor.settings.view.camera);
     if (editor.desk.replay) {
         editor.desk.replay->controls.playing = before->replayPlaying;
@@ -40,14 +46,39 @@ void endInspection(Editor& editor) {
     editor.stepOneFrame = true;
 }
 
+void freezeLod(Editor& editor, bool frozen) {
+    editor.lodFrozen = frozen;
+    editor.beforeInspection.reset();  // the user takes over from here
+    if (!frozen) editor.pops.side = ui::PopSide::Live;
+}
+
 void confirm(Editor& editor, const Log& log, const std::string& text) {
-    log->info("{}", text);
+    confirm(editor, log, text, text);
+}
+
+void confirm(Editor& editor, const Log& log, const std::string& text, const std::string& logged) {
+    log->info("{}", logged);
     editor.confirmation = {text, editor.timeS + confirmationS};
 }
 
 void tellError(Editor& editor, const Log& log, ui::Message message) {
     log->error("{}", message.text);
     editor.message = std::move(message);
+}
+
+bool followOpening(const Session& session, Editor& editor) {
+    if (!editor.opening || session.bake) return false;
+    const std::filesystem::path file = *std::exchange(editor.opening, std::nullopt);
+    if (!session.problem) {
+        addRecentFile(editor.recent, file);
+        editor.recentShown = shownRecentFiles(editor.recent);
+        return true;
+    }
+    if (session.open && session.problem->kind != planet::ErrorKind::Cancelled)
+        editor.message = {fmt::format("{} cannot be baked", file.filename().string()),
+                          session.problem->message,
+                          "The planet that is open stays. Correct the file, or open another one.", true};
+    return false;
 }
 
 void endReplay(Editor& editor, Scene* scene) {

@@ -93,6 +93,7 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
         view.cracks = cracksViewOf(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view);
         view.camera = cameraViewOf(*editor.rig, groundBelow(*scene, editor.rig->camera.eyeM),
                                    editor.bookmarks.list, editor.flights);
+        view.camera.seaSurfaceM = scene->seaSurfaceM;
     }
     view.lodView = editor.lodView;
     view.renderView = editor.viewport.main.view;

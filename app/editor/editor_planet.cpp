@@ -179,6 +179,7 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
     // Between frames the camera may stand where a pop was gone back to.
     if (replayed.next() == frameBefore) return;
     editor.beforeInspection.reset();  // played on, the replay moves the camera again
+    editor.pops.side = ui::PopSide::Live;
     editor.lodView = replayed.view();
     editor.rig->camera = {editor.lodView.eyeM, editor.lodView.right, editor.lodView.back};
 }
@@ -197,7 +198,7 @@ void giveSettings(Scene& scene, Editor& editor, const Log& log) {
 std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
                                            const ui::ViewSettings& settings, const ErrorMeter& errors) {
     return ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                          settings.surface.lighting, errors.last ? &*errors.last : nullptr);
+                          errors.last ? &*errors.last : nullptr);
 }
 
 void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {

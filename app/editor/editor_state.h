@@ -82,6 +82,7 @@ struct Editor {
     PresetShelf presets{presetFolders()};
     Bookmarks bookmarks;
     std::vector<std::filesystem::path> flights;
+    std::optional<std::filesystem::path> opening;         // asked for, and not known to be open yet
     std::vector<std::filesystem::path> recent;            // as kept
     std::vector<std::filesystem::path> recentShown;       // those that are there
     std::optional<ui::TakeScreenshot> screenshotPending;  // once a frame is drawn as it is set

@@ -19,8 +19,6 @@ using planet::Result;
 // So long may a frame of the window be busy with replaying, so that it can still be used.
 constexpr double busyMs = 25;
 
-constexpr const char* flightEnding = ".flight";
-
 bool hasFlight(const FlightDesk& desk, const std::string& name) {
     return std::any_of(desk.flights.begin(), desk.flights.end(),
                        [&](const ui::RecordedFlight& flight) { return flight.name == name; });
@@ -37,7 +35,7 @@ std::string freeName(const FlightDesk& desk) {
 std::string freeNameLike(const fs::path& folder, const std::string& name) {
     const auto isFree = [&](const std::string& one) {
         std::error_code status;
-        return !fs::exists(fs::symlink_status(folder / (one + flightEnding), status));
+        return !fs::exists(fs::symlink_status(folder / (one + ui::recordedFlightEnding), status));
     };
     if (isFree(name)) return name;
     const std::size_t space = name.rfind(' ');
@@ -57,7 +55,7 @@ Result<fs::path> writeUnderFreeName(const fs::path& folder, Recorder& recorder) 
     constexpr int mostTries = 10;
     for (int tries = 1;; ++tries) {
         recorder.rename(freeNameLike(folder, recorder.name()));
-        fs::path file = folder / (recorder.name() + flightEnding);
+        fs::path file = folder / (recorder.name() + ui::recordedFlightEnding);
         const Result<void> written = recorder.write(file, IfThere::Fail);
         if (written) return file;
         std::error_code status;
@@ -156,6 +154,8 @@ void stopRecording(FlightDesk& desk, planet::Planet* planet, const Log& log) {
     const std::string name = recorder.name();
     const FlightEncoder& encoded = recorder.encoded();
     const Result<fs::path> file = writeUnderFreeName(desk.folder, recorder);
+    desk.saved = file ? recorder.name() : "";
+    desk.saveProblem = file ? "" : file.error().message;
     if (file && recorder.name() != name)
         log->warn("A recorded flight \"{}\" now exists; this one is saved as \"{}\"", name, recorder.name());
     if (file)
@@ -173,6 +173,7 @@ Result<void> deleteRecording(FlightDesk& desk, const fs::path& file) {
     std::error_code status;
     fs::remove(file, status);
     listRecordings(desk);
+    if (file.stem() == desk.saved) desk.saved.clear();
     if (!status) return {};
     return planet::ioError(fmt::format("{}: cannot be deleted: {}", file.string(), status.message()));
 }
@@ -278,6 +279,7 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
 ui::RecordingView recordingViewOf(const FlightDesk& desk, const ui::ViewSettings& settings) {
     ui::RecordingView view;
     view.flights = desk.flights;
+    view.saved = desk.saved;
     const std::optional<Recorder>& recorder = desk.recorder ? desk.recorder : desk.unwritten;
     if (recorder && !desk.replay) {
         const FlightEncoder& encoded = recorder->encoded();

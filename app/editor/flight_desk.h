@@ -44,6 +44,8 @@ struct FlightDesk {
     std::vector<ui::RecordedFlight> flights;
     std::optional<Recorder> recorder;
     std::optional<Recorder> unwritten;  // has ended, and its file could not be written yet
+    std::string saveProblem;            // why the last recording could not be saved
+    std::string saved;                  // name under which the last recording was saved, until it is deleted
     std::optional<RunningReplay> replay;
 };
 

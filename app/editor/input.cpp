@@ -3,6 +3,8 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "ui/kit/widgets.h"
+
 namespace worldy {
 
 namespace {
@@ -22,8 +24,7 @@ int speedSteps() {
 }
 
 glm::dvec2 dragOf(ImGuiMouseButton button) {
-    if (!ImGui::IsMouseDown(button)) return {0, 0};
-    const ImVec2 delta = ImGui::GetIO().MouseDelta;
+    const ImVec2 delta = ui::dragDelta(button);
     return {static_cast<double>(delta.x), static_cast<double>(delta.y)};
 }
 

@@ -50,6 +50,20 @@ bool endsFrame(const std::vector<InputEvent>& frame, const InputEvent& next, boo
 
 }  // namespace
 
+void InputQueue::add(const InputEvent& event) {
+    if (event.kind == InputKind::KeyUp) downAtS_.erase(event.code);
+    if (event.kind == InputKind::KeyDown) downAtS_[event.code] = event.atS;
+    const auto down = downAtS_.find(event.code);
+    const bool isTap =
+        event.kind == InputKind::KeyRepeat && down != downAtS_.end() && event.atS - down->second < leastHoldS;
+    if (!isTap) return waiting_.push_back(event);
+    for (const InputKind kind : {InputKind::KeyUp, InputKind::KeyDown}) {
+        waiting_.push_back(event);
+        waiting_.back().kind = kind;
+    }
+    down->second = event.atS;
+}
+
 std::vector<InputEvent> InputQueue::takeFrame(bool textFieldIsEdited) {
     std::vector<InputEvent> frame;
     while (!waiting_.empty() && !endsFrame(frame, waiting_.front(), textFieldIsEdited)) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <glm/vec2.hpp>
+#include <unordered_map>
 #include <vector>
 
 namespace worldy {
@@ -19,11 +20,17 @@ struct InputEvent {
     int scancode = 0;
     int modifiers = 0;         // GLFW's
     glm::dvec2 pointer{0, 0};  // of a button: where the pointer was, in the window's coordinates
+    double atS = 0;            // of a key: when it came, seconds on any clock
 };
 
 class InputQueue {
 public:
-    void add(const InputEvent& event) { waiting_.push_back(event); }
+    // No keyboard repeats a key as soon as this after it went down.
+    static constexpr double leastHoldS = 0.1;
+
+    // GLFW takes a key that goes up and down again within 20 ms for one that repeats, and leaves out its
+    // release: a repeat within leastHoldS of the press is added as a release and a press.
+    void add(const InputEvent& event);
     bool empty() const { return waiting_.empty(); }
 
     // Returns the events of the next frame, oldest first; the others wait. A key or a button changes once a
@@ -37,6 +44,7 @@ public:
 
 private:
     std::deque<InputEvent> waiting_;
+    std::unordered_map<int, double> downAtS_;  // of the keys that are held
 };
 
 }  // namespace worldy

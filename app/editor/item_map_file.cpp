@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/settings/camera_text.h"
+#include "planet/base/atomic_file.h"
 
 namespace worldy {
 
@@ -44,7 +45,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
     if (const Scene* scene = shownScene(session); scene && editor.rig) {
         const double radiusM = scene->planet->shape().radiusM;
-        add("camera", cameraText(poseOf(editor.rig->camera, radiusM)));
+        add("camera", cameraText(roundedPose(poseOf(editor.rig->camera, radiusM))));
         add("chunk_size", planet::chunkSize(scene->planet->shape()));
         add("file", scene->planet->file().name());
     }
@@ -74,11 +75,13 @@ void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPla
                             item.rect.width, item.rect.height);
     }
     std::error_code status;
-    // A symbolic link stays one.
-    const std::filesystem::path followed = std::filesystem::weakly_canonical(file, status);
-    const std::filesystem::path& target = status ? file : followed;
+    // A symbolic link stays one, and a file that is replaced keeps its mode.
+    const std::filesystem::path target = planet::linkTarget(file).value_or(file);
     const std::filesystem::path unfinished = target.string() + ".part";
     std::ofstream(unfinished) << text;
+    const std::filesystem::file_status there = std::filesystem::status(target, status);
+    if (std::filesystem::is_regular_file(there))
+        std::filesystem::permissions(unfinished, there.permissions(), status);
     std::filesystem::rename(unfinished, target, status);
 }
 

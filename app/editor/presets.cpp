@@ -50,10 +50,10 @@ Result<void> checkPresetName(std::string_view name) {
     if (!isUtf8(name)) return wrongName("?", "it is not UTF-8");
     if (std::any_of(name.begin(), name.end(), isControl)) return wrongName("?", "it has control characters");
     if (name.find_first_of("/\\:*?\"<>|") != std::string_view::npos)
-        return wrongName(name, "it must not contain / \\ : * ? \" < > or |");
+        return wrongName(name, "it contains one of / \\ : * ? \" < > or |");
     if (std::string_view(". ").find(name.front()) != std::string_view::npos ||
         std::string_view(". ").find(name.back()) != std::string_view::npos) {
-        return wrongName(name, "it must not begin or end with a dot or a space");
+        return wrongName(name, "it begins or ends with a dot or a space");
     }
     return {};
 }
@@ -114,7 +114,7 @@ Result<const PresetShelf::Preset*> PresetShelf::existing(std::string_view name) 
     const auto found = std::find_if(presets_.begin(), presets_.end(),
                                     [&](const Preset& preset) { return preset.name == name; });
     if (found != presets_.end()) return &*found;
-    return planet::badInput(fmt::format("There is no preset \"{:.80}\" in {} or {}", name,
+    return planet::badInput(fmt::format("unknown preset \"{:.80}\"; expected one in {} or {}", name,
                                         folders_.own.string(), folders_.shipped.string()));
 }
 

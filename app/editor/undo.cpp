@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
@@ -32,10 +33,14 @@ constexpr std::array<UnitEnding, 7> unitEndings = {{
     {"_mb_s", " MB/s"},
     {"_mb", " MiB"},
     {"_ms", " ms"},
-    {"_deg", " deg"},
+    {"_deg", "°"},
     {"_m", " m"},
     {"_s", " s"},
 }};
+
+std::string clockOf(const std::string& hour) {
+    return ui::clockText(std::strtod(hour.c_str(), nullptr));
+}
 
 std::string nameOf(const ui::SettingDifference& difference) {
     std::string_view key = difference.setting;
@@ -47,12 +52,13 @@ std::string nameOf(const ui::SettingDifference& difference) {
         unit = ending.unit;
         break;
     }
-    std::string words(key);
-    std::replace(words.begin(), words.end(), '_', ' ');
+    const std::string& words = difference.label;
     if (difference.there == "true") return words + " on";
     if (difference.there == "false") return words + " off";
     // A ramp or a file's path would fill the menu.
     if (difference.here.size() > 24 || difference.there.size() > 24) return words;
+    if (difference.setting == "surface.sun_hour")
+        return fmt::format("{} {} -> {}", words, clockOf(difference.here), clockOf(difference.there));
     const auto [here, there] = ui::shortNumberTexts(difference.here, difference.there);
     return fmt::format("{} {} -> {}{}", words, here, there, unit);
 }

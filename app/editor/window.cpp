@@ -106,7 +106,8 @@ void Window::Glfw::listen() {
         const InputKind kind = action == GLFW_PRESS     ? InputKind::KeyDown
                                : action == GLFW_RELEASE ? InputKind::KeyUp
                                                         : InputKind::KeyRepeat;
-        of(handle).input.add({kind, key, scancode, modifiers});
+        of(handle).input.add(
+            {.kind = kind, .code = key, .scancode = scancode, .modifiers = modifiers, .atS = glfwGetTime()});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* handle, int button, int action, int modifiers) {
         glm::dvec2 pointer{0, 0};

@@ -56,7 +56,7 @@ public:
     void endFrame(const std::function<void()>& drawn);
 
     // The keys that went down or repeat in this frame, the same that ImGui sees: input is handed out frame by
-    // frame (app/input_queue.h), so a key that is released before a slow frame begins is seen too.
+    // frame (app/editor/input_queue.h), so a key that is released before a slow frame begins is seen too.
     const std::vector<KeyPress>& pressedKeys() const;
     // Events of keys and buttons that wait for the next frames.
     std::size_t queuedInput() const;

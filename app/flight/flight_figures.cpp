@@ -1,5 +1,7 @@
 #include "app/flight/flight_figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -80,7 +82,9 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
         if (!goOnHere()) return planet::cancelled();
         const SettledView at = settleAt(offscreen, poseAt(path, frames.timeS(i)), settings, goOnHere);
         if (!at.settled && !goOnHere()) return planet::cancelled();
-        if (!at.settled) return planet::ioError("the data that a view wants could not all be loaded in time");
+        if (!at.settled)
+            return planet::ioError(
+                fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
         if (const Result<void> added = addCost(offscreen, at.view, settings, gathered, figures); !added)
             return tl::unexpected(added.error());
         if (wanted == FigureSet::CostAndError) {

@@ -46,13 +46,19 @@ bool isEnd(const std::vector<FlightKey>& keys, std::size_t i) {
     return i == 0 || i + 1 == keys.size() || keys[i].jumpedTo || keys[i + 1].jumpedTo;
 }
 
-// The velocity over the ground at a key, radians a second; none at the ends.
+// Returns the velocity over the ground at a key, radians a second; 0 at the ends. It is at most three times
+// the mean speed of the slower span beside the key, the bound of monotone cubics (Fritsch and Carlson, 1980),
+// so the camera stands still between two keys at one place.
 glm::dvec3 velocityAt(const std::vector<FlightKey>& keys, std::size_t i) {
     if (isEnd(keys, i)) return {0, 0, 0};
     const glm::dvec3 here = directionOf(keys[i]);
-    const glm::dvec3 span =
-        arcTowards(here, directionOf(keys[i + 1])) - arcTowards(here, directionOf(keys[i - 1]));
-    return span / (keys[i + 1].timeS - keys[i - 1].timeS);
+    const glm::dvec3 ahead = arcTowards(here, directionOf(keys[i + 1]));
+    const glm::dvec3 back = arcTowards(here, directionOf(keys[i - 1]));
+    const glm::dvec3 velocity = (ahead - back) / (keys[i + 1].timeS - keys[i - 1].timeS);
+    const double mostSpeed = 3 * std::min(glm::length(ahead) / (keys[i + 1].timeS - keys[i].timeS),
+                                          glm::length(back) / (keys[i].timeS - keys[i - 1].timeS));
+    const double speed = glm::length(velocity);
+    return speed > mostSpeed ? mostSpeed / speed * velocity : velocity;
 }
 
 // A Catmull-Rom curve as cubic Bezier arcs on the sphere, built by de Casteljau's scheme from great-circle
@@ -108,7 +114,7 @@ bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM
     const double high = std::max(heightM(fromM), heightM(toM));
     const double spans = std::max(seconds / spanS, 1.0);
     return arcRad > spans * mostArcRad || std::log(high / low) > spans * std::log(10) ||
-           arcRad * radiusM > spans * 10 * high;
+           arcRad * radiusM > spans * high;
 }
 
 bool jumpsBetween(const FlightPath& path, double fromS, double toS) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <string>
@@ -28,12 +29,12 @@ struct KeyField {
 };
 
 constexpr std::array<KeyField, 6> keyFields = {{
-    {"time_s", &FlightKey::timeS, nullptr, {0, 1e6, "seconds"}},
-    {"latitude_deg", nullptr, &Pose::latitudeDeg, {-90, 90, "degrees"}},
-    {"longitude_deg", nullptr, &Pose::longitudeDeg, {-360, 360, "degrees"}},
-    {"altitude_m", nullptr, &Pose::altitudeM, {1, 2e10, "metres"}},
-    {"heading_deg", nullptr, &Pose::headingDeg, {-360, 360, "degrees"}},
-    {"pitch_deg", nullptr, &Pose::pitchDeg, {-90, 90, "degrees"}},
+    {"time_s", &FlightKey::timeS, nullptr, {0, 1e6, "s"}},
+    {"latitude_deg", nullptr, &Pose::latitudeDeg, {-90, 90, "°"}},
+    {"longitude_deg", nullptr, &Pose::longitudeDeg, {-360, 360, "°"}},
+    {"altitude_m", nullptr, &Pose::altitudeM, {1, 2e10, "m"}},
+    {"heading_deg", nullptr, &Pose::headingDeg, {-360, 360, "°"}},
+    {"pitch_deg", nullptr, &Pose::pitchDeg, {-90, 90, "°"}},
 }};
 
 Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::table& table) {
@@ -42,8 +43,8 @@ Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::
         const std::string name = fmt::format("key {}: {}", number, field.name);
         const toml::node* node = table.get(field.name);
         if (!node) {
-            return planet::badInput(fmt::format("{}: {} is missing; expected a number of {}",
-                                                placeOf(file, table), name, field.range.unit));
+            return planet::badInput(fmt::format("{}: {} is missing; expected a number in {}",
+                                                placeOf(file, table), name, textOf(field.range)));
         }
         const Result<double> value = readNumber(file, name, *node, field.range);
         if (!value) return tl::unexpected(value.error());
@@ -51,13 +52,19 @@ Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::
     }
     for (const auto& [name, node] : table) {
         const std::string_view unknown = name.str();
+        if (unknown == "jump") {
+            const Result<bool> jump = readBool(file, fmt::format("key {}: jump", number), node);
+            if (!jump) return tl::unexpected(jump.error());
+            key.jumpedTo = *jump;
+            continue;
+        }
         if (std::any_of(keyFields.begin(), keyFields.end(),
                         [&](const KeyField& field) { return field.name == unknown; })) {
             continue;
         }
         return planet::badInput(fmt::format(
             "{}: key {}: {:.40} is not known; a key has time_s, latitude_deg, longitude_deg, altitude_m, "
-            "heading_deg and pitch_deg",
+            "heading_deg, pitch_deg and, optional, jump",
             placeOf(file, node), number, name.str()));
     }
     return key;
@@ -68,7 +75,11 @@ constexpr double maxStepDeg = 170;
 
 Result<void> checkOrder(const fs::path& file, const toml::table& table, const FlightPath& path,
                         const FlightKey& next) {
-    if (path.keys.empty()) return {};
+    if (path.keys.empty()) {
+        if (!next.jumpedTo) return {};
+        return planet::badInput(fmt::format("{}: key 1: jump is true; expected false, no key is before it",
+                                            placeOf(file, table)));
+    }
     const std::size_t number = path.keys.size() + 1;
     const FlightKey& last = path.keys.back();
     if (next.timeS <= last.timeS) {
@@ -78,10 +89,10 @@ Result<void> checkOrder(const fs::path& file, const toml::table& table, const Fl
     }
     const double cosine = glm::dot(directionOf(last), directionOf(next));
     const double stepDeg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
-    if (stepDeg > maxStepDeg) {
+    if (stepDeg > maxStepDeg && !next.jumpedTo) {
         return planet::badInput(
-            fmt::format("{}: key {}: lies {:.0f} degrees from key {}; expected a key between them, so that "
-                        "no step is over {}",
+            fmt::format("{}: key {}: lies {:.0f}° from key {}; expected a key between them, so that "
+                        "no step is over {}, or jump = true",
                         placeOf(file, table), number, stepDeg, number - 1, maxStepDeg));
     }
     return {};
@@ -134,6 +145,17 @@ planet::CameraPose flownPose(const FlightRecord& record, std::size_t frame) {
     return pose;
 }
 
+// Returns true for a file whose beginning no text has. A pipe is not opened: that would wait for its writer.
+bool isBinary(const fs::path& file) {
+    std::error_code status;
+    if (!fs::is_regular_file(file, status)) return false;
+    std::string start(4096, ' ');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(stream.gcount()));
+    return start.find('\0') != std::string::npos;
+}
+
 bool isJump(const FlightRecord& record, std::size_t frame) {
     if (frame == 0) return false;
     const auto eyeM = [&](std::size_t i) { return record.frames[i].views[0].view.eyeM; };
@@ -164,14 +186,17 @@ Result<FlightPath> pathOf(const FlightRecord& record, const fs::path& file) {
         jumped = false;
     }
     if (keys.size() >= 2) return path;
-    return planet::badInput(
-        fmt::format("{}: is a single moment; expected a recording of two frames or more", file.string()));
+    return planet::badInput(fmt::format("{}: has 1 frame; expected at least 2", file.string()));
 }
 
 Result<FlightPath> loadFlightPath(const fs::path& file) {
     if (isFlightRecord(file)) {
         return loadFlightRecord(file).and_then(
             [&](const FlightRecord& record) { return pathOf(record, file); });
+    }
+    if (isBinary(file)) {
+        return planet::badInput(
+            fmt::format("{}: is not a flight; expected a flight (.toml or .flight)", file.string()));
     }
     return parseTomlFile(file).and_then(
         [&](const toml::table& document) { return flightPathOf(file, document); });

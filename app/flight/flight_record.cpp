@@ -20,6 +20,7 @@
 #include "planet/base/atomic_file.h"
 #include "planet/base/little_endian.h"
 #include "planet/format/chunk_file_format.h"
+#include "ui/model/recording_view.h"
 
 namespace worldy {
 
@@ -166,7 +167,7 @@ public:
 
     template <class T>
     T get() {
-        if (ok() && in_.rest().size() < sizeof(T)) fail("is truncated");
+        if (ok() && in_.rest().size() < sizeof(T)) fail("truncated");
         return ok() ? in_.get<T>() : T{};
     }
     std::uint64_t varint() {
@@ -176,20 +177,19 @@ public:
             value |= std::uint64_t{byte & 0x7Fu} << shift;
             if (byte < 0x80) return value;
         }
-        fail("holds a number that is too large");
+        fail("number too large");
         return 0;
     }
     // Of things of at least so many bytes.
     std::size_t count(std::size_t bytesEach) {
         const std::uint64_t wanted = varint();
         if (ok() && wanted > in_.rest().size() / bytesEach)
-            fail(fmt::format("says that it holds {} of something, which is more than it has room for",
-                             wanted));
+            fail(fmt::format("count {} exceeds the remaining data", wanted));
         return ok() ? static_cast<std::size_t>(wanted) : 0;
     }
     std::size_t countUpTo(std::size_t most, const char* what, std::size_t bytesEach) {
         const std::size_t wanted = count(bytesEach);
-        if (wanted > most) fail(fmt::format("holds {} {}; expected {} at most", wanted, what, most));
+        if (wanted > most) fail(fmt::format("{} {}; expected at most {}", wanted, what, most));
         return ok() ? wanted : 0;
     }
     std::string text() {
@@ -201,18 +201,18 @@ public:
     // As reports and messages need it.
     std::string utf8(const char* what) {
         std::string value = text();
-        if (!isUtf8(value)) fail(fmt::format("holds a {} that is not UTF-8; expected UTF-8", what));
+        if (!isUtf8(value)) fail(fmt::format("{} is not UTF-8", what));
         return ok() ? value : std::string();
     }
     double number(double low, double high) {
         const auto value = get<double>();
         if (ok() && !(value >= low && value <= high))
-            fail(fmt::format("holds {}; expected {} to {}", value, low, high));
+            fail(fmt::format("value {}; expected [{}, {}]", value, low, high));
         return ok() ? value : low;
     }
     ChunkId id() {
         const BlockId named = block();
-        if (named.kind != BlockKind::Heights) fail("names a tile; expected a chunk");
+        if (named.kind != BlockKind::Heights) fail("block is a tile; expected a chunk");
         return named.parent;
     }
     BlockId block() {
@@ -228,7 +228,7 @@ public:
         const std::uint64_t x = varint(), y = varint();
         const int deepest = kind == BlockKind::Heights ? deepest_ : planet::maxTileLevel;
         if (ok() && (face >= planet::faceCount || level > deepest || x >> level > 0 || y >> level > 0))
-            fail("names a chunk that there is not");
+            fail("unknown chunk");
         if (!ok()) return {};
         return {{static_cast<planet::Face>(face), static_cast<std::uint8_t>(level),
                  static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)},
@@ -256,7 +256,7 @@ public:
             arrival.outcome = static_cast<planet::PagingOutcome>(outcome);
             if (outcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled) ||
                 arrival.outcome == planet::PagingOutcome::Evicted)
-                fail("says of a read that it ended as none can");
+                fail(fmt::format("invalid read outcome {}", outcome));
             arrival.block = block();
         }
         moves.requested = blocks();
@@ -290,12 +290,12 @@ FlownView readView(Reader& in) {
     view.back = readVector(in, 2);
     const bool square = isUnit(view.right) && isUnit(view.up) && isUnit(view.back) &&
                         glm::length(glm::cross(view.right, view.up) - view.back) < 1e-6;
-    if (in.ok() && glm::length(view.eyeM) < 1e-3) in.fail("holds a camera at the planet's centre");
-    if (!square) in.fail("holds a camera whose axes are not at right angles");
+    if (in.ok() && glm::length(view.eyeM) < 1e-3) in.fail("camera at the planet's centre");
+    if (!square) in.fail("camera axes are not at right angles");
     view.horizontalFovRad = in.number(1e-6, 3.1415);
     const std::uint64_t width = in.varint(), height = in.varint();
     if (width < 1 || height < 1 || width > mostSidePx || height > mostSidePx)
-        in.fail(fmt::format("holds a picture of {} x {} pixels", width, height));
+        in.fail(fmt::format("picture of {} x {} pixels", width, height));
     if (!in.ok()) return {};
     view.widthPx = static_cast<int>(width);
     view.heightPx = static_cast<int>(height);
@@ -314,7 +314,7 @@ FlightData readData(Reader& in) {
     const planet::PlanetShape& shape = data.shape;
     if (shape.chunkCellsLog2 < 4 || shape.chunkCellsLog2 > 7 || shape.faceCellsLog2 < shape.chunkCellsLog2 ||
         shape.faceCellsLog2 > planet::maxFaceCellsLog2)
-        in.fail("holds a planet of a shape that there is not");
+        in.fail("invalid planet shape");
     data.fileBytes = in.get<std::uint64_t>();
     data.headerHash = in.get<std::uint64_t>();
     return data;
@@ -335,7 +335,7 @@ void putData(ByteWriter& out, const FlightData& data) {
 std::vector<FlownView> readViews(Reader& in) {
     const std::size_t count = in.get<std::uint8_t>();
     if (count == 0 || count > planet::maxViews) {
-        in.fail(fmt::format("holds a frame of {} views; expected 1 to {}", count, planet::maxViews));
+        in.fail(fmt::format("frame of {} views; expected [1, {}]", count, planet::maxViews));
         return {};
     }
     std::vector<FlownView> views(count);
@@ -355,7 +355,8 @@ struct FlightSoFar {
 CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
     CalledInFlight called;
     const auto call = in.get<std::uint8_t>();
-    if (call > static_cast<std::uint8_t>(FlightCall::RetryBlock)) in.fail("holds a call that there is not");
+    if (call > static_cast<std::uint8_t>(FlightCall::RetryBlock))
+        in.fail(fmt::format("unknown call {}", call));
     called.call = static_cast<FlightCall>(call);
     if (in.ok() && called.call == FlightCall::Settings) {
         called.pagingPaused = in.get<std::uint8_t>() != 0;
@@ -364,7 +365,7 @@ CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
             called.settings.push_back(in.utf8("setting"));
         if (!in.ok()) return called;
         if (const Result<void> good = applyFlightSettings(called.settings, soFar.settings); !good)
-            in.fail("holds a setting that is wrong: " + good.error().message);
+            in.fail("invalid setting: " + good.error().message);
     }
     if (called.call == FlightCall::RetryBlock) called.block = in.block();
     called.moves = in.moves();
@@ -377,7 +378,7 @@ void readCalls(Reader& in, FlightFrame& frame, FlightSoFar& soFar) {
         frame.calls.push_back(readCall(in, soFar));
         soFar.calls += 1 + frame.calls.back().settings.size();
         if (soFar.calls > maxFlightCalls) {
-            in.fail(fmt::format("holds more than {} calls and settings", maxFlightCalls));
+            in.fail(fmt::format("more than {} calls and settings", maxFlightCalls));
         }
     }
 }
@@ -385,30 +386,25 @@ void readCalls(Reader& in, FlightFrame& frame, FlightSoFar& soFar) {
 void checkAscending(Reader& in, const std::vector<ChunkId>& ids, const char* what) {
     const auto wrong = std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>());
     if (wrong != ids.end()) {
-        in.fail(fmt::format("says twice or out of order that {} {}; expected each once, ascending",
-                            toString(*(wrong + 1)), what));
+        in.fail(fmt::format("duplicate or unsorted {}: {}; expected each once, ascending", what,
+                            toString(*(wrong + 1))));
     }
 }
 
 // Follows what is drawn, so that nothing appears or vanishes which cannot.
 void followDrawn(Reader& in, const FlownView& view, std::set<ChunkId>& drawn) {
-    checkAscending(in, view.appeared, "appeared");
-    checkAscending(in, view.vanished, "vanished");
+    checkAscending(in, view.appeared, "appearance");
+    checkAscending(in, view.vanished, "disappearance");
     for (const ChunkId& id : view.appeared) {
         if (!in.ok()) return;
-        if (drawn.count(id) > 0)
-            in.fail(
-                fmt::format("says that {} appeared, which was drawn before; expected a chunk that was not",
-                            toString(id)));
+        if (drawn.count(id) > 0) in.fail(fmt::format("{} appears although already drawn", toString(id)));
     }
     for (const ChunkId& id : view.vanished) {
         if (!in.ok()) return;
-        if (drawn.erase(id) == 0)
-            in.fail(fmt::format("says that {} vanished, which was not drawn; expected a chunk that was",
-                                toString(id)));
+        if (drawn.erase(id) == 0) in.fail(fmt::format("{} vanishes although not drawn", toString(id)));
     }
     if (drawn.size() + view.appeared.size() > maxFlightChunks)
-        in.fail(fmt::format("draws more than {} chunks in a view", maxFlightChunks));
+        in.fail(fmt::format("more than {} chunks drawn in a view", maxFlightChunks));
     if (in.ok()) drawn.insert(view.appeared.begin(), view.appeared.end());
 }
 
@@ -418,7 +414,7 @@ FlightFrame readFrame(Reader& in, const FlightFrame* before, FlightSoFar& soFar)
     const auto parts = in.get<std::uint8_t>();
     frame.elapsedS = in.number(0, maxFlightS);
     soFar.seconds += frame.elapsedS;
-    if (soFar.seconds > maxFlightS) in.fail(fmt::format("comes after more than {} s", maxFlightS));
+    if (soFar.seconds > maxFlightS) in.fail(fmt::format("later than {} s", maxFlightS));
     if (before) frame.selectionHash = before->selectionHash;
     if (parts & callsPart) readCalls(in, frame, soFar);
     if (parts & viewsPart) {
@@ -430,7 +426,7 @@ FlightFrame readFrame(Reader& in, const FlightFrame* before, FlightSoFar& soFar)
             view.vanished.clear();
         }
     } else {
-        in.fail("begins with a frame without a view");
+        in.fail("first frame has no view");
     }
     soFar.drawn.resize(frame.views.size());
     if (parts & drawnPart) {
@@ -453,14 +449,14 @@ FlightRecord readContent(Reader& in) {
     in.setDeepest(std::min(planet::leafLevel(record.data.shape), planet::maxLevel));
     const auto frames = in.get<std::uint32_t>();
     if (frames == 0 || frames > maxFlightFrames)
-        in.fail(fmt::format("says that it holds {} frames; expected 1 to {}", frames, maxFlightFrames));
+        in.fail(fmt::format("{} frames; expected [1, {}]", frames, maxFlightFrames));
     FlightSoFar soFar;
     for (std::uint32_t i = 0; i < frames && in.ok(); ++i) {
         const FlightFrame* before = record.frames.empty() ? nullptr : &record.frames.back();
         FlightFrame frame = readFrame(in, before, soFar);
         record.frames.push_back(std::move(frame));
     }
-    if (in.ok() && !in.atEnd()) in.fail("goes on after its end");
+    if (in.ok() && !in.atEnd()) in.fail("data after the end");
     return record;
 }
 
@@ -469,8 +465,9 @@ Result<std::vector<std::byte>> readWhole(const fs::path& file) {
     if (!fs::exists(file, status)) return planet::badInput(fmt::format("{}: no such file", file.string()));
     const std::uintmax_t size = fs::is_regular_file(file, status) ? fs::file_size(file, status) : 0;
     if (size < headerBytes || size > 2 * maxFlightBytes) {
-        return planet::badInput(fmt::format("{}: is no recorded flight: it has {} bytes; expected {} to {}",
-                                            file.string(), size, headerBytes, 2 * maxFlightBytes));
+        return planet::badInput(
+            fmt::format("{}: not a recorded flight: {} bytes; expected {} bytes to {} MiB", file.string(),
+                        size, headerBytes, 2 * maxFlightBytes >> 20));
     }
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     std::ifstream stream(file, std::ios::binary);
@@ -484,17 +481,16 @@ Result<std::vector<std::byte>> contentBytes(std::span<const std::byte> all, cons
         return planet::badInput(fmt::format("{}: {}", file.string(), what));
     };
     if (all.size() < headerBytes || std::memcmp(all.data(), magic.data(), magic.size()) != 0)
-        return wrong("is no recorded flight; expected a .flight file by Worldy");
+        return wrong("not a recorded flight; expected a .flight file by Worldy");
     ByteReader header(all.subspan(magic.size(), headerBytes - magic.size()));
     const auto version = header.get<std::uint32_t>();
     if (version != flightRecordVersion) {
-        return wrong(fmt::format("is of version {}; this program reads version {}: record it again", version,
-                                 flightRecordVersion));
+        return wrong(fmt::format("version {}; expected {}: record it again", version, flightRecordVersion));
     }
     const auto size = header.get<std::uint64_t>();
     const auto checksum = header.get<std::uint64_t>();
     if (size > maxFlightBytes + (1u << 20))
-        return wrong(fmt::format("says that it holds {} bytes; {} is the most", size, maxFlightBytes));
+        return wrong(fmt::format("{} bytes; expected at most {}", size, maxFlightBytes));
     std::vector<std::byte> content(static_cast<std::size_t>(size));
     const auto packed = all.subspan(headerBytes);
     const std::size_t got = ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size());
@@ -513,7 +509,7 @@ FlightData flightDataOf(const planet::ChunkFile& file) {
 Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, const FlightData& present) {
     const auto differs = [&](const std::string& how) {
         return planet::badInput(
-            fmt::format("{}: was recorded over another file than {}: {}; expected {} or a copy of it",
+            fmt::format("{}: was recorded with a different file than {}: {}; expected {} or a copy of it",
                         flight.string(), present.chunkFile, how, recorded.chunkFile));
     };
     const planet::PlanetShape &a = recorded.shape, &b = present.shape;
@@ -526,7 +522,7 @@ Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, c
                                    planet::chunkSize(b)));
     if (recorded.fileBytes != present.fileBytes)
         return differs(fmt::format("{} bytes, not {}", recorded.fileBytes, present.fileBytes));
-    if (recorded.headerHash != present.headerHash) return differs("its header is another");
+    if (recorded.headerHash != present.headerHash) return differs("header differs");
     return {};
 }
 
@@ -563,7 +559,7 @@ Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ui
     all.view = settings;
     for (const std::string& assignment : assignments) {
         const bool ofView = isViewTable(assignment.substr(0, assignment.find('.')));
-        if (!ofView) return planet::badInput(fmt::format("{:.60}: is no setting of the view", assignment));
+        if (!ofView) return planet::badInput(fmt::format("{:.60}: is not a view setting", assignment));
         if (Result<void> set = setSetting(all, assignment); !set) return set;
     }
     settings = all.view;
@@ -624,7 +620,7 @@ Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
     // From here on no other may write it.
     std::error_code status;
     if (ifThere == IfThere::Fail && fs::exists(fs::symlink_status(file, status))) {
-        return planet::ioError(fmt::format("{}: is there already; expected another name", file.string()));
+        return planet::ioError(fmt::format("{}: already exists; expected another name", file.string()));
     }
     return target->append(*bytes).and_then([&] { return target->commit(); });
 }
@@ -655,8 +651,7 @@ Result<FlightRecord> readRecord(std::span<const std::byte> bytes, const fs::path
     if (in.ok()) return record;
     const std::string where =
         record.frames.empty() ? "its beginning" : fmt::format("frame {}", record.frames.size());
-    return planet::badInput(
-        fmt::format("{}: {}: it {}; record it again", file.string(), where, in.problem()));
+    return planet::badInput(fmt::format("{}: {}: {}; record it again", file.string(), where, in.problem()));
 }
 
 template <class Read>
@@ -683,7 +678,7 @@ Result<FlightRecord> flightRecordFromBytes(std::span<const std::byte> bytes, con
 }
 
 bool isFlightRecord(const fs::path& file) {
-    return file.extension() == ".flight";
+    return file.extension() == ui::recordedFlightEnding;
 }
 
 }  // namespace worldy

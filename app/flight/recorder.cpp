@@ -101,7 +101,7 @@ void Recorder::stop(planet::Planet& planet) const {
 
 planet::Result<void> Recorder::write(const std::filesystem::path& file, IfThere ifThere) const {
     if (encoder_.frames() == 0)
-        return planet::badInput(fmt::format("{}: not written, since no frame was recorded", file.string()));
+        return planet::badInput(fmt::format("{}: no frames recorded; not written", file.string()));
     return encoder_.write(file, name_, data_, ifThere);
 }
 

@@ -58,8 +58,13 @@ FlightFrames momentsOf(const ComparisonPlan& plan) {
     return {plan.path.keys.front().timeS, plan.momentStepS, plan.moments};
 }
 
-Result<ui::ComparedFigures> measureMoments(const ComparedSide& side, const ComparisonPlan& plan,
-                                           const PartWatch& goOn) {
+struct MeasuredMoments {
+    ui::ComparedFigures figures;
+    bool software = false;  // the CPU draws
+};
+
+Result<MeasuredMoments> measureMoments(const ComparedSide& side, const ComparisonPlan& plan,
+                                       const PartWatch& goOn) {
     Result<Offscreen> offscreen = openOffscreen({.chunkFile = side.chunkFile}, side.settings, plan.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
     planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(offscreen->scene.planet->file()));
@@ -78,19 +83,19 @@ Result<ui::ComparedFigures> measureMoments(const ComparedSide& side, const Compa
         *offscreen, plan.path, side.settings, momentsOf(plan), FigureSet::CostAndError, heights,
         [&](int) { return goOn(static_cast<double>(done) / plan.moments); }, measureMoment);
     if (!flown) return tl::unexpected(flown.error());
-    ui::ComparedFigures figures = figuresOf(*flown);
-    figures.crackPx = cracks;
-    figures.leakingPx = leaking;
-    return figures;
+    MeasuredMoments measured{figuresOf(*flown), offscreen->scene.renderer.capabilities().software};
+    measured.figures.crackPx = cracks;
+    measured.figures.leakingPx = leaking;
+    return measured;
 }
 
-Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, const PartWatch& goOn,
-                     ui::ComparedFigures& figures) {
+Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, bool software,
+                     const PartWatch& goOn, ui::ComparedFigures& figures) {
     auto planet = planet::Planet::open(side.chunkFile, pagingSettingsOf(side.settings));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(side.settings.surface.exaggeration);
     const Result<PopsFlight> flown =
-        flyForPops(**planet, plan.path, side.settings, plan.size, plan.popStepS, goOn);
+        flyForPops(**planet, plan.path, side.settings, plan.size, plan.popStepS, software, goOn);
     if (!flown) return tl::unexpected(flown.error());
     figures.switches = static_cast<double>(flown->totals.switches);
     figures.worstPopPx = flown->totals.worstPx;
@@ -203,7 +208,9 @@ Result<std::array<double, 2>> measureFrameMs(const ComparisonPlan& plan, const P
 Result<Picture> pictureAt(Offscreen& offscreen, const planet::CameraPose& pose,
                           const ui::ViewSettings& settings) {
     const SettledView at = settleAt(offscreen, pose, settings);
-    if (!at.settled) return planet::ioError("the data that a view wants could not all be loaded in time");
+    if (!at.settled)
+        return planet::ioError(
+            fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
     if (Result<void> drawn = drawAndFinish(offscreen, at.view, settings); !drawn)
         return tl::unexpected(drawn.error());
     return readPicture(offscreen);
@@ -234,12 +241,13 @@ Result<ComparedPair> compareOverFlight(const ComparisonPlan& plan, const Compari
     for (std::size_t i = 0; i < pair.size(); ++i) {
         const ComparedSide side = timedSide(plan, i);
         const double from = (momentsShare + popsShare) * static_cast<double>(i);
-        Result<ui::ComparedFigures> figures = measureMoments(side, plan, {goOn, from, momentsShare});
-        if (!figures) return tl::unexpected(figures.error());
+        Result<MeasuredMoments> moments = measureMoments(side, plan, {goOn, from, momentsShare});
+        if (!moments) return tl::unexpected(moments.error());
         const PartWatch popsWatch{goOn, from + momentsShare, popsShare};
-        if (const Result<void> added = addPops(side, plan, popsWatch, *figures); !added)
+        if (const Result<void> added = addPops(side, plan, moments->software, popsWatch, moments->figures);
+            !added)
             return tl::unexpected(added.error());
-        pair[i] = *figures;
+        pair[i] = moments->figures;
     }
     const Result<std::array<double, 2>> times =
         measureFrameMs(plan, {goOn, 2 * (momentsShare + popsShare), timesShare});

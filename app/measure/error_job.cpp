@@ -28,14 +28,39 @@ void takeResult(ErrorMeter& meter) {
         meter.keepMeasuring = false;  // it would only fail again, and again
         return;
     }
-    ui::ErrorMeasurement measurement = ui::measurementOf(std::move(**result));
-    measurement.frame = meter.running.frame;
-    measurement.atS = meter.running.atS;
-    measurement.lodView = meter.running.lodView;
-    measurement.tauPx = meter.running.tauPx;
-    measurement.metric = meter.running.metric;
+    ui::ErrorMeasurement report = ui::measurementOf(std::move(**result));
+    ui::ErrorMeasurement measurement = std::exchange(meter.running, {});
+    measurement.report = std::move(report.report);
+    measurement.indexOf = std::move(report.indexOf);
+    measurement.worstFirst = std::move(report.worstFirst);
     measurement.tookS = tookS;
     meter.last = std::move(measurement);
+}
+
+// What a planet draws in this frame.
+ui::ErrorMeasurement frameOf(const planet::Planet& planet) {
+    const planet::LodSettings& lod = planet.lodSettings();
+    ui::ErrorMeasurement frame;
+    frame.lodView = planet.lodView();
+    frame.tauPx = lod.tauPx;
+    frame.metric = lod.metric;
+    frame.stitched = lod.seams == planet::SeamMode::Stitched;
+    frame.exaggeration = planet.tree().exaggeration;
+    frame.drawn = planet.selection().draw;
+    return frame;
+}
+
+bool drawnAlike(const planet::DrawItem& a, const planet::DrawItem& b) {
+    return a.id == b.id && a.morph == b.morph && a.coarserBy == b.coarserBy && a.edgeMorph == b.edgeMorph;
+}
+
+bool isOf(const ui::ErrorMeasurement& last, const planet::Planet& planet) {
+    const planet::LodSettings& lod = planet.lodSettings();
+    const auto& draw = planet.selection().draw;
+    return last.lodView == planet.lodView() && last.tauPx == lod.tauPx && last.metric == lod.metric &&
+           last.stitched == (lod.seams == planet::SeamMode::Stitched) &&
+           last.exaggeration == planet.tree().exaggeration &&
+           std::equal(last.drawn.begin(), last.drawn.end(), draw.begin(), draw.end(), drawnAlike);
 }
 
 }  // namespace
@@ -79,26 +104,24 @@ void forgetErrors(ErrorMeter& meter) {
 
 void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double timeS, ErrorMeter& meter) {
     takeResult(meter);
+    meter.current = meter.last && isOf(*meter.last, planet);
     if (meter.job || !(meter.wanted || meter.keepMeasuring)) return;
     meter.wanted = false;
     if (!meter.heights)
         meter.heights =
             std::make_shared<planet::FinestHeights>(std::make_shared<const planet::ChunkFile>(planet.file()));
-    const planet::LodSettings& lod = planet.lodSettings();
+    meter.running = frameOf(planet);
     meter.running.frame = frame;
     meter.running.atS = timeS;
-    meter.running.lodView = planet.lodView();
-    meter.running.tauPx = lod.tauPx;
-    meter.running.metric = lod.metric;
     meter.job = std::make_unique<ErrorJob>(
-        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.lodView(),
-                           lod.seams == planet::SeamMode::Stitched),
+        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.lodView(), meter.running.stitched),
         meter.heights);
 }
 
 ui::ErrorsView errorsViewOf(const ErrorMeter& meter, std::uint64_t frame) {
     ui::ErrorsView view;
     view.last = meter.last ? &*meter.last : nullptr;
+    view.current = meter.current;
     view.frame = frame;
     view.running = meter.job != nullptr || meter.wanted;
     view.progress = meter.job ? meter.job->progress() : 0;

@@ -45,6 +45,7 @@ struct ErrorMeter {
     std::unique_ptr<ErrorJob> job{};
     ui::ErrorMeasurement running{};  // what is known of the one that runs: its frame and settings
     std::optional<ui::ErrorMeasurement> last{};
+    bool current = false;  // last is of what was drawn in the last frame
     std::string problem{};
 };
 

@@ -31,7 +31,7 @@ std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops
         pops.side == ui::PopSide::Before ? pops.shown->frameBefore.lock() : pops.shown->frameAfter.lock();
     if (!frame) {
         pops.problem =
-            "The chunks drawn then are no longer stored; only the latest frames with a switch are.";
+            "The chunks drawn then are no longer stored; only the latest frames with a level change are.";
         return std::nullopt;
     }
     KeptPicture picture{{}, frame->stitched};

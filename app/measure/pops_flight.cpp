@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "app/base/stopwatch.h"
 #include "app/scene/camera_control.h"
@@ -39,7 +40,7 @@ Result<void> stepOnTime(planet::Planet& planet, const planet::ViewInput& view, d
         if (!goOn()) return planet::cancelled();
         if (waited.elapsedMs() > 1000 * settleTimeoutS)
             return planet::ioError(
-                fmt::format("what a view wants was not loaded within {:.0f} s", settleTimeoutS));
+                fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
         std::this_thread::sleep_for(std::chrono::microseconds(100));
         planet.step({&view, 1}, planet::noUpload, 0);
     }
@@ -55,7 +56,7 @@ Result<void> settleView(planet::Planet& planet, const planet::ViewInput& view,
         if (!goOn()) return planet::cancelled();
     }
     return planet::ioError(
-        fmt::format("what the first view wants was not loaded within {:.0f} s", settleTimeoutS));
+        fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
 }
 
 // Ground that is loaded may lift the camera, and then the view wants more.
@@ -71,16 +72,16 @@ Result<void> settleAtStart(planet::Planet& planet, const std::function<planet::V
 }
 
 std::optional<double> seaLevelM(const planet::Planet& planet, const ui::ViewSettings& settings,
-                                const planet::View& view) {
+                                const planet::View& view, bool software) {
     const planet::gl::RenderSettings render = renderSettingsOf(settings, view, planet.tree());
-    return planet::gl::isSeaSurfaceDrawn(render, false) ? std::optional(render.seaLevelM) : std::nullopt;
+    return planet::gl::isSeaSurfaceDrawn(render, software) ? std::optional(render.seaLevelM) : std::nullopt;
 }
 
 }  // namespace
 
 Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
                               const ui::ViewSettings& settings, const PictureSize& size, double stepS,
-                              const PopsFlightWatch& goOn) {
+                              bool software, const PopsFlightWatch& goOn) {
     const planet::LodSettings lod = lodSettingsOf(settings);
     const double startS = path.keys.front().timeS;
     PopsFlight flown;
@@ -90,7 +91,9 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
     const auto firstView = [&] { return viewAt(planet, path, startS, settings.camera.fovDeg, size); };
     if (const Result<void> settled = settleAtStart(planet, firstView, lod, [&] { return goOn(0); }); !settled)
         return tl::unexpected(settled.error());
-    const std::optional<double> seaM = seaLevelM(planet, settings, firstView());
+    const std::optional<double> seaM = seaLevelM(planet, settings, firstView(), software);
+    flown.seaSurfaceDrawn = seaM.has_value();
+    glm::dvec3 fromM = firstView().eyeM;
     planet::PopMeter meter;
     for (int i = 0; i < flown.frames; ++i) {
         const auto share = static_cast<double>(i) / flown.frames;
@@ -100,8 +103,11 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
             stepOnTime(planet, {view, lod, 1}, i == 0 ? 0 : stepS, [&] { return goOn(share); });
         if (!stepped) return tl::unexpected(stepped.error());
         const double timeS = startS + i * stepS;
+        const glm::dvec3 beforeM = std::exchange(fromM, view.eyeM);
+        const bool jumped = jumpsBetween(path, timeS - stepS, timeS) ||
+                            isCameraJump(beforeM, view.eyeM, planet.shape().radiusM, stepS);
         meter.add(planet.tree(), planet.selection(), view, lod, i * stepS,
-                  {.cameraJumped = i > 0 && jumpsBetween(path, timeS - stepS, timeS), .seaM = seaM});
+                  {.cameraJumped = i > 0 && jumped, .seaM = seaM});
         // It forgets what is minutes old.
         const auto& events = meter.events();
         for (auto event = events.rbegin();

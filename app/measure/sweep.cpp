@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <variant>
@@ -37,8 +38,11 @@ constexpr std::array<Column, 16> columns = {{
     {"mean_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanTriangles; }},
     {"most_triangles",
      [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.figures.mostTriangles); }},
-    {"mean_chunks", [](const SweepPoint& p) -> Cell { return p.figures.meanChunks; }},
-    {"most_resident_mib", [](const SweepPoint& p) -> Cell { return p.figures.mostResidentMiB; }},
+    {"mean_drawn_chunks", [](const SweepPoint& p) -> Cell { return p.figures.meanChunks; }},
+    {"most_resident_bytes",
+     [](const SweepPoint& p) -> Cell {
+         return static_cast<std::uint64_t>(std::llround(p.figures.mostResidentMiB * (1 << 20)));
+     }},
     {"median_frame_ms", [](const SweepPoint& p) -> Cell { return p.figures.medianFrameMs; }},
     {"worst_eps_px", [](const SweepPoint& p) -> Cell { return p.figures.worstEpsPx; }},
     {"worst_drawn_bound_px", [](const SweepPoint& p) -> Cell { return p.figures.worstDrawnBoundPx; }},
@@ -51,6 +55,13 @@ constexpr std::array<Column, 16> columns = {{
 
 std::string_view metricName(planet::ErrorMetric metric) {
     return errorMetricNames[static_cast<std::size_t>(metric)];
+}
+
+// Triangles are counted in whole numbers.
+Json limitJson(const TauGoal& goal) {
+    const bool whole = !goal.limitsError && goal.cost == SweepCost::Triangles && goal.limit < 1e15 &&
+                       goal.limit == std::floor(goal.limit);
+    return whole ? Json(static_cast<std::int64_t>(goal.limit)) : Json(goal.limit);
 }
 
 }  // namespace
@@ -90,7 +101,7 @@ std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, co
              {"chunk_size", one.chunkSize},
              {"tau_px", one.found.tauPx},
              {"limited", goal.limitsError ? "worst_measured_px" : costName(goal.cost)},
-             {"limit", goal.limit},
+             {"limit", limitJson(goal)},
              {"value", one.found.value},
              {"met", one.found.met},
              {"flights", one.found.flown}});
@@ -109,9 +120,10 @@ Result<TauGoal> tauGoalFromText(const std::string& text) {
     const auto parsed = std::from_chars(value.data(), value.data() + value.size(), goal.limit);
     const bool whole = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
     if (found == names.end() || !whole || !std::isfinite(goal.limit) || goal.limit <= 0) {
-        return planet::badInput(fmt::format(
-            "--suggest {}: one of triangles=N, frame_ms=N, memory_mib=N, error_px=N with N over 0 is right",
-            text));
+        return planet::badInput(
+            fmt::format("--suggest: {} is unknown; expected triangles=N, frame_ms=N, memory_mib=N or "
+                        "error_px=N with N > 0",
+                        text));
     }
     goal.limitsError = name == "error_px";
     if (!goal.limitsError) goal.cost = static_cast<SweepCost>(found - names.begin());

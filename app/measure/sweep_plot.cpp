@@ -89,7 +89,7 @@ bool drawAxes(Plot& plot, SweepCost cost, const std::string& title) {
     }
     plot.line(plotLeft, plotBottom, plotRight, plotBottom, ink);
     plot.line(plotLeft, plotTop, plotLeft, plotBottom, ink);
-    plot.text((plotLeft + plotRight) / 2, plotBottom + 48 * finer, "worst measured error, pixels",
+    plot.text((plotLeft + plotRight) / 2, plotBottom + 48 * finer, "max measured error, px",
               draw::TextAlignX::Center);
     plot.text(plotLeft, plotTop - 16 * finer, costName(cost));
     return plot.text((plotLeft + plotRight) / 2, 22 * finer, title, draw::TextAlignX::Center, ink,
@@ -122,16 +122,16 @@ void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
         }
         const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
         plot.disc(plotRight + 30 * finer, legendY, 5 * finer, colour);
-        plot.text(
-            plotRight + 44 * finer, legendY,
-            fmt::format("{} a side, {}", key.first, errorMetricNames[static_cast<std::size_t>(key.second)]));
+        plot.text(plotRight + 44 * finer, legendY,
+                  fmt::format("{} per side, {}", key.first,
+                              errorMetricNames[static_cast<std::size_t>(key.second)]));
         ++index;
     }
     const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
     plot.disc(plotRight + 30 * finer, legendY, 9 * finer, ink);
     plot.disc(plotRight + 30 * finer, legendY, 8 * finer, {1, 1, 1, 1});
     plot.text(plotRight + 44 * finer, legendY, "Pareto front");
-    plot.text(plotRight + 20 * finer, legendY + 26 * finer, "figures: tau, pixels");
+    plot.text(plotRight + 20 * finer, legendY + 26 * finer, "labels: τ, px");
 }
 
 Picture smaller(const ImageBuf& image) {

@@ -51,9 +51,8 @@ Result<SweptPlanet> openSwept(const SweepPlan& plan, const SweptFile& swept) {
     if (!file) return tl::unexpected(file.error());
     const int size = planet::chunkSize(file->info().shape);
     if (size != swept.chunkSize) {
-        return planet::badInput(
-            fmt::format("{}: its chunks are {} a side; for chunks of {} name what it was baked from",
-                        swept.chunkFile.string(), size, swept.chunkSize));
+        return planet::badInput(fmt::format("{}: chunk size is {}; for {} give the bake source",
+                                            swept.chunkFile.string(), size, swept.chunkSize));
     }
     Result<Offscreen> offscreen = openOffscreen({.chunkFile = swept.chunkFile}, plan.view, plan.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());

@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/settings/camera_text.h"
 #include "ui/model/glossary.h"
 
 namespace worldy {
 
-nlohmann::ordered_json poseJson(const planet::CameraPose& pose) {
+nlohmann::ordered_json poseJson(const planet::CameraPose& exact) {
+    const planet::CameraPose pose = roundedPose(exact);
     return {{"latitude_deg", pose.latitudeDeg},
             {"longitude_deg", pose.longitudeDeg},
             {"altitude_m", pose.altitudeM},
@@ -30,7 +32,7 @@ nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
     return {{"visited", stats.selection.visited},
             {"culled_frustum", stats.selection.culledFrustum},
             {"culled_horizon", stats.selection.culledHorizon},
-            {"drawn_chunks", stats.selection.drawn},
+            {ui::terms::drawnChunks.key, stats.selection.drawn},
             {ui::terms::groundTriangles.key, stats.selection.groundTriangles},
             {ui::terms::skirtTriangles.key, stats.selection.skirtTriangles},
             {ui::terms::triangles.key, stats.selection.triangles()},
@@ -64,7 +66,7 @@ nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
             {"clipmap_texels", stats.clipmap.filledTexels}};
 }
 
-std::vector<std::uint32_t> levelHistogram(const planet::Selection& selection) {
+std::vector<std::uint32_t> drawnByLevel(const planet::Selection& selection) {
     std::vector<std::uint32_t> levels(selection.counters.deepestLevel + std::size_t{1});
     for (const planet::DrawItem& item : selection.draw) ++levels[item.id.level];
     return levels;

@@ -11,13 +11,13 @@
 
 namespace worldy {
 
-// Returns latitude, longitude, altitude, heading and pitch, in degrees and metres.
-nlohmann::ordered_json poseJson(const planet::CameraPose& pose);
+// Returns latitude, longitude, altitude, heading and pitch, in degrees and metres, rounded (roundedPose).
+nlohmann::ordered_json poseJson(const planet::CameraPose& exact);
 
 // Returns the counts, bytes and times of one frame.
 nlohmann::ordered_json statsJson(const ui::FrameStats& stats);
 
 // Returns the number of drawn chunks of each level, indexed by level.
-std::vector<std::uint32_t> levelHistogram(const planet::Selection& selection);
+std::vector<std::uint32_t> drawnByLevel(const planet::Selection& selection);
 
 }  // namespace worldy

@@ -91,7 +91,7 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
     offscreen.target.bind();
     drawScene(scene, view, settings, 0,
               ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                             settings.surface.lighting, *measured ? &**measured : nullptr));
+                             *measured ? &**measured : nullptr));
     const planet::Lines lines = linesOver(scene, selection, view, settings);
     // Lines are those of the sphere.
     if (!lines.empty() && !settings.overlay.cube) {

@@ -50,9 +50,10 @@ planet::Result<PictureSize> pictureSizeFromText(const std::string& text) {
     const std::optional<std::vector<double>> sides = numbersIn(text, 'x');
     const auto good = [](double side) { return side >= 16 && side <= 16384 && side == std::floor(side); };
     if (!sides || sides->size() != 2 || !good((*sides)[0]) || !good((*sides)[1])) {
-        return planet::badInput(fmt::format(
-            "--size: {} is no size; expected WIDTHxHEIGHT with 16 to 16384 pixels a side, as 1280x720",
-            text));
+        return planet::badInput(
+            fmt::format("--size: {} is not a size; expected WIDTHxHEIGHT in pixels, each in [16, 16384], for "
+                        "example 1280x720",
+                        text));
     }
     return PictureSize{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
 }
@@ -61,15 +62,15 @@ planet::Result<Pose> poseFromText(const std::string& text) {
     const std::optional<std::vector<double>> numbers = numbersIn(text, ',');
     if (!numbers || numbers->size() < 3 || numbers->size() > poseNumbers.size()) {
         return planet::badInput(
-            fmt::format("--camera: {} is no camera; expected LAT,LON,ALT,HEADING,PITCH in degrees and "
-                        "metres, as 28,86,20000,0,-20",
+            fmt::format("--camera: {} is not a camera; expected LAT,LON,ALT,HEADING,PITCH in degrees and "
+                        "metres, for example 28,86,20000,0,-20",
                         text));
     }
     Pose pose;
     for (std::size_t i = 0; i < numbers->size(); ++i) {
         const PoseNumber& field = poseNumbers[i];
         if ((*numbers)[i] < field.min || (*numbers)[i] > field.max) {
-            return planet::badInput(fmt::format("--camera: {} is {}; expected {} to {}", field.name,
+            return planet::badInput(fmt::format("--camera: {} is {}; expected [{}, {}]", field.name,
                                                 (*numbers)[i], field.min, field.max));
         }
         pose.*field.value = (*numbers)[i];
@@ -80,6 +81,16 @@ planet::Result<Pose> poseFromText(const std::string& text) {
 std::string cameraText(const planet::CameraPose& pose) {
     return fmt::format("{},{},{},{},{}", pose.latitudeDeg, pose.longitudeDeg, pose.altitudeM, pose.headingDeg,
                        pose.pitchDeg);
+}
+
+planet::CameraPose roundedPose(const planet::CameraPose& pose) {
+    const auto degrees = [](double value) { return std::round(value * 1e9) / 1e9 + 0.0; };  // no -0
+    const double headingDeg = degrees(pose.headingDeg);
+    return {.latitudeDeg = degrees(pose.latitudeDeg),
+            .longitudeDeg = degrees(pose.longitudeDeg),
+            .altitudeM = std::round(pose.altitudeM * 1e6) / 1e6,
+            .headingDeg = headingDeg == 360 ? 0 : headingDeg,
+            .pitchDeg = degrees(pose.pitchDeg)};
 }
 
 }  // namespace worldy

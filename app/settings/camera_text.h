@@ -24,4 +24,8 @@ planet::Result<planet::CameraPose> poseFromText(const std::string& text);
 // numbers.
 std::string cameraText(const planet::CameraPose& pose);
 
+// Returns the pose rounded to 1e-9 degrees and 1e-6 m, for reports: smaller digits are rounding errors of the
+// eye's position.
+planet::CameraPose roundedPose(const planet::CameraPose& pose);
+
 }  // namespace worldy

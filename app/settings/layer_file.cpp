@@ -34,21 +34,20 @@ std::vector<LayerKey> keysOf(TextureLayer& layer) {
     const auto limits = [](const SoftRange& all, std::string_view unit) {
         return NumberRange{all.lowest, all.highest, unit};
     };
-    return {
-        {"name", "", &layer.name},
-        {"albedo", "sRGB, relief in its alpha; square, a power of two a side.", &layer.albedo},
-        {"normal", "", &layer.normal},
-        {"roughness", "", &layer.roughness},
-        {"scale_m", "Metres that the textures cover once.", &layer.scaleM, {0.01, 1e5, "metres"}},
-        {"tint", "", &layer.tint},
-        {"opacity", "", &layer.opacity, {0, 1, ""}},
-        {"muted", "", &layer.muted},
-        {"solo", "", &layer.solo},
-        {"height_m", "Lowest, highest, soft edge.", &layer.heightM, limits(planet::allHeightsM, "metres")},
-        {"slope_deg", "", &layer.slopeDeg, limits(planet::allSlopesDeg, "degrees")},
-        {"latitude_deg", "", &layer.latitudeDeg, limits(planet::allLatitudesDeg, "degrees")},
-        {"noise_amount", "How far noise moves the borders, in soft edges.", &layer.noiseAmount, {0, 4, ""}},
-        {"noise_size_m", "", &layer.noiseSizeM, {0.1, 1e6, "metres"}}};
+    return {{"name", "", &layer.name},
+            {"albedo", "sRGB, relief in its alpha; square, power-of-two side.", &layer.albedo},
+            {"normal", "", &layer.normal},
+            {"roughness", "", &layer.roughness},
+            {"scale_m", "Size of one texture repeat, m.", &layer.scaleM, {0.01, 1e5, "m"}},
+            {"tint", "", &layer.tint},
+            {"opacity", "", &layer.opacity, {0, 1, ""}},
+            {"muted", "", &layer.muted},
+            {"solo", "", &layer.solo},
+            {"height_m", "Lowest, highest, falloff.", &layer.heightM, limits(planet::allHeightsM, "m")},
+            {"slope_deg", "", &layer.slopeDeg, limits(planet::allSlopesDeg, "°")},
+            {"latitude_deg", "", &layer.latitudeDeg, limits(planet::allLatitudesDeg, "°")},
+            {"noise_amount", "How far noise moves the borders, in falloffs.", &layer.noiseAmount, {0, 4, ""}},
+            {"noise_size_m", "", &layer.noiseSizeM, {0.1, 1e6, "m"}}};
 }
 
 tl::unexpected<planet::Error> wrong(const fs::path& file, const toml::node& node,
@@ -87,7 +86,7 @@ struct ReadKey {
         if (!array || array->size() != 3) {
             return wrong(
                 file, node,
-                fmt::format("{} is {}; expected [lowest, highest, soft edge]", name, shownValue(node)));
+                fmt::format("{} is {}; expected [lowest, highest, falloff]", name, shownValue(node)));
         }
         std::array<double, 3> read{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -134,7 +133,8 @@ std::string textOf(const LayerKey& key) {
 
 Result<TextureLayer> layerFromToml(const fs::path& file, const std::string& name, const toml::node& node) {
     const toml::table* table = node.as_table();
-    if (!table) return wrong(file, node, fmt::format("{} is no layer; expected a table with a name", name));
+    if (!table)
+        return wrong(file, node, fmt::format("{} is not a layer; expected a table with a name", name));
     TextureLayer layer;
     const std::vector<LayerKey> keys = keysOf(layer);
     for (const auto& [key, value] : *table) {
@@ -146,7 +146,7 @@ Result<TextureLayer> layerFromToml(const fs::path& file, const std::string& name
             std::string known;
             for (const LayerKey& one : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", one.key);
             return wrong(file, value,
-                         fmt::format("{} is no part of a layer; expected one of {}", keyName, known));
+                         fmt::format("{} is an unknown key; expected one of {}", keyName, known));
         }
         if (Result<void> read = std::visit(ReadKey{file, keyName, value, found->range}, found->value); !read)
             return tl::unexpected(read.error());
@@ -176,9 +176,8 @@ Result<void> readSetKey(const fs::path& file, std::string_view key, const toml::
             set.layers = std::move(layers);
         });
     }
-    return wrong(
-        file, node,
-        fmt::format("{:.40} is no part of a layer set; expected blend, blend_depth or [[layer]]", key));
+    return wrong(file, node,
+                 fmt::format("{:.40} is an unknown key; expected blend, blend_depth or [[layer]]", key));
 }
 
 template <class Move>
@@ -255,9 +254,9 @@ Result<planet::LayerSet> layerSetFromText(std::string_view text, const fs::path&
 
 std::string layerSetText(const planet::LayerSet& set) {
     std::string text = fmt::format(
-        "# Texture layers of Worldy, the lowest first; each is painted over those before it.\n"
-        "# blend: by \"weight\", or by \"height\": the layer whose relief stands higher wins, within the "
-        "depth.\n"
+        "# Texture layers of Worldy, the lowest first; each is drawn over the previous ones.\n"
+        "# blend: by \"weight\", or by \"height\": the layer with the higher relief wins within "
+        "blend_depth.\n"
         "blend = \"{}\"\nblend_depth = {}\n",
         layerBlendNames[static_cast<std::size_t>(set.blend)], set.blendDepth);
     bool first = true;

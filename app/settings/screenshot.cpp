@@ -81,8 +81,8 @@ Result<ScreenshotNote> readScreenshotNote(const fs::path& file) {
     }
     const Result<planet::CameraPose> pose = poseFromText(camera);
     if (!pose) {
-        return planet::badInput(fmt::format("{}: is damaged: its note of the camera is wrong ({})",
-                                            file.string(), pose.error().message));
+        return planet::badInput(fmt::format(
+            "{}: invalid camera metadata: {}; expected LAT,LON,ALT,HEADING,PITCH", file.string(), camera));
     }
     note.camera = *pose;
     note.dataSet = dataSet;

@@ -12,6 +12,7 @@
 
 #include "app/base/colour_text.h"
 #include "app/settings/layer_file.h"
+#include "ui/model/sweep_points.h"
 
 namespace worldy {
 
@@ -45,7 +46,7 @@ void addLod(Fields& fields, ui::LodKnobs& lod) {
         fields.end(),
         {{"lod", "tau_px",
           "Screen-space error threshold tau, pixels; larger: fewer triangles, more visible error.",
-          Number{&lod.tauPx, {0.1, 64, "pixels"}}},
+          Number{&lod.tauPx, {ui::smallestTauPx, ui::largestTauPx, "px"}}},
          {"lod", "hysteresis", "Fraction of tau by which a merge is delayed after a split.",
           Number{&lod.hysteresis, {0, 0.9, ""}}},
          {"lod", "max_level", "Deepest level drawn.", Integer{&lod.maxLevel, {0, 20, ""}}},
@@ -58,7 +59,7 @@ void addLod(Fields& fields, ui::LodKnobs& lod) {
          {"lod", "metric", "Geometric error metric: additive (safe) or tight (fewer triangles).",
           Choice{asByte(lod.metric), errorMetricNames}},
          {"lod", "fade_s", "Minimum duration of a morph, seconds; 0: late level changes pop.",
-          Number{&lod.fadeS, {0, 10, "seconds"}}}});
+          Number{&lod.fadeS, {0, 10, "s"}}}});
 }
 
 void addSeams(Fields& fields, ui::SeamKnobs& seams) {
@@ -70,7 +71,7 @@ void addSeams(Fields& fields, ui::SeamKnobs& seams) {
          {"seams", "skirt_factor", "Automatic skirt depth relative to the errors it must hide.",
           Number{&seams.skirtFactor, {0, 10, ""}}},
          {"seams", "skirt_depth_m", "Fixed skirt depth, metres.",
-          Number{&seams.skirtDepthM, {0, 100000, "metres"}}},
+          Number{&seams.skirtDepthM, {0, 100000, "m"}}},
          {"seams", "show_pairs", "Highlight edges between chunks of different levels.",
           Flag{&seams.showPairs}}});
 }
@@ -85,7 +86,7 @@ void addPaging(Fields& fields, ui::PagingKnobs& paging) {
          {"paging", "loader_threads", "Number of loader threads.",
           Integer{&paging.loaderThreads, {1, 64, "threads"}}},
          {"paging", "upload_limit_ms", "Time per frame for uploading loaded chunks, milliseconds.",
-          Number{&paging.uploadLimitMs, {0.1, 100, "milliseconds"}}},
+          Number{&paging.uploadLimitMs, {0.1, 100, "ms"}}},
          {"paging", "colour_share", "Fraction of the budget for streamed colours.",
           Number{&paging.colourShare, {0.01, 0.9, ""}}},
          {"paging", "normal_share",
@@ -95,14 +96,14 @@ void addPaging(Fields& fields, ui::PagingKnobs& paging) {
           Integer{&paging.retries, {0, 10, "retries"}}},
          {"paging", "retry_delay_s",
           "Delay before the first retry, seconds; it doubles with each further retry.",
-          Number{&paging.retryDelayS, {0, 60, "seconds"}}},
+          Number{&paging.retryDelayS, {0, 60, "s"}}},
          {"paging", "simulated",
           "Simulate read times by the fault-injection settings and seed, in frame time instead of real time.",
           Flag{&paging.simulated}},
          {"bad_disk", "latency_ms", "I/O fault injection: latency added to each read, milliseconds.",
-          Number{&disk.latencyMs, {0, 10000, "milliseconds"}}},
+          Number{&disk.latencyMs, {0, 10000, "ms"}}},
          {"bad_disk", "bandwidth_mb_s", "Bandwidth per loader thread, MB/s (10^6 bytes); 0: unlimited.",
-          Number{&disk.bandwidthMBs, {0, 100000, "MB a second"}}},
+          Number{&disk.bandwidthMBs, {0, 100000, "MB/s"}}},
          {"bad_disk", "failure_rate", "Fraction of reads that fail.", Number{&disk.failureRate, {0, 1, ""}}},
          {"bad_disk", "shuffled_order", "Serve reads in random order instead of by priority.",
           Flag{&disk.shuffledOrder}},
@@ -119,9 +120,9 @@ void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
          {"overlay", "error_scale", "Screen-space error relative to tau that is tinted yellow.",
           Number{&overlay.errorScale, {0.01, 100, ""}}},
          {"overlay", "delta_top_m", "Upper end of the delta_c scale, metres.",
-          Number{&overlay.deltaTopM, {0.01, 100000, "metres"}}},
+          Number{&overlay.deltaTopM, {0.01, 100000, "m"}}},
          {"overlay", "age_top_s", "Upper end of the age scale, seconds.",
-          Number{&overlay.ageTopS, {0.1, 3600, "seconds"}}},
+          Number{&overlay.ageTopS, {0.1, 3600, "s"}}},
          {"overlay", "outlines", "Draw chunk borders.", Flag{&overlay.outlines}},
          {"overlay", "bounds", "Draw bounding volumes.", Flag{&overlay.bounds}},
          {"overlay", "wireframe", "Draw triangle edges.", Flag{&overlay.wireframe}},
@@ -154,7 +155,7 @@ void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
           Ramp{&surface.ramp}},
          {"surface", "sea", "Draw ground below the sea level as sea; false: dry land.", Flag{&surface.sea}},
          {"surface", "sea_level_m", "Sea level, metres above the planet's radius.",
-          Number{&surface.seaLevelM, {-20000, 20000, "metres"}}},
+          Number{&surface.seaLevelM, {-20000, 20000, "m"}}},
          {"surface", "exaggeration", "Factor applied to heights when drawing.",
           Number{&surface.exaggeration, {0.1, 100, ""}}},
          {"surface", "lighting", "Shade the ground by the sun; false: flat colour.", Flag{&surface.lighting}},
@@ -164,17 +165,17 @@ void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
          {"surface", "sun_follows", "Keep the sun east of the camera, so it is always day there.",
           Flag{&surface.sunFollows}},
          {"surface", "sun_by_date",
-          "Otherwise: place the sun by date and time over the Earth, universal time:",
+          "If sun_follows is false: place the sun by date and time over the Earth, universal time.",
           Flag{&surface.sunByDate}},
          {"surface", "sun_year", "Year.", Integer{&surface.sunDate.year, {1950, 2050, ""}}},
          {"surface", "sun_month", "Month.", Integer{&surface.sunDate.month, {1, 12, ""}}},
          {"surface", "sun_day", "Day, at most the last of the month.",
           Integer{&surface.sunDate.day, {1, 31, ""}}},
-         {"surface", "sun_hour", "Hour, with a fraction.", Number{&surface.sunDate.hour, {0, 24, "hours"}}},
-         {"surface", "sun_latitude_deg", "Otherwise: latitude of the subsolar point, degrees north.",
-          Number{&surface.sunLatitudeDeg, {-90, 90, "degrees"}}},
+         {"surface", "sun_hour", "Hour, with a fraction.", Number{&surface.sunDate.hour, {0, 24, "h"}}},
+         {"surface", "sun_latitude_deg", "If both are false: latitude of the subsolar point, degrees north.",
+          Number{&surface.sunLatitudeDeg, {-90, 90, "°"}}},
          {"surface", "sun_longitude_deg", "Longitude of the subsolar point, degrees east.",
-          Number{&surface.sunLongitudeDeg, {-180, 180, "degrees"}}}});
+          Number{&surface.sunLongitudeDeg, {-180, 180, "°"}}}});
 }
 
 void addAir(Fields& fields, planet::gl::AirDrawing& air) {
@@ -204,16 +205,16 @@ void addLight(Fields& fields, planet::gl::LightDrawing& light) {
          {"light", "sea", "Sea surface with waves, reflections and depth: automatic, on or off.",
           Choice{asByte(light.sea.use), featureUseNames}},
          {"light", "sea_wind_mps", "Wind speed over the sea; larger: a wider glint of the sun.",
-          Number{&light.sea.windMps, {0, 30, "metres a second"}}},
+          Number{&light.sea.windMps, {0, 30, "m/s"}}},
          {"light", "sea_clarity_m", "Depth of water that reduces green light to 1/e.",
-          Number{&light.sea.clarityM, {0.5, 100, "metres"}}},
+          Number{&light.sea.clarityM, {0.5, 100, "m"}}},
          {"light", "sea_waves", "Strength of the resolved waves.", Number{&light.sea.waves, {0, 2, ""}}},
          {"light", "shadows", "Terrain shadows: automatic, on or off.",
           Choice{asByte(light.shadows.use), featureUseNames}},
          {"light", "shadow_map_px", "Side of each shadow map, pixels; larger: sharper.",
-          Integer{&light.shadows.mapSizePx, {256, 8192, "pixels"}}},
+          Integer{&light.shadows.mapSizePx, {256, 8192, "px"}}},
          {"light", "shadow_reach_m", "Shadow distance from the camera, metres; larger: coarser everywhere.",
-          Number{&light.shadows.reachM, {1000, 1e7, "metres"}}},
+          Number{&light.shadows.reachM, {1000, 1e7, "m"}}},
          {"light", "shadow_softness", "Radius of the shadow filter, texels of the map.",
           Number{&light.shadows.softness, {0, 4, "texels"}}},
          {"light", "normals", "Normals finer than the mesh: automatic, on or off.",
@@ -235,9 +236,9 @@ void addLayers(Fields& fields, ui::LayerSettings& layers) {
          {"surface", "layer_opacity", "Opacity of the layers over the image or ramp.",
           Number{&layers.opacity, {0, 1, ""}}},
          {"surface", "layer_begin_m", "Distance from the camera where layers begin to fade, metres.",
-          Number{&layers.beginM, {0, 1e7, "metres"}}},
+          Number{&layers.beginM, {0, 1e7, "m"}}},
          {"surface", "layer_end_m", "Distance from the camera where layers have faded out, metres.",
-          Number{&layers.endM, {1, 1e7, "metres"}}},
+          Number{&layers.endM, {1, 1e7, "m"}}},
          {"surface", "layer_colour_below",
           "Base-colour blend: how much of the image or ramp colour tints the layers.",
           Number{&layers.colourBelow, {0, 1, ""}}},
@@ -259,8 +260,7 @@ void addLayers(Fields& fields, ui::LayerSettings& layers) {
 void addView(Fields& fields, ui::CameraSettings& camera) {
     fields.insert(
         fields.end(),
-        {{"view", "fov_deg", "Horizontal field of view, degrees.",
-          Number{&camera.fovDeg, {5, 150, "degrees"}}},
+        {{"view", "fov_deg", "Horizontal field of view, degrees.", Number{&camera.fovDeg, {5, 150, "°"}}},
          {"view", "mode", "How the camera moves: fly, orbit or follow_flight.",
           Choice{asByte(camera.mode), cameraModeNames}},
          {"view", "observer", "Second camera that shows the view from outside: off, split or alone.",
@@ -279,24 +279,24 @@ void addView(Fields& fields, ui::CameraSettings& camera) {
 void addCamera(Fields& fields, planet::CameraPose& pose) {
     fields.insert(fields.end(),
                   {{"camera", "latitude_deg", "Start latitude, degrees north.",
-                    Number{&pose.latitudeDeg, {-90, 90, "degrees"}}},
+                    Number{&pose.latitudeDeg, {-90, 90, "°"}}},
                    {"camera", "longitude_deg", "Start longitude, degrees east.",
-                    Number{&pose.longitudeDeg, {-360, 360, "degrees"}}},
+                    Number{&pose.longitudeDeg, {-360, 360, "°"}}},
                    {"camera", "altitude_m",
                     "Start altitude, metres above the planet's radius; 0: the whole planet in view.",
-                    Number{&pose.altitudeM, {-1e6, 2e10, "metres"}}},
+                    Number{&pose.altitudeM, {-1e6, 2e10, "m"}}},
                    {"camera", "heading_deg", "Start heading, degrees: 0 north, 90 east.",
-                    Number{&pose.headingDeg, {-360, 360, "degrees"}}},
+                    Number{&pose.headingDeg, {-360, 360, "°"}}},
                    {"camera", "pitch_deg", "Start pitch, degrees: -90 straight down, 0 level.",
-                    Number{&pose.pitchDeg, {-90, 90, "degrees"}}}});
+                    Number{&pose.pitchDeg, {-90, 90, "°"}}}});
 }
 
 void addWindow(Fields& fields, Settings& s) {
     ui::Workspace& workspace = s.workspace;
     fields.insert(
         fields.end(),
-        {{"window", "width_px", "Window size, pixels.", Integer{&s.windowWidthPx, {640, 16384, "pixels"}}},
-         {"window", "height_px", "", Integer{&s.windowHeightPx, {400, 16384, "pixels"}}},
+        {{"window", "width_px", "Window size, pixels.", Integer{&s.windowWidthPx, {640, 16384, "px"}}},
+         {"window", "height_px", "", Integer{&s.windowHeightPx, {400, 16384, "px"}}},
          {"window", "left_width", "Dock sizes, in units that follow the font.",
           Number{&workspace.leftWidth, {160, 1000, ""}}},
          {"window", "right_width", "", Number{&workspace.rightWidth, {160, 1000, ""}}},
@@ -314,7 +314,7 @@ constexpr std::array<std::string_view, ui::panelCount> panelKeys = [] {
 }();
 
 void addPanels(Fields& fields, ui::Workspace& workspace) {
-    std::string_view meaning = "The dock of each panel, left, right or bottom, and whether it is shown.";
+    std::string_view meaning = "Dock of each panel: left, right or bottom; and whether the panel is shown.";
     for (std::size_t dock = 0; dock < ui::dockCount; ++dock) {
         fields.push_back({"panels", fmt::format("{}_front", dockNames[dock]),
                           dock == 0 ? "Front panel of each dock." : "",
@@ -457,7 +457,7 @@ struct ReadField {
                                            stopName));
         }
         const Result<double> heightM =
-            readNumber(file, stopName + ": height_m", *height, {-100000, 100000, "metres"});
+            readNumber(file, stopName + ": height_m", *height, {-100000, 100000, "m"});
         if (!heightM) return tl::unexpected(heightM.error());
         if (!stops.empty() && *heightM <= stops.back().heightM) {
             return wrong(
@@ -593,8 +593,13 @@ tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::stri
         if (distance < least) nearest = field.name();
         least = std::min(least, distance);
     }
-    return planet::badInput(
-        fmt::format("{}: {:.60} is not a setting; the nearest one is {}", place, name, nearest));
+    // A name that is far from all settings is no misspelt one.
+    const std::size_t letters = std::max(std::min(name.size(), mostLetters), nearest.size());
+    std::string instead = 3 * least <= letters ? "the nearest one is " + nearest
+                                               : "expected a name of the settings file, such as lod.tau_px";
+    if (name == "key") instead = "the file seems to be a flight; expected a settings file";
+    if (name == "layer") instead = "the file seems to be a texture layer set; expected a settings file";
+    return planet::badInput(fmt::format("{}: {:.60} is not a setting; {}", place, name, instead));
 }
 
 std::string tomlText(const Field& field) {

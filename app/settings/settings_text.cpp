@@ -7,6 +7,7 @@
 
 #include "app/base/output_file.h"
 #include "app/base/toml_file.h"
+#include "app/settings/setting_labels.h"
 #include "app/settings/settings_table.h"
 
 namespace worldy {
@@ -88,7 +89,8 @@ std::vector<ui::SettingDifference> differencesIn(Settings here, Settings there, 
         if (!wanted(hereFields[i])) continue;
         std::string hereText = plainText(hereFields[i]), thereText = plainText(thereFields[i]);
         if (hereText == thereText) continue;
-        found.push_back({hereFields[i].name(), std::move(hereText), std::move(thereText)});
+        const std::string name = hereFields[i].name();
+        found.push_back({name, std::move(hereText), std::move(thereText), std::string(settingLabel(name))});
     }
     return found;
 }
@@ -141,7 +143,7 @@ Result<Settings> settingsFromText(std::string_view text, const fs::path& place, 
 }
 
 std::string settingsText(const Settings& settings) {
-    return "# Worldy's settings, written when it ends. Delete a line to get its default back.\n" +
+    return "# Worldy's settings, written on exit. Delete a line to restore its default.\n" +
            textOf(settings, [](const Field&) { return true; });
 }
 
@@ -178,7 +180,7 @@ std::vector<std::string> assignmentsFor(const ui::ViewSettings& view) {
 }
 
 std::string viewSettingsText(const ui::ViewSettings& view) {
-    return "# Settings of Worldy's view, to be laid over others: what is not in here stays as it is.\n" +
+    return "# Partial view settings of Worldy; keys not listed keep their values.\n" +
            textOf(settingsWith(view), isViewField);
 }
 

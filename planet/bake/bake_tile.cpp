@@ -77,14 +77,16 @@ BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, const SampleT
 
 Result<void> checkBakeSettings(const BakeSettings& settings) {
     if (settings.compressionLevel < minCompressionLevel || settings.compressionLevel > maxCompressionLevel) {
-        return badInput(fmt::format("compression level {}: must be {} to {}", settings.compressionLevel,
-                                    minCompressionLevel, maxCompressionLevel));
+        return badInput(fmt::format("compression level: {} is out of range; expected [{}, {}]",
+                                    settings.compressionLevel, minCompressionLevel, maxCompressionLevel));
     }
     if (settings.threads < 0 || settings.threads > 1024) {
-        return badInput(fmt::format("{} threads: must be 1 to 1024, or 0 for one a core", settings.threads));
+        return badInput(fmt::format("threads: {} is out of range; expected [1, 1024] or 0 (one per core)",
+                                    settings.threads));
     }
     if (settings.tileLevels.value_or(0) < 0 || settings.tileLevels.value_or(0) > 10) {
-        return badInput(fmt::format("{} levels a tile: must be 0 to 10", *settings.tileLevels));
+        return badInput(
+            fmt::format("levels per tile: {} is out of range; expected [0, 10]", *settings.tileLevels));
     }
     return {};
 }
@@ -93,20 +95,22 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
     PlanetShape shape;
     const int chunk = settings.chunkSize;
     if (chunk != 17 && chunk != 33 && chunk != 65 && chunk != 129) {
-        return badInput(fmt::format("chunk size {}: must be 17, 33, 65 or 129", chunk));
+        return badInput(fmt::format("chunk size: {} is invalid; expected 17, 33, 65 or 129", chunk));
     }
     shape.chunkCellsLog2 = std::countr_zero(static_cast<unsigned>(chunk - 1));
     const int face = settings.faceSize.value_or(std::max(source.naturalFaceSize, chunk));
     if (face < 2 || !std::has_single_bit(static_cast<unsigned>(face - 1))) {
-        return badInput(fmt::format("face size {}: must be 2^n + 1, such as 1025, 2049 or 4097", face));
+        return badInput(
+            fmt::format("face size: {} is invalid; expected 2^n + 1, for example 1025, 2049 or 4097", face));
     }
     shape.faceCellsLog2 = std::countr_zero(static_cast<unsigned>(face - 1));
     if (face < chunk || shape.faceCellsLog2 > maxFaceCellsLog2 || leafLevel(shape) > maxLevel) {
-        return badInput(fmt::format("face size {}: must be from the chunk size {} to {}", face, chunk,
+        return badInput(fmt::format("face size: {} is out of range; expected [{}, {}], from the chunk size",
+                                    face, chunk,
                                     (1 << std::min(maxFaceCellsLog2, maxLevel + shape.chunkCellsLog2)) + 1));
     }
     if (!(settings.radiusM > 0 && settings.radiusM <= 1e9)) {
-        return badInput(fmt::format("radius {} m: must be over 0 and at most 1e9", settings.radiusM));
+        return badInput(fmt::format("radius: {} m is out of range; expected (0, 1e9] m", settings.radiusM));
     }
     shape.radiusM = settings.radiusM;
     if (auto chosen = chooseQuantum(source, settings.quantumM, shape); !chosen)

@@ -121,10 +121,10 @@ Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings
     const int natural = std::clamp(source.naturalFaceSize, colourTileCells + 1, most);
     const int size = settings.faceSize.value_or(natural);
     if (size <= colourTileCells || size > most || !std::has_single_bit(static_cast<unsigned>(size - 1))) {
-        return badInput(
-            fmt::format("colour face size {}: must be 2^n + 1 from {} to {}, such as 1025, 2049 or "
-                        "4097",
-                        size, colourTileCells + 1, most));
+        return badInput(fmt::format(
+            "colour face size: {} is invalid; expected 2^n + 1 in [{}, {}], for example 1025, 2049 "
+            "or 4097",
+            size, colourTileCells + 1, most));
     }
     return std::countr_zero(static_cast<unsigned>((size - 1) / colourTileCells));
 }

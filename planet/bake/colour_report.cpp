@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "planet/bake/colour_tile_sampling.h"
-#include "planet/format/chunk_file_format.h"
 #include "planet/format/colour_tile.h"
 
 namespace planet {
@@ -119,6 +118,7 @@ private:
         if (auto sampled = sampleColourTile(*source_, tile.id, rgb); !sampled) return sampled;
         ++report_.compared;
         if (colourTexels(colour_.format, rgb) != tile.texels) {
+            ++report_.sourceProblems;
             problem(fmt::format("{}: the colours of tile {} are not those of {}", file_.name(),
                                 toString(tile.id), source_->description));
         }

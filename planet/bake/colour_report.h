@@ -27,6 +27,7 @@ struct ColourVerifyReport {
     std::uint64_t edges = 0;     // that two tiles of a face share, compared
     std::uint64_t compared = 0;  // tiles compared with the source; 0 without one
     std::uint64_t problemCount = 0;
+    std::uint64_t sourceProblems = 0;   // of those: tiles whose colours differ from the source
     std::vector<std::string> problems;  // the first 100, each naming its tile
 };
 

@@ -15,7 +15,6 @@
 #include "planet/bake/finest_distance.h"
 #include "planet/bake/quantise.h"
 #include "planet/base/percentile.h"
-#include "planet/format/chunk_file_format.h"
 #include "planet/sphere/chunk_surface.h"
 #include "planet/sphere/geometric_error.h"
 
@@ -381,6 +380,7 @@ private:
         for (std::size_t i = 0; i < steps.size(); ++i)
             largest = std::max(largest, std::abs(steps[i] - chunk.heights[i]));
         if (largest > 0) {
+            ++report_.sourceProblems;
             chunkProblem(chunk.id, fmt::format("its heights differ from the source by up to {} m",
                                                largest * shape_.quantumM));
         }

@@ -42,6 +42,7 @@ struct VerifyReport {
     std::uint64_t edges = 0;        // shared edges compared
     std::uint64_t leafSamples = 0;  // compared with the source; 0 without one
     std::uint64_t problemCount = 0;
+    std::uint64_t sourceProblems = 0;   // of those: chunks whose heights differ from the source
     std::vector<std::string> problems;  // the first 100, each naming its chunk
 };
 

@@ -36,7 +36,7 @@ bool holds(double baseM, double quantumM, double minM, double maxM) {
 Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wantedM, PlanetShape& shape) {
     const double rangeM = source.maxM - source.minM;
     if (wantedM && !(*wantedM > 0 && *wantedM <= 1e6)) {
-        return badInput(fmt::format("quantum {} m: must be over 0 and at most 1e6", *wantedM));
+        return badInput(fmt::format("quantum: {} m is out of range; expected (0, 1e6] m", *wantedM));
     }
     const bool ownStepFits = source.stepM > 0 && rangeM / source.stepM <= highestStep - lowestStep;
     shape.quantumM = wantedM.value_or(ownStepFits ? source.stepM : finestQuantum(rangeM));
@@ -57,7 +57,7 @@ Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wan
         return {};
     }
     return badInput(
-        fmt::format("{}: heights from {} to {} m do not fit in 16 bits of a quantum of {} m; it must be at "
+        fmt::format("{}: heights in [{}, {}] m exceed 16 bits of quantum {} m; expected a quantum of at "
                     "least {} m",
                     source.description, source.minM, source.maxM, quantum, finestQuantum(rangeM)));
 }
@@ -83,8 +83,7 @@ Result<void> quantise(const PlanetShape& shape, const HeightSource& source, std:
     if (!tooLow && highestM <= heightM(shape, 32767) + halfStepM) return {};
     const double worstM = tooLow ? lowestM : highestM;
     return badInput(fmt::format(
-        "{}: a height of {} m does not fit in 16 bits of a quantum of {} m ({} to {} m); choose a "
-        "larger quantum",
+        "{}: height {} m exceeds 16 bits of quantum {} m, [{}, {}] m; choose a larger quantum",
         source.description, worstM, shape.quantumM, heightM(shape, -32768), heightM(shape, 32767)));
 }
 

@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -30,20 +33,6 @@ Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& call
     return ioError(path.string() + ": is a folder or a device; name a file");
 }
 
-// The file that a chain of symbolic links leads to, whether it exists or not; path itself if it is no link.
-Result<std::filesystem::path> linkTarget(const std::filesystem::path& path) {
-    constexpr int mostLinks = 40;  // as the kernel follows
-    std::filesystem::path target = path;
-    for (int i = 0; i <= mostLinks; ++i) {
-        std::error_code status;
-        if (!std::filesystem::is_symlink(target, status)) return target;
-        const std::filesystem::path next = std::filesystem::read_symlink(target, status);
-        if (status) return ioError(fmt::format("{}: cannot be written: {}", path.string(), status.message()));
-        target = target.parent_path() / next;
-    }
-    return ioError(fmt::format("{}: cannot be written: too many symbolic links", path.string()));
-}
-
 // False where the lock was won on a file that its last writer has renamed or removed meanwhile.
 Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& temporary,
                           const std::filesystem::path& path) {
@@ -59,9 +48,19 @@ Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& tem
     return opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
+std::filesystem::path folderOf(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+// None where there is no file.
+std::optional<mode_t> modeOf(const std::filesystem::path& path, const FileCalls& calls) {
+    struct stat there {};
+    if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) return std::nullopt;
+    return there.st_mode & 07777u;
+}
+
 void syncFolderOf(const std::filesystem::path& path, const FileCalls& calls) {
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    const auto opened = OpenFile::open(folder, O_RDONLY | O_DIRECTORY, calls);
+    const auto opened = OpenFile::open(folderOf(path), O_RDONLY | O_DIRECTORY, calls);
     if (opened) uninterrupted([&] { return calls.fsync(opened->descriptor()); });
 }
 
@@ -84,6 +83,29 @@ Result<void> copyInto(AtomicFile& file, const std::filesystem::path& from) {
 
 }  // namespace
 
+Result<std::filesystem::path> linkTarget(const std::filesystem::path& path) {
+    constexpr int mostLinks = 40;  // as the kernel follows
+    std::filesystem::path target = path;
+    for (int i = 0; i <= mostLinks; ++i) {
+        std::error_code status;
+        if (!std::filesystem::is_symlink(target, status)) return target;
+        const std::filesystem::path next = std::filesystem::read_symlink(target, status);
+        if (status) return ioError(fmt::format("{}: cannot be written: {}", path.string(), status.message()));
+        target = target.parent_path() / next;
+    }
+    return ioError(fmt::format("{}: cannot be written: too many symbolic links", path.string()));
+}
+
+Result<void> checkWritable(const std::filesystem::path& path) {
+    if (Result<void> free = checkPlace(path, systemFileCalls()); !free) return free;
+    const Result<std::filesystem::path> target = linkTarget(path);
+    if (!target) return tl::unexpected(target.error());
+    const std::filesystem::path folder = folderOf(*target);
+    if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+    return ioError(fmt::format("{}: cannot be written: {}: {}; expected a writable folder that exists",
+                               path.string(), folder.string(), lastSystemError()));
+}
+
 AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path target,
                        std::filesystem::path temporary, OpenFile file)
     : path_(std::move(path)),
@@ -97,9 +119,11 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const F
     if (!target) return tl::unexpected(target.error());
     std::filesystem::path temporary = *target;
     temporary.replace_filename("." + target->filename().string() + ".part");
+    const std::optional<mode_t> mode = modeOf(*target, calls);
+    const mode_t openedAs = mode.value_or(0644) | S_IRUSR | S_IWUSR;
     for (;;) {
-        const int descriptor =
-            uninterrupted([&] { return calls.open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644); });
+        const int descriptor = uninterrupted(
+            [&] { return calls.open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, openedAs); });
         if (descriptor < 0) return systemError(path, "cannot be written");
         OpenFile opened(descriptor, path.string(), calls);
         if (uninterrupted([&] { return calls.flock(descriptor, LOCK_EX | LOCK_NB); }) != 0) {
@@ -120,6 +144,9 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const F
             continue;
         }
         if (uninterrupted([&] { return calls.ftruncate(descriptor, 0); }) != 0)
+            return systemError(path, "cannot be written");
+        // The system's mask cuts the mode that a file is opened with, and a killed writer's file has its own.
+        if (mode && uninterrupted([&] { return ::fchmod(descriptor, *mode); }) != 0)
             return systemError(path, "cannot be written");
         return file;
     }

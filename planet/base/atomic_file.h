@@ -14,6 +14,7 @@
 namespace planet {
 
 // A symbolic link is kept: the file that it leads to is written, and the temporary file lies beside that one.
+// A file that is replaced keeps its mode.
 // Owns the temporary file; unless committed, the destructor removes it and what was there before stays. Only
 // one writer a path at a time: a second one gets an Error. What a killed writer left behind is written over.
 // One thread.
@@ -46,6 +47,13 @@ private:
     OpenFile file_;  // closed once it is committed
     std::uint64_t size_ = 0;
 };
+
+// Returns the file that a chain of symbolic links leads to, whether it exists or not; path itself if it is no
+// link.
+Result<std::filesystem::path> linkTarget(const std::filesystem::path& path);
+
+// An Error where AtomicFile would find no place for a file of this name.
+Result<void> checkWritable(const std::filesystem::path& path);
 
 // For libraries that write files by their names: calls write with a name beside the target that has the same
 // extension, and takes over what is there then. One writer a target at a time, as above.

@@ -104,10 +104,10 @@ Result<std::vector<std::byte>> ChunkFile::readBlock(const BlockId& id, BlockLoca
     if (location.offset < chunkFileHeaderBytes || location.size > bytes.most ||
         location.offset > sizeBytes_ || location.size > sizeBytes_ - location.offset ||
         location.size < bytes.least) {
-        return badInput(
-            fmt::format("{}: the block of {} is said to be {} bytes at {}, which the file of {} bytes "
-                        "cannot hold; bake it again",
-                        name_, nameOf(id), location.size, location.offset, sizeBytes_));
+        return badInput(fmt::format(
+            "{}: the block of {} is recorded as {} bytes at {}, which exceeds the file size, {} bytes; "
+            "bake it again",
+            name_, nameOf(id), location.size, location.offset, sizeBytes_));
     }
     std::vector<std::byte> block(location.size);
     if (auto read = readAt_(location.offset, block); !read) return tl::unexpected(read.error());
@@ -126,7 +126,7 @@ Result<std::span<const std::byte>> ChunkFile::checkedContent(const BlockId& id,
 
 Error ChunkFile::nonsense(const BlockId& id, std::string_view what) const {
     return {ErrorKind::BadInput,
-            fmt::format("{}: the block of {} makes no sense: {}; bake it again", name_, nameOf(id), what)};
+            fmt::format("{}: the block of {} is invalid: {}; bake it again", name_, nameOf(id), what)};
 }
 
 Result<ChunkData> ChunkFile::readRoot(Face face) const {

@@ -9,8 +9,8 @@
 // height_codec.h). A root block holds a face's root chunk whole. Each block says, for its chunks, delta_c,
 // the tight metric (finest_distance.h), the lowest and highest finest height under them, and where their own
 // children lie; so the index is paged with the data. Everything is little-endian; each block ends in an XXH3
-// checksum seeded with the chunk's key, so that a block read for the wrong chunk fails too. README.md has the
-// layout byte by byte.
+// checksum seeded with the chunk's key, so that a block read for the wrong chunk fails too. README.md beside it
+// has the layout byte by byte.
 //
 // A colour block holds the four tiles that are the children of one tile, or a root tile alone: for each tile
 // where its own children lie and how many bytes it takes, then the packed tiles, then such a checksum.

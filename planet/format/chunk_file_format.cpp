@@ -81,12 +81,11 @@ Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
         root.offset = in.get<std::uint64_t>();
         root.size = in.get<std::uint32_t>();
     }
-    if (kind > 2) return badInput(fmt::format("colours of kind {}, which there is none", kind));
+    if (kind > 2) return badInput(fmt::format("unknown colour format {}", kind));
     if (colour.leafLevel > maxColourLevel)
         return badInput(
-            fmt::format("{} levels of colours ({} are possible)", colour.leafLevel + 1, maxColourLevel + 1));
-    if (!readText(in, maxColourSourceBytes, colour.source))
-        return badInput("a name of colours that is too long");
+            fmt::format("{} colour levels; expected at most {}", colour.leafLevel + 1, maxColourLevel + 1));
+    if (!readText(in, maxColourSourceBytes, colour.source)) return badInput("colour source name too long");
     return colour;
 }
 
@@ -102,8 +101,8 @@ std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileByte
         const std::string name = fmt::format("colour tile {}", toString({face, 0, 0, 0}));
         if (block.size == 0 || block.offset < chunkFileHeaderBytes || block.offset > fileBytes ||
             block.size > fileBytes - block.offset) {
-            return fmt::format("a root block of {} of {} bytes at {}, which the file of {} bytes cannot hold",
-                               name, block.size, block.offset, fileBytes);
+            return fmt::format("root block of {}: {} bytes at {}; the file has {} bytes", name, block.size,
+                               block.offset, fileBytes);
         }
         places.push_back({block, name});
     }
@@ -118,7 +117,7 @@ std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileByte
             const bool apart =
                 a.offset < b.offset ? b.offset - a.offset >= a.size : a.offset - b.offset >= b.size;
             if (!apart)
-                return fmt::format("root blocks of {} and {} that overlap", places[i].name, places[j].name);
+                return fmt::format("root blocks of {} and {} overlap", places[i].name, places[j].name);
         }
     }
     return {};
@@ -126,15 +125,14 @@ std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileByte
 
 // Empty where the shape is one that this program bakes.
 std::string shapeProblem(const PlanetShape& shape) {
-    if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("a radius of {} m", shape.radiusM);
-    if (!(shape.quantumM > 0 && shape.quantumM <= 1e6))
-        return fmt::format("a quantum of {} m", shape.quantumM);
-    if (!(std::abs(shape.baseHeightM) <= 1e9)) return fmt::format("a base height of {} m", shape.baseHeightM);
+    if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("radius {} m", shape.radiusM);
+    if (!(shape.quantumM > 0 && shape.quantumM <= 1e6)) return fmt::format("quantum {} m", shape.quantumM);
+    if (!(std::abs(shape.baseHeightM) <= 1e9)) return fmt::format("base height {} m", shape.baseHeightM);
     if (shape.chunkCellsLog2 < 4 || shape.chunkCellsLog2 > 7) {
-        return fmt::format("chunks of 2^{} cells a side (4 to 7 are possible)", shape.chunkCellsLog2);
+        return fmt::format("chunks of 2^{} cells per side; expected 2^4 to 2^7", shape.chunkCellsLog2);
     }
     if (shape.faceCellsLog2 < shape.chunkCellsLog2 || shape.faceCellsLog2 > maxFaceCellsLog2) {
-        return fmt::format("faces of 2^{} cells a side ({} to {} are possible)", shape.faceCellsLog2,
+        return fmt::format("faces of 2^{} cells per side; expected 2^{} to 2^{}", shape.faceCellsLog2,
                            shape.chunkCellsLog2, maxFaceCellsLog2);
     }
     return {};
@@ -262,8 +260,8 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     const auto headerSize = in.get<std::uint32_t>();
     const auto recordedBytes = in.get<std::uint64_t>();
     if (headerSize != chunkFileHeaderBytes) {
-        return badInput(fmt::format("{}: a header of {} bytes; {} were expected; bake it again", name,
-                                    headerSize, chunkFileHeaderBytes));
+        return badInput(fmt::format("{}: header of {} bytes; expected {}; bake it again", name, headerSize,
+                                    chunkFileHeaderBytes));
     }
     if (recordedBytes != fileBytes) {
         return badInput(
@@ -277,7 +275,7 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     info.shape.faceCellsLog2 = in.get<std::uint8_t>();
     info.shape.chunkCellsLog2 = in.get<std::uint8_t>();
     if (const std::string problem = shapeProblem(info.shape); !problem.empty()) {
-        return badInput(fmt::format("{}: the header asks for {}; bake it again", name, problem));
+        return badInput(fmt::format("{}: invalid header: {}; bake it again", name, problem));
     }
     info.minStep = in.get<std::int16_t>();
     info.maxStep = in.get<std::int16_t>();
@@ -290,20 +288,19 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     const bool hasText = readText(in, maxSourceBytes, info.source);
     if (info.shape.radiusM + heightM(info.shape, info.minStep) <= 0) {
         return badInput(
-            fmt::format("{}: the header has heights below the planet's centre; bake it again", name));
+            fmt::format("{}: invalid header: heights below the planet's centre; bake it again", name));
     }
     if (!hasText || info.minStep > info.maxStep) {
-        return badInput(fmt::format("{}: the header contradicts itself; bake it again", name));
+        return badInput(fmt::format("{}: the header is inconsistent; bake it again", name));
     }
     // Older files have zeros there, which mean none.
     auto colour = readColour(in);
     if (!colour)
-        return badInput(
-            fmt::format("{}: the header asks for {}; bake it again", name, colour.error().message));
+        return badInput(fmt::format("{}: invalid header: {}; bake it again", name, colour.error().message));
     info.colour = *std::move(colour);
     if (!info.colour) return info;
     if (const std::string problem = colourRootsProblem(info, fileBytes); !problem.empty())
-        return badInput(fmt::format("{}: the header asks for {}; bake it again", name, problem));
+        return badInput(fmt::format("{}: invalid header: {}; bake it again", name, problem));
     return info;
 }
 

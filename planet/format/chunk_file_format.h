@@ -1,4 +1,4 @@
-// The bytes of the chunk file, shared by its reader and its writer. README.md has the same as a table.
+// The bytes of the chunk file, shared by its reader and its writer. README.md beside it has the table.
 // Pure functions, any thread.
 //
 // Version 3 has colours, or zeros in their place; all else is version 2's, which is read as without. Header:

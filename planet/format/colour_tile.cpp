@@ -8,8 +8,6 @@
 #include <array>
 #include <cassert>
 
-#include "planet/sphere/face_fold.h"
-
 #define STB_DXT_IMPLEMENTATION
 #include <stb/stb_dxt.h>
 

@@ -269,8 +269,8 @@ void encodePlain(std::span<const std::int16_t> fine, int coarseCells, std::vecto
 Result<void> decodePlain(std::span<const std::byte> coded, int coarseCells, std::span<std::int16_t> fine) {
     const std::size_t wanted = 2 * missingSamples(coarseCells);
     if (coded.size() != wanted)
-        return badInput(fmt::format("height block: {} bytes of plain samples where there must be {}",
-                                    coded.size(), wanted));
+        return badInput(
+            fmt::format("height block: {} bytes of plain samples; expected {}", coded.size(), wanted));
     std::size_t next = 0;
     forEachMissing(coarseCells, [&](std::size_t index) { fine[index] = sampleAt(coded, next++); });
     return {};
@@ -314,7 +314,7 @@ Result<void> decodeEntropy(std::span<const std::byte> coded, std::span<const std
             return badInput("height block: coded data ends early or is damaged");
     }
     if (!decoder.ended())
-        return badInput("height block: coded data is damaged or goes on after its last sample");
+        return badInput("height block: coded data is damaged or continues after the last sample");
     return {};
 }
 
@@ -354,7 +354,7 @@ Result<void> decodeRefinement(std::span<const std::byte> coded, std::span<const 
         case Storage::Entropy:
             return decodeEntropy(coded.subspan(1), coarse, coarseCells, fine);
     }
-    return badInput(fmt::format("height block: unknown storage {}, must be 0 or 1", storage));
+    return badInput(fmt::format("height block: unknown storage {}; expected 0 or 1", storage));
 }
 
 namespace {

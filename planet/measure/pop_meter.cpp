@@ -90,6 +90,7 @@ const char* popCauseName(PopCause cause) {
 }
 
 const char* popNote(const PopEvent& event) {
+    if (!event.measured) return "not measured";
     if (event.jump.underSea) return "under sea";
     if (event.jump.places == 0) return "outside picture";
     return event.afterJump ? "after jump" : "";
@@ -125,11 +126,13 @@ void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View
     now.conditions.cameraJumped |= !before_;
     nowS_ = timeS;
     std::vector<Switch> switches;
-    if (before_ && before_->exaggeration == now.exaggeration) switches = findSwitches(now);
+    if (before_) switches = findSwitches(now);
     if (!switches.empty()) {
         const auto start = std::chrono::steady_clock::now();
-        measure(tree.shape, now, switches);
-        measureBeside(tree.shape, now, switches);
+        if (before_->exaggeration == now.exaggeration) {
+            measure(tree.shape, now, switches);
+            measureBeside(tree.shape, now, switches);
+        }
         totals_.measuringS += secondsSince(start);
         now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
         for (Switch& change : switches) {
@@ -359,6 +362,7 @@ void PopMeter::note(const Frame& now, const Switch& change) {
     event.chunk = change.chunk;
     event.cause = change.why.cause;
     event.afterJump = change.why.afterJump;
+    event.measured = before_->exaggeration == now.exaggeration;
     event.jump = change.jump;
     event.besidePx = change.besidePx;
     event.viewBefore = before_->view;
@@ -376,7 +380,9 @@ void PopMeter::note(const Frame& now, const Switch& change) {
     event.toLevel = change.merged ? change.chunk.level : finest;
     ++totals_.switches;
     ++totals_.byCause[static_cast<std::size_t>(event.cause)];
-    if (event.jump.underSea)
+    if (!event.measured)
+        ++totals_.notMeasured;
+    else if (event.jump.underSea)
         ++totals_.underSea;
     else if (event.jump.places == 0)
         ++totals_.outsidePicture;

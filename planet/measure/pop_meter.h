@@ -65,6 +65,7 @@ struct PopEvent {
     int toLevel = 0;
     PopCause cause = PopCause::CameraMoved;
     bool afterJump = false;  // it was wanted in the frame of a jump, or in the first
+    bool measured = true;    // false where the exaggeration changed in the same frame
     SurfaceJump jump;        // of the place itself; jump.places is 0 where nothing of it is seen
     double besidePx = 0;     // the largest screenPx along edges of unchanged chunks that it lies beside
     View viewBefore;
@@ -79,7 +80,7 @@ struct PopEvent {
 inline bool counts(const PopEvent& event) {
     return event.jump.places > 0 && !event.afterJump;
 }
-// Why it does not: "outside picture", "under sea" or "after jump"; "" where it counts.
+// Why it does not: "not measured", "outside picture", "under sea" or "after jump"; "" where it counts.
 const char* popNote(const PopEvent& event);
 // Those that count first, of either kind the largest jump first, and of equal ones the earliest.
 bool isWorsePop(const PopEvent& a, const PopEvent& b);
@@ -106,6 +107,7 @@ struct LateArrival {
 struct PopTotals {
     std::array<std::uint64_t, popCauseCount> byCause{};
     std::uint64_t switches = 0;
+    std::uint64_t notMeasured = 0;     // switches in a frame that changed the exaggeration
     std::uint64_t outsidePicture = 0;  // switches of which no place lay in the picture
     std::uint64_t underSea = 0;        // of which all places in the picture lay under a drawn sea
     std::uint64_t afterJump = 0;       // seen, but after a jump
@@ -121,8 +123,8 @@ struct PopTotals {
 class PopMeter {
 public:
     // One frame: what is drawn now, the view that shows it, and the settings that chose it. A time before the
-    // last one forgets everything first; another exaggeration the frame before, so that nothing is measured
-    // across it.
+    // last one forgets everything first. Across another exaggeration all heights jump: switches are counted by
+    // cause, but no jump of theirs is measured.
     void add(const ChunkTree& tree, const Selection& selection, const View& view, const LodSettings& settings,
              double timeS, const PopConditions& conditions = {});
     // Forgets everything: for another planet.

@@ -40,15 +40,16 @@ bool isTrouble(const BadDiskSettings& settings) {
 
 Result<void> checkBadDisk(const BadDiskSettings& settings) {
     if (!within(settings.latencyMs, mostLatencyMs)) {
-        return badInput(
-            fmt::format("a bad disk's latency of {} ms; 0 to {} will do", settings.latencyMs, mostLatencyMs));
+        return badInput(fmt::format("injected latency: {} ms is out of range; expected [0, {}] ms",
+                                    settings.latencyMs, mostLatencyMs));
     }
     if (!within(settings.bandwidthMBs, mostBandwidthMBs)) {
-        return badInput(fmt::format("a bad disk's bandwidth of {} MB/s; 0 to {} will do",
+        return badInput(fmt::format("injected bandwidth: {} MB/s is out of range; expected [0, {}] MB/s",
                                     settings.bandwidthMBs, mostBandwidthMBs));
     }
     if (!within(settings.failureRate, 1)) {
-        return badInput(fmt::format("a bad disk's failure rate of {}; 0 to 1 will do", settings.failureRate));
+        return badInput(
+            fmt::format("injected failure rate: {} is out of range; expected [0, 1]", settings.failureRate));
     }
     return {};
 }

@@ -26,10 +26,8 @@ Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& re
 
 Result<LoadedBlock> failedOnPurpose(const BlockId& block, std::uint32_t seed,
                                     ErrorKind kind = ErrorKind::Io) {
-    if (kind == ErrorKind::BadInput)
-        return badInput(
-            fmt::format("{}: was not what it should be, when this was recorded", toString(block)));
-    return ioError(fmt::format("{}: read failed on purpose (bad disk, seed {})", toString(block), seed));
+    if (kind == ErrorKind::BadInput) return badInput(fmt::format("{}: recorded as corrupt", toString(block)));
+    return ioError(fmt::format("{}: injected read failure (seed {})", toString(block), seed));
 }
 
 std::optional<ErrorKind> failureOf(const DiskFault& fault) {

@@ -19,6 +19,7 @@ SubmitOutcome PagingQueue::submit(PagingRequest request) {
     }
     PagingRequest& pending = found->second;
     if (pending.type != request.type) {
+        ++counters_.cancelled[static_cast<std::size_t>(pending.type)];
         take(request.block());
         ++counters_.opposed;
         return SubmitOutcome::Opposed;
@@ -89,8 +90,10 @@ std::optional<PagingRequest> PagingQueue::popFirst(
 }
 
 std::optional<PagingRequest> PagingQueue::cancel(BlockId block) {
-    if (!find(block)) return std::nullopt;
+    const PagingRequest* found = find(block);
+    if (!found) return std::nullopt;
     ++counters_.withdrawn;
+    ++counters_.cancelled[static_cast<std::size_t>(found->type)];
     return take(block);
 }
 
@@ -103,6 +106,7 @@ std::vector<PagingRequest> PagingQueue::cancelNotRenewed(PagingType type, std::u
     cancelled.reserve(stale.size());
     for (const BlockId& block : stale) cancelled.push_back(take(block));
     counters_.withdrawn += cancelled.size();
+    counters_.cancelled[static_cast<std::size_t>(type)] += cancelled.size();
     return cancelled;
 }
 

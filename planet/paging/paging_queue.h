@@ -55,11 +55,12 @@ struct PagingRequest {
 
 // Totals, of both types together unless said otherwise.
 struct PagingQueueCounters {
-    std::array<std::uint64_t, pagingTypeCount> added{};   // by type
-    std::array<std::uint64_t, pagingTypeCount> popped{};  // by type
-    std::uint64_t merged = 0;                             // asked for again while pending
-    std::uint64_t opposed = 0;                            // cancelled by the opposite request
-    std::uint64_t withdrawn = 0;                          // cancelled by cancel() or for not being renewed
+    std::array<std::uint64_t, pagingTypeCount> added{};      // by type
+    std::array<std::uint64_t, pagingTypeCount> popped{};     // by type
+    std::uint64_t merged = 0;                                // asked for again while pending
+    std::uint64_t opposed = 0;                               // cancelled by the opposite request
+    std::uint64_t withdrawn = 0;                             // cancelled by cancel() or for not being renewed
+    std::array<std::uint64_t, pagingTypeCount> cancelled{};  // either way, by type
 };
 
 enum class SubmitOutcome {

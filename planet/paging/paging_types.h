@@ -84,10 +84,12 @@ struct PagingMoves {
 // of tiles. For each kind, loaded - evicted blocks are resident now, not counting checker patterns in place
 // of failed ones.
 struct PagingCounters {
-    std::uint64_t requested = 0;       // page-ins put into the queue
-    std::uint64_t merged = 0;          // requested again while queued
-    std::uint64_t cancelled = 0;       // replaced by the opposite request, no longer wanted, or discarded
-    std::uint64_t loaded = 0;          // blocks of heights read and made resident
+    std::uint64_t requested = 0;          // page-ins put into the queue
+    std::uint64_t merged = 0;             // requested again while queued
+    std::uint64_t cancelled = 0;          // replaced by the opposite request, no longer wanted, or discarded
+    std::uint64_t pageOutsQueued = 0;     // page-outs put into the queue
+    std::uint64_t pageOutsCancelled = 0;  // those in cancelled; the others are page-ins
+    std::uint64_t loaded = 0;             // blocks of heights read and made resident
     double loadSeconds = 0;            // spent on reading and decoding blocks of any kind, over all threads
     std::uint64_t evicted = 0;         // blocks of heights paged out
     std::uint64_t failed = 0;          // reads of heights that failed

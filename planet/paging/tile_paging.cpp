@@ -242,9 +242,9 @@ Result<std::uint32_t> tilesFor(const TilePyramid& pyramid, std::size_t budgetByt
     const std::uint64_t all = tileCountOf(pyramid.leafLevel);
     const std::uint64_t least = std::min(wanted, all);
     if (budgetBytes / bytes < least || most < least) {
-        return badInput(fmt::format(
-            "room for {} {} is too little for this planet: it needs at least {}, {} bytes",
-            std::min<std::uint64_t>(budgetBytes / bytes, most), pyramid.name, least, least * bytes));
+        return badInput(fmt::format("budget too small for this planet: {} {}; expected at least {}, {} bytes",
+                                    std::min<std::uint64_t>(budgetBytes / bytes, most), pyramid.name, least,
+                                    least * bytes));
     }
     const std::uint64_t tiles = std::min({std::uint64_t{budgetBytes / bytes}, std::uint64_t{most}, all});
     return static_cast<std::uint32_t>(tiles - (tiles - faceCount) % quadrantCount);

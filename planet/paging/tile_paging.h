@@ -101,7 +101,7 @@ private:
 // The tiles that a share of a budget pays for: the roots' six and then whole blocks, no more than there are
 // or than `most`. The Error says what the least is: enough that the finest level can be reached in one place.
 struct TilePyramid {
-    const char* name = "";  // "tiles of colour"
+    const char* name = "";  // "colour tiles"
     int leafLevel = 0;
     std::size_t tileBytes = 0;
 };

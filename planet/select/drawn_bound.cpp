@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 #include "planet/select/drawn_surface.h"
+#include "planet/select/screen_error.h"
+#include "planet/sphere/bounds.h"
+#include "planet/sphere/cube_sphere.h"
 #include "planet/tree/chunk_table.h"
 
 namespace planet {
@@ -17,6 +22,28 @@ double mostSlideM(const DrawItem& item, ErrorMetric metric) {
     const auto parentM = static_cast<double>(item.parentDeltaM);
     return metric == ErrorMetric::Additive ? std::max(parentM - static_cast<double>(item.deltaCM), 0.0)
                                            : parentM;
+}
+
+double distanceOf(const DrawItem& item) {
+    return static_cast<double>(std::max(item.distanceM, item.nearestSampleM));
+}
+
+// The distance to the nearest vertex; of a leaf the vertices are the finest samples.
+double nearestVertexM(const PlanetShape& shape, const ChunkNode& node, const glm::dvec3& eyeM) {
+    const int cells = chunkCells(shape);
+    const FaceSquare square = faceSquareOf(node.id);
+    double nearestM = std::numeric_limits<double>::infinity();
+    std::size_t index = 0;
+    for (int row = 0; row <= cells; ++row) {
+        for (int column = 0; column <= cells; ++column) {
+            const double u = square.u + square.side * column / cells;
+            const double v = square.v + square.side * row / cells;
+            const glm::dvec3 direction = sphereFromCube(cubePoint(node.id.face, u, v));
+            const glm::dvec3 vertexM = positionM(shape, direction, heightM(shape, (*node.heights)[index++]));
+            nearestM = std::min(nearestM, glm::distance(vertexM, eyeM));
+        }
+    }
+    return nearestM;
 }
 
 double edgeSlideM(std::span<const DrawItem> items, const DrawItem& item, std::size_t edge,
@@ -34,9 +61,12 @@ double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const D
     const auto eps = static_cast<double>(item.epsPx);
     const auto morph = static_cast<double>(item.morph);
     const auto deltaM = static_cast<double>(item.deltaCM);
-    const auto distanceM = static_cast<double>(item.distanceM);
+    const double distanceM = distanceOf(item);
     const auto parentM = std::max(static_cast<double>(item.parentDeltaM), deltaM);
-    const double inside = eps + morph * std::max(static_cast<double>(item.parentEpsPx) - eps, 0.0);
+    const double parentPx =
+        std::min(static_cast<double>(item.parentEpsPx),
+                 static_cast<double>(item.parentDeltaM) * screenScalePx / std::max(distanceM, nearestM));
+    const double inside = eps + morph * std::max(parentPx - eps, 0.0);
     const double slidM = morph * mostSlideM(item, metric);
     double mixedPx = 0;  // the two bounds of what lies along an edge
     double slidPx = 0;
@@ -48,8 +78,7 @@ double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const D
         if (edgeMorph == morph && !gathers) continue;
         const std::uint32_t neighbour = neighbours[edge];
         const double slideM = edgeSlideM(items, item, edge, neighbour, metric);
-        const double besideM =
-            neighbour == noNeighbour ? 0 : static_cast<double>(items[neighbour].distanceM) - spanM;
+        const double besideM = neighbour == noNeighbour ? 0 : distanceOf(items[neighbour]) - spanM;
         const double pxPerM = screenScalePx / std::max(distanceM, besideM);
         mixedPx = std::max(
             mixedPx,
@@ -71,6 +100,15 @@ double cellSpanM(const PlanetShape& shape, const ChunkNode& node) {
     const double cellSide = 2.0 / static_cast<double>(std::uint64_t{1} << node.id.level) / chunkCells(shape);
     const double highestM = shape.radiusM + static_cast<double>(node.maxHeightM);
     return 2 * cellSide * highestM + static_cast<double>(node.maxHeightM - node.minHeightM);
+}
+
+double nearestSampleM(const PlanetShape& shape, const ChunkNode& node, const glm::dvec3& eyeM) {
+    const double eyeHeightM = glm::length(eyeM) - shape.radiusM;
+    const double byHeightM = std::max(eyeHeightM - static_cast<double>(node.maxHeightM),
+                                      static_cast<double>(node.minHeightM) - eyeHeightM);
+    if (node.childrenState != ChildrenState::None) return std::max(byHeightM, 0.0);
+    const double nearM = std::max(byHeightM, distanceM(node.bounds.box, eyeM));
+    return nearM < cellSpanM(shape, node) ? nearestVertexM(shape, node, eyeM) : std::max(byHeightM, 0.0);
 }
 
 void fillDrawnBounds(std::span<DrawItem> items, std::span<const DrawnNeighbours> neighbours,

@@ -7,7 +7,9 @@
 // the parent's own step plus delta, so s <= delta_P - delta.
 //
 //   inside          (1 - m) eps + m eps_P      since each point is drawn so far on the way from the chunk's
-//                                              surface to its parent's; eps_P is the parent's own eps
+//                                              surface to its parent's; eps_P is the parent's own eps, or
+//                                              delta_P K' / D where that is less: only what the chunk covers
+//                                              is seen, and it is no nearer than D
 //   along an edge   an edge e has a morph m_e of its own. Its vertices lie on the chunk beside it too, so s_e
 //   is
 //                   at most s, at most the same of a neighbour of the chunk's level, and at most the delta of
@@ -17,6 +19,9 @@
 //                   with others, so the smaller of two bounds holds:
 //                     ((1 - m) delta + m delta_P + |m_e - m| s_e) K' / D_e
 //                     (delta + max(m s, m_e s_e)) K' / D_e
+//
+// D is the distance to the chunk's box or, where that is more, nearestSampleM. The box of a large chunk reaches
+// far above its ground and below it, and may hold an eye that is kilometres away from any sample.
 //
 // Along an edge that is stitched to a coarser chunk a triangle has two of that one's vertices and one of the
 // chunk's own, so both errors are added up; while vertices are gathered (drawn_surface.h), s_e counts once
@@ -28,6 +33,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 
 #include "planet/select/lod_types.h"
@@ -44,6 +50,10 @@ using DrawnNeighbours = std::array<std::uint32_t, edgeCount>;
 
 // Returns L above, metres: no two points of one of the chunk's cells, drawn or true, are farther apart.
 double cellSpanM(const PlanetShape& shape, const ChunkNode& node);
+
+// Returns a distance that no finest sample of the chunk is nearer than, metres: by its range of heights, and
+// of a leaf nearer than cellSpanM by its samples.
+double nearestSampleM(const PlanetShape& shape, const ChunkNode& node, const glm::dvec3& eyeM);
 
 // Fills DrawItem::drawnBoundPx. cellSpansM: L of each item, infinity where it is not known. screenScalePx:
 // K'. stitched: drawn with RenderSettings::stitched.

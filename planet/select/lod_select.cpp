@@ -401,6 +401,13 @@ private:
         }
     }
 
+    // 0 where the bound does not depend on it.
+    float nearestSampleOf(const DrawItem& item, const ChunkNode& node) const {
+        const bool slides = item.morph > 0 || std::any_of(item.edgeMorph.begin(), item.edgeMorph.end(),
+                                                          [](float morph) { return morph > 0; });
+        return slides ? static_cast<float>(nearestSampleM(frame_.tree.shape, node, frame_.eyeM)) : 0.0f;
+    }
+
     void fillBounds() {
         std::vector<DrawnNeighbours> neighbours(beyond_.size());
         for (std::size_t i = 0; i < beyond_.size(); ++i) {
@@ -408,8 +415,12 @@ private:
         }
         std::vector<double> cellSpansM;
         cellSpansM.reserve(out_.draw.size());
-        for (const DrawItem& item : out_.draw)
-            cellSpansM.push_back(cellSpanM(frame_.tree.shape, frame_.tree.nodes[item.node]));
+        for (DrawItem& item : out_.draw) {
+            const ChunkNode& node = frame_.tree.nodes[item.node];
+            cellSpansM.push_back(cellSpanM(frame_.tree.shape, node));
+            // An unmorphed item's bound is its eps.
+            if (settings_.morph) item.nearestSampleM = nearestSampleOf(item, node);
+        }
         fillDrawnBounds(out_.draw, neighbours, cellSpansM, frame_.scalePx, settings_.metric,
                         settings_.seams == SeamMode::Stitched);
         for (const DrawItem& item : out_.draw)

@@ -48,16 +48,17 @@ struct LodSettings {
 struct DrawItem {
     NodeIndex node = noNode;
     ChunkId id;
-    std::uint32_t slot = 0;   // in the pool of heights
-    float epsPx = 0;          // error on screen, pixels
-    float parentEpsPx = 0;    // the parent's; 0 for a root
-    float drawnBoundPx = 0;   // bound of what is drawn, morph included (drawn_bound.h); epsPx without morph
-    float distanceM = 0;      // from the eye to the bounding volume; nearestM inside it (screen_error.h)
-    float deltaCM = 0;        // metres, by LodSettings::metric
-    float parentDeltaM = 0;   // the parent's; 0 for a root
-    float skirtDepthM = 0;    // metres, towards the planet's centre; 0 unless seams are Skirts
-    float morph = 0;          // [0, 1]: 0 own surface, 1 the parent's
-    bool splitWaits = false;  // its children would be drawn, but it has not shown just its own surface
+    std::uint32_t slot = 0;    // in the pool of heights
+    float epsPx = 0;           // error on screen, pixels
+    float parentEpsPx = 0;     // the parent's; 0 for a root
+    float drawnBoundPx = 0;    // bound of what is drawn, morph included (drawn_bound.h); epsPx without morph
+    float distanceM = 0;       // from the eye to the bounding volume; nearestM inside it (screen_error.h)
+    float nearestSampleM = 0;  // no finest sample is nearer to the eye, metres (drawn_bound.h); 0: not known
+    float deltaCM = 0;         // metres, by LodSettings::metric
+    float parentDeltaM = 0;    // the parent's; 0 for a root
+    float skirtDepthM = 0;     // metres, towards the planet's centre; 0 unless seams are Skirts
+    float morph = 0;           // [0, 1]: 0 own surface, 1 the parent's
+    bool splitWaits = false;   // its children would be drawn, but it has not shown just its own surface
     // A chunk above it would be drawn, but the chunks below that one have not all shown its surface.
     bool mergeWaits = false;
     // By edge, west to north: the levels by which the drawn neighbour is coarser; 0 where it is not coarser.

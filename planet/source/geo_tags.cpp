@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 #include <tiffio.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <numbers>
 #include <span>
+#include <sstream>
+#include <vector>
 
 namespace planet {
 
@@ -20,6 +25,7 @@ constexpr std::uint32_t modelTiepointTag = 33922;
 constexpr std::uint32_t modelTransformationTag = 34264;
 constexpr std::uint32_t geoKeyDirectoryTag = 34735;
 constexpr std::uint32_t geoDoubleParamsTag = 34736;
+constexpr std::uint32_t gdalMetadataTag = 42112;
 constexpr std::uint32_t gdalNoDataTag = 42113;
 
 constexpr int modelTypeKey = 1024;
@@ -29,6 +35,7 @@ constexpr int semiMajorAxisKey = 2057;
 constexpr int projectedTypeKey = 3072;
 constexpr int projectionMethodKey = 3075;
 constexpr int linearUnitsKey = 3076;
+constexpr int verticalUnitsKey = 4099;
 constexpr int standardParallelKey = 3078;
 constexpr int originLongitudeKey = 3080;
 constexpr int centreLongitudeKey = 3088;
@@ -134,11 +141,23 @@ std::string projectionText(const GeoKeys& keys) {
                                : fmt::format("projected coordinates, EPSG {}", code);
 }
 
+// Of the equirectangular projections with a code, all centred on longitude 0; 0 of any other. Files with a code
+// often leave the projection's own keys out.
+double knownRadiusM(std::optional<int> code) {
+    if (code == 4087 || code == 32662) return 6378137;  // WGS 84
+    return code == 4088 ? 6371007 : 0;
+}
+
 // Equirectangular with its true scale along the equator, in metres, on a sphere or ellipsoid whose size the
 // file tells: the scale of its degrees is that of the equator.
 void setProjectedModel(const GeoKeys& keys, GeoPlacement& placement) {
     placement.model = GeoModel::Other;
     placement.modelText = projectionText(keys);
+    if (const double radiusM = knownRadiusM(keys.code(projectedTypeKey)); radiusM > 0) {
+        placement.model = GeoModel::Metres;
+        placement.metresPerDegree = radiusM * std::numbers::pi / 180;
+        return;
+    }
     if (keys.code(projectionMethodKey) != methodEquirectangular) return;
     if (keys.code(linearUnitsKey).value_or(linearMetre) != linearMetre) return;
     if (keys.number(standardParallelKey).value_or(0) != 0) return;
@@ -172,16 +191,188 @@ std::optional<double> noDataOf(TIFF* tiff) {
     return value;
 }
 
+std::string verticalUnit(std::optional<int> code) {
+    if (!code || code == 0 || code == linearMetre || code == userDefined) return {};
+    if (code == 9002) return "ft";
+    return code == 9003 ? "us-ft" : fmt::format("EPSG {}", *code);
+}
+
+std::optional<double> numberIn(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
+}
+
+// The text of the first element of a name whose start tag passes a test; empty if there is none.
+template <class Test>
+std::string elementText(const std::string& xml, const std::string& name, const Test& test) {
+    for (std::size_t at = xml.find('<' + name); at != std::string::npos; at = xml.find('<' + name, at + 1)) {
+        const std::size_t end = xml.find('>', at);
+        const std::size_t close = xml.find("</" + name, at);
+        if (end == std::string::npos || close == std::string::npos || close < end) return {};
+        const char after = xml[at + 1 + name.size()];
+        if (after != '>' && after != ' ') continue;
+        if (test(xml.substr(at, end - at))) return trimmed(xml.substr(end + 1, close - end - 1));
+    }
+    return {};
+}
+
+// Of GDAL_METADATA: <Item name="SCALE" sample="0" role="scale">0.1</Item>.
+void takeBandItems(const std::string& xml, GeoTags& tags) {
+    const auto item = [&](const char* role) {
+        return elementText(xml, "Item", [&](const std::string& start) {
+            return start.find(fmt::format("role=\"{}\"", role)) != std::string::npos &&
+                   (start.find("sample=") == std::string::npos ||
+                    start.find("sample=\"0\"") != std::string::npos);
+        });
+    };
+    tags.scale = numberIn(item("scale"));
+    tags.offset = numberIn(item("offset"));
+    tags.unit = item("unittype");
+}
+
+constexpr std::size_t mostSidecarBytes = std::size_t{1} << 20;
+
+std::string contentOf(const std::filesystem::path& file) {
+    std::string content(mostSidecarBytes, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+    content.resize(static_cast<std::size_t>(stream.gcount()));
+    return content;
+}
+
+// The world file beside an image: its extension's first and last letter and a w, all of it and a w, or wld.
+std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
+    std::string extension = image.extension().string();
+    if (extension.size() < 2) return {};
+    for (char& letter : extension)
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    for (std::string name :
+         {std::string{'.', extension[1], extension.back(), 'w'}, extension + 'w', std::string(".wld")}) {
+        for (int i = 0; i < 2; ++i) {
+            std::filesystem::path file = image;
+            file.replace_extension(name);
+            std::error_code status;
+            if (file != image && std::filesystem::is_regular_file(file, status)) return file;
+            for (char& letter : name)
+                letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+        }
+    }
+    return {};
+}
+
+// As many numbers as it begins with.
+std::vector<double> numbersIn(std::string text) {
+    std::replace(text.begin(), text.end(), ',', ' ');
+    std::istringstream stream(text);
+    std::vector<double> numbers;
+    for (double number = 0; stream >> number;) numbers.push_back(number);
+    return numbers;
+}
+
+// Six lines: x by column, y by column, x by row, y by row, and the first sample's centre.
+Result<std::optional<GeoPlacement>> worldFilePlacement(const std::filesystem::path& image) {
+    const std::filesystem::path file = worldFileBeside(image);
+    if (file.empty()) return std::nullopt;
+    const std::vector<double> n = numbersIn(contentOf(file));
+    GeoPlacement placement;
+    if (n.size() == 6) {
+        placement.x = {n[4], n[0], n[2]};
+        placement.y = {n[5], n[1], n[3]};
+    }
+    if (n.size() != 6 || !isFinite(placement)) {
+        return badInput(
+            fmt::format("{}: is a world file beside {} without six numbers; expected a world file, "
+                        "or none",
+                        file.string(), image.filename().string()));
+    }
+    placement.modelText = "longitude and latitude";
+    placement.from = file.filename().string();
+    return placement;
+}
+
+// GDAL's sidecar; the placement there counts from the corner of the first sample.
+Result<void> takeAuxiliary(const std::filesystem::path& image, GeoTags& tags) {
+    const std::filesystem::path file = image.string() + ".aux.xml";
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(file, status)) return {};
+    const std::string xml = contentOf(file);
+    const auto text = [&](const char* name) {
+        return elementText(xml, name, [](const std::string&) { return true; });
+    };
+    if (!tags.scale) tags.scale = numberIn(text("Scale"));
+    if (!tags.offset) tags.offset = numberIn(text("Offset"));
+    if (tags.unit.empty()) tags.unit = text("UnitType");
+    if (tags.placement) return {};
+    if (const std::vector<double> n = numbersIn(text("GeoTransform")); n.size() == 6) {
+        GeoPlacement placement;
+        placement.x = {n[0] + (n[1] + n[2]) / 2, n[1], n[2]};
+        placement.y = {n[3] + (n[4] + n[5]) / 2, n[4], n[5]};
+        placement.modelText = "longitude and latitude";
+        placement.from = file.filename().string();
+        if (isFinite(placement)) tags.placement = std::move(placement);
+    }
+    if (tags.placement || xml.find("<GeoTransform") == xml.npos) return {};
+    return badInput(fmt::format(
+        "{}: its GeoTransform has no six numbers; expected a sidecar of GDAL, or none", file.string()));
+}
+
 }  // namespace
+
+std::optional<double> metresIn(const std::string& unit) {
+    std::string name = unit;
+    for (char& letter : name) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    for (const char* metre : {"", "m", "metre", "meter", "metres", "meters"}) {
+        if (name == metre) return 1;
+    }
+    for (const char* foot : {"ft", "foot", "feet", "international foot"}) {
+        if (name == foot) return 0.3048;
+    }
+    for (const char* foot : {"us-ft", "ftus", "us survey foot", "us survey feet", "foot_us"}) {
+        if (name == foot) return 1200.0 / 3937;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::filesystem::path> sidecarsOf(const std::filesystem::path& image) {
+    std::vector<std::filesystem::path> files;
+    if (const std::filesystem::path world = worldFileBeside(image); !world.empty()) files.push_back(world);
+    std::error_code status;
+    const std::filesystem::path auxiliary = image.string() + ".aux.xml";
+    if (std::filesystem::is_regular_file(auxiliary, status)) files.push_back(auxiliary);
+    return files;
+}
+
+Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff) {
+    Result<GeoTags> tags = isTiff ? readGeoTags(image) : GeoTags();
+    if (!tags) return tags;
+    if (!tags->placement) {
+        Result<std::optional<GeoPlacement>> placement = worldFilePlacement(image);
+        if (!placement) return tl::unexpected(std::move(placement.error()));
+        tags->placement = *std::move(placement);
+    }
+    if (Result<void> taken = takeAuxiliary(image, *tags); !taken)
+        return tl::unexpected(std::move(taken.error()));
+    return tags;
+}
 
 Result<GeoTags> readGeoTags(const std::filesystem::path& path) {
     const TiffPtr tiff = openTiff(path);
     if (!tiff) return badInput(fmt::format("{}: its TIFF directory cannot be read", path.string()));
     GeoTags tags;
     tags.noDataValue = noDataOf(tiff.get());
+    const auto metadata = valuesOf<char>(tiff.get(), gdalMetadataTag, TIFF_ASCII);
+    takeBandItems(std::string(metadata.begin(), metadata.end()), tags);
+    const GeoKeys keys(tiff.get());
+    if (tags.unit.empty()) tags.unit = verticalUnit(keys.code(verticalUnitsKey));
     GeoPlacement placement;
     if (!setCoordinates(tiff.get(), placement)) return tags;
-    const GeoKeys keys(tiff.get());
     if (keys.code(rasterTypeKey) != rasterPixelIsPoint) {
         // Raster coordinates are then those of a pixel's corner.
         placement.x[0] += (placement.x[1] + placement.x[2]) / 2;

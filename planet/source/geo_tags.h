@@ -1,11 +1,14 @@
-// The tags of a GeoTIFF: where its samples lie, and which value means that one is missing. OpenImageIO 2.4
-// does not pass them on. Internal to the library. Any thread.
+// What is known of an image's samples besides their values: where they lie, which value means that one is
+// missing, and how values become heights. From the tags of a GeoTIFF, which OpenImageIO 2.4 does not pass on,
+// and from the files that may lie beside an image. Internal to the library. Any thread.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planet/base/result.h"
 
@@ -20,17 +23,36 @@ enum class GeoModel : std::uint8_t {
 
 struct GeoPlacement {
     GeoModel model = GeoModel::Degrees;
-    std::string modelText;       // "projected coordinates, EPSG 32633", for messages
-    double metresPerDegree = 0;  // of Metres
+    std::string modelText;                  // "projected coordinates, EPSG 32633", for messages
+    std::string from = "its GeoTIFF tags";  // who says so, for messages
+    double metresPerDegree = 0;             // of Metres
     // Maps a sample's (column, row) to its centre: x = x[0] + x[1] column + x[2] row, likewise y.
     std::array<double, 3> x{};
     std::array<double, 3> y{};
+
+    bool operator==(const GeoPlacement&) const = default;
 };
 
 struct GeoTags {
     std::optional<GeoPlacement> placement;
     std::optional<double> noDataValue;  // GDAL_NODATA; NaN is left out, since it is missing anyway
+    // Of the first band: height = (offset + scale * value) units.
+    std::optional<double> scale;
+    std::optional<double> offset;
+    std::string unit;  // "m", "ft"; empty: not told
+
+    bool operator==(const GeoTags&) const = default;
 };
+
+// Returns the tags of an image, and what they do not tell from the files beside it: a world file (.tfw, .pgw,
+// .jgw, .wld and alike) or GDAL's .aux.xml. isTiff: the file has tags of its own.
+Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff);
+
+// Returns the files beside an image that geoTagsOf would read.
+std::vector<std::filesystem::path> sidecarsOf(const std::filesystem::path& image);
+
+// Returns one unit in metres, by its name in tags; none of an unknown one. No name is metres.
+std::optional<double> metresIn(const std::string& unit);
 
 // The tags of a TIFF file; an Error where it cannot be read or its tags contradict themselves.
 Result<GeoTags> readGeoTags(const std::filesystem::path& path);

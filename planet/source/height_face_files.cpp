@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "planet/source/geo_tags.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"
@@ -134,6 +135,15 @@ bool terrainExists(const std::filesystem::path& text) {
     return terrain && (terrain->of.empty() || heightSourceExists(terrain->of));
 }
 
+void addSidecars(std::vector<std::filesystem::path>& files) {
+    std::vector<std::filesystem::path> sidecars;
+    for (const std::filesystem::path& file : files) {
+        const std::vector<std::filesystem::path> found = sidecarsOf(file);
+        sidecars.insert(sidecars.end(), found.begin(), found.end());
+    }
+    files.insert(files.end(), sidecars.begin(), sidecars.end());
+}
+
 }  // namespace
 
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
@@ -144,10 +154,12 @@ HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
     found.stem = faces ? faces->stem : path.stem().string();
     if (!faces) {
         if (std::filesystem::is_regular_file(path, problem)) found.files.push_back(path);
+        addSidecars(found.files);
         return found;
     }
     std::copy_if(faces->paths.begin(), faces->paths.end(), std::back_inserter(found.files),
                  [&](const auto& file) { return std::filesystem::is_regular_file(file, problem); });
+    addSidecars(found.files);
     return found;
 }
 

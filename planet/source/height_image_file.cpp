@@ -111,7 +111,7 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
         return badInput(fmt::format("{}: expected a flat image, found a deep or volume image", file));
     }
     if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
-        return badInput(fmt::format("{}: is {} x {} samples; each side must be 1 to {}", file, spec.width,
+        return badInput(fmt::format("{}: is {} x {} samples; expected [1, {}] per side", file, spec.width,
                                     spec.height, maxSide));
     }
     const std::optional<SampleType> type = sampleTypeOf(spec.format);
@@ -131,11 +131,11 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
     const int readBits = static_cast<int>(spec.format.size()) * 8;
     if (storedBits != 0 && storedBits != readBits) {
         // They come scaled to the next whole type, so the file's own values are lost.
-        return badInput(fmt::format("{}: has {} bits a sample; expected 8, 16 or 32", file, storedBits));
+        return badInput(fmt::format("{}: has {} bits per sample; expected 8, 16 or 32", file, storedBits));
     }
     if (spec.tile_width > 0 && spec.tile_pixels() > maxTileSamples) {
-        return badInput(fmt::format("{}: has tiles of {} x {} samples; {} samples a tile are the most", file,
-                                    spec.tile_width, spec.tile_height, maxTileSamples));
+        return badInput(fmt::format("{}: has tiles of {} x {} samples; expected at most {} samples per tile",
+                                    file, spec.tile_width, spec.tile_height, maxTileSamples));
     }
     return ImageLayout{spec.width, spec.height,         spec.x, spec.y, spec.tile_width, spec.tile_height,
                        *type,      spec.format.c_str(), {}};
@@ -145,7 +145,7 @@ Result<void> checkIsFile(const std::filesystem::path& path) {
     std::error_code problem;
     const std::filesystem::file_status status = std::filesystem::status(path, problem);
     if (!std::filesystem::exists(status)) {
-        return ioError(fmt::format("{}: there is no such file", path.string()));
+        return ioError(fmt::format("{}: no such file", path.string()));
     }
     if (!std::filesystem::is_regular_file(status)) {
         return badInput(fmt::format("{}: is not a file", path.string()));
@@ -191,15 +191,16 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
     if (Result<void> check = checkIsFile(path); !check) return tl::unexpected(std::move(check.error()));
     ReaderPtr reader = openReader(path);
     if (!reader) {
-        return badInput(fmt::format("{}: cannot be read as an image: {}", path.string(), OIIO::geterror()));
+        OIIO::geterror();  // about its plug-ins or its decoders; kept for the next failure if nobody takes it
+        return badInput(fmt::format(
+            "{}: not an image that can be read; expected GeoTIFF, TIFF, PNG, JPEG or another image format",
+            path.string()));
     }
     Result<ImageLayout> layout = layoutOf(path, reader->spec(), colourChannel.has_value());
     if (!layout) return tl::unexpected(std::move(layout.error()));
-    if (std::string_view(reader->format_name()) == "tiff") {
-        Result<GeoTags> tags = readGeoTags(path);
-        if (!tags) return tl::unexpected(std::move(tags.error()));
-        layout->geoTags = *std::move(tags);
-    }
+    Result<GeoTags> tags = geoTagsOf(path, std::string_view(reader->format_name()) == "tiff");
+    if (!tags) return tl::unexpected(std::move(tags.error()));
+    layout->geoTags = *std::move(tags);
     // One or two channels: grey, without or with alpha.
     const int channel = reader->spec().nchannels < 3 ? 0 : colourChannel.value_or(0);
     auto readers = std::make_unique<Readers>();
@@ -209,10 +210,11 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
 
 namespace {
 
-// Some readers fail without a word.
+// Some readers fail without a word, and libtiff with the row 2^32 - 1.
 std::string reasonOf(const OIIO::ImageInput& reader) {
     const std::string error = reader.geterror();
-    return error.empty() ? "the file is cut short or damaged" : error;
+    const bool tellsNothing = error.empty() || error.find("4294967295") != std::string::npos;
+    return tellsNothing ? "truncated or damaged" : error;
 }
 
 }  // namespace

@@ -19,21 +19,22 @@ constexpr double mostM = 1e9;  // heights and steps beyond this make no planet
 Result<void> checkSettings(const HeightSourceSettings& settings) {
     // Written so that NaN fails too.
     if (!(std::abs(settings.metresPerUnit) > 0 && std::abs(settings.metresPerUnit) <= mostM)) {
-        return badInput(fmt::format("metresPerUnit is {}; it must not be 0, and be within +-{}",
+        return badInput(fmt::format("metresPerUnit is {}; expected a magnitude over 0, at most {}",
                                     settings.metresPerUnit, mostM));
     }
     if (!(std::abs(settings.offsetM) <= mostM)) {
-        return badInput(fmt::format("offsetM is {}; it must be within +-{}", settings.offsetM, mostM));
+        return badInput(
+            fmt::format("offsetM is {}; expected at most {} in magnitude", settings.offsetM, mostM));
     }
     if (!(std::abs(settings.fillM) <= mostM)) {
-        return badInput(fmt::format("fillM is {}; it must be within +-{}", settings.fillM, mostM));
+        return badInput(fmt::format("fillM is {}; expected at most {} in magnitude", settings.fillM, mostM));
     }
     if (settings.rawBits && *settings.rawBits != 8 && *settings.rawBits != 16) {
         return badInput(fmt::format("rawBits is {}; expected 8 or 16", *settings.rawBits));
     }
     if (settings.rawSize && *settings.rawSize < 2) {
         return badInput(
-            fmt::format("rawSize is {}; a face has at least 2 samples a side", *settings.rawSize));
+            fmt::format("rawSize is {}; expected at least 2 samples per side", *settings.rawSize));
     }
     return {};
 }
@@ -79,7 +80,7 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
     }
     std::error_code problem;
     if (!std::filesystem::exists(path, problem)) {
-        return ioError(fmt::format("{}: there is no such file, and no cube faces named {}_x_pos.raw or alike",
+        return ioError(fmt::format("{}: no such file, and no cube faces named {}_x_pos.raw or similar",
                                    path.string(), path.string()));
     }
     return openEquirectangularSource(path, settings);

@@ -21,7 +21,9 @@ namespace planet {
 // the source that it is added to, if any.
 struct HeightSourceFiles {
     std::string stem;  // "elevation", "earth4097" of earth4097_z_pos.raw, "ridged" of noise:ridged,seed=7
-    std::vector<std::filesystem::path> files;  // one image, or those of the six faces that are there
+    std::vector<std::filesystem::path>
+        files;  // one image, or those of the six faces that are there; then world
+                // files and .aux.xml beside them
 };
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path);
 // Whether there is something to bake: an image, a face, or a good terrain's text. A chunk file is none.

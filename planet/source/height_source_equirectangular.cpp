@@ -342,10 +342,12 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     const Result<ImagePlacement> placement =
         placementOf(path.string(), layout.width, layout.height, layout.geoTags);
     if (!placement) return tl::unexpected(placement.error());
-    const HeightConversion conversion = conversionFor(settings, layout.type, layout.geoTags.noDataValue);
+    const Result<HeightConversion> conversion =
+        conversionFor(path.string(), settings, layout.type, layout.geoTags);
+    if (!conversion) return tl::unexpected(conversion.error());
     const RasterMemory memory{std::make_shared<HeightBlockCache>(settings.cacheBytes), 0,
                               settings.cacheBytes};
-    const Result<HeightRaster> image = openImageRaster(*file, conversion, memory, settings.fileCalls);
+    const Result<HeightRaster> image = openImageRaster(*file, *conversion, memory, settings.fileCalls);
     if (!image) return tl::unexpected(image.error());
     const Result<HeightStatistics> statistics = image->statistics();
     if (!statistics) return tl::unexpected(statistics.error());
@@ -356,7 +358,7 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     // Under Nowell's map a grid step covers at most 2 / cells radians.
     source.naturalFaceSize = powerOfTwoCells(placement->period / std::numbers::pi) + 1;
     source.sampleCount = static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
-    describeHeights(source, conversion, *statistics);
+    describeHeights(source, *conversion, *statistics);
     source.sample = [shared = Equirectangular{*image, *placement, statistics->minM, statistics->maxM}](
                         const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);

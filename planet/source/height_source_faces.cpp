@@ -295,7 +295,7 @@ Result<void> checkNoneMissing(const FaceFiles& files) {
 Result<void> checkSize(const std::string& file, int size) {
     constexpr int mostSize = (1 << maxFaceCellsLog2) + 1;
     if (size >= 2 && size <= mostSize) return {};
-    return badInput(fmt::format("{}: a face of {} samples a side; expected 2 to {}", file, size, mostSize));
+    return badInput(fmt::format("{}: a face of {} samples per side; expected [2, {}]", file, size, mostSize));
 }
 
 Result<std::uint64_t> lengthOf(const std::filesystem::path& path) {
@@ -318,7 +318,7 @@ Result<int> rawSideByLength(const FaceFiles& files, const HeightSourceSettings& 
     if (settings.rawBits != 8 && bytes % 2 == 0 && squareSide(bytes / 2) > 0) return squareSide(bytes / 2);
     return badInput(
         fmt::format("{} is {} bytes, which no square of 8 or 16 bit samples has; its name may end "
-                    "in the samples a side, as in earth4097_{}.raw, or --raw-size may give them",
+                    "in the samples per side, as in earth4097_{}.raw, or --raw-size may give them",
                     files.paths[0].filename().string(), bytes, faceName(Face::PosX)));
 }
 
@@ -387,7 +387,7 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
         const ImageLayout& layout = images[i]->layout();
         const std::string name = files.paths[i].filename().string();
         if (layout.width != layout.height) {
-            return badInput(fmt::format("{} is {} x {} samples; a cube's face must be square", name,
+            return badInput(fmt::format("{} is {} x {} samples; expected a square cube face", name,
                                         layout.width, layout.height));
         }
         if (layout.width != first.width || layout.typeName != first.typeName) {
@@ -401,6 +401,15 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
                 fmt::format("{} and {} have different GDAL_NODATA tags; expected the same no-data value "
                             "in all six faces",
                             name, firstName));
+        }
+        const bool sameUnits = layout.geoTags.scale == first.geoTags.scale &&
+                               layout.geoTags.offset == first.geoTags.offset &&
+                               layout.geoTags.unit == first.geoTags.unit;
+        if (!sameUnits) {
+            return badInput(fmt::format(
+                "{} and {} have a different scale, offset or unit by their tags; expected the same "
+                "in all six faces",
+                name, firstName));
         }
         if (expected && layout.width != *expected) {
             return badInput(fmt::format("{} is {} x {} samples; {} {} x {}{}", name, layout.width,
@@ -468,9 +477,10 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     }
     const Result<FaceFormat> format = raw ? rawFormat(files, settings) : imageFormat(files, settings, images);
     if (!format) return tl::unexpected(format.error());
-    const std::optional<double> fileNoDataValue =
-        raw ? std::nullopt : images[0]->layout().geoTags.noDataValue;
-    HeightConversion conversion = conversionFor(settings, format->type, fileNoDataValue);
+    const GeoTags tags = raw ? GeoTags() : images[0]->layout().geoTags;
+    Result<HeightConversion> converted = conversionFor(files.paths[0].string(), settings, format->type, tags);
+    if (!converted) return tl::unexpected(std::move(converted.error()));
+    HeightConversion& conversion = *converted;
     conversion.swapBytes = raw && settings.rawBigEndian != (std::endian::native == std::endian::big);
 
     const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);

@@ -1,6 +1,9 @@
 #include "planet/source/height_source_kinds.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
 
 #include "planet/sphere/planet_shape.h"
 
@@ -14,15 +17,37 @@ double asStored(double value, SampleType type) {
     return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
 }
 
+// A setting that is not the default takes the place of what the file says.
+Result<void> takeUnits(const std::string& file, const HeightSourceSettings& settings, const GeoTags& tags,
+                       HeightConversion& conversion) {
+    const HeightSourceSettings plain;
+    if (settings.metresPerUnit != plain.metresPerUnit) return {};
+    const std::optional<double> unitM = metresIn(tags.unit);
+    if (!unitM) {
+        return badInput(
+            fmt::format("{}: its heights are in {}, which is not known; expected metres or feet, or "
+                        "--metres-per-unit",
+                        file, tags.unit));
+    }
+    conversion.metresPerUnit = tags.scale.value_or(1) * *unitM;
+    if (settings.offsetM == plain.offsetM) conversion.offsetM = tags.offset.value_or(0) * *unitM;
+    if (conversion.metresPerUnit != 0) return {};
+    return badInput(fmt::format("{}: its scale is 0; expected another, or --metres-per-unit", file));
+}
+
 }  // namespace
 
-HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type,
-                               std::optional<double> fileNoDataValue) {
+Result<HeightConversion> conversionFor(const std::string& file, const HeightSourceSettings& settings,
+                                       SampleType type, const GeoTags& tags) {
     HeightConversion conversion;
     conversion.type = type;
     conversion.metresPerUnit = settings.metresPerUnit;
     conversion.offsetM = settings.offsetM;
-    conversion.noDataValue = settings.noDataValue ? settings.noDataValue : fileNoDataValue;
+    if (!settings.colourChannel) {
+        if (Result<void> taken = takeUnits(file, settings, tags, conversion); !taken)
+            return tl::unexpected(std::move(taken.error()));
+    }
+    conversion.noDataValue = settings.noDataValue ? settings.noDataValue : tags.noDataValue;
     if (conversion.noDataValue) conversion.noDataValue = asStored(*conversion.noDataValue, type);
     conversion.fillM = static_cast<float>(settings.fillM);
     if (settings.colourChannel) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "planet/base/result.h"
+#include "planet/source/geo_tags.h"
 #include "planet/source/height_raster.h"
 #include "planet/source/height_source_types.h"
 #include "planet/sphere/cube_sphere.h"
@@ -38,9 +39,10 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
                                     FaceEdges edges);
 
 // What the kinds share.
-// fileNoDataValue: what the file's own tags say, where the settings say nothing.
-HeightConversion conversionFor(const HeightSourceSettings& settings, SampleType type,
-                               std::optional<double> fileNoDataValue);
+// tags: what the file says of its no-data value, scale, offset and unit, where the settings say nothing. The
+// Error names a unit that is not known.
+Result<HeightConversion> conversionFor(const std::string& file, const HeightSourceSettings& settings,
+                                       SampleType type, const GeoTags& tags);
 
 // Sets stepM, minM, maxM and missingCount.
 void describeHeights(HeightSource& source, const HeightConversion& conversion,

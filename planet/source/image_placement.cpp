@@ -30,31 +30,29 @@ struct ImageExtent {
 Result<ImageExtent> extentOf(const std::string& file, const GeoPlacement& tags) {
     if (tags.model == GeoModel::Other) {
         return badInput(
-            fmt::format("{}: is in {} by its GeoTIFF tags; expected longitude and latitude in degrees, or an "
+            fmt::format("{}: is in {} by {}; expected longitude and latitude in degrees, or an "
                         "equirectangular "
                         "projection in metres, of the whole planet",
-                        file, tags.modelText));
+                        file, tags.modelText, tags.from));
     }
     if (std::abs(tags.x[2]) > stepTolerance * std::abs(tags.x[1]) ||
         std::abs(tags.y[1]) > stepTolerance * std::abs(tags.y[2]) || !(tags.x[1] > 0) || !(tags.y[2] < 0)) {
-        return badInput(
-            fmt::format("{}: is turned or mirrored by its GeoTIFF tags; expected north up and east to "
-                        "the right",
-                        file));
+        return badInput(fmt::format(
+            "{}: is rotated or mirrored by {}; expected north up and east to the right", file, tags.from));
     }
     const double unit = tags.model == GeoModel::Metres ? tags.metresPerDegree : 1;
     return ImageExtent{tags.x[0] / unit, tags.y[0] / unit, tags.x[1] / unit, -tags.y[2] / unit};
 }
 
-Error regionError(const std::string& file, int width, int height, const ImageExtent& extent) {
+Error regionError(const std::string& file, int width, int height, const ImageExtent& extent,
+                  const std::string& from) {
     const double west = extent.firstLongitude - extent.columnStep / 2;
     const double north = extent.firstLatitude + extent.rowStep / 2;
     return {ErrorKind::BadInput,
-            fmt::format(
-                "{}: covers longitude {:.6g} to {:.6g} and latitude {:.6g} to {:.6g} degrees by its GeoTIFF "
-                "tags; expected the whole planet, 360 degrees wide and from latitude 90 to -90; {}",
-                file, west, west + width * extent.columnStep, north - height * extent.rowStep, north,
-                regionHint)};
+            fmt::format("{}: covers longitude {:.6g} to {:.6g} and latitude {:.6g} to {:.6g} degrees by {}; "
+                        "expected the whole planet, 360 degrees wide and from latitude 90 to -90; {}",
+                        file, west, west + width * extent.columnStep, north - height * extent.rowStep, north,
+                        from, regionHint)};
 }
 
 // A half or a whole where it is one but for rounding, so that tags give the very places that a size gives.
@@ -88,10 +86,10 @@ Result<ImagePlacement> placementByTags(const std::string& file, int width, int h
     const double mostOff = extent->rowStep * std::max(0.25, stepTolerance * height);
     if (std::abs(columns - placement.period) > mostColumnsOff ||
         offBy(placement.hasPoleRows ? pole : pole - halfStep) > mostOff)
-        return tl::unexpected(regionError(file, width, height, *extent));
+        return tl::unexpected(regionError(file, width, height, *extent, tags.from));
     const double zero = -extent->firstLongitude * placement.period / fullTurnDeg;
     if (std::abs(extent->firstLongitude) > 2 * fullTurnDeg)
-        return tl::unexpected(regionError(file, width, height, *extent));
+        return tl::unexpected(regionError(file, width, height, *extent, tags.from));
     placement.zeroColumn = wrappedColumn(withoutRounding(zero), placement.period);
     return placement;
 }

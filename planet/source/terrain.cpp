@@ -48,7 +48,7 @@ constexpr TerrainField usually(double least, double most, TerrainField field) {
 template <class S>
 constexpr TerrainField seedField() {
     return field<&S::seed>("seed", "Seed", "", 0, 4294967295.0, false,
-                           "Another seed is another world of the same kind; the same seed the same world.");
+                           "Different seeds give different worlds.");
 }
 template <class S>
 constexpr TerrainField octavesField(double most, std::string_view about) {
@@ -57,14 +57,14 @@ constexpr TerrainField octavesField(double most, std::string_view about) {
 template <class S>
 constexpr TerrainField lacunarityField() {
     return field<&S::lacunarity>("lacunarity", "Lacunarity", "", 1.2, 4, false,
-                                 "How many times finer each octave is than the one before. Small: more "
-                                 "octaves are needed for the same detail; large: gaps between them show.");
+                                 "Frequency ratio between octaves. Small: more octaves are needed for the "
+                                 "same detail; large: gaps between them show.");
 }
 template <class S>
 constexpr TerrainField gainField() {
     return field<&S::gain>("gain", "Gain", "", 0, 0.95, false,
-                           "How high each octave is, as a share of the one before. High: rough down to the "
-                           "last grid step; low: smooth hills.");
+                           "Amplitude ratio between octaves. High: rough down to the last grid step; low: "
+                           "smooth hills.");
 }
 template <class S>
 constexpr TerrainField amplitudeField(std::string_view about) {
@@ -74,9 +74,9 @@ template <class S>
 constexpr TerrainField featureField() {
     return usually(
         0.5, 180,
-        field<&S::featureDeg>("feature_deg", "Feature size", "deg of arc", 0.01, 180, true,
+        field<&S::featureDeg>("feature_deg", "Feature size", "°", 0.01, 180, true,
                               "Width of the largest hills: the first octave's lattice cell. On Earth a "
-                              "degree is 111 km. Too small: the planet looks like a golf ball from afar."));
+                              "degree is 111 km."));
 }
 template <class S>
 constexpr TerrainField offsetField() {
@@ -86,8 +86,7 @@ constexpr TerrainField offsetField() {
 }
 
 constexpr std::string_view octavesAbout =
-    "Layers of noise, each finer and lower. Those finer than two grid steps are left out; more than the grid "
-    "holds cost nothing and show nothing.";
+    "Layers of noise, each finer and lower than the one before. Octaves finer than two samples are skipped.";
 
 using Fractal = FractalTerrain;
 constexpr std::array fractalFields = {
@@ -95,8 +94,7 @@ constexpr std::array fractalFields = {
     octavesField<Fractal>(24, octavesAbout),
     lacunarityField<Fractal>(),
     gainField<Fractal>(),
-    amplitudeField<Fractal>("All heights lie within this of the offset; it is five times their root mean "
-                            "square, so few come near."),
+    amplitudeField<Fractal>("Max deviation from the offset; 5x RMS."),
     featureField<Fractal>(),
     offsetField<Fractal>(),
 };
@@ -109,9 +107,9 @@ constexpr std::array ridgedFields = {
     gainField<Ridged>(),
     field<&Ridged::sharpness>(
         "sharpness", "Sharpness", "", 0, 8, false,
-        "How soon an octave has its full height near the ridges of the one before. Low: "
-        "rough crests over smooth valleys; high: rough everywhere; 0: one octave only."),
-    amplitudeField<Ridged>("Heights reach this above the offset, and 1.8 times this below it."),
+        "Octave weight near ridges. Low: rough crests over smooth valleys; high: rough everywhere; 0: one "
+        "octave only."),
+    amplitudeField<Ridged>("Max height above the offset; below it 1.8 times as much."),
     featureField<Ridged>(),
     offsetField<Ridged>(),
 };
@@ -127,14 +125,13 @@ constexpr std::array faultFields = {
             field<&FaultTerrain::maxDeltaM>("max_delta_m", "First step", "m", 0, 1e6, true,
                                             "Height of the first fault. dt = max - (max - min) i / n.")),
     usually(0, 2000,
-            field<&FaultTerrain::minDeltaM>(
-                "min_delta_m", "Last step", "m", 0, 1e6, true,
-                "Height that the last faults come down to, at most the first one's.")),
-    usually(0, 10,
-            field<&FaultTerrain::smoothDeg>(
-                "smooth_deg", "Smoothing", "deg of arc", 0, 30, true,
-                "Width w of a fault's soft step, e^(-x/w): the limit of the books' filter with "
-                "k = e^(-spacing/w). 0: cliffs of one grid step; large: gentle swells.")),
+            field<&FaultTerrain::minDeltaM>("min_delta_m", "Last step", "m", 0, 1e6, true,
+                                            "Height of the last fault, at most that of the first.")),
+    usually(
+        0, 10,
+        field<&FaultTerrain::smoothDeg>(
+            "smooth_deg", "Smoothing", "°", 0, 30, true,
+            "Falloff width w of a fault's step, e^(-x/w). 0: cliffs one sample wide; large: gentle swells.")),
     offsetField<FaultTerrain>(),
 };
 
@@ -144,7 +141,7 @@ constexpr std::array midpointFields = {
         "roughness", "Roughness", "", 0, 1, false,
         "Offsets shrink by 2^-(1 - roughness) with each halving; the surface's "
         "fractal dimension is 2 + roughness. 0: smooth swells; 1: noise on every scale."),
-    amplitudeField<MidpointTerrain>("All heights lie within this of the offset."),
+    amplitudeField<MidpointTerrain>("Max deviation from the offset."),
     offsetField<MidpointTerrain>(),
 };
 
@@ -152,23 +149,22 @@ constexpr std::array craterFields = {
     seedField<CraterTerrain>(),
     field<&CraterTerrain::sizes>(
         "sizes", "Crater sizes", "", 1, 16, false,
-        "How often diameters halve from the largest on. More: smaller craters, and a longer "
-        "bake. Those under four grid steps are left out."),
+        "Number of crater size classes, each half as wide as the one before. More: smaller craters, and a "
+        "longer bake. Craters narrower than four samples are skipped."),
     usually(0.1, 60,
-            field<&CraterTerrain::largestDeg>("largest_deg", "Largest crater", "deg of arc", 0.01, 60, true,
-                                              "Its diameter. On the Moon a degree is 30 km.")),
+            field<&CraterTerrain::largestDeg>("largest_deg", "Largest crater", "°", 0.01, 60, true,
+                                              "Largest crater diameter. On the Moon a degree is 30 km.")),
     usually(0, 15000,
-            field<&CraterTerrain::depthM>("depth_m", "Its depth", "m", 0, 1e5, true,
-                                          "Of the largest crater, from the ground around it to its floor.")),
+            field<&CraterTerrain::depthM>("depth_m", "Largest crater depth", "m", 0, 1e5, true,
+                                          "Largest crater depth, from the surrounding ground to the floor.")),
     field<&CraterTerrain::depthPower>(
         "depth_power", "Depth power", "", 0.2, 1.5, false,
-        "Depth goes with diameter to this power. 1: all of the same shape; lower: "
-        "small ones are deep for their size, as real ones are."),
-    field<&CraterTerrain::density>("density", "Density", "", 0, 1, false,
-                                   "Share of the lattice's cells that hold a crater."),
+        "Depth is proportional to diameter to this power. 1: all craters have the same shape; lower: small "
+        "craters are deep for their size."),
+    field<&CraterTerrain::density>("density", "Density", "", 0, 1, false, "Fraction of cells with a crater."),
     octavesField<CraterTerrain>(24, octavesAbout),
     gainField<CraterTerrain>(),
-    amplitudeField<CraterTerrain>("Of the ground beneath the craters: five times its root mean square."),
+    amplitudeField<CraterTerrain>("Amplitude of the ground below the craters; 5x RMS."),
     featureField<CraterTerrain>(),
     offsetField<CraterTerrain>(),
 };
@@ -177,32 +173,33 @@ constexpr std::array detailFields = {
     seedField<DetailTerrain>(),
     octavesField<DetailTerrain>(
         16,
-        "Layers below the source's own resolution, each finer: 6 of them make 76 m of the "
-        "Earth's 4.9 km. Shown as far as the face size holds them."),
+        "Layers of noise below the source's own resolution: 6 refine the Earth's 4.9 km to 76 m. Octaves "
+        "finer than two samples are skipped."),
     lacunarityField<DetailTerrain>(),
     gainField<DetailTerrain>(),
     field<&DetailTerrain::strength>(
         "strength", "Strength", "", 0, 8, false,
-        "Height of the detail against the source's own relief at a place. 1: goes on as "
-        "the source ends; high: spiky mountains."),
+        "Ratio of the detail's amplitude to the source's local relief. 1: matches the source roughness; "
+        "high: spiky mountains."),
     field<&DetailTerrain::ridged>("ridged", "Ridged", "", 0, 1, false, "0: round hills; 1: ridges."),
     usually(0, 5000,
-            field<&DetailTerrain::limitM>(
-                "limit_m", "Limit", "m", 0, 1e5, true,
-                "Never more than this is added or taken away. High: a coarser quantum is needed.")),
-    usually(0, 500,
-            field<&DetailTerrain::flatM>(
-                "flat_m", "Flat below", "m", 0, 1e5, true,
-                "Relief from sample to sample up to this counts as flat, and stays as it is; up to "
-                "three times this, detail fades in.")),
+            field<&DetailTerrain::limitM>("limit_m", "Limit", "m", 0, 1e5, true,
+                                          "Max height change. High: a coarser quantum is needed.")),
+    usually(
+        0, 500,
+        field<&DetailTerrain::flatM>(
+            "flat_m", "Flat below", "m", 0, 1e5, true,
+            "Local relief up to this counts as flat and is unchanged; up to three times this, detail fades "
+            "in.")),
     usually(-8000, 8000,
             field<&DetailTerrain::seaM>("sea_m", "Sea level", "m", -1e6, 1e6, false,
-                                        "Below it detail fades out.")),
+                                        "Detail fades out below this height.")),
     usually(0, 2000,
             field<&DetailTerrain::coastM>(
                 "coast_m", "Coast", "m", 0, 1e5, true,
-                "Detail fades from all at this height above the sea to none at this depth below. "
-                "0: to none at the coast, which shows; large: the sea floor gets detail too.")),
+                "Width of the fade at the coast: full detail at this height above the sea, none at this "
+                "depth below "
+                "it. 0: a visible edge at the coast; large: the sea floor gets detail too.")),
 };
 
 const std::array kinds = {
@@ -240,13 +237,13 @@ Result<void> checkTerrain(const TerrainSettings& settings) {
         const double value = setting.get(settings);
         // Written so that NaN fails too.
         if (value >= setting.least && value <= setting.most) continue;
-        return badInput(fmt::format("{}: {} is {}; it must be from {} to {}{}{}", kind.name, setting.name,
-                                    value, setting.least, setting.most, setting.unit.empty() ? "" : " ",
-                                    setting.unit));
+        return badInput(fmt::format("{}: {} is {}; expected [{}, {}]{}{}", kind.name, setting.name, value,
+                                    setting.least, setting.most,
+                                    setting.unit.empty() || setting.unit == "°" ? "" : " ", setting.unit));
     }
     if (const FaultTerrain* faults = std::get_if<FaultTerrain>(&settings);
         faults && faults->minDeltaM > faults->maxDeltaM) {
-        return badInput(fmt::format("{}: min_delta_m is {}; it must be at most max_delta_m, {} m", kind.name,
+        return badInput(fmt::format("{}: min_delta_m is {}; expected at most max_delta_m, {} m", kind.name,
                                     faults->minDeltaM, faults->maxDeltaM));
     }
     return {};

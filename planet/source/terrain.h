@@ -112,7 +112,7 @@ struct DetailTerrain {
     double gain = 0.55;     // [0, 0.95]
     double strength = 1;    // 1 goes on as the source ends; [0, 8]
     double ridged = 0.5;    // 0: round, 1: ridges; [0, 1]
-    double limitM = 1000;   // never more than this is added or taken away, metres; [0, 1e5]
+    double limitM = 1000;   // max height change, metres; [0, 1e5]
     double flatM = 15;      // relief up to this counts as flat, metres; [0, 1e5]
     double seaM = 0;        // the sea's level: below it detail fades out ...
     double coastM = 120;    // ... from this far above to this far below, metres; [0, 1e5]

@@ -53,7 +53,7 @@ Result<const TerrainKind*> kindNamed(std::string_view name) {
         if (kind.name == name) return &kind;
         if (kind.name.starts_with(noisePrefix)) names.push_back(kind.name);
     }
-    return badInput(fmt::format("{}: there is no such terrain; the nearest one is {}, all are {}", name,
+    return badInput(fmt::format("{}: unknown terrain; did you mean {}? expected one of {}", name,
                                 nearestTo(name, names), fmt::join(names, ", ")));
 }
 
@@ -65,7 +65,7 @@ Result<void> setField(const TerrainKind& kind, std::string_view key, std::string
         std::vector<std::string_view> names;
         for (const TerrainField& candidate : kind.fields) names.push_back(candidate.name);
         if (kind.name == "detail") names.push_back(ofKey);
-        return badInput(fmt::format("{}: {} is none of its settings; the nearest one is {}, all are {}",
+        return badInput(fmt::format("{}: {} is an unknown setting; did you mean {}? expected one of {}",
                                     kind.name, key, nearestTo(key, names), fmt::join(names, ", ")));
     }
     double number = 0;
@@ -73,10 +73,10 @@ Result<void> setField(const TerrainKind& kind, std::string_view key, std::string
     const bool good = problem == std::errc{} && end == value.data() + value.size();
     const bool inRange = good && number >= setting->least && number <= setting->most;
     if (!inRange || (setting->whole && number != std::floor(number))) {
-        return badInput(fmt::format("{}: {} is {}; expected {} from {} to {}{}{}", kind.name, key,
+        return badInput(fmt::format("{}: {} is {}; expected {} in [{}, {}]{}{}", kind.name, key,
                                     value.empty() ? "empty" : value,
-                                    setting->whole ? "a whole number" : "a number", setting->least,
-                                    setting->most, setting->unit.empty() ? "" : " ", setting->unit));
+                                    setting->whole ? "an integer" : "a number", setting->least, setting->most,
+                                    setting->unit.empty() || setting->unit == "°" ? "" : " ", setting->unit));
     }
     setting->set(source.settings, number);
     return {};

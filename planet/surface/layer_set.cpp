@@ -37,23 +37,24 @@ double along(const RangeLines& lines, double value, double shift) {
 std::string rangeProblem(std::string_view what, std::string_view unit, const SoftRange& range,
                          const SoftRange& all) {
     if (!(range.lowest <= range.highest)) {
-        return fmt::format("{} from {} to {} {}: the lowest must not be above the highest", what,
-                           range.lowest, range.highest, unit);
+        return fmt::format("{}: [{}, {}]{} is inverted; expected the lowest value first", what, range.lowest,
+                           range.highest, unit);
     }
     if (!(range.lowest >= all.lowest && range.highest <= all.highest)) {
-        return fmt::format("{} from {} to {} {}; expected values from {} to {}", what, range.lowest,
+        return fmt::format("{}: [{}, {}]{} is out of range; expected values in [{}, {}]", what, range.lowest,
                            range.highest, unit, all.lowest, all.highest);
     }
     const double widest = all.highest - all.lowest;
     if (!(range.softEdge >= 0 && range.softEdge <= widest)) {
-        return fmt::format("{}: a falloff of {} {}; expected 0 to {}", what, range.softEdge, unit, widest);
+        return fmt::format("{}: falloff {}{} is out of range; expected [0, {}]", what, range.softEdge, unit,
+                           widest);
     }
     return {};
 }
 
 std::string numberProblem(std::string_view what, double value, double least, double most) {
     if (value >= least && value <= most) return {};
-    return fmt::format("{} of {}; expected {} to {}", what, value, least, most);
+    return fmt::format("{}: {} is out of range; expected [{}, {}]", what, value, least, most);
 }
 
 }  // namespace
@@ -123,13 +124,13 @@ LayerSet twoLayerHeightBlend() {
 
 std::string layerProblem(const TextureLayer& layer) {
     const std::array<std::string, 7> problems = {
-        rangeProblem("heights", "m", layer.heightM, allHeightsM),
-        rangeProblem("slopes", "degrees", layer.slopeDeg, allSlopesDeg),
-        rangeProblem("latitudes", "degrees", layer.latitudeDeg, allLatitudesDeg),
-        numberProblem("a scale in metres", layer.scaleM, 0.01, 1e5),
-        numberProblem("an opacity", layer.opacity, 0, 1),
-        numberProblem("an amount of noise", layer.noiseAmount, 0, 4),
-        numberProblem("a size of noise in metres", layer.noiseSizeM, 0.1, 1e6)};
+        rangeProblem("heights", " m", layer.heightM, allHeightsM),
+        rangeProblem("slopes", "°", layer.slopeDeg, allSlopesDeg),
+        rangeProblem("latitudes", "°", layer.latitudeDeg, allLatitudesDeg),
+        numberProblem("scale, m", layer.scaleM, 0.01, 1e5),
+        numberProblem("opacity", layer.opacity, 0, 1),
+        numberProblem("noise amount", layer.noiseAmount, 0, 4),
+        numberProblem("noise size, m", layer.noiseSizeM, 0.1, 1e6)};
     const auto found = std::find_if(problems.begin(), problems.end(),
                                     [](const std::string& problem) { return !problem.empty(); });
     return found == problems.end() ? std::string() : *found;

@@ -36,7 +36,7 @@ struct TextureLayer {
     std::string albedo;               // sRGB, and the relief in its alpha where it has one
     std::string normal;               // red along columns, green up rows; empty: even
     std::string roughness;            // [0, 1] of grey; empty: 0.9
-    double scaleM = 10;               // metres that the textures cover once, [0.01, 100000]
+    double scaleM = 10;               // size of one texture repeat, metres, [0.01, 100000]
     glm::vec3 tint{1, 1, 1};          // over the albedo, sRGB, [0, 1]
     double opacity = 1;               // [0, 1]
     bool muted = false;               // left out
@@ -44,7 +44,7 @@ struct TextureLayer {
     SoftRange heightM = allHeightsM;  // above the sea level
     SoftRange slopeDeg = allSlopesDeg;
     SoftRange latitudeDeg = allLatitudesDeg;
-    double noiseAmount = 0;    // how far noise moves the borders, in soft edges, [0, 4]
+    double noiseAmount = 0;    // how far noise moves the borders, in falloffs, [0, 4]
     double noiseSizeM = 1000;  // of its coarse lumps, metres, [0.1, 1000000]
 
     bool operator==(const TextureLayer&) const = default;

@@ -300,6 +300,24 @@ double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
     return best.radiusM - tree.shape.radiusM;
 }
 
+double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
+    const FacePoint point = facePointFromDirection(glm::normalize(direction));
+    const ChunkNode& node = tree.nodes[finestNodeAt(tree, point)];
+    const FaceSquare square = faceSquareOf(node.id);
+    const int cells = chunkCells(tree.shape);
+    const double x = std::clamp((point.u - square.u) / square.side, 0.0, 1.0) * cells;
+    const double y = std::clamp((point.v - square.v) / square.side, 0.0, 1.0) * cells;
+    const int column = std::min(static_cast<int>(x), cells - 1);
+    const int row = std::min(static_cast<int>(y), cells - 1);
+    const auto sampleM = [&](int i, int j) {
+        return heightM(tree.shape, (*node.heights)[static_cast<std::size_t>(j * (cells + 1) + i)]);
+    };
+    const auto rowM = [&](int j) {
+        return std::lerp(sampleM(column, j), sampleM(column + 1, j), x - column);
+    };
+    return std::lerp(rowM(row), rowM(row + 1), y - row);
+}
+
 std::size_t chunkBytesCpu(const PlanetShape& shape) {
     // The heights' vector and the counts of those who share it lie in one allocation beside them.
     constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);

@@ -111,6 +111,11 @@ void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, cons
 // radius: where a ray from the planet's centre meets the very triangles that are drawn.
 double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction);
 
+// The height that the finest resident samples give in a direction of any length but 0, metres above the
+// planet's radius: bilinear between the four corners of its cell, along the sphere. The triangles that are
+// drawn sag below it, on a root chunk by kilometres.
+double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction);
+
 // What one resident chunk costs: its node and heights in memory, and its heights in the pool on the GPU.
 std::size_t chunkBytesCpu(const PlanetShape& shape);
 std::size_t chunkBytesGpu(const PlanetShape& shape);

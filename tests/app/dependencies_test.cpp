@@ -69,7 +69,7 @@ std::vector<std::string> symbolsAskedFor(const char* archive) {
 
 void expectNone(const char* archive, const char* forbidden) {
     const std::vector<std::string> symbols = symbolsAskedFor(archive);
-    EXPECT_GT(symbols.size(), 100u) << archive;
+    EXPECT_GT(symbols.size(), 50u) << archive;
     const std::regex pattern(forbidden);
     for (const std::string& symbol : symbols)
         EXPECT_FALSE(std::regex_search(symbol, pattern)) << archive << ": " << symbol;

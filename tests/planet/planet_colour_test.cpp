@@ -253,6 +253,14 @@ TEST(PlanetColours, TotalsOfEachKindCountThatKindAlone) {
     EXPECT_EQ(planet->colourPaging().evicted, planet->colourPaging().loaded);
     planet->setPaging(roomForColourTiles(6 + 4 * 24)).value();
     expectTotalsOfEachKindAddUp(*planet);
+    ASSERT_TRUE(colouredSettled(*planet, viewAt(20, 20, 40'000, -70)));
+    expectTotalsOfEachKindAddUp(*planet);
+    ASSERT_GT(planet->paging().loaded, planet->paging().evicted);
+    planet->startAnew();
+    const ViewInput far = coloured(viewAt(20, 20, 1e8));
+    planet->step({&far, 1}, noUpload, 0);
+    EXPECT_EQ(planet->paging().residentChunks, faceCount);
+    expectTotalsOfEachKindAddUp(*planet);
 }
 
 TEST(PlanetColours, ACheckerPatternIsNeitherLoadedNorEvicted) {
@@ -275,12 +283,13 @@ TEST(PlanetColours, ACheckerPatternIsNeitherLoadedNorEvicted) {
 TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
     const auto tooFew = Planet::open(colouredSource(), roomForColourTiles(20));
     ASSERT_FALSE(tooFew);
-    EXPECT_THAT(tooFew.error().message, HasSubstr("room for 20 tiles of colour is too little"));
+    EXPECT_THAT(tooFew.error().message,
+                HasSubstr("budget too small for this planet: 20 colour tiles; expected at least"));
     PagingSettings settings = roomForColourTiles(800);
     settings.colourShare = 0.95;
     const auto tooLarge = Planet::open(colouredSource(), settings);
     ASSERT_FALSE(tooLarge);
-    EXPECT_THAT(tooLarge.error().message, HasSubstr("a share of 0.95 for colours"));
+    EXPECT_THAT(tooLarge.error().message, HasSubstr("colour share: 0.95 is out of range"));
     EXPECT_TRUE(
         Planet::open(fakePyramid().source(), roomForColourTiles(1)));  // without colours it does not matter
 }

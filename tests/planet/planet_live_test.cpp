@@ -355,7 +355,7 @@ TEST(Planet, ABadDisksFailuresAreRetriedByHandUntilAllIsThere) {
     EXPECT_EQ(planet->paging().bytesRead, 100 * planet->paging().loaded);
     const auto problems = planet->takeProblems();
     ASSERT_EQ(problems.size(), planet->paging().failed);
-    EXPECT_THAT(problems[0], HasSubstr("read failed on purpose (bad disk, seed 11)"));
+    EXPECT_THAT(problems[0], HasSubstr("injected read failure (seed 11)"));
 }
 
 // Which blocks fail depends on the seed alone, not on threads or on what came before.

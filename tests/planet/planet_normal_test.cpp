@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <set>
 
 #include "planet/paging/normal_tile.h"
@@ -115,6 +116,91 @@ TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
     EXPECT_TRUE(planet->takeNormalChanges().empty());
 }
 
+// A planet whose roots of normals take a while to read, as on a large file.
+struct SlowlyRead {
+    MadeChunks made = madeChunks();
+    Gate gate;
+    std::atomic<int> reads = 0;
+    std::unique_ptr<Planet> planet;
+
+    explicit SlowlyRead(PagingSettings settings) {
+        PlanetSource source = made.source();
+        source.loadChildren = [this, load = source.loadChildren](const ChunkId& parent,
+                                                                 BlockLocation location,
+                                                                 std::span<const std::int16_t> heights) {
+            ++reads;
+            gate.pass();
+            return load(parent, location, heights);
+        };
+        settings.normals = false;
+        planet = Planet::open(std::move(source), settings).value();
+    }
+    ~SlowlyRead() { gate.open(); }
+};
+
+TEST(PlanetNormals, TurnedOnTheyAreNotWaitedFor) {
+    PagingSettings settings = roomForNormalTiles(200);
+    SlowlyRead slow(settings);
+    Planet& planet = *slow.planet;
+    ASSERT_TRUE(planet.setPaging(settings).has_value());
+    EXPECT_TRUE(planet.normalsArePending());
+    const ViewInput input = litFinely(viewAt(20, 30, 60'000, -80));
+    planet.step({&input, 1}, noUpload, 1.0 / 30);
+    EXPECT_FALSE(planet.settled());
+    EXPECT_EQ(planet.normalPaging().tileCapacity, 0u);
+    slow.gate.open();
+    ASSERT_TRUE(litSettled(planet, input.lodView));
+    EXPECT_FALSE(planet.normalsArePending());
+    NormalPool pool;
+    pool.follow(planet);
+    expectHolds(planet, pool);
+    EXPECT_GT(pool.tiles.size(), 6u);
+}
+
+TEST(PlanetNormals, TurnedOffAndOnTheirRootsAreKept) {
+    PagingSettings settings = roomForNormalTiles(200);
+    SlowlyRead slow(settings);
+    slow.gate.open();
+    Planet& planet = *slow.planet;
+    const View view = viewAt(20, 30, 60'000, -80);
+    ASSERT_TRUE(planet.setPaging(settings).has_value());
+    ASSERT_TRUE(litSettled(planet, view));
+    for (const bool on : {false, true}) {
+        settings.normals = on;
+        const int before = slow.reads;
+        ASSERT_TRUE(planet.setPaging(settings).has_value());
+        EXPECT_EQ(slow.reads, before);
+        EXPECT_FALSE(planet.normalsArePending());
+    }
+    NormalPool pool;
+    pool.follow(planet);
+    EXPECT_EQ(pool.tiles.size(), 6u);
+}
+
+// What is recorded must not depend on when a thread is done.
+TEST(PlanetNormals, WhereStepsAreRecordedTheirRootsAreThereAtOnce) {
+    PagingSettings settings = roomForNormalTiles(200);
+    SlowlyRead slow(settings);
+    slow.gate.open();
+    Planet& planet = *slow.planet;
+    planet.keepMoves(true);
+    ASSERT_TRUE(planet.setPaging(settings).has_value());
+    EXPECT_FALSE(planet.normalsArePending());
+    EXPECT_GT(planet.normalPaging().tileCapacity, 0u);
+}
+
+TEST(PlanetNormals, ARecordingThatBeginsWhileTheyAreDerivedWaitsForThem) {
+    PagingSettings settings = roomForNormalTiles(200);
+    SlowlyRead slow(settings);
+    Planet& planet = *slow.planet;
+    ASSERT_TRUE(planet.setPaging(settings).has_value());
+    EXPECT_TRUE(planet.normalsArePending());
+    slow.gate.open();
+    planet.keepMoves(true);
+    EXPECT_FALSE(planet.normalsArePending());
+    EXPECT_GT(planet.normalPaging().tileCapacity, 0u);
+}
+
 TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
     const MadeChunks made = madeChunks();
     PagingSettings settings = roomForNormalTiles(6 + 4 * 8);
@@ -223,7 +309,8 @@ TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
     PagingSettings tight = roomForNormalTiles(20);
     const auto planet = Planet::open(made.source(), tight).value();
     EXPECT_THAT(planet->takeProblems(),
-                testing::ElementsAre(HasSubstr("room for 20 tiles of normals is too little")));
+                testing::ElementsAre(
+                    HasSubstr("budget too small for this planet: 20 normal tiles; expected at least")));
     EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
     ASSERT_TRUE(litSettled(*planet, viewAt(10, 10)));
     tight.uploadLimitMs = 3;
@@ -242,7 +329,7 @@ TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
     wrong.normalShare = 0.95;
     const auto refused = Planet::open(made.source(), wrong);
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("a share of 0.95 for normals"));
+    EXPECT_THAT(refused.error().message, HasSubstr("normal share: 0.95 is out of range"));
 }
 
 TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {

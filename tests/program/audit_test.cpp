@@ -24,9 +24,9 @@ TEST(Audit, OfACleanPlanetFindsNoViolationAndEndsWell) {
     const Ran ran = runWorldy(folder, "audit planet.chk -o report.json --worst 3");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors << ran.output;
     EXPECT_THAT(ran.output, HasSubstr("violations"));
-    EXPECT_THAT(ran.output, HasSubstr("worst chunks"));
+    EXPECT_THAT(ran.output, HasSubstr("chunks by error"));
     const json report = reportIn(folder);
-    EXPECT_EQ(report["schema_version"], 1);
+    EXPECT_EQ(report["schema_version"], 2);
     EXPECT_EQ(report["violations"], 0);
     ASSERT_EQ(report["view"].size(), 9u);
     EXPECT_GT(report["worst_measured_px"], 0.2);
@@ -34,7 +34,7 @@ TEST(Audit, OfACleanPlanetFindsNoViolationAndEndsWell) {
     EXPECT_GT(report["mean_slack"], 0);
     std::uint64_t samples = 0;
     for (const json& view : report["view"]) {
-        EXPECT_EQ(view["chunk"].size(), view["chunks"]);
+        EXPECT_EQ(view["chunk"].size(), view["drawn_chunks"]);
         EXPECT_EQ(view["triangles"],
                   view["ground_triangles"].get<int>() + view["skirt_triangles"].get<int>());
         samples += view["samples"].get<std::uint64_t>();

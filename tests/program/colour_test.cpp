@@ -117,8 +117,8 @@ TEST_F(ColourProgram, AHeaderThatLiesAboutColoursIsRefusedWithWhatIsWrong) {
           std::string("shot planet.chk -o never.png"), std::string("planet.chk")}) {
         const Ran ran = runWorldy(folder_, command);
         EXPECT_EQ(ran.exitCode, 2) << command;
-        EXPECT_THAT(ran.errors, HasSubstr("planet.chk: the header asks for root blocks of colour tile "
-                                          "x_pos/0/0/0 and colour tile x_neg/0/0/0 that overlap"));
+        EXPECT_THAT(ran.errors, HasSubstr("planet.chk: invalid header: root blocks of colour tile "
+                                          "x_pos/0/0/0 and colour tile x_neg/0/0/0 overlap"));
     }
 }
 

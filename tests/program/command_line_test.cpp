@@ -40,10 +40,10 @@ std::set<std::string> optionsOf(const std::string& help) {
     return options;
 }
 
-// A row of the README's table of shared options: | `--json` | ... | bake, info |
+// A row of the table of shared options in app/README.md: | `--json` | ... | bake, info |
 TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
     const TemporaryFolder folder;
-    const std::string readme = contentOf(std::filesystem::path(WORLDY_SOURCE_DIR) / "README.md");
+    const std::string readme = contentOf(std::filesystem::path(WORLDY_SOURCE_DIR) / "app/README.md");
     const std::string commands = readme.substr(readme.find("| option | means | taken by |"));
     std::map<std::string, std::set<std::string>> takers;
     const std::regex row("\\n\\| `(--[a-z-]+)[^|]*\\|[^|]*\\| ([a-z, -]+) \\|");
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "--set lod.tua_px=3: lod.tua_px is not a setting; the nearest one is lod.tau_px"},
         BadCommand{"shot junk.chk -o o.png --layers none.toml", "none.toml: no such file"},
         BadCommand{"shot junk.chk -o o.png --layers bad.toml",
-                   "bad.toml: line 1: lod is no part of a layer set"},
+                   "bad.toml: line 1: lod is an unknown key"},
         BadCommand{"shot junk.chk -o o.png --set surface.layers=3",
                    "surface.layers is 3; expected layers, as [[layer]]"},
         BadCommand{"shot junk.chk -o o.png --set surface.layer_use=maybe", "\"automatic\", \"on\", \"off\""},
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"sweep junk.chk --flight a.toml --json s.json", "sweep --json: removed; expected -o"},
         BadCommand{"pops junk.chk --flight a.toml --frames 3 --step-s 1", "--frames"},
         BadCommand{"cracks junk.chk --frames 3", "--flight"},
-        BadCommand{"shot junk.chk -o o.png --set lod.tau_px=0", "a number of pixels from 0.1 to 64"},
+        BadCommand{"shot junk.chk -o o.png --set lod.tau_px=0", "a number in [0.1, 64] px"},
         BadCommand{"shot junk.chk -o o.png --set", "--set"},
         BadCommand{"shot junk.chk -o o.png --settings none.toml", "none.toml: no such file"},
         BadCommand{"shot junk.chk -o o.png --settings bad.toml", "bad.toml: line 2: lod.tau_px is 0"},
@@ -136,20 +136,38 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"fly junk.chk --flight none.toml", "none.toml"}, BadCommand{"bench none.tif", "none.tif"},
         BadCommand{"bench --rounds 0", "--rounds"}, BadCommand{"bench --parts colour", "--parts"},
         BadCommand{"sweep junk.chk --flight none.toml", "none.toml"},
-        BadCommand{"sweep junk.chk --flight none.toml --suggest speed=3", "--suggest speed=3"},
+        BadCommand{"sweep junk.chk --flight none.toml --suggest speed=3", "--suggest: speed=3"},
         BadCommand{"sweep junk.chk --flight none.toml --chunk 34", "--chunk"},
         BadCommand{"fly junk.chk --flight bad.toml", "bad.toml: line 1: lod is not known"},
         BadCommand{"replay", "FLIGHT is required"},
         BadCommand{"replay none.flight", "none.flight: no such file"},
-        BadCommand{"replay junk.chk", "junk.chk: is no recorded flight"},
+        BadCommand{"replay junk.chk", "junk.chk: not a recorded flight"},
         BadCommand{"replay junk.chk --simulated --as-recorded", "--simulated"},
         BadCommand{"fly junk.chk --flight none.flight", "none.flight: no such file"},
         BadCommand{"junk.chk", "junk.chk"}, BadCommand{"--settings none.toml", "none.toml: no such file"},
-        BadCommand{"--settings bad.toml", "bad.toml: line 2: lod.tau_px is 0; expected a number of pixels"},
+        BadCommand{"--settings bad.toml",
+                   "bad.toml: line 2: lod.tau_px is 0; expected a number in [0.1, 64] px"},
         BadCommand{"info junk.chk extra", "extra"}, BadCommand{"audit", "FILE is required"},
         BadCommand{"audit junk.chk", "junk.chk"}, BadCommand{"audit none.chk", "none.chk"},
         BadCommand{"audit junk.chk --camera 1,2", "--camera"},
         BadCommand{"audit junk.chk --metric best", "--metric"},
+        BadCommand{"audit junk.chk --tau 100", "--tau: 100 is not a number in [0.1, 64]"},
+        BadCommand{"audit junk.chk --tau 0.05", "see worldy audit --help"},
+        BadCommand{"bake a.tif -o o.chk --face-size 100", "--face-size: 100 is not valid; expected 2^n + 1"},
+        BadCommand{"bake a.tif -o o.chk --colour-face-size x",
+                   "--colour-face-size: x is not valid; expected 2^n"},
+        BadCommand{"bake a.tif -o o.chk --colour-format jpg",
+                   "--colour-format: jpg is not a colour format; expected bc1 or lossless"},
+        BadCommand{"make-layers -o made --seed x",
+                   "--seed: x is not valid; expected a whole number in [0, 4294967295]"},
+        BadCommand{"compare junk.chk --flight none.toml --set-b x=1", "--set-b x=1: x is not a setting"},
+        BadCommand{"sweep junk.chk --flight a.toml --tau 1,,2", "--tau: 1,,2 has an empty entry"},
+        BadCommand{"sweep junk.chk --flight a.toml --tau=,2", "--tau: ,2 has an empty entry"},
+        BadCommand{"sweep junk.chk --flight a.toml --tau 1,2,1", "--tau: 1 is given twice"},
+        BadCommand{"sweep junk.chk --flight a.toml --metric tight,tight", "--metric: tight is given twice"},
+        BadCommand{"info junk.chk -x y", "-x y: are not expected; see worldy info --help"},
+        BadCommand{"audit junk.chk -o nodir/x.json", "nodir/x.json: cannot be written: "},
+        BadCommand{"shot junk.chk -o x.xyz", "x.xyz: the extension names no picture format"},
         BadCommand{"audit junk.chk --step-s 2", "--flight"},
         BadCommand{"audit junk.chk --flight a.toml --step-s 0", "--step-s"},
         BadCommand{"compare junk.chk", "--flight is required"},

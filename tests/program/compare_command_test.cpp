@@ -34,7 +34,7 @@ TEST(CompareCommand, SetsBothSidesBesideEachOtherAndTakesPictures) {
     EXPECT_GT(report["b"]["worst_measured_px"], report["a"]["worst_measured_px"]);
     EXPECT_EQ(report["b"]["crack_px"], 0);
     for (const char* count :
-         {"resident_bytes", "bytes_read", "violations", "crack_px", "leaking_px", "switches", "late"})
+         {"most_resident_bytes", "bytes_read", "violations", "crack_px", "leaking_px", "switches", "late"})
         EXPECT_TRUE(report["a"][count].is_number_integer()) << count;
     EXPECT_EQ(report["settings"].size(), 2u);
     EXPECT_GT(report["most_different"]["pixels"], 0);
@@ -79,11 +79,15 @@ TEST(CompareCommand, SaysTheSameOfAViewAsAShotAndAnAudit) {
     ASSERT_EQ(runWorldy(folder, "audit planet.chk -o audit.json" + view).exitCode, 0);
     const Ran compared = runWorldy(folder,
                                    "compare planet.chk --flight still.toml --frames 1 --size 160x120 "
-                                   "--set-a lod.tau_px=2 --set-b lod.tau_px=3 -o compare.json");
+                                   "--set-a lod.tau_px=2 --set-b lod.tau_px=3 --set-b "
+                                   "surface.sun_hour=19.630435466766357 -o compare.json");
     ASSERT_EQ(compared.exitCode, 0) << compared.errors;
+    EXPECT_THAT(compared.output, HasSubstr(", B 19.63\n"));
     const nlohmann::json ofShot = nlohmann::json::parse(shot.output);
     const nlohmann::json ofAudit = nlohmann::json::parse(contentOf(folder.path() / "audit.json"));
-    const nlohmann::json ofCompare = nlohmann::json::parse(contentOf(folder.path() / "compare.json"))["a"];
+    const nlohmann::json comparison = nlohmann::json::parse(contentOf(folder.path() / "compare.json"));
+    EXPECT_EQ(comparison["settings"][1]["b"], "19.630435466766357");
+    const nlohmann::json& ofCompare = comparison["a"];
     for (const char* key : {"worst_eps_px", "worst_drawn_bound_px"}) {
         const double px = ofShot[key];
         EXPECT_GT(px, 0.1) << key;

@@ -45,6 +45,7 @@ TEST(Program, InfoTellsWhatWasBaked) {
     const json bake = json::parse(baked.output);
     EXPECT_EQ(bake["face_size"], 129);
     EXPECT_EQ(bake["chunks"], 6 * (1 + 4 + 16 + 64));
+    EXPECT_EQ(bake["level_count"], 4);
     EXPECT_EQ(bake["file_bytes"], std::filesystem::file_size(folder.path() / "planet.chk"));
 
     const Ran told = runWorldy(folder, "info planet.chk --json");
@@ -73,8 +74,19 @@ TEST(Program, VerifyPassesAGoodFileAndFindsDamage) {
     file.close();
     const Ran bad = runWorldy(folder, "verify planet.chk");
     EXPECT_EQ(bad.exitCode, 1);
-    EXPECT_THAT(bad.output, HasSubstr("compared with the source, 1 problem\n"));
+    EXPECT_THAT(bad.output, HasSubstr("shared edges checked, 1 problem\n"));
     EXPECT_EQ(bad.errors, "worldy: planet.chk: 1 problem found, 0 expected; bake the file again\n");
+}
+
+TEST(Program, VerifyAgainstAnotherSourceDoesNotBlameTheFileAlone) {
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran other = runWorldy(folder, "verify planet.chk --source hills.pgm --metres-per-unit 19");
+    EXPECT_EQ(other.exitCode, 1);
+    EXPECT_THAT(other.output, HasSubstr(" samples compared with the source, "));
+    EXPECT_THAT(other.errors,
+                HasSubstr("the file is whole but differs from the given source: bake it again, or "
+                          "name the source and the options that it was baked with"));
 }
 
 TEST(Program, ProbeTellsTheHeightOfTheImage) {
@@ -89,7 +101,7 @@ TEST(Program, ProbeTellsTheHeightOfTheImage) {
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     const json probe = json::parse(ran.output);
     EXPECT_NEAR(probe["height_m"].get<double>(), 20 * hillAt(column, row), 60);
-    EXPECT_EQ(probe["chunks"][0]["id"].get<std::string>().find("/0/0/0"), 5u);
+    EXPECT_EQ(probe["levels_here"][0]["id"].get<std::string>().find("/0/0/0"), 5u);
 }
 
 TEST(Program, AnInterruptedBakeEndsWith130AndLeavesNothing) {
@@ -127,9 +139,9 @@ TEST(Program, AShotIsAPictureOfThePlanet) {
     const json report = json::parse(ran.output);
     EXPECT_TRUE(report["settled"]);
     EXPECT_LE(report["worst_eps_px"], 1.0);
-    const std::vector<int> levels = report["levels"];
+    const std::vector<int> levels = report["drawn_by_level"];
     EXPECT_EQ(std::accumulate(levels.begin(), levels.end(), 0), report["drawn_chunks"]);
-    EXPECT_EQ(report["schema_version"], 1);
+    EXPECT_EQ(report["schema_version"], 2);
     EXPECT_GT(report["ground_triangles"], 0);
     EXPECT_GT(report["skirt_triangles"], 0);
     EXPECT_EQ(report["triangles"],
@@ -284,7 +296,7 @@ TEST(Program, ASweepFliesAtEveryTauAndFindsOneForABudget) {
         EXPECT_GT(points[i]["worst_measured_px"], points[i - 1]["worst_measured_px"]);
     }
     EXPECT_TRUE(readPicture(folder.path() / "out.png"));
-    EXPECT_THAT(contentOf(folder.path() / "out.csv"), HasSubstr("\n1,additive,17,16,"));
+    EXPECT_THAT(contentOf(folder.path() / "out.csv"), HasSubstr("\n2,additive,17,16,"));
 
     const double budget = points[1]["mean_triangles"];
     const Ran found = runWorldy(folder, common + fmt::format("--suggest triangles={}", budget));

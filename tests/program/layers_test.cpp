@@ -96,7 +96,7 @@ TEST_F(LayersProgram, AContradictoryRangeIsNamedAndLoud) {
                               "--set 'surface.layers=[{ name = \"rock\", albedo = \"rock_albedo.png\", "
                               "scale_m = 4000, height_m = [900, 300, 10] }]'");
     EXPECT_EQ(ran.exitCode, 0);
-    EXPECT_THAT(ran.errors, HasSubstr("\"rock\": heights from 900 to 300 m: the lowest must not be above"));
+    EXPECT_THAT(ran.errors, HasSubstr("\"rock\": heights: [900, 300] m is inverted"));
     EXPECT_GT(magentaShare(pixels("range.png")), 0.2);
 }
 

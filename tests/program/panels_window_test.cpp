@@ -115,7 +115,7 @@ choose seams/Seams skirts; expect counts triangles -eq $skirts; settle
 plain=$(viewport)
 click "seams/Highlight LOD seams"; expect differs "$plain"
 click "seams/Highlight LOD seams"; expect same "$plain"
-tab Overlay; choose overlay/Skirts "Only skirts"; expect differs "$plain"; loud=$(viewport)
+tab Overlay; choose overlay/Skirts "only skirts"; expect differs "$plain"; loud=$(viewport)
 tab Seams; choose "seams/Skirt depth" fixed; slide seams/Depth 1; expect differs "$loud"
 )sh");
 }
@@ -162,7 +162,7 @@ slide "paging/Retry delay" 0; slide "paging/Failure rate" 1
 click "paging/Evict all"; expect counts failed_for_good -gt 0; expect counts awaiting_retry -eq 0; settle
 counts failed_heights -eq $((5 * $(counter failed_for_good))) || echo "$(counter failed_heights) reads failed in all"
 counts resident -eq 6 || echo "on a disk that fails, $(counter resident) chunks are resident"
-expect says 'read failed on purpose'
+expect says 'injected read failure'
 click paging/Off; expect hidden paging/Off; click "paging/Failed blocks"; click "paging/Retry failed"
 expect counts triangles -eq $triangles; expect counts failed_for_good -eq 0; expect hidden "paging/Retry failed"
 )sh",
@@ -173,12 +173,12 @@ TEST_F(PanelsWindowTest, OverlayAndSurfaceChangeThePictureAndBack) {
     drive(R"sh(
 plain=$(viewport)
 tab Overlay
-choose "overlay/Colour by" Level; expect differs "$plain"; tinted=$(viewport)
-choose overlay/Labels Level; expect differs "$tinted"
-choose overlay/Labels None; expect same "$tinted"
+choose "overlay/Colour by" level; expect differs "$plain"; tinted=$(viewport)
+choose overlay/Labels level; expect differs "$tinted"
+choose overlay/Labels none; expect same "$tinted"
 slide overlay/Opacity 0.3; expect differs "$tinted"; key ctrl+z
 choose "overlay/Colour by" δc; expect differs "$tinted"
-choose "overlay/Colour by" Nothing; expect same "$plain"
+choose "overlay/Colour by" none; expect same "$plain"
 for box in Outlines Bounds Wireframe; do
     click overlay/$box; expect differs "$plain"; click overlay/$box; expect same "$plain"
 done

@@ -23,7 +23,7 @@ TEST_P(StandardOutput, FullDeviceEndsWithTwoAndSaysWhy) {
            "0\npitch_deg = -60\n";
     const Ran ran = runWorldy(folder, std::string(GetParam()) + " >/dev/full");
     EXPECT_EQ(ran.exitCode, 2) << ran.errors;
-    EXPECT_THAT(ran.errors, HasSubstr("worldy: standard output: cannot be written: "));
+    EXPECT_THAT(ran.errors, HasSubstr("worldy: standard output: cannot be written: No space left on device"));
 }
 
 INSTANTIATE_TEST_SUITE_P(

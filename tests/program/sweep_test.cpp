@@ -43,6 +43,8 @@ TEST_F(SweepTest, WritesTheSamePointsAsTableAndAsJson) {
     EXPECT_EQ(json["frames"], 2);
     ASSERT_EQ(json["points"].size(), 4u);
     EXPECT_EQ(json["points"][0]["chunk_size"], 17);
+    EXPECT_GT(json["points"][0]["mean_drawn_chunks"], 0);
+    EXPECT_TRUE(json["points"][0]["most_resident_bytes"].is_number_integer());
     EXPECT_GE(json["points"][0]["mean_triangles"], json["points"][1]["mean_triangles"]);
     EXPECT_EQ(json["points"][0]["violations"], 0);
     EXPECT_GT(contentOf(folder.path() / "s.png").size(), 1000u);
@@ -79,7 +81,7 @@ TEST_F(SweepTest, WhatCannotBeFlownEndsWithTwoAndAReason) {
     for (const auto& [arguments, reason] :
          {std::pair("planet.chk --flight gone.toml", "gone.toml"),
           std::pair("gone.chk --flight down.toml", "gone.chk"),
-          std::pair("planet.chk --flight down.toml --chunk 33", "its chunks are 17 a side"),
+          std::pair("planet.chk --flight down.toml --chunk 33", "chunk size is 17; for "),
           std::pair("planet.chk --flight down.toml -o table.txt", "expected .csv or .json"),
           std::pair("planet.chk --flight down.toml --tau 0", "--tau")}) {
         const Ran ran = runWorldy(folder, std::string("sweep --frames 1 --size 64x64 ") + arguments);

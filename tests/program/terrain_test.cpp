@@ -105,13 +105,13 @@ TEST_F(TerrainTest, BadInputIsToldWithWhatWouldBeRight) {
         EXPECT_THAT(ran.errors, HasSubstr(told));
         EXPECT_FALSE(std::filesystem::exists(folder / "o.chk"));
     };
-    expectBad("bake noise:rigded -o o.chk", "nearest one is noise:ridged");
+    expectBad("bake noise:rigded -o o.chk", "did you mean noise:ridged");
     expectBad("bake noise:fbm,octaves=99 -o o.chk", "octaves is 99");
     expectBad("bake noise:fbm --offset 3 -o o.chk", "is procedural terrain");
     expectBad("bake preset:mon -o o.chk", "preset:moon");
     expectBad("bake nothing.tif --detail -o o.chk", "nothing.tif");
     expectBad("bake noise:fbm --detail=strength=99 -o o.chk", "strength is 99");
-    expectBad("bake noise:fbm --face-size 65 --quantum 0.01 -o o.chk", "do not fit in 16 bits");
+    expectBad("bake noise:fbm --face-size 65 --quantum 0.01 -o o.chk", "exceed 16 bits");
     expectBad("noise:fbm,gain=7", "gain is 7");
     expectBad("sweep noise:fbn --flight x.toml", "");
 }

@@ -113,15 +113,26 @@ TEST_F(Overwrite, ColourImageBesideTheFileIsAnInput) {
     expectRefused("bake x.tif -o colour.jpg --overwrite", "colour.jpg: is an input of this command");
 }
 
+TEST_F(Overwrite, ColourImageOfTheSourceOfAChunkFileIsAnInput) {
+    fs::create_directory(path("src"));
+    copy("hills.pgm", "src/n.pgm");
+    copy("c.jpg", "src/colour.jpg");
+    ASSERT_EQ(run("bake src/n.pgm --detail -o d.chk --face-size 129").exitCode, 0);
+    expectRefused("shot d.chk -o src/colour.jpg --size 200x100", "which is an input of this command");
+    EXPECT_EQ(contentOf(path("src/colour.jpg")), contentOf(path("c.jpg")));
+}
+
 TEST_F(Overwrite, FilesOfAnotherKindAreReplacedOnlyWithOverwrite) {
     copy("planet.chk", "other.chk");
     for (const char* command :
          {"bake x.tif -o n.tif", "bake x.tif -o d.toml", "bake x.tif -o c.jpg", "audit s.chk -o other.chk",
           "cracks s.chk -o n.tif", "cracks s.chk --mark n.tif", "pops s.chk --flight d.toml -o other.chk",
-          "sweep s.chk --flight d.toml -o other.chk", "sweep s.chk --flight d.toml --plot other.chk",
-          "shot s.chk -o other.chk", "shot s.chk -o n.tif", "costs s.chk -o other.chk",
-          "bench n.tif -o other.chk", "compare s.chk --flight d.toml -o other.chk"})
+          "sweep s.chk --flight d.toml -o other.chk", "sweep s.chk --flight d.toml --plot n.tif",
+          "shot s.chk -o n.tif", "costs s.chk -o other.chk", "bench n.tif -o other.chk",
+          "compare s.chk --flight d.toml -o other.chk"})
         expectRefused(command, "or --overwrite to replace it");
+    for (const char* command : {"shot s.chk -o other.chk", "sweep s.chk --flight d.toml --plot other.chk"})
+        expectRefused(command, "the extension names no picture format");
     const Ran asked = run("audit s.chk --camera 1,2,1e6 --size 64x64 -o other.chk --overwrite");
     EXPECT_EQ(asked.exitCode, 0) << asked.errors;
     EXPECT_EQ(contentOf(path("other.chk")).front(), '{');

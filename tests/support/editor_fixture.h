@@ -55,7 +55,6 @@ public:
         view.data.name = "earth.chk";
         view.data.hasColourImage = true;
         view.camera.pose = pose_;
-        view.camera.heightAboveGroundM = pose_.altitudeM;
         view.camera.bookmarks = bookmarks_;
         view.presets = presets_;
         view.allocations.now = allocations();
@@ -92,7 +91,8 @@ public:
         {"crack hunting",
          "/usr/share/worldy/presets/crack hunting.toml",
          {},
-         {{"overlay.outlines", "false", "true"}, {"overlay.skirt_paint", "as_ground", "loud"}},
+         {{"overlay.outlines", "false", "true", "Outlines"},
+          {"overlay.skirt_paint", "as_ground", "loud", "Skirts"}},
          true},
         {"default", "/usr/share/worldy/presets/default.toml", {}, {}, true},
         {"broken",

@@ -1,5 +1,7 @@
 #include "ui/kit/chunk_link.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace ui {
@@ -41,6 +43,13 @@ planet::ChunkId chunkAround(const planet::ChunkTree& tree, planet::ChunkId squar
     while (square.level > 0 && planet::findNode(tree, square) == planet::noNode)
         square = planet::parentOf(square);
     return square;
+}
+
+std::string widestChunkName(const EditorView& view) {
+    const planet::PlanetShape& shape = view.planet->shape();
+    const int level = shape.faceCellsLog2 - shape.chunkCellsLog2;
+    const std::uint32_t last = (1u << level) - 1;
+    return fmt::format("x_neg/{}/{}/{}", level, last, last);
 }
 
 void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& commands,

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "ui/model/editor_view.h"
@@ -17,6 +19,9 @@ void chunkLink(const planet::ChunkId& id, const EditorView& view, Commands& comm
 // as there is; a double click looks at the tile's own square.
 void colourLink(const planet::ChunkId& tile, const EditorView& view, Commands& commands,
                 ImGuiSelectableFlags flags = 0);
+// Returns the widest name that a chunk of the planet can have: for the width of a column.
+std::string widestChunkName(const EditorView& view);
+
 // The resident chunk that holds a square of a face, the smallest.
 planet::ChunkId chunkAround(const planet::ChunkTree& tree, planet::ChunkId square);
 // The same in the next cell of a table.

@@ -8,17 +8,15 @@
 namespace ui {
 
 void featureKnob(const char* label, CostlyPart part, const EditorView& view, SurfaceSettings& surface,
-                 Commands& commands, const char* explanation, const char* costs) {
+                 Commands& commands, const char* explanation) {
     using planet::gl::FeatureUse;
     FeatureUse& use = useOf(part, surface);
     choice(label, use, FeatureUse::Automatic, "automatic\0on\0off\0", explanation);
     if (use != FeatureUse::Automatic) return;
     if (view.light.software) {
-        wrappedText(
-            fmt::format("Off: software rendering; {} would exceed the 50 ms budget of a frame.", costs),
-            palette().warning);
+        wrappedText("Off: software rendering; exceeds the 50 ms budget.", palette().warning);
     } else if (view.light.turnedDown.has(part)) {
-        wrappedText(fmt::format("Off: it took the GPU to {:.0f} ms per frame; the budget is {:.0f} ms.",
+        wrappedText(fmt::format("Off: GPU frame time {:.0f} ms exceeds the {:.0f} ms budget.",
                                 view.light.turnedDown.tookMs[static_cast<std::size_t>(part)], affordedMs),
                     palette().warning);
         ImGui::PushID(label);

@@ -1,4 +1,4 @@
-// The knob of a part of the picture that costs time.
+// The control of a part of the picture that costs time.
 #pragma once
 
 #include "ui/model/costly_parts.h"
@@ -6,9 +6,8 @@
 
 namespace ui {
 
-// Automatic, on or off; below it, when Automatic has turned it down, why. costs: "layers cost", as the
-// beginning of that sentence.
+// Automatic, on or off. Shows the reason below the control if Automatic has turned the part off.
 void featureKnob(const char* label, CostlyPart part, const EditorView& view, SurfaceSettings& surface,
-                 Commands& commands, const char* explanation, const char* costs);
+                 Commands& commands, const char* explanation);
 
 }  // namespace ui

@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace ui {
 
 namespace {
@@ -22,9 +24,12 @@ void setItemScope(std::string_view scope) {
 
 void noteItem(std::string_view label) {
     if (!collected || !ImGui::IsItemVisible()) return;
-    const ImVec2 min = ImGui::GetItemRectMin();
-    const ImVec2 size = ImGui::GetItemRectSize();
-    noteRect(label, {min.x, min.y, size.x, size.y});
+    // A row of a table may be wider than the window that scrolls it.
+    const float left = std::max(ImGui::GetItemRectMin().x, ImGui::GetWindowPos().x);
+    const float right =
+        std::min(ImGui::GetItemRectMax().x, ImGui::GetWindowPos().x + ImGui::GetWindowWidth());
+    const float top = ImGui::GetItemRectMin().y;
+    noteRect(label, {left, top, right - left, ImGui::GetItemRectSize().y});
 }
 
 void noteRect(std::string_view label, const Rect& rect) {

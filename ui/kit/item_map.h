@@ -1,4 +1,4 @@
-// Where controls are on the screen, by name: for scripts that drive the window, as the tests and the README's
+// Where controls are on the screen, by name: for scripts that drive the window, as the tests and the manual's
 // pictures do. Nothing is noted unless it is asked for. One thread, as ImGui.
 #pragma once
 

@@ -314,7 +314,8 @@ void drawMarks(const Area& area, std::span<const HistogramMark> marks) {
                                             faded(palette().warning, 0.9f));
         const float width = ImGui::CalcTextSize(mark.label.c_str()).x;
         const bool right = x + gap + width < area.end.x;
-        const ImVec2 at(right ? x + gap : x - gap - width, area.start.y + row);
+        const float left = std::max(right ? x + gap : x - gap - width, area.start.x);
+        const ImVec2 at(left, area.start.y + row);
         // Bars may stand behind it.
         const ImVec4& ground = ImGui::GetStyleColorVec4(ImGuiCol_FrameBg);
         ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + ImGui::GetTextLineHeight()},

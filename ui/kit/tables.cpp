@@ -1,6 +1,9 @@
 #include "ui/kit/tables.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
+
+#include <cmath>
 
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
@@ -19,27 +22,39 @@ bool hasTitle(const TableColumn& column) {
     return column.title[0] != '#';
 }
 
-// The width at which every column holds its title with the sort arrow and its widest text, pixels.
-float neededWidth(std::span<const TableColumn> columns) {
-    float shares = 0;
-    float perShare = 0;
-    for (const TableColumn& column : columns) {
-        const float title =
-            hasTitle(column) ? ImGui::CalcTextSize(inFont(column.title).c_str()).x + ImGui::GetFontSize() : 0;
-        const float text = column.widest ? ImGui::CalcTextSize(column.widest).x : 0;
-        const float padding = 2 * ImGui::GetStyle().CellPadding.x + 1;
-        perShare = std::max(perShare, (std::max(title, text) + padding) / column.share);
-        shares += column.share;
-    }
-    return shares * perShare;
+// The width at which a column holds its title with the sort arrow and its widest text, pixels.
+float neededWidth(const TableColumn& column) {
+    const float arrow = 0.65f * ImGui::GetFontSize() + ImGui::GetStyle().FramePadding.x;
+    float title = hasTitle(column) ? ImGui::CalcTextSize(inFont(column.title).c_str()).x : 0;
+    if (hasTitle(column) && column.sorts) title += arrow;
+    const float text = column.widest ? ImGui::CalcTextSize(inFont(column.widest).c_str()).x : 0;
+    return std::ceil(std::max(title, text)) + 1;
 }
 
-void header(std::span<const TableColumn> columns, int frozenColumns) {
+// Pixels of a table beside its columns' contents: padding, borders and outer padding.
+float borderWidth(std::size_t columns) {
+    const auto count = static_cast<float>(columns);
+    return (2 * count + 2) * ImGui::GetStyle().CellPadding.x + count;
+}
+
+// Widths follow the table's, until the user drags one of them.
+void setWidths(std::span<const float> widths) {
+    ImGuiTable& table = *ImGui::GetCurrentTable();
+    bool* dragged = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("dragged"));
+    *dragged |= table.ResizedColumn >= 0 || table.LastResizedColumn >= 0;
+    if (*dragged) return;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        table.Columns[static_cast<int>(i)].StretchWeight = widths[i];
+}
+
+void header(std::span<const TableColumn> columns, float width, int frozenColumns) {
     ImGui::TableSetupScrollFreeze(frozenColumns, 1);
-    for (const TableColumn& column : columns)
-        ImGui::TableSetupColumn(inFont(column.title).c_str(),
-                                hasTitle(column) && column.sorts ? 0 : ImGuiTableColumnFlags_NoSort,
-                                column.share);
+    const std::vector<float> widths = columnWidths(columns, width);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        ImGui::TableSetupColumn(inFont(columns[i].title).c_str(),
+                                hasTitle(columns[i]) && columns[i].sorts ? 0 : ImGuiTableColumnFlags_NoSort,
+                                widths[i]);
+    setWidths(widths);
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (const TableColumn& column : columns) {
         ImGui::TableNextColumn();
@@ -49,35 +64,50 @@ void header(std::span<const TableColumn> columns, int frozenColumns) {
     }
 }
 
-bool beginTable(const char* id, std::span<const TableColumn> columns, float leastWidthPx, ImVec2 size,
-                int frozenColumns) {
-    const float width = std::max({ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize,
-                                  leastWidthPx, neededWidth(columns)});
+bool beginTable(const char* id, std::span<const TableColumn> columns, ImVec2 size, int frozenColumns) {
+    const float room = size.x > 0 ? size.x : ImGui::GetContentRegionAvail().x;
+    const float width = std::max(room - ImGui::GetStyle().ScrollbarSize, tableWidth(columns));
     if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), listFlags, size, width)) return false;
-    header(columns, frozenColumns);
+    header(columns, width, frozenColumns);
     return true;
 }
 
 }  // namespace
 
-bool beginWideTable(const char* id, std::span<const TableColumn> columns, float leastWidth,
-                    int frozenColumns) {
+float tableWidth(std::span<const TableColumn> columns) {
+    float width = borderWidth(columns.size());
+    for (const TableColumn& column : columns) width += neededWidth(column);
+    return width;
+}
+
+std::vector<float> columnWidths(std::span<const TableColumn> columns, float width) {
+    const float surplus = std::max(width - tableWidth(columns), 0.0f);
+    float shares = 0;
+    for (const TableColumn& column : columns) shares += column.share;
+    std::vector<float> widths;
+    for (const TableColumn& column : columns)
+        widths.push_back(neededWidth(column) + surplus * column.share / shares);
+    return widths;
+}
+
+bool beginWideTable(const char* id, std::span<const TableColumn> columns, int frozenColumns) {
     const float height =
         std::max(ImGui::GetContentRegionAvail().y, 5 * ImGui::GetTextLineHeightWithSpacing());
-    return beginTable(id, columns, leastWidth * ImGui::GetFontSize(), {0, height}, frozenColumns);
+    return beginTable(id, columns, {0, height}, frozenColumns);
 }
 
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines, int frozenColumns) {
     const float lines = static_cast<float>(std::clamp<std::size_t>(rows + 1, 4, mostLines));
-    const bool scrolls = neededWidth(columns) > ImGui::GetContentRegionAvail().x;
+    const bool scrolls =
+        tableWidth(columns) > ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
     const float height = lines * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
                          (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
-    return beginTable(id, columns, 0, {0, height}, frozenColumns);
+    return beginTable(id, columns, {0, height}, frozenColumns);
 }
 
 bool beginSizedTable(const char* id, std::span<const TableColumn> columns, ImVec2 size) {
-    return beginTable(id, columns, 0, size, 0);
+    return beginTable(id, columns, size, 0);
 }
 
 std::optional<TableSort> chosenSort() {

@@ -17,16 +17,20 @@ namespace ui {
 
 struct TableColumn {
     const char* title;  // "##go": no title, not sortable
-    float share = 1;    // of the width, relative to the other columns'
+    float share = 1;    // of the width that is left when every column holds its widest text
     const char* explanation = nullptr;
     const char* widest = nullptr;  // the widest text to expect in a cell, if wider than the title
     bool sorts = true;
 };
 
-// Fills the available space. Scrolls sideways if it is narrower than leastWidth font heights, or than the
-// titles and the widest texts need. The first frozenColumns do not scroll.
-bool beginWideTable(const char* id, std::span<const TableColumn> columns, float leastWidth,
-                    int frozenColumns = 0);
+// Returns the width at which every column holds its title and its widest text, pixels.
+float tableWidth(std::span<const TableColumn> columns);
+// Divides a table's width among its columns, pixels: each gets what it needs and its share of the rest.
+std::vector<float> columnWidths(std::span<const TableColumn> columns, float width);
+
+// Fills the available space. Scrolls sideways if it is narrower than the titles and the widest texts need.
+// The first frozenColumns do not scroll.
+bool beginWideTable(const char* id, std::span<const TableColumn> columns, int frozenColumns = 0);
 // Is as wide as the panel and as high as its rows, within limits; scrolls sideways like a wide table.
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines = 12, int frozenColumns = 0);

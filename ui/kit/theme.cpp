@@ -58,9 +58,9 @@ void setColours(ImGuiStyle& style, Theme theme) {
     c[ImGuiCol_Button] = grey(0.21f);
     c[ImGuiCol_ButtonHovered] = grey(0.28f);
     c[ImGuiCol_ButtonActive] = tinted(0.65f);
-    c[ImGuiCol_Header] = grey(0.17f);
-    c[ImGuiCol_HeaderHovered] = tinted(0.30f);
-    c[ImGuiCol_HeaderActive] = tinted(0.45f);
+    c[ImGuiCol_Header] = tinted(theme == Theme::Dark ? 0.40f : 0.28f);
+    c[ImGuiCol_HeaderHovered] = tinted(theme == Theme::Dark ? 0.50f : 0.38f);
+    c[ImGuiCol_HeaderActive] = tinted(theme == Theme::Dark ? 0.60f : 0.48f);
     c[ImGuiCol_CheckMark] = accent;
     c[ImGuiCol_SliderGrab] = tinted(0.55f);
     c[ImGuiCol_SliderGrabActive] = tinted(0.80f);

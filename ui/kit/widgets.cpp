@@ -78,7 +78,13 @@ void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags
 
 bool section(const char* title) {
     ImGui::Spacing();
-    return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+    // A heading is no selected row.
+    ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
+    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgHovered));
+    ImGui::PushStyleColor(ImGuiCol_HeaderActive, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgActive));
+    const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+    ImGui::PopStyleColor(3);
+    return open;
 }
 
 void tooltip(const char* text) {
@@ -144,6 +150,11 @@ void endValues() {
     ImGui::EndTable();
 }
 
+ImVec2 dragDelta(ImGuiMouseButton button) {
+    if (!ImGui::IsMouseDown(button) || ImGui::IsMouseClicked(button)) return {0, 0};
+    return ImGui::GetIO().MouseDelta;
+}
+
 void labelledControl(const char* label, const char* explanation) {
     const float start = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -184,6 +195,17 @@ bool checkbox(const char* label, bool& value, bool defaultValue, const char* exp
     if (offerDefault(label, value == defaultValue, defaultValue ? "on" : "off")) {
         value = defaultValue;
         changed = true;
+    }
+    return changed;
+}
+
+bool numberField(const char* id, double& value, const char* format) {
+    const bool changed = ImGui::InputDouble(id, &value, 0, 0, format, ImGuiInputTextFlags_AutoSelectAll);
+    // Dear ImGui would select the word under the pointer, which may be the unit alone.
+    ImGuiInputTextState* const text = ImGui::GetInputTextState(ImGui::GetItemID());
+    if (text && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        text->SelectAll();
+        text->SelectedAllMouseLock = true;
     }
     return changed;
 }
@@ -288,8 +310,8 @@ bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
                                    : ImGuiCol_Separator;
     ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
                                               ImGui::GetColorU32(colour));
-    if (active)
-        movedPx += static_cast<double>(upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y);
+    const ImVec2 moved = dragDelta(ImGuiMouseButton_Left);
+    if (active) movedPx += static_cast<double>(upright ? moved.x : moved.y);
     ImGui::End();
     ImGui::PopStyleVar(2);
     return active;
@@ -297,8 +319,18 @@ bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
 
 void usageBar(double share, const std::string& text) {
     if (share > 1) ImGui::PushStyleColor(ImGuiCol_PlotHistogram, palette().bad);
-    ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), {-1, 0}, text.c_str());
+    ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), {-1, 0}, "");
     if (share > 1) ImGui::PopStyleColor();
+    // In the middle; a text that does not fit begins at the left edge.
+    const ImVec2 from = ImGui::GetItemRectMin();
+    const ImVec2 to = ImGui::GetItemRectMax();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float pad = ImGui::GetStyle().FramePadding.x;
+    const float left = std::max(from.x + pad, (from.x + to.x - size.x) / 2);
+    ImGui::PushClipRect(from, to, true);
+    ImGui::GetWindowDrawList()->AddText({left, (from.y + to.y - size.y) / 2},
+                                        ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    ImGui::PopClipRect();
 }
 
 ImU32 boxColour() {

@@ -29,6 +29,10 @@ void valueRow(const char* name, const std::string& value, const char* explanatio
               const ImVec4* colour = nullptr);
 void endValues();
 
+// Returns how far the pointer has moved this frame with the button down, pixels; {0, 0} in the frame in which
+// the button goes down, because that motion came before the press.
+ImVec2 dragDelta(ImGuiMouseButton button);
+
 // A label in the left column and room for a control in the right one; call the control right after.
 void labelledControl(const char* label, const char* explanation);
 // Lit where the value is changed: not the default, or not that of the open file.
@@ -42,6 +46,8 @@ bool slider(const char* label, double& value, double defaultValue, double min, d
 bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format,
             const char* explanation, ImGuiSliderFlags flags = 0);
 bool checkbox(const char* label, bool& value, bool defaultValue, const char* explanation);
+// A field for a number; its text is selected whole by a click that enters it and by a double click.
+bool numberField(const char* id, double& value, const char* format);
 // As ImGui::Combo, items: "one\0two\0". The item map has the items too while it is open: "name: one".
 bool combo(const char* name, int& index, const char* items);
 // items as for combo.

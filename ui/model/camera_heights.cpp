@@ -1,5 +1,6 @@
 #include "ui/model/camera_heights.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace ui {
@@ -7,11 +8,11 @@ namespace ui {
 CameraHeights cameraHeights(const EditorView& view, const ViewSettings& settings) {
     const double altitudeM = view.camera.pose.altitudeM;
     const glm::dvec3& eyeM = view.renderView.eyeM;
-    CameraHeights heights{view.camera.heightAboveGroundM, view.camera.heightAboveGroundM,
-                          altitudeM - settings.surface.seaLevelM * settings.surface.exaggeration};
-    if (view.planet && glm::dot(eyeM, eyeM) > 0)
-        heights.aboveGroundM = altitudeM - planet::residentHeightM(view.planet->tree(), eyeM);
-    return heights;
+    const bool hasPlace = view.planet && glm::dot(eyeM, eyeM) > 0;
+    const double groundM = hasPlace ? planet::sampledHeightM(view.planet->tree(), eyeM) : 0;
+    const double drawnM = std::max(groundM, view.camera.seaSurfaceM.value_or(groundM));
+    return {altitudeM - drawnM, altitudeM - groundM,
+            altitudeM - settings.surface.seaLevelM * settings.surface.exaggeration};
 }
 
 std::vector<NamedHeight> namedHeights(const CameraHeights& heights) {
@@ -19,18 +20,21 @@ std::vector<NamedHeight> namedHeights(const CameraHeights& heights) {
     const NamedHeight bed{
         "above the sea bed", heights.aboveGroundM,
         "Height of the camera above the finest ground that is loaded below it, under the sea."};
+    NamedHeight sea{"above sea level", heights.aboveSeaLevelM,
+                    "Height of the camera above the Sea level of the Surface panel."};
     if (heights.aboveGroundM > heights.aboveDrawnM + sameM)
         return {{"above the sea surface", heights.aboveDrawnM,
                  "Height of the camera above the sea drawn below it."},
                 bed};
-    if (heights.aboveGroundM > heights.aboveSeaLevelM + sameM)
-        return {bed,
-                {"above sea level", heights.aboveSeaLevelM,
-                 "Height of the camera above the Sea level of the Surface panel. The sea's surface is not "
-                 "drawn here: "
-                 "what is drawn is its bed."}};
-    return {{"above ground", heights.aboveDrawnM,
-             "Height of the camera above the finest ground that is loaded below it."}};
+    if (heights.aboveGroundM > heights.aboveSeaLevelM + sameM) {
+        sea.explanation =
+            "Height of the camera above the Sea level of the Surface panel. The sea surface is not drawn; "
+            "the sea bed is.";
+        return {bed, sea};
+    }
+    return {{"above ground", heights.aboveGroundM,
+             "Height of the camera above the finest ground that is loaded below it."},
+            sea};
 }
 
 }  // namespace ui

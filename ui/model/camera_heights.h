@@ -11,7 +11,7 @@ namespace ui {
 // Metres, of the point right below the camera.
 struct CameraHeights {
     double aboveDrawnM = 0;   // above the sea's surface where that is drawn, else above the ground
-    double aboveGroundM = 0;  // above the finest ground that is resident
+    double aboveGroundM = 0;  // above the finest samples that are resident, not the triangles between them
     double aboveSeaLevelM = 0;
 };
 CameraHeights cameraHeights(const EditorView& view, const ViewSettings& settings);
@@ -21,7 +21,8 @@ struct NamedHeight {
     double heightM = 0;
     const char* explanation = "";
 };
-// One or two: what is drawn first. Over water that is not drawn as a surface, the bed and the sea level.
+// The surface below the camera, then the sea bed under a drawn sea, else the sea level. Always two, so that
+// what stands below them stays where it is.
 std::vector<NamedHeight> namedHeights(const CameraHeights& heights);
 
 }  // namespace ui

@@ -1,5 +1,5 @@
 // What panels, menus and keys ask the application to do. They append; the application obeys after all panels
-// have been drawn (app/commands.cpp has one function a command).
+// have been drawn (app/editor/commands.cpp has one function a command).
 #pragma once
 
 #include <any>
@@ -232,7 +232,7 @@ struct CancelCompareFlight {};
 template <class... Kinds>
 struct CommandKindList {};
 
-// All there are. app/commands.cpp does not compile without a function for each.
+// All there are. app/editor/commands.cpp does not compile without a function for each.
 using CommandKinds = CommandKindList<
     HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, InspectPlace, EndInspection, ResetCamera,
     KeepCameraAsStart, AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,9 +25,10 @@ constexpr std::array<CompareRow, 20> comparedRows = {{
     {"mean_triangles", terms::triangles.name,
      "The sum of ground triangles and skirt triangles. Over a flight: the mean of its sample frames.",
      &Figures::triangles, FigureUnit::Count, true, true, false},
-    {"mean_chunks", "Chunks", "Chunks drawn. Over a flight: the mean of its sample frames.", &Figures::chunks,
-     FigureUnit::Count, true, true, false},
-    {"resident_bytes", "Memory",
+    {"mean_drawn_chunks", terms::drawnChunks.name,
+     "Chunks drawn. Over a flight: the mean of its sample frames.", &Figures::chunks, FigureUnit::Count, true,
+     true, false},
+    {"most_resident_bytes", "Memory",
      "Memory of resident chunks, CPU and GPU together. Over a flight: the maximum.", &Figures::residentBytes,
      FigureUnit::Bytes, true, true, true},
     {"bytes_read", "Bytes read",
@@ -37,13 +39,14 @@ constexpr std::array<CompareRow, 20> comparedRows = {{
      FigureUnit::Milliseconds, true, false, false},
     {"draw_ms", "Drawing", "GPU time for drawing the planet by timer queries, in ms per frame, smoothed.",
      &Figures::drawMs, FigureUnit::Milliseconds, true, false, false},
-    {"frame_ms", "Frame time",
+    {"median_frame_ms", "Frame time",
      "Selecting and drawing one sample frame, including the GPU, in ms: best of five with A and B "
      "alternating, median over all sample frames. Small differences are not significant while the window "
      "draws too.",
      &Figures::frameMs, FigureUnit::Milliseconds, false, true, false},
     {"worst_eps_px", "Max ε",
-     "Largest predicted error of a drawn chunk's own surface, δ K' / D, in pixels. Morph is not counted in.",
+     "Largest predicted error of a drawn chunk's own surface, δc K' / D, in pixels. Compared with τ. "
+     "Excludes morph.",
      &Figures::worstEpsPx, FigureUnit::Pixels, true, true, false},
     {"worst_drawn_bound_px", "Max drawn bound",
      "Largest bound of the error of what is drawn, in pixels: a morphing chunk includes its parent's error "
@@ -79,6 +82,13 @@ constexpr std::array<CompareRow, 20> comparedRows = {{
      &Figures::late, FigureUnit::Count, true, true, true},
 }};
 
+// Returns three significant digits below 100 px, so that figures with a ratio of 1.02 read differently.
+std::string comparedPixelsText(double px) {
+    if (px <= 0 || px >= 99.95) return pixelsText(px);
+    const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(px))), 1, 6);
+    return fmt::format("{:.{}f} px", px, digits);
+}
+
 std::string textOf(FigureUnit unit, double value) {
     switch (unit) {
         case FigureUnit::Count:
@@ -88,7 +98,7 @@ std::string textOf(FigureUnit unit, double value) {
         case FigureUnit::Milliseconds:
             return millisecondsText(value);
         case FigureUnit::Pixels:
-            return pixelsText(value);
+            return comparedPixelsText(value);
     }
     return {};
 }

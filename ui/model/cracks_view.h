@@ -33,6 +33,13 @@ struct CrackMeasurement {
     double tookMs = 0;
 };
 
+// Returns why there are crack pixels although no gap is 0.5 mm wide; empty where there are none or a gap is.
+inline const char* roundingNote(std::size_t crackPixels, double worstGapM) {
+    return crackPixels > 0 && worstGapM < 0.0005
+               ? "All gaps are below 0.5 mm: cracks at T-junctions come from rounding."
+               : "";
+}
+
 struct CracksView {
     const CrackMeasurement* measured = nullptr;  // null: nothing yet
     bool current = false;  // the view and what is drawn are still those that were measured

@@ -106,7 +106,7 @@ struct FlightView {
 
 struct CameraView {
     planet::CameraPose pose;
-    double heightAboveGroundM = 0;
+    std::optional<double> seaSurfaceM{};  // above the planet's radius, where it is drawn as water
     double speedFactor = 1;
     std::span<const Bookmark> bookmarks;
     std::span<const std::filesystem::path> flights;  // that can be followed
@@ -115,10 +115,10 @@ struct CameraView {
 
 struct PresetView {
     std::string name;
-    std::filesystem::path file;
-    std::string problem;                         // why it cannot be read; empty: it can
-    std::vector<SettingDifference> differences;  // from the settings as they are
-    bool shipped = false;                        // came with Worldy and cannot be deleted
+    std::filesystem::path file{};
+    std::string problem{};                         // why it cannot be read; empty: it can
+    std::vector<SettingDifference> differences{};  // from the settings as they are
+    bool shipped = false;                          // came with Worldy and cannot be deleted
 };
 
 struct EditorView {
@@ -139,7 +139,7 @@ struct EditorView {
     BakeView bake{};
     CameraView camera{};
     std::span<const PresetView> presets{};
-    std::string undoName{};  // "tau 2 px"; empty: nothing to undo
+    std::string undoName{};  // "Tolerance τ 2 -> 3 px"; empty: nothing to undo
     std::string redoName{};
     ErrorsView errors{};
     CracksView cracks{};

@@ -21,6 +21,9 @@ struct ErrorMeasurement {
     planet::View lodView;                                      // that chose what is measured
     double tauPx = 2;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
+    bool stitched = false;
+    double exaggeration = 1;
+    std::vector<planet::DrawItem> drawn;
     double tookS = 0;
 };
 
@@ -29,6 +32,7 @@ ErrorMeasurement measurementOf(planet::TrueErrorReport&& report);
 
 struct ErrorsView {
     const ErrorMeasurement* last = nullptr;  // null while there is none of this planet
+    bool current = false;                    // the view and what is drawn are still those of last
     std::uint64_t frame = 0;                 // now
     bool running = false;
     double progress = 0;  // of the one that runs, [0, 1]

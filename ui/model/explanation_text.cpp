@@ -83,7 +83,7 @@ std::string insteadText(const ChunkExplanation& chunk) {
     const std::string above = toString(chunk.decidedBy) + " above it";
     switch (chunk.decidedByNotSplit) {
         case WhyNotSplit::GoodEnough:
-            return fmt::format("{} is good enough ({} {}).", above, epsSymbol(),
+            return fmt::format("{} is within the tolerance ({} {}).", above, epsSymbol(),
                                pixels(chunk.decidedByEpsPx, chunk.tauPx));
         case WhyNotSplit::LevelLimit:
             return fmt::format("{} is drawn, and level {} is the max LOD level.", above,
@@ -93,9 +93,9 @@ std::string insteadText(const ChunkExplanation& chunk) {
         case WhyNotSplit::SeamLimit:
             return above + " is drawn, because a neighbour would otherwise be too coarse for stitched seams.";
         case WhyNotSplit::WaitingInQueue:
-            return fmt::format("{} comes first, {}.", above, gridPlaceText(chunk));
+            return fmt::format("{} is loaded first, {}.", above, gridPlaceText(chunk));
         case WhyNotSplit::WaitingForRead:
-            return above + " comes first, and is being read.";
+            return above + " is loaded first, and is being read.";
         case WhyNotSplit::WaitingForBudget:
             return above + " is drawn, because its children do not fit into the memory budget.";
         case WhyNotSplit::WaitingForRetry:

@@ -1,6 +1,7 @@
 // The last seconds' frames as what plots want: times and values in step.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <vector>
@@ -26,6 +27,13 @@ std::vector<Value> historyValues(const std::deque<FrameSample>& history, const V
     values.reserve(history.size());
     for (const FrameSample& sample : history) values.push_back(static_cast<Value>(valueOf(sample.stats)));
     return values;
+}
+
+// 0 where there are no frames.
+inline double longestFrameMs(const std::deque<FrameSample>& history) {
+    double longestMs = 0;
+    for (const FrameSample& sample : history) longestMs = std::max(longestMs, sample.stats.frameMs);
+    return longestMs;
 }
 
 }  // namespace ui

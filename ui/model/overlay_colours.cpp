@@ -162,12 +162,12 @@ double ageShare(double ageS, double topS) {
 
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
-                                              const OverlaySettings& overlay, double tauPx, bool lighting,
+                                              const OverlaySettings& overlay, double tauPx,
                                               const ErrorMeasurement* measured) {
     if (overlay.colourBy == ColourBy::None) return {};
     const planet::ChunkTree& tree = planet.tree();
     const TintScale scale{overlay, tauPx, planet.seconds(), newestLoad(tree, selection), measured};
-    const std::uint8_t strength = lighting ? byteOf(overlay.opacity) : std::uint8_t{255};
+    const std::uint8_t strength = byteOf(overlay.opacity);
     std::vector<planet::gl::ChunkTint> tints;
     tints.reserve(selection.draw.size());
     const planet::ChunkNode unknown;

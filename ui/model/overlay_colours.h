@@ -25,12 +25,11 @@ glm::vec3 stateColour(planet::ChunkState state);
 double deltaShare(double deltaCM, double topM);  // logarithmic over the four decades below the top
 double ageShare(double ageS, double topS);       // 1 just loaded, 0 at the top and older
 
-// Returns the tints of what a selection draws, in its order; none where chunks are not coloured. Without
-// lighting they are opaque whatever the opacity is. measured: for ColourBy::Measured; a chunk that it does
-// not know is grey.
+// Returns the tints of what a selection draws, in its order; none where chunks are not coloured.
+// measured: for ColourBy::Measured; a chunk that it does not know is grey.
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
-                                              const OverlaySettings& overlay, double tauPx, bool lighting,
+                                              const OverlaySettings& overlay, double tauPx,
                                               const ErrorMeasurement* measured = nullptr);
 
 struct LegendEntry {

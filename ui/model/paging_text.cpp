@@ -30,6 +30,16 @@ const char* kindText(planet::BlockKind kind) {
     return kind == planet::BlockKind::Colours ? "colours" : "heights";
 }
 
+KindTotals totalsOf(const char* kind, const planet::PagingCounters& p) {
+    return {kind,         p.loaded, p.evicted, p.failed, p.bytesRead, p.loaded - p.evicted, p.residentChunks,
+            p.budgetWaits};
+}
+
+KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& p) {
+    return {kind,         p.loaded, p.evicted, p.failed, p.bytesRead, p.loaded - p.evicted, p.residentTiles,
+            p.budgetWaits};
+}
+
 bool isBad(const planet::BadDiskSettings& disk) {
     return disk.latencyMs > 0 || disk.bandwidthMBs > 0 || disk.failureRate > 0 || disk.shuffledOrder;
 }

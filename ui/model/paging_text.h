@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planet/paging/disk_simulator.h"
+#include "planet/paging/paging_types.h"
 #include "planet/sphere/block_id.h"
 
 namespace ui {
@@ -20,6 +21,17 @@ std::string pageOutReason(double ageS);
 
 // "heights", "colours", "normals".
 const char* kindText(planet::BlockKind kind);
+
+// What one kind of blocks has come to.
+struct KindTotals {
+    const char* kind;
+    std::uint64_t loaded, evicted, failed, bytesRead;
+    std::uint64_t resident;  // blocks of four: loaded - evicted
+    std::size_t tiles;       // chunks or tiles, roots included
+    std::uint32_t budgetWaits;
+};
+KindTotals totalsOf(const char* kind, const planet::PagingCounters& paging);
+KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& paging);
 
 // Whether the disk is made bad at all: a seed alone does nothing.
 bool isBad(const planet::BadDiskSettings& disk);

@@ -11,6 +11,9 @@
 
 namespace ui {
 
+// The ending of a recorded flight's file.
+inline constexpr const char* recordedFlightEnding = ".flight";
+
 struct RecordedFlight {
     std::string name;
     std::filesystem::path file;
@@ -48,6 +51,7 @@ struct ReplayNow {
 
 struct RecordingView {
     std::span<const RecordedFlight> flights;  // by name
+    std::string saved;                        // name of the recording saved last; empty: none
     std::optional<RecordingNow> recording;
     std::optional<ReplayNow> replay;
 };

@@ -9,6 +9,7 @@ struct SettingDifference {
     std::string setting;  // "lod.tau_px"
     std::string here;
     std::string there;
+    std::string label{};  // as the panel's control: "Tolerance τ"
 };
 
 }  // namespace ui

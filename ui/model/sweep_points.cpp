@@ -28,14 +28,14 @@ const char* metricName(planet::ErrorMetric metric) {
 }
 
 const char* limitedName(const TauGoal& goal) {
-    if (goal.limitsError) return "the max measured error";
+    if (goal.limitsError) return "max measured error";
     switch (goal.cost) {
         case SweepCost::Triangles:
-            return "the mean number of triangles";
+            return "mean triangles";
         case SweepCost::FrameMs:
-            return "the median frame time";
+            return "median frame time";
         case SweepCost::MemoryMiB:
-            return "the memory of resident chunks";
+            return "memory of resident chunks";
     }
     return "";
 }
@@ -55,7 +55,7 @@ std::string limitedText(const TauGoal& goal, double value) {
 
 TauList wrongTaus(const std::string& what) {
     return {{},
-            fmt::format("{}; expected numbers from {} to {} as \"0.5 1 2 4 8\"", what, smallestTauPx,
+            fmt::format("{}; expected numbers in [{}, {}], for example \"0.5 1 2 4 8\"", what, smallestTauPx,
                         largestTauPx)};
 }
 
@@ -130,11 +130,11 @@ std::string suggestionText(const TauGoal& goal, const TauSuggestion& found, std:
         fmt::format("({} {} flown)", found.flown, found.flown == 1 ? "flight" : "flights");
     const std::string value = limitedText(goal, found.value);
     if (found.met)
-        return fmt::format("{} {:.3g} px keeps {} at {} {}.", tau, found.tauPx, limitedName(goal), value,
-                           flown);
-    return fmt::format("No {} from {} to {} px keeps {} within {}: at {:.3g} px it is {} {}.", tau,
-                       smallestTauPx, largestTauPx, limitedName(goal), limitedText(goal, goal.limit),
-                       found.tauPx, value, flown);
+        return fmt::format("{} = {:.3g} px: {} {}, within the limit {}.", tau, found.tauPx, limitedName(goal),
+                           value, flown);
+    return fmt::format("No {} in [{}, {}] px meets the limit of {}; at {:.3g} px: {} {} {}.", tau,
+                       smallestTauPx, largestTauPx, limitedText(goal, goal.limit), found.tauPx,
+                       limitedName(goal), value, flown);
 }
 
 TauList tausFromText(std::string_view text) {

@@ -26,7 +26,7 @@ struct FlightFigures {
     double medianFrameMs = 0;      // choosing and drawing, waited for
     double worstEpsPx = 0;         // of a chunk's own surface
     double worstDrawnBoundPx = 0;  // of what is drawn: morph counted in
-    double worstMeasuredPx = 0;    // true error, as if the view faced it (planet/true_error.h)
+    double worstMeasuredPx = 0;    // true error, as if the view faced it (planet/measure/true_error.h)
     double p99MeasuredPx = 0;      // of all chunks of all frames
     double worstScreenPx = 0;      // in the flat picture
     std::uint64_t violations = 0;  // chunks whose true error is over the drawn bound

@@ -64,6 +64,11 @@ std::string durationText(double seconds) {
     return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
+std::string clockText(double hour) {
+    const int minutes = static_cast<int>(std::lround(hour * 60));
+    return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
+}
+
 std::string distanceText(double metres) {
     const double size = std::abs(metres);
     if (size < 10) return fmt::format("{:.1f} m", metres);
@@ -98,7 +103,10 @@ std::array<std::string, 2> shortNumberTexts(const std::string& a, const std::str
 }
 
 std::string millisecondsText(double milliseconds) {
-    return fmt::format("{:.2f} ms", milliseconds);
+    const double size = std::abs(milliseconds);
+    if (size < 9.995) return fmt::format("{:.2f} ms", milliseconds);
+    if (size < 999.5) return fmt::format("{:.{}f} ms", milliseconds, size < 99.95 ? 1 : 0);
+    return size < 9'995 ? fmt::format("{:.2f} s", milliseconds / 1000) : durationText(milliseconds / 1000);
 }
 
 std::string pixelsText(double pixels, const char* unit) {

@@ -9,6 +9,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
 #include "ui/model/text.h"
 
 namespace ui {
@@ -125,7 +126,7 @@ std::array<std::string, 2> sideNames(const CompareView& compare) {
     }
     if (compare.different.size() == 1) {
         const SettingDifference& one = compare.different.front();
-        const std::string setting = one.setting.substr(one.setting.find('.') + 1);
+        const std::string setting = inFont(one.label);
         const auto [a, b] = shortNumberTexts(one.here, one.there);
         names[0] += fmt::format("  {} {}", setting, a);
         names[1] += fmt::format("  {} {}", setting, b);

@@ -12,6 +12,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
 
 namespace ui {
 
@@ -47,7 +48,7 @@ constexpr const char* noPlanet = "No planet is open.";
 void fileMenu(const EditorView& view, Commands& commands) {
     if (!beginMenu("File")) return;
     if (menuItem("Open...", "Ctrl+O")) commands.push_back(AskForFile{});
-    if (beginMenu("Open recent", greyUnless(!view.data.recent.empty(), "No file was opened yet."))) {
+    if (beginMenu("Open recent", greyUnless(!view.data.recent.empty(), "No recent files."))) {
         for (const std::filesystem::path& file : view.data.recent) {
             if (menuItem(file.string().c_str())) commands.push_back(OpenFile{file});
         }
@@ -67,7 +68,7 @@ void fileMenu(const EditorView& view, Commands& commands) {
 void editMenu(const EditorView& view, ViewSettings& settings, Commands& commands) {
     if (!beginMenu("Edit")) return;
     const auto named = [](const char* verb, const std::string& name) {
-        return name.empty() ? std::string(verb) : verb + (" " + name);
+        return name.empty() ? std::string(verb) : verb + (" " + inFont(name));
     };
     if (menuItem(named("Undo", view.undoName).c_str(), "Ctrl+Z", false,
                  greyUnless(!view.undoName.empty(), "No setting was changed yet.")))
@@ -79,7 +80,7 @@ void editMenu(const EditorView& view, ViewSettings& settings, Commands& commands
     if (menuItem("Reset all settings", nullptr, false,
                  greyUnless(settings != ViewSettings(), "All settings have their defaults.")))
         settings = {};
-    if (beginMenu("Load preset", greyUnless(!view.presets.empty(), "There is no preset."))) {
+    if (beginMenu("Load preset", greyUnless(!view.presets.empty(), "No presets."))) {
         for (const PresetView& preset : view.presets) {
             if (menuItem(preset.name.c_str(), nullptr, false,
                          greyUnless(preset.problem.empty(), preset.problem.c_str())))
@@ -113,7 +114,7 @@ void viewMenu(Workspace& workspace) {
     if (menuItem("Larger text", "Ctrl++")) workspace.scale = std::min(workspace.scale * 1.1, 3.0);
     if (menuItem("Smaller text", "Ctrl+-")) workspace.scale = std::max(workspace.scale / 1.1, 0.5);
     if (menuItem("Match monitor scale", nullptr, false,
-                 greyUnless(workspace.scale != 1, "Text has the monitor's scale.")))
+                 greyUnless(workspace.scale != 1, "The text already matches the monitor scale.")))
         workspace.scale = 1;
     ImGui::Separator();
     if (menuItem("Reset layout")) {
@@ -213,10 +214,22 @@ void keyTable(const char* id, std::span<const KeyHelp> keys) {
     ImGui::EndTable();
 }
 
+float keyTableWidth(std::span<const KeyHelp> keys) {
+    float names = 0;
+    float meanings = 0;
+    for (const KeyHelp& help : keys) {
+        names = std::max(names, ImGui::CalcTextSize(help.keys).x);
+        meanings = std::max(meanings, ImGui::CalcTextSize(help.meaning).x);
+    }
+    return names + meanings + 6 * ImGui::GetStyle().CellPadding.x;
+}
+
 bool beginHelpWindow(const char* title, bool& shown) {
     if (!shown) return false;
-    const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
-    ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
+    const ImGuiViewport& viewport = *ImGui::GetMainViewport();
+    ImGui::SetNextWindowPos(viewport.GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+    // Scrolls where the text is too long for the window.
+    ImGui::SetNextWindowSizeConstraints({0, 0}, viewport.WorkSize);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
     ImGui::Begin(
@@ -260,8 +273,11 @@ void helpWindows(MenuState& state) {
         const ImVec2 at = ImGui::GetWindowPos();
         noteRect("Keys and mouse", {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
         keyTable("keys", keyHelp);
-        ImGui::SameLine(0, 2 * ImGui::GetFontSize());
-        keyTable("panels", panelKeys());
+        const std::vector<KeyHelp> panels = panelKeys();
+        const float gap = 2 * ImGui::GetFontSize();
+        const float both = keyTableWidth(keyHelp) + gap + keyTableWidth(panels);
+        if (both + 2 * gap < ImGui::GetMainViewport()->WorkSize.x) ImGui::SameLine(0, gap);
+        keyTable("panels", panels);
         endHelpWindow();
     }
     if (beginHelpWindow("About", state.showAbout)) {

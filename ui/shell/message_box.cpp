@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ui/kit/item_map.h"
@@ -52,18 +54,30 @@ void confirmationLine(Confirmation& confirmation, double timeS, const Rect& view
         return;
     }
     const float line = ImGui::GetFontSize();
+    const ImVec2 padding{0.6f * line, 0.3f * line};
+    const float wrap = std::max(viewport.width - 2 * (padding.x + 0.7f * line), 4 * line);
+    const ImVec2 text = ImGui::CalcTextSize(confirmation.text.c_str(), nullptr, false, wrap);
     ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + 0.7f * line}, ImGuiCond_Always,
                             {0.5f, 0});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.6f * line, 0.3f * line});
+    // ImGui's own size lags a frame behind a text that changes.
+    ImGui::SetNextWindowSize({std::ceil(text.x + 2 * padding.x) + 1, std::ceil(text.y + 2 * padding.y)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, palette().box);
+    ImVec4 background = palette().box;
+    background.w = 1;
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
     ImGui::Begin("confirmation", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
     setItemScope("confirmation");
-    ImGui::TextColored(palette().good, "%s", confirmation.text.c_str());
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().good);
+    ImGui::TextUnformatted(confirmation.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
     noteItem("Text");
+    const ImVec2 at = ImGui::GetWindowPos();
+    noteRect("Box", {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);

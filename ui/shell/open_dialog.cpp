@@ -10,6 +10,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
+#include "ui/model/recording_view.h"
 #include "ui/model/text.h"
 
 namespace ui {
@@ -64,11 +65,14 @@ bool entryRows(OpenDialogState& state) {
 
 bool folderList(OpenDialogState& state) {
     bool chosen = false;
-    const float height = ImGui::GetFontSize() * 18;
+    const ImVec2 screen = ImGui::GetMainViewport()->WorkSize;
+    const float font = ImGui::GetFontSize();
+    const ImVec2 size(std::min(36 * font, screen.x - 4 * font),
+                      std::clamp(screen.y - 12 * font, 4 * font, 18 * font));
     if (ImGui::BeginTable("files", 2,
                           ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersOuter |
                               ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate,
-                          {ImGui::GetFontSize() * 36, height})) {
+                          size)) {
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed);
@@ -99,7 +103,8 @@ bool accept(OpenDialogState& state, Commands& commands) {
 
 bool mayBeOpened(const fs::path& file) {
     static constexpr std::array<std::string_view, 12> endings = {
-        ".chk", ".tif", ".tiff", ".png", ".pgm", ".exr", ".hdr", ".jp2", ".jpg", ".raw", ".toml", ".flt"};
+        ".chk", ".tif", ".tiff", ".png", ".pgm",  ".exr",
+        ".hdr", ".jp2", ".jpg",  ".raw", ".toml", recordedFlightEnding};
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
@@ -135,7 +140,8 @@ void openDialog(OpenDialogState& state, Commands& commands) {
         ImGui::OpenPopup(popup);
         state.opening = false;
     }
-    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, ImGui::GetMainViewport()->WorkSize);
     const std::string title = std::string(state.forColours ? "Choose a colour image" : "Open a file") + popup;
     if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))

@@ -16,7 +16,8 @@ namespace ui {
 
 namespace {
 
-// Cells stand side by side, each as wide as its text; what does not fit is left out from the right.
+// Cells stand side by side, each as wide as its text, the most important first: once one does not fit, it and
+// all after it are left out.
 class Cells {
 public:
     explicit Cells(const Rect& rect) : end_(rect.x + rect.width) {}
@@ -24,8 +25,10 @@ public:
     void add(const std::string& text, const char* explanation, const ImVec4& colour) {
         const float gap = ImGui::GetFontSize() * 1.2f;
         const float width = ImGui::CalcTextSize(text.c_str()).x;
+        if (full_) return;
         if (!first_) {
-            if (ImGui::GetItemRectMax().x + gap + width > end_) return;
+            full_ = ImGui::GetItemRectMax().x + gap + width > end_;
+            if (full_) return;
             ImGui::SameLine(0, gap);
         }
         first_ = false;
@@ -38,6 +41,7 @@ public:
 private:
     float end_;
     bool first_ = true;
+    bool full_ = false;
 };
 
 std::string shortened(const std::string& text, std::size_t most) {
@@ -53,16 +57,20 @@ void planetCells(const EditorView& view, const ViewSettings& settings, Cells& ce
     const planet::CameraPose& pose = view.camera.pose;
     cells.add(placeText(pose.latitudeDeg, pose.longitudeDeg), "Camera position: latitude, longitude.",
               colours.text);
-    for (const NamedHeight& height : namedHeights(cameraHeights(view, settings)))
+    const std::vector<NamedHeight> heights = namedHeights(cameraHeights(view, settings));
+    const auto addHeight = [&](const NamedHeight& height) {
         cells.add(distanceText(height.heightM) + " " + height.name, height.explanation, colours.text);
+    };
+    addHeight(heights.front());
     const double perSecond = view.stats.frameMs > 0 ? 1000 / view.stats.frameMs : 0;
     cells.add(fmt::format("{:.1f} ms  {:.0f} FPS", view.stats.frameMs, perSecond),
               "Frame time and frame rate, including the wait for the monitor.", colours.text);
-    cells.add(bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
-              "Memory of resident chunks, CPU and GPU together.", colours.text);
     const std::uint32_t waiting = paging.queued + paging.loading;
     cells.add(fmt::format("queue {}", waiting), "Blocks queued, being read or waiting for upload.",
               waiting > 0 ? colours.good : colours.dim);
+    cells.add("memory " + bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
+              "Memory of resident chunks, CPU and GPU together.", colours.text);
+    for (std::size_t i = 1; i < heights.size(); ++i) addHeight(heights[i]);
 }
 
 // "1 error", or nothing.
@@ -91,8 +99,7 @@ void warningCells(const EditorView& view, Cells& cells) {
             colours.warning);
     }
     if (paging.budgetWaits > 0) {
-        cells.add("budget full",
-                  "Chunks that this view needs do not fit into the budget: see the Paging panel.",
+        cells.add("budget full", "The chunks requested by this view exceed the budget. See the Paging panel.",
                   colours.warning);
     }
     if (view.bake.running) {

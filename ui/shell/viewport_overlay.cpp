@@ -19,8 +19,8 @@ namespace {
 
 // The longest that fits is shown.
 constexpr std::array helpLines = {
-    "Left drag: move   Right drag: look   Wheel: nearer   Click: select   W A S D E Q: fly   F10: all keys",
-    "Drag: move, look   Wheel: nearer   W A S D E Q: fly   F10: keys", "F10: keys and mouse"};
+    "Left drag: move   Right drag: look   Wheel: zoom   Click: select   W A S D E Q: fly   F10: all keys",
+    "Drag: move, look   Wheel: zoom   W A S D E Q: fly   F10: keys", "F10: keys and mouse"};
 
 // As much of a text's end as fits, after an ellipsis.
 std::string endThatFits(const std::string& text, float widthPx) {
@@ -176,7 +176,7 @@ void addPagingBadges(const EditorView& view, const ViewSettings& settings,
     }
     if (isBad(settings.paging.badDisk)) badges.push_back({"I/O fault injection", palette().warning});
     if (paging.budgetWaits > 0)
-        badges.push_back({fmt::format("Memory full, {} waiting", paging.budgetWaits), palette().bad});
+        badges.push_back({fmt::format("Budget full, {} waiting", paging.budgetWaits), palette().bad});
     if (!view.pagingPaused && waiting > 0)
         badges.push_back({fmt::format("Loading {}", waiting), palette().good});
 }
@@ -231,20 +231,24 @@ void pushClip(const Rect& rect) {
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
     std::vector<ViewportBadge> badges;
-    if (view.stats.render.standIn)
-        badges.push_back({"Compiling shaders: not drawn as set", palette().warning});
+    if (view.stats.render.standIn) {
+        const bool firstAir = view.light.air.working && view.light.air.tablesMs == 0;
+        badges.push_back({firstAir ? "Computing the atmosphere: analytic model drawn"
+                                   : "Compiling shaders: placeholder drawing",
+                          palette().warning});
+    }
     if (view.framesPaused) badges.push_back({"Paused, F6 steps (F5)", palette().warning});
     if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
     if (view.pops.side != PopSide::Live && view.pops.problem.empty())
-        badges.push_back({view.pops.side == PopSide::Before ? "Before the switch" : "After the switch",
-                          palette().warning});
+        badges.push_back(
+            {view.pops.side == PopSide::Before ? "Before the level change" : "After the level change",
+             palette().warning});
     if (view.planet) addPagingBadges(view, settings, badges);
     if (showsMarks(view, settings)) {
         const planet::gl::CrackMap& map = view.cracks.measured->map;
         const auto leaking = static_cast<std::size_t>(map.leaking);
-        if (leaking > 0)
-            badges.push_back({fmt::format("Uncovered crack pixels: {}", leaking), palette().bad});
+        if (leaking > 0) badges.push_back({fmt::format("Uncovered pixels: {}", leaking), palette().bad});
         if (map.pixels.size() > leaking) {
             badges.push_back({fmt::format("Crack pixels covered by skirts: {}", map.pixels.size() - leaking),
                               palette().warning});

@@ -33,12 +33,12 @@ Result<RenderTarget> RenderTarget::create(int widthPx, int heightPx, int samples
     const GLint largest = std::min(limitOf(GL_MAX_TEXTURE_SIZE), limitOf(GL_MAX_RENDERBUFFER_SIZE));
     if (std::max(widthPx, heightPx) > largest) {
         return badInput(
-            fmt::format("a picture of {} x {} is larger than this OpenGL context draws: {} a side", widthPx,
-                        heightPx, largest));
+            fmt::format("picture of {} x {} px exceeds the OpenGL limit; expected at most {} per side",
+                        widthPx, heightPx, largest));
     }
     if (samples > limitOf(GL_MAX_SAMPLES)) {
-        return badInput(fmt::format("{} samples a pixel are more than this OpenGL context's {}", samples,
-                                    limitOf(GL_MAX_SAMPLES)));
+        return badInput(fmt::format("{} samples per pixel exceed the OpenGL limit; expected at most {}",
+                                    samples, limitOf(GL_MAX_SAMPLES)));
     }
     RenderTarget target;
     target.widthPx_ = widthPx;
@@ -49,7 +49,7 @@ Result<RenderTarget> RenderTarget::create(int widthPx, int heightPx, int samples
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         return badInput(
-            fmt::format("this OpenGL context cannot draw into RGBA8 with a 32-bit float depth and {} samples "
+            fmt::format("OpenGL limit: cannot draw into RGBA8 with a 32-bit float depth and {} samples "
                         "(status {:#x})",
                         samples, status));
     }

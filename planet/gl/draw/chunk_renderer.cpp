@@ -44,7 +44,8 @@ constexpr int checkerSize = 64;  // until pictures are given
 Result<void> checkContext() {
     const int version = epoxy_gl_version();
     if (version >= 33) return {};
-    return badInput(fmt::format("OpenGL 3.3 is needed; the context has {}.{}", version / 10, version % 10));
+    return badInput(
+        fmt::format("OpenGL {}.{} is too old; expected at least 3.3", version / 10, version % 10));
 }
 
 RenderCapabilities findCapabilities() {
@@ -163,7 +164,7 @@ struct ChunkRenderer::State {
                      const Program& program);
     DrawnWith programsFor(int variant, bool physicalSky) const;
     DrawnWith programsAtHand(int variant, bool physicalSky) const;
-    void fillFrame(const View& view, const RenderSettings& settings);
+    void fillFrame(const View& view, const RenderSettings& settings, ShaderWait wait);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
     bool drawsNormals(const RenderSettings& settings) const;
@@ -266,7 +267,7 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
     glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(needed), filled.data());
 }
 
-void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings) {
+void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& settings, ShaderWait wait) {
     uniforms = frameUniforms(config.shape, view, projection, settings, coloursDrawn(settings));
     if (normals) {
         planet::gl::setNormals(config.shape,
@@ -285,8 +286,10 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
     glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
     if (!wantsPhysicalAir(settings)) return;
-    if (const Result<void> followed = air.follow(settings.light.air.settings, airInBackground); !followed)
-        problems.push_back(fmt::format("The air is not drawn as it is set: {}", followed.error().message));
+    const bool inBackground = airInBackground && wait == ShaderWait::Never;
+    if (const Result<void> followed = air.follow(settings.light.air.settings, inBackground); !followed)
+        problems.push_back(fmt::format("Physical atmosphere unavailable, using the analytic model: {}",
+                                       followed.error().message));
     if (!airIsPhysical(settings)) return;
     air.bind(settings.light.air, view.eyeM, config.shape.radiusM, glm::normalize(settings.sunDirection));
 }
@@ -371,7 +374,7 @@ bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::s
         if (Result<ShadowMaps> made = ShadowMaps::create(wanted.mapSizePx))
             shadows = std::move(*made);
         else
-            problems.push_back(fmt::format("No shadows are drawn: {}", made.error().message));
+            problems.push_back(fmt::format("Shadows disabled: {}", made.error().message));
     }
     return shadows.has_value();
 }
@@ -450,7 +453,7 @@ Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
     std::unique_ptr<State> state;
     const bool made =
         hasRoomFor([&] { state = std::make_unique<State>(own, std::move(*pool), std::move(*checker)); });
-    if (!made) return badInput("this OpenGL context has no memory for what chunks are drawn with");
+    if (!made) return badInput("GPU out of memory: buffers for drawing chunks");
     return ChunkRenderer(std::move(state));
 }
 
@@ -603,7 +606,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     const bool shadowed = state.makeShadowMaps(settings, items);
     if (!shadowed) shadowCasters = {};
     state.fillInstances(items, tints, settings.stitched, shadowCasters);
-    state.fillFrame(view, settings);
+    state.fillFrame(view, settings, wait);
     state.bindInputs();
     const int variant =
         state.chooseVariant(view, items, settings, !tints.empty(), shadowed ? switchShadows : 0);
@@ -636,7 +639,8 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.counters.skyMs = state.skyTimer.lastMs();
     state.counters.shadowsMs = shadowed ? state.shadowsTimer.lastMs() : 0;
     state.counters.uploads = std::exchange(state.uploads, 0);
-    state.counters.standIn = with.standIn;
+    state.counters.standIn =
+        with.standIn || (state.wantsPhysicalAir(settings) && !physicalSky && state.air.figures().working);
 }
 
 Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& view,
@@ -654,7 +658,7 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
         state.captureReloads = state.programs->reloads();
     }
     state.fillInstances(items, {}, settings.stitched);
-    state.fillFrame(view, settings);
+    state.fillFrame(view, settings, ShaderWait::UntilReady);
     state.bindInputs();
 
     const int perChunk = chunkVertexCount(state.config.shape);
@@ -664,8 +668,7 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, out.name());
     if (!hasRoomFor([&] { glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ); })) {
         glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
-        return badInput(
-            fmt::format("this OpenGL context has no memory for the vertices of {} chunks", items.size()));
+        return badInput(fmt::format("GPU out of memory: vertices of {} chunks", items.size()));
     }
     glUseProgram(state.capture.name());
     glBindVertexArray(state.chunkArray.name());

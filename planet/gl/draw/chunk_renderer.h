@@ -65,7 +65,7 @@ public:
     void followColours(std::span<const TileChange> changes);
 
     // The same colours from a clipmap instead, filled from the pool: windows of so many texels a side that
-    // follow a viewer (planet/colour_clipmap.h). None: from the tiles again, and its memory is free. There
+    // follow a viewer (planet/surface/colour_clipmap.h). None: from the tiles again, and its memory is free. There
     // have to be colours; setColours ends it. On an Error there is none.
     Result<void> setColourClipmap(std::optional<int> sizePx);
     // Puts it around a viewer and fills what that and the changes since bring in: to be called between
@@ -83,8 +83,9 @@ public:
     // Error those that there were stay.
     Result<void> setLayers(std::span<const LayerPicture> pictures, int size);
 
-    // Tables of the physical atmosphere that follow a change of its settings: made in the background while
-    // the last ones are drawn with, for windows; or, as from the start, waited for.
+    // Tables of the physical atmosphere where draw() is told ShaderWait::Never: made in the background, for
+    // windows, while the last ones or at first the analytic atmosphere are drawn; or, as from the start,
+    // waited for.
     void setAirInBackground(bool inBackground);
 
     // A pool of another size; what it held is gone. On an Error the old one stays.

@@ -15,8 +15,8 @@ struct RenderCounters {
     double skyMs = 0;
     double shadowsMs = 0;
     std::uint32_t uploads = 0;  // chunks uploaded since the draw before
-    // The programs for the settings are still being compiled (ShaderWait::Never), so others drew the frame,
-    // or none did: it does not show the settings.
+    // The programs for the settings are still being compiled, or the first tables of the atmosphere computed
+    // (ShaderWait::Never), so others drew the frame, or none did: it does not show the settings.
     bool standIn = false;
 
     std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }

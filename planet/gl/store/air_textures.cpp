@@ -112,8 +112,8 @@ Result<void> AirTextures::take(Made&& made) {
     });
     if (!fit) {
         refused_ = made.settings;
-        return badInput(fmt::format("this OpenGL context has no memory for {} KB of its tables",
-                                    made.tables.bytesOnGpu() / 1000));
+        return badInput(
+            fmt::format("GPU out of memory: {} KiB of atmosphere tables", made.tables.bytesOnGpu() / 1024));
     }
     refused_.reset();
     settings_ = made.settings;
@@ -132,7 +132,7 @@ Result<void> AirTextures::follow(const AirSettings& settings, bool inBackground)
         (!inBackground || next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready))
         followed = take(next_.get());
     const bool done = refused_ == settings || (exist() && settings_ == settings);
-    if (!done && exist() && inBackground && !next_.valid())
+    if (!done && inBackground && !next_.valid())
         next_ = std::async(std::launch::async, made, settings);
     else if (!done && !next_.valid())
         followed = take(made(settings));

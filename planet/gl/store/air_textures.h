@@ -29,8 +29,8 @@ class AirTextures {
 public:
     AirTextures();
 
-    // The tables for these settings. Where others are there and it may be done in the background, those stay
-    // until the new ones have come; else it waits. The Error, once: the context has no memory for them, and
+    // The tables for these settings. In the background: what there was stays, at first nothing, until the new
+    // ones have come; else it waits. The Error, once: the context has no memory for them, and
     // what there was stays.
     Result<void> follow(const AirSettings& settings, bool inBackground);
     // Whether there is anything to bind.

@@ -42,8 +42,7 @@ Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float
     }
     if (made) return texture;
     return badInput(
-        fmt::format("this OpenGL context has no room for {} layers of {} x {} texels of a clipmap; smaller "
-                    "windows need less",
+        fmt::format("GPU out of memory: clipmap of {} layers of {} x {} texels; reduce the window size",
                     layers, size.x, size.y));
 }
 

@@ -116,10 +116,8 @@ Result<ColourImage> ColourImage::create(std::span<const std::uint8_t> rgb, int w
     ColourImage image;
     const bool made = hasRoomFor([&] { image.fill(rgb, width, height, faceProgram); });
     if (made) return image;
-    return badInput(fmt::format(
-        "this OpenGL context has no memory for an image of {} x {} pixels over the planet; a smaller "
-        "one needs less",
-        width, height));
+    return badInput(
+        fmt::format("GPU out of memory: colour image of {} x {} pixels; reduce its size", width, height));
 }
 
 void ColourImage::fill(std::span<const std::uint8_t> rgb, int width, int height, GLuint faceProgram) {

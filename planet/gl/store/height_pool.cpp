@@ -56,10 +56,10 @@ Result<PoolLayout> poolLayout(std::uint32_t slotCapacity, int chunkSize, int max
         const PoolLayout layout = layoutWithPages(slotCapacity, chunkSize, largestPage);
         if (layout.pages <= std::min(maxLayers, mostPages)) return layout;
     }
-    return badInput(fmt::format(
-        "this OpenGL context cannot hold the heights of {} chunks of {} x {}: GL_MAX_TEXTURE_SIZE is {} and "
-        "GL_MAX_ARRAY_TEXTURE_LAYERS {}; a smaller memory budget needs fewer",
-        slotCapacity, chunkSize, chunkSize, maxTextureSize, maxLayers));
+    return badInput(
+        fmt::format("GPU limit: heights of {} chunks of {} x {} are too many: GL_MAX_TEXTURE_SIZE is {}, "
+                    "GL_MAX_ARRAY_TEXTURE_LAYERS {}; reduce the memory budget",
+                    slotCapacity, chunkSize, chunkSize, maxTextureSize, maxLayers));
 }
 
 Result<HeightPool> HeightPool::create(std::uint32_t slotCapacity, int chunkSize) {
@@ -83,8 +83,8 @@ Result<HeightPool> HeightPool::create(std::uint32_t slotCapacity, int chunkSize)
                      GL_RED_INTEGER, GL_SHORT, nullptr);
     });
     if (!made) {
-        return badInput(fmt::format("OpenGL has no room for {} MB of heights; set a smaller memory budget",
-                                    layout->bytes() / 1'000'000));
+        return badInput(fmt::format("GPU out of memory: {:.1f} MiB of heights; reduce the memory budget",
+                                    static_cast<double>(layout->bytes()) / (1 << 20)));
     }
     return pool;
 }

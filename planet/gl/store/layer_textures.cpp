@@ -68,10 +68,9 @@ Result<LayerTextures> LayerTextures::create(std::span<const LayerPicture> pictur
     LayerTextures textures;
     const bool made = hasRoomFor([&] { textures.fill(pictures, size); });
     if (made) return textures;
-    return badInput(fmt::format(
-        "this OpenGL context has no memory for {} textures of {} x {} texels; smaller ones, or fewer, "
-        "need less",
-        2 * pictures.size(), size, size));
+    return badInput(
+        fmt::format("GPU out of memory: {} layer textures of {} x {} texels; reduce their size or number",
+                    std::max<std::size_t>(2 * pictures.size(), 1), size, size));
 }
 
 void LayerTextures::fill(std::span<const LayerPicture> pictures, int size) {

@@ -21,9 +21,8 @@ Result<ShadowMaps> ShadowMaps::create(int sizePx) {
                      static_cast<GLsizei>(shadowCascadeCount), 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
     });
     if (!made) {
-        return badInput(fmt::format(
-            "this OpenGL context has no memory for {} shadow maps of {} x {}; smaller ones need less",
-            shadowCascadeCount, maps.sizePx_, maps.sizePx_));
+        return badInput(fmt::format("GPU out of memory: {} shadow maps of {} x {} px; reduce their size",
+                                    shadowCascadeCount, maps.sizePx_, maps.sizePx_));
     }
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -55,7 +55,7 @@ Result<TilePool> TilePool::create(const ColourPoolConfig& config) {
     texels.tileBytes = colourTileBytes(compressed ? ColourFormat::Bc1 : ColourFormat::Lossless);
     texels.rootBytes = colourTileBytes(ColourFormat::Lossless);
     texels.colours = config.format;
-    texels.name = "tiles of colour";
+    texels.name = "colour tiles";
     return make(texels, config.leafLevel, config.tileCapacity);
 }
 
@@ -65,7 +65,7 @@ Result<TilePool> TilePool::create(const NormalPoolConfig& config) {
     texels.format = GL_RG;
     texels.type = GL_HALF_FLOAT;
     texels.tileBytes = texels.rootBytes = normalTileBytes;
-    texels.name = "tiles of normals";
+    texels.name = "normal tiles";
     return make(texels, config.leafLevel, config.tileCapacity);
 }
 
@@ -73,8 +73,8 @@ Result<TilePool> TilePool::make(const Texels& texels, int leafLevel, std::uint32
     assert(tileCapacity >= faceCount && leafLevel <= maxTileLevel);
     if (tileCapacity > mostColourTiles()) {
         return badInput(
-            fmt::format("this OpenGL context cannot hold {} {}: GL_MAX_ARRAY_TEXTURE_LAYERS is "
-                        "{}; a smaller share of the budget needs fewer",
+            fmt::format("GPU limit: {} {} exceed GL_MAX_ARRAY_TEXTURE_LAYERS, {}; reduce their share of the "
+                        "budget",
                         tileCapacity, texels.name, mostColourTiles()));
     }
     TilePool pool;
@@ -82,10 +82,8 @@ Result<TilePool> TilePool::make(const Texels& texels, int leafLevel, std::uint32
     pool.leafLevel_ = leafLevel;
     pool.tileCapacity_ = tileCapacity;
     if (!hasRoomFor([&] { pool.allocate(); })) {
-        return badInput(
-            fmt::format("this OpenGL context has no memory for {} {}; a smaller share of the "
-                        "budget needs fewer",
-                        tileCapacity, texels.name));
+        return badInput(fmt::format("GPU out of memory: {} {}; reduce their share of the budget",
+                                    tileCapacity, texels.name));
     }
     return pool;
 }

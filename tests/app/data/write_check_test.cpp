@@ -1,13 +1,17 @@
 #include "app/data/write_check.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tiffio.h>
 
 #include <fstream>
 #include <string>
 
 #include "app/base/picture.h"
 #include "app/settings/layer_file.h"
+#include "planet/bake/bake.h"
+#include "planet/source/height_source.h"
 #include "planet/surface/layer_set.h"
 #include "tests/support/temporary_folder.h"
 
@@ -112,8 +116,77 @@ TEST(WriteCheck, fileOfAnotherKindIsReplacedOnlyWhenAskedFor) {
             EXPECT_TRUE(refused(kind)) << other << " as " << static_cast<int>(kind);
     }
     EXPECT_THAT(refusal(checkOutputs({{}, {{file, OutputKind::Json}}}, false)),
-                HasSubstr("file.png: exists and is not a JSON report; expected another name, or "
+                HasSubstr("file.png: exists and is not a JSON report of Worldy; expected another name, or "
                           "--overwrite to replace it"));
+}
+
+void writeImage(const fs::path& file, OIIO::TypeDesc type, const char* geoTag = nullptr) {
+    const auto output = OIIO::ImageOutput::create(file.string());
+    OIIO::ImageSpec spec(2, 2, 3, type);
+    if (geoTag) spec.attribute(geoTag, "1");
+    const std::vector<float> pixels(12);
+    ASSERT_TRUE(output && output->open(file.string(), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && output->close());
+}
+
+TEST(WriteCheck, filesThatOnlyResembleOwnOnesAreKept) {
+    const TemporaryFolder folder;
+    const auto refused = [](const fs::path& file, OutputKind kind) {
+        return !checkOutputs({{}, {{file, kind}}}, false);
+    };
+    EXPECT_TRUE(
+        refused(written(folder / "a.geojson", "{\"type\": \"FeatureCollection\"}"), OutputKind::Json));
+    EXPECT_TRUE(
+        refused(written(folder / "b.json", "{\"type\": 1, \"schema_version\": 1}"), OutputKind::Json));
+    EXPECT_TRUE(refused(written(folder / "note.csv", "place,height\nhere,3\n"), OutputKind::Csv));
+    writeImage(folder / "deep.png", OIIO::TypeDesc::UINT16);
+    EXPECT_TRUE(refused(folder / "deep.png", OutputKind::Picture));
+    writeImage(folder / "deep.tif", OIIO::TypeDesc::FLOAT);
+    EXPECT_TRUE(refused(folder / "deep.tif", OutputKind::Picture));
+    writeImage(folder / "map.tif", OIIO::TypeDesc::UINT8);
+    EXPECT_FALSE(refused(folder / "map.tif", OutputKind::Picture));
+    TIFF* const tiff = TIFFOpen((folder / "map.tif").c_str(), "r+");
+    ASSERT_TRUE(tiff);
+    const TIFFFieldInfo noData = {42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, const_cast<char*>("nodata")};
+    TIFFMergeFieldInfo(tiff, &noData, 1);
+    TIFFSetField(tiff, 42113, "0");
+    TIFFRewriteDirectory(tiff);
+    TIFFClose(tiff);
+    EXPECT_TRUE(refused(folder / "map.tif", OutputKind::Picture));
+}
+
+TEST(WriteCheck, placesThatCannotBeWrittenAreToldBeforeTheWork) {
+    const TemporaryFolder folder;
+    fs::create_symlink("loop", folder / "loop");
+    fs::create_symlink("nowhere", folder / "dangling");
+    const auto told = [](const OutputFile& output) { return refusal(checkOutputs({{}, {output}}, true)); };
+    EXPECT_THAT(told({folder / "nodir/x.json"}), HasSubstr("nodir/x.json: cannot be written: "));
+    EXPECT_THAT(told({folder / "loop"}), HasSubstr("loop: cannot be written: "));
+    EXPECT_THAT(told({folder.path()}), HasSubstr("is a folder or a device"));
+    EXPECT_THAT(told({folder / "x.xyz", OutputKind::Picture}),
+                HasSubstr("x.xyz: the extension names no picture format; expected"));
+    EXPECT_EQ(told({folder / "made/deep/x.png", OutputKind::Picture, true}), "");
+    EXPECT_THAT(told({folder / "dangling/x.png", OutputKind::Picture, true}),
+                HasSubstr("dangling is a link to a folder that is not there"));
+}
+
+TEST(WriteCheck, colourImageOfTheSourceOfAChunkFileIsAnInput) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "src");
+    written(folder / "src/colour.jpg", "\xff\xd8\xff");
+    written(folder / "src/n.pgm", "P5\n64 32\n255\n" + std::string(64 * 32, 'h'));
+    const auto source = planet::openHeightSource("detail:seed=2,of=" + (folder / "src/n.pgm").string(), {});
+    ASSERT_TRUE(source) << source.error().message;
+    ASSERT_TRUE(planet::bake(*source, planet::BakeSettings{.faceSize = 65}, folder / "d.chk"));
+    for (const bool window : {false, true}) {
+        CommandFiles files;
+        if (window)
+            addSource(files, folder / "d.chk");
+        else
+            addChunkFile(files, folder / "d.chk");
+        files.outputs = {{folder / "src/colour.jpg", OutputKind::Picture}};
+        EXPECT_THAT(refusal(checkOutputs(files, true)), HasSubstr("colour.jpg: is an input of this command"));
+    }
 }
 
 TEST(WriteCheck, ownKindIsReplacedWithoutAWord) {
@@ -124,8 +197,10 @@ TEST(WriteCheck, ownKindIsReplacedWithoutAWord) {
     EXPECT_EQ(passes(folder / "new", OutputKind::Json), "");
     EXPECT_EQ(passes(written(folder / "empty", ""), OutputKind::ChunkFile), "");
     EXPECT_EQ(passes(written(folder / "a.chk", "WORLDYCH and more"), OutputKind::ChunkFile), "");
-    EXPECT_EQ(passes(written(folder / "a.json", "{\n \"file\": 1}"), OutputKind::Json), "");
-    EXPECT_EQ(passes(written(folder / "a.csv", "metric,tau_px\nadditive,2\n"), OutputKind::Csv), "");
+    EXPECT_EQ(passes(written(folder / "a.json", "{\n \"schema_version\": 1}"), OutputKind::Json), "");
+    EXPECT_EQ(
+        passes(written(folder / "a.csv", "schema_version,metric,tau_px\n1,additive,2\n"), OutputKind::Csv),
+        "");
     EXPECT_EQ(passes(written(folder / "map", "counter/frames\t3\n"), OutputKind::ItemMap), "");
     const Picture picture{2, 2, std::vector<std::uint8_t>(12)};
     for (const char* name : {"a.png", "a.jpg", "a.tif"}) {

@@ -85,9 +85,8 @@ TEST(Bookmarks, aBadFileIsToldAndNeverWrittenOver) {
         "[[bookmark]]\nname = \"a\"\nlatitude_deg = 1\nlongitude_deg = 2\naltitude_m = 3\nheading_deg = 4\n";
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"[[bookmark]\n", "line 1: not TOML"},
-        {good, "line 1: pitch_deg is missing; expected a number of degrees"},
-        {std::string(good) + "pitch_deg = 95\n",
-         "line 7: pitch_deg is 95; expected a number of degrees from -90 to 90"},
+        {good, "line 1: pitch_deg is missing; expected a number in [-90, 90]°"},
+        {std::string(good) + "pitch_deg = 95\n", "line 7: pitch_deg is 95; expected a number in [-90, 90]°"},
         {std::string(good) + "pitch_deg = nan\n", "line 7: pitch_deg is nan"},
         {std::string(good) + "pitch_deg = 5\nroll_deg = 1\n", "line 8: roll_deg is not known"},
         {"[[bookmark]]\nlatitude_deg = 1\n", "name is missing"},

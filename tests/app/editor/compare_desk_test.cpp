@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/app/session_fixture.h"
+#include "ui/model/font_symbols.h"
 #include "ui/shell/compare_overlay.h"
 
 namespace worldy {
@@ -80,7 +81,7 @@ TEST_F(CompareDeskTest, aChangedSettingChangesAAloneUntilTheyAreSwapped) {
     const ui::CompareView view = shown(session);
     ASSERT_EQ(view.different.size(), 1u);
     EXPECT_EQ(view.different[0].setting, "lod.tau_px");
-    EXPECT_EQ(sideNames(view)[0], "A  tau_px 16");
+    EXPECT_EQ(sideNames(view)[0], "A  " + ui::inFont("Tolerance τ 16"));
     EXPECT_LT(*view.now[0].triangles, *view.now[1].triangles);
     EXPECT_GT(*view.now[0].worstEpsPx, *view.now[1].worstEpsPx);
     EXPECT_GT(desk_.difference->pixels, 0u);
@@ -204,7 +205,7 @@ TEST_F(CompareDeskTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
     ASSERT_TRUE(desk_.flown) << desk_.flownProblem;
     EXPECT_LT(*(*desk_.flown)[0].triangles, *(*desk_.flown)[1].triangles);
     EXPECT_THAT(shown(session).flight.lastName,
-                HasSubstr("Down, 2 sample frames. A: lod.tau_px 16. B: lod.tau_px 2"));
+                HasSubstr("Down, 2 sample frames. A: Tolerance τ 16. B: Tolerance τ 2"));
 
     ASSERT_TRUE(
         compareFlight(desk_, session, settings_, viewport_.main.view, {folder_ / "down.toml", 100'000}));

@@ -98,6 +98,7 @@ TEST_F(FlightDeskTest, AFileThatHasTakenTheNameMeanwhileStays) {
         std::ifstream stream(taken);
         EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "another's");
         EXPECT_FALSE(desk_.unwritten);
+        EXPECT_EQ(recordingViewOf(desk_, settings_).saved, name == "canyon" ? "canyon 2" : "flight 2");
     }
     EXPECT_EQ(loadFlightRecord(desk_.folder / "flight 2.flight").value().name, "flight 2");
     EXPECT_EQ(loadFlightRecord(desk_.folder / "canyon 2.flight").value().name, "canyon 2");
@@ -116,10 +117,14 @@ TEST_F(FlightDeskTest, WhatCannotBeWrittenIsKeptUntilItCan) {
     EXPECT_THAT(other.error().message, HasSubstr("\"a\" is not saved yet"));
     stopRecording(desk_, scene_->planet.get(), log_);
     EXPECT_TRUE(desk_.unwritten);
+    EXPECT_NE(desk_.saveProblem, "");
+    EXPECT_EQ(desk_.saved, "");
 
     std::filesystem::remove(desk_.folder);
     stopRecording(desk_, nullptr, log_);
     EXPECT_FALSE(desk_.unwritten);
+    EXPECT_EQ(desk_.saveProblem, "");
+    EXPECT_EQ(desk_.saved, "a");
     EXPECT_FALSE(recordingViewOf(desk_, settings_).recording);
     EXPECT_EQ(loadFlightRecord(desk_.folder / "a.flight").value().frames.size(), 3u);
     EXPECT_EQ(desk_.flights.size(), 1u);
@@ -229,7 +234,7 @@ TEST_F(FlightDeskTest, AFlightOverAnotherFileIsRefused) {
     ASSERT_TRUE(other);
     const auto started = startReplay(desk_, file, *other, {});
     ASSERT_FALSE(started);
-    EXPECT_THAT(started.error().message, HasSubstr("was recorded over another file"));
+    EXPECT_THAT(started.error().message, HasSubstr("was recorded with a different file"));
     EXPECT_FALSE(desk_.replay);
 }
 

@@ -3,6 +3,8 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace worldy {
 namespace {
 
@@ -41,6 +43,29 @@ TEST(InputQueue, aKeyTappedWithinAFrameIsDownForOneFrame) {
     const std::vector<InputEvent> twice = {down(GLFW_KEY_W), up(GLFW_KEY_W), down(GLFW_KEY_W),
                                            up(GLFW_KEY_W)};
     EXPECT_EQ(framesOf(twice).size(), 4u);
+}
+
+// As GLFW tells of BackSpace tapped three times without a pause.
+TEST(InputQueue, aRepeatThatComesWithoutAHoldIsAnotherTap) {
+    const auto at = [](InputKind kind, double s) {
+        return InputEvent{.kind = kind, .code = GLFW_KEY_BACKSPACE, .atS = s};
+    };
+    const auto tapped = framesOf({at(InputKind::KeyDown, 5), at(InputKind::KeyRepeat, 5.01),
+                                  at(InputKind::KeyRepeat, 5.02), at(InputKind::KeyUp, 5.03)});
+    const Kinds down = {InputKind::KeyDown};
+    const Kinds up = {InputKind::KeyUp};
+    EXPECT_EQ(tapped, (std::vector<Kinds>{down, up, down, up, down, up}));
+}
+
+TEST(InputQueue, theRepeatsOfAKeyThatIsHeldStayRepeats) {
+    const auto at = [](InputKind kind, double s) {
+        return InputEvent{.kind = kind, .code = GLFW_KEY_BACKSPACE, .atS = s};
+    };
+    std::size_t repeats = 0;
+    for (const Kinds& frame : framesOf({at(InputKind::KeyDown, 5), at(InputKind::KeyRepeat, 5.25),
+                                        at(InputKind::KeyRepeat, 5.28), at(InputKind::KeyUp, 5.3)}))
+        repeats += static_cast<std::size_t>(std::count(frame.begin(), frame.end(), InputKind::KeyRepeat));
+    EXPECT_EQ(repeats, 2u);
 }
 
 TEST(InputQueue, keysPressedTogetherComeInOneFrame) {
@@ -115,8 +140,11 @@ TEST(InputQueue, keysThatActInATextFieldKeepTheirFrames) {
 }
 
 TEST(InputQueue, repeatsOfAHeldKeyWaitForNothing) {
-    const InputEvent repeat{InputKind::KeyRepeat, GLFW_KEY_DOWN};
-    EXPECT_EQ(framesOf({down(GLFW_KEY_DOWN), repeat, repeat}).size(), 1u);
+    InputEvent first{InputKind::KeyRepeat, GLFW_KEY_DOWN};
+    first.atS = 0.5;
+    InputEvent second = first;
+    second.atS = 0.53;
+    EXPECT_EQ(framesOf({down(GLFW_KEY_DOWN), first, second}).size(), 1u);
 }
 
 }  // namespace

@@ -23,5 +23,25 @@ TEST(ItemMapFile, aSymbolicLinkIsWrittenThrough) {
     EXPECT_EQ(tests::contentOf(target), "counter/frame\t7\n");
 }
 
+TEST(ItemMapFile, aLinkToNothingMakesTheFileThatItNames) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path link = folder.path() / "link.txt";
+    std::filesystem::create_symlink("dangling.txt", link);
+    writeItemMap(link, {}, std::array{Counter{"frame", "7"}});
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(tests::contentOf(folder.path() / "dangling.txt"), "counter/frame\t7\n");
+}
+
+TEST(ItemMapFile, theFileKeepsItsMode) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "map.txt";
+    std::ofstream(file) << "old";
+    std::filesystem::permissions(file,
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    writeItemMap(file, {}, std::array{Counter{"frame", "7"}});
+    EXPECT_EQ(std::filesystem::status(file).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
 }  // namespace
 }  // namespace worldy

@@ -417,7 +417,7 @@ TEST_F(SessionTest, anEstimateThatCannotBeMadeSaysWhy) {
     requestEstimate(session, requestFor(source, 17, 1000));
     ASSERT_TRUE(advanceUntil(session, [&] { return !bakeViewOf(session).estimating; }));
     EXPECT_FALSE(bakeViewOf(session).estimate);
-    EXPECT_THAT(bakeViewOf(session).estimateProblem, HasSubstr("face size 1000"));
+    EXPECT_THAT(bakeViewOf(session).estimateProblem, HasSubstr("face size: 1000"));
 }
 
 // As when several are dropped onto the window at once: the planet of the last may lie where that of the first

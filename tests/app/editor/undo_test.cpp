@@ -22,10 +22,10 @@ TEST(Undo, GoesBackAndForthThroughSteps) {
     EXPECT_EQ(history.undoName(), "");
     history.record(withTau(2), withTau(3), false, 1);
     history.record(withTau(3), withOutlines(withTau(3)), false, 2);
-    EXPECT_EQ(history.undoName(), "outlines on");
+    EXPECT_EQ(history.undoName(), "Outlines on");
     EXPECT_EQ(history.undo(), withTau(3));
-    EXPECT_EQ(history.undoName(), "tau 2 -> 3 px");
-    EXPECT_EQ(history.redoName(), "outlines on");
+    EXPECT_EQ(history.undoName(), "Tolerance τ 2 -> 3 px");
+    EXPECT_EQ(history.redoName(), "Outlines on");
     EXPECT_EQ(history.undo(), withTau(2));
     EXPECT_EQ(history.undo(), std::nullopt);
     EXPECT_EQ(history.redo(), withTau(3));
@@ -37,13 +37,13 @@ TEST(Undo, GoesBackAndForthThroughSteps) {
 TEST(Undo, NamesRoundNumbers) {
     UndoHistory history;
     history.record(withTau(2), withTau(19.630435466766357), false, 1);
-    EXPECT_EQ(history.undoName(), "tau 2 -> 19.63 px");
+    EXPECT_EQ(history.undoName(), "Tolerance τ 2 -> 19.63 px");
 }
 
 TEST(Undo, AllChangesWhileAControlIsHeldAreOneStep) {
     UndoHistory history;
     for (int i = 0; i < 100; ++i) history.record(withTau(2 + i), withTau(3 + i), true, 10.0 * i);
-    EXPECT_EQ(history.undoName(), "tau 2 -> 102 px");
+    EXPECT_EQ(history.undoName(), "Tolerance τ 2 -> 102 px");
     // Let go, with a last change in that frame.
     history.record(withTau(102), withTau(103), false, 1000);
     history.record(withTau(103), withTau(104), true, 1000.1);
@@ -61,7 +61,7 @@ TEST(Undo, TakesBackWhatWasDoneToALayer) {
     removed.surface.layers.set.layers.pop_back();
     history.record(before, muted, false, 1);
     history.record(muted, removed, false, 2);
-    EXPECT_EQ(history.undoName(), "layers");
+    EXPECT_EQ(history.undoName(), "Layer stack");
     EXPECT_EQ(history.undo(), muted);
     EXPECT_EQ(history.undo(), before);
     EXPECT_EQ(history.redo(), muted);
@@ -85,7 +85,7 @@ TEST(Undo, WhatEndsWhereItBeganIsNoStepAndLeavesWhatCanBeRedone) {
     history.record(withTau(3), withTau(2), true, 11);
     history.record(withTau(2), withTau(2), false, 12);
     EXPECT_EQ(history.undoName(), "");
-    EXPECT_EQ(history.redoName(), "tau 2 -> 9 px");
+    EXPECT_EQ(history.redoName(), "Tolerance τ 2 -> 9 px");
     EXPECT_EQ(history.redo(), withTau(9));
 }
 
@@ -151,22 +151,25 @@ TEST(Undo, AStepMayHaveANameOfItsOwn) {
 TEST(ChangeName, IsShortAndHasTheUnit) {
     ui::ViewSettings after;
     after.lod.morphRange = 0.5;
-    EXPECT_EQ(changeName({}, after), "morph range 0.3 -> 0.5");
+    EXPECT_EQ(changeName({}, after), "Morph range 0.3 -> 0.5");
     after = {};
     after.paging.budgetMB = 512;
-    EXPECT_EQ(changeName({}, after), "budget 256 -> 512 MiB");
+    EXPECT_EQ(changeName({}, after), "Budget 256 -> 512 MiB");
     after = {};
     after.paging.badDisk.bandwidthMBs = 10;
-    EXPECT_EQ(changeName({}, after), "bandwidth 0 -> 10 MB/s");
+    EXPECT_EQ(changeName({}, after), "Bandwidth 0 -> 10 MB/s");
     after = {};
     after.overlay.colourBy = ui::ColourBy::Error;
-    EXPECT_EQ(changeName({}, after), "colour by none -> error");
+    EXPECT_EQ(changeName({}, after), "Colour by none -> error");
     after = {};
     after.surface.sea = false;
-    EXPECT_EQ(changeName({}, after), "sea off");
+    EXPECT_EQ(changeName({}, after), "Sea off");
+    after = {};
+    after.surface.sunDate.hour = 20.28;
+    EXPECT_EQ(changeName({}, after), "Hour 12:00 -> 20:17");  // as the slider
     after = {};
     after.surface.ramp = {{0, {1, 1, 1}}};
-    EXPECT_EQ(changeName({}, after), "ramp");
+    EXPECT_EQ(changeName({}, after), "Height ramp");
     after.surface.sea = false;
     EXPECT_EQ(changeName({}, after), "2 settings");
 }

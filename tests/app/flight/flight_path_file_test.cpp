@@ -30,6 +30,15 @@ std::string pathErrorOf(const std::string& text) {
     return loaded ? "no error" : loaded.error().message;
 }
 
+TEST(FlightPathFile, aFileThatIsNoTextIsNoFlight) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "s.chk", std::ios::binary) << std::string("WORLDYCH\0\xff\x01", 11);
+    const planet::Result<FlightPath> path = loadFlightPath(folder / "s.chk");
+    ASSERT_FALSE(path);
+    EXPECT_THAT(path.error().message,
+                testing::HasSubstr("s.chk: is not a flight; expected a flight (.toml or .flight)"));
+}
+
 TEST(FlightPathFile, AGoodFileIsRead) {
     const planet::Result<FlightPath> path =
         pathFromText("name = \"Two\"\n" + keyText(0, 1, 2) + keyText(5, 3, 4));
@@ -43,8 +52,7 @@ TEST(FlightPathFile, ErrorsNameFileKeyAndWhatWouldBeRight) {
     const std::string good = keyText(0, 1, 2);
     EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)),
                 HasSubstr("path.toml: line 10: key 2: latitude_deg is 91"));
-    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)),
-                HasSubstr("expected a number of degrees from -90 to 90"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 91, 0)), HasSubstr("expected a number in [-90, 90]°"));
     EXPECT_THAT(pathErrorOf(good + keyText(0, 0, 0)),
                 HasSubstr("key 2: time_s is 0; expected a time after key 1's 0"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));
@@ -52,12 +60,26 @@ TEST(FlightPathFile, ErrorsNameFileKeyAndWhatWouldBeRight) {
     EXPECT_THAT(pathErrorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: lies"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0) + "roll_deg = 3\n"),
                 HasSubstr("key 2: roll_deg is not known"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0) + "jump = 3\n"), HasSubstr("key 2: jump is"));
+    EXPECT_THAT(pathErrorOf(good + "jump = true\n" + keyText(5, 0, 0)),
+                HasSubstr("key 1: jump is true; expected false"));
     EXPECT_THAT(pathErrorOf(good), HasSubstr("has 1 [[key]] tables; expected two or more"));
     EXPECT_THAT(pathErrorOf(""), HasSubstr("has 0 [[key]] tables"));
     EXPECT_THAT(pathErrorOf("key = 3\n"), HasSubstr("key is not known"));
     EXPECT_THAT(pathErrorOf("speed = 3\n"), HasSubstr("speed is not known"));
     EXPECT_THAT(pathErrorOf("key = [3]\n"), HasSubstr("key 1 is not a table"));
     EXPECT_THAT(pathErrorOf("[[key]\n"), HasSubstr("path.toml: line 1: not TOML"));
+}
+
+TEST(FlightPathFile, AKeyMayBeJumpedToEvenFromTheOppositePlace) {
+    const planet::Result<FlightPath> path = pathFromText(
+        keyText(0, 1, 2) + keyText(5, -1, -178) + "jump = true\n" + keyText(9, -1, -177) + "jump = false\n");
+    ASSERT_TRUE(path) << path.error().message;
+    EXPECT_TRUE(path->keys[1].jumpedTo);
+    EXPECT_FALSE(path->keys[2].jumpedTo);
+    EXPECT_NEAR(poseAt(*path, 4.999).longitudeDeg, 2, 1e-9);
+    EXPECT_NEAR(poseAt(*path, 5).longitudeDeg, -178, 1e-9);
+    EXPECT_TRUE(jumpsBetween(*path, 4.99, 5));
 }
 
 TEST(FlightPathFile, TheFlightsThatComeWithWorldyAreGood) {

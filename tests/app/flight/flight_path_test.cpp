@@ -92,9 +92,46 @@ TEST(FlightPath, AJumpIsFasterThanAnyFlight) {
     EXPECT_FALSE(isCameraJump(eyeM(10, 5000), eyeM(10, 5000), radiusM, 0));
     EXPECT_FALSE(isCameraJump(eyeM(10, 5000), eyeM(10.01, 5200), radiusM, frameS));
     EXPECT_TRUE(isCameraJump(eyeM(10, 5000), eyeM(12, 5000), radiusM, frameS));
+    // 20 km up, as far as that over the ground: 0.18 degrees.
+    EXPECT_FALSE(isCameraJump(eyeM(10, 20'000), eyeM(10.179, 20'000), radiusM, frameS));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 20'000), eyeM(10.181, 20'000), radiusM, frameS));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 20'000), eyeM(11, 20'000), radiusM, 0.1));
+    EXPECT_FALSE(isCameraJump(eyeM(10, 20'000), eyeM(10.35, 20'000), radiusM, 0.2));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 20'000), eyeM(10.37, 20'000), radiusM, 0.2));
+    // Close to the ground a height counts as 6371 m.
+    EXPECT_FALSE(isCameraJump(eyeM(10, 2), eyeM(10.057, 2), radiusM, frameS));
+    EXPECT_TRUE(isCameraJump(eyeM(10, 2), eyeM(10.058, 2), radiusM, frameS));
     EXPECT_TRUE(isCameraJump(eyeM(10, 2e7), eyeM(40, 2e7), radiusM, frameS));
     EXPECT_TRUE(isCameraJump(eyeM(10, 2e7), eyeM(10, 1e5), radiusM, frameS));
     EXPECT_FALSE(isCameraJump(eyeM(10, 2e7), eyeM(14, 1.9e7), radiusM, 0.5));
+}
+
+FlightPath throughAStop() {
+    return {"stop",
+            {{0, {10, 20, 2e4, 0, -30}},
+             {2, {27, 86.4, 2e4, 0, -30}},
+             {4, {27, 86.4, 2e4, 0, -30}},
+             {5, {27.001, 86.4, 2e4, 0, -30}},
+             {8, {40, 90, 2e4, 0, -30}}}};
+}
+
+TEST(FlightPath, BetweenTwoKeysAtOnePlaceTheCameraStandsStill) {
+    const FlightPath path = throughAStop();
+    for (double timeS = 2; timeS <= 4; timeS += 0.01)
+        EXPECT_LT(glm::length(directionOf(poseAt(path, timeS)) - directionOf(path.keys[1].pose)), 1e-12)
+            << timeS;
+}
+
+// The way from the fourth key to the fifth is ten thousand times as long.
+TEST(FlightPath, AShortSpanIsNotOvershotForALongOneBesideIt) {
+    const FlightPath path = throughAStop();
+    double before = 27;
+    for (double timeS = 4; timeS <= 5; timeS += 0.01) {
+        const double latitudeDeg = poseAt(path, timeS).latitudeDeg;
+        EXPECT_GE(latitudeDeg, before - 1e-9) << timeS;
+        EXPECT_LE(latitudeDeg, 27.001 + 1e-9) << timeS;
+        before = latitudeDeg;
+    }
 }
 
 TEST(FlightPath, JumpsAreFoundBetweenTwoTimes) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/measure/comparison_job.h"
+#include "app/scene/offscreen.h"
 #include "tests/app/session_fixture.h"
 
 namespace worldy {
@@ -93,6 +94,24 @@ TEST_F(ComparisonTest, stitchedSeamsHaveNoCrackPixelsWhereNoneHaveSome) {
     EXPECT_GT(*pair[0].crackPx, 0);
     EXPECT_EQ(pair[0].leakingPx, pair[0].crackPx);
     EXPECT_EQ(pair[1].crackPx, 0);
+}
+
+// The sea is so high that it covers all land where it is drawn as water.
+TEST_F(ComparisonTest, anAutomaticSeaIsTakenAsItIsDrawn) {
+    ComparisonPlan plan = planFor(bakeHills());
+    const auto offscreen = openOffscreen({.chunkFile = plan.sides[0].chunkFile}, {}, plan.size, 1);
+    ASSERT_TRUE(offscreen);
+    const bool software = offscreen->scene.renderer.capabilities().software;
+    for (ComparedSide& side : plan.sides) {
+        side.settings.lod.morph = false;
+        side.settings.surface.seaLevelM = 9000;
+    }
+    plan.sides[0].settings.surface.light.sea.use = planet::gl::FeatureUse::Automatic;
+    plan.sides[1].settings.surface.light.sea.use =
+        software ? planet::gl::FeatureUse::Off : planet::gl::FeatureUse::On;
+    const ComparedPair pair = compare(plan);
+    EXPECT_EQ(*pair[0].worstPopPx > 0, software);
+    EXPECT_EQ(pair[0].worstPopPx, pair[1].worstPopPx);
 }
 
 TEST_F(ComparisonTest, whatIsWrongIsToldByName) {
@@ -196,6 +215,18 @@ TEST(CompareTable, sayWhatBIsOfA) {
     EXPECT_EQ(ui::changeText(triangles, std::nullopt, 3), "-");
     EXPECT_EQ(ui::figureText(triangles, std::nullopt), "-");
     EXPECT_EQ(ui::figureText(triangles, 950), "950");
+    const auto rows = ui::compareRows();
+    const auto pop = std::find_if(rows.begin(), rows.end(), [](const ui::CompareRow& row) {
+        return std::string_view(row.key) == "worst_pop_px";
+    });
+    ASSERT_NE(pop, rows.end());
+    for (const auto& [px, text] : {std::pair(0.0, "0 px"),
+                                   {0.00412, "0.00412 px"},
+                                   {0.2046, "0.205 px"},
+                                   {0.229, "0.229 px"},
+                                   {9.876, "9.88 px"},
+                                   {12.34, "12.3 px"}})
+        EXPECT_EQ(ui::figureText(*pop, px), text);
 }
 
 TEST(CompareTable, figuresSortByValueAndByTheRatioOfBToA) {
@@ -212,13 +243,13 @@ TEST(CompareTable, figuresSortByValueAndByTheRatioOfBToA) {
         return ui::figureSortKey(*row, column, figures);
     };
     using Column = ui::FigureColumn;
-    EXPECT_EQ(key("Chunks", Column::A), ui::SortKey(100.0));
-    EXPECT_EQ(key("Chunks", Column::B), ui::SortKey(50.0));
-    EXPECT_EQ(key("Chunks", Column::Name), ui::SortKey(std::string("Chunks")));
-    EXPECT_EQ(key("Chunks", Column::Change), ui::SortKey(0.5));
+    EXPECT_EQ(key("Drawn chunks", Column::A), ui::SortKey(100.0));
+    EXPECT_EQ(key("Drawn chunks", Column::B), ui::SortKey(50.0));
+    EXPECT_EQ(key("Drawn chunks", Column::Name), ui::SortKey(std::string("Drawn chunks")));
+    EXPECT_EQ(key("Drawn chunks", Column::Change), ui::SortKey(0.5));
     EXPECT_EQ(key("Level changes", Column::Change), ui::SortKey(1.0));
     EXPECT_GT(key("Late arrivals", Column::Change), ui::SortKey(1e300));
-    EXPECT_LT(key("Memory", Column::Change), key("Chunks", Column::Change));
+    EXPECT_LT(key("Memory", Column::Change), key("Drawn chunks", Column::Change));
 }
 
 }  // namespace

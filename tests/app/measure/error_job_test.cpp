@@ -65,6 +65,32 @@ TEST_F(Errors, AreMeasuredOnceWhenAskedFor) {
     EXPECT_FALSE(meter_.job);
 }
 
+TEST_F(Errors, AreOutOfDateOnceAnythingElseIsDrawn) {
+    meter_.wanted = true;
+    runUntilDone(1);
+    const auto current = [&] {
+        advanceErrorMeter(*planet_, 2, 1, meter_);
+        return errorsViewOf(meter_, 2).current;
+    };
+    EXPECT_TRUE(current());
+    const auto draw = [&](const planet::View& view, const planet::LodSettings& lod) {
+        planet_->settle(view, lod, planet::noUpload, 60);
+    };
+    planet::LodSettings finer = lod_;
+    finer.tauPx = 2.9;
+    draw(view_, finer);
+    EXPECT_FALSE(current());
+    draw(view_, lod_);
+    EXPECT_TRUE(current());
+    planet::View elsewhere = view_;
+    elsewhere.eyeM *= 1.001;
+    draw(elsewhere, lod_);
+    EXPECT_FALSE(current());
+    draw(view_, lod_);
+    planet_->setExaggeration(2);
+    EXPECT_FALSE(current());
+}
+
 TEST_F(Errors, AreMeasuredAgainAndAgainWhileThatIsSet) {
     meter_.keepMeasuring = true;
     std::uint64_t frame = 1;
@@ -103,7 +129,7 @@ TEST_F(Errors, TintChunksByWhatWasMeasuredAndGreyWhereNothingWas) {
     overlay.colourBy = ui::ColourBy::Measured;
     ui::ErrorMeasurement measured = *meter_.last;
     measured.indexOf.erase(measured.report.chunks[0].id);
-    const auto tints = ui::chunkTints(*planet_, planet_->selection(), overlay, 3, true, &measured);
+    const auto tints = ui::chunkTints(*planet_, planet_->selection(), overlay, 3, &measured);
     ASSERT_EQ(tints.size(), measured.report.chunks.size());
     EXPECT_EQ(tints[0].rgba[0], 128);
     EXPECT_EQ(tints[0].rgba[2], 128);
@@ -113,7 +139,7 @@ TEST_F(Errors, TintChunksByWhatWasMeasuredAndGreyWhereNothingWas) {
         EXPECT_NEAR(tints[i].rgba[1], 255 * wanted.y, 1) << i;
     }
     EXPECT_EQ(ui::legendOf(overlay, 3, 4).entries.back().label, "not measured");
-    EXPECT_EQ(ui::chunkTints(*planet_, planet_->selection(), overlay, 3, true).back().rgba[1], 128);
+    EXPECT_EQ(ui::chunkTints(*planet_, planet_->selection(), overlay, 3).back().rgba[1], 128);
 }
 
 TEST(ErrorMeasurement, ListsViolationsFirstThenTheLargest) {

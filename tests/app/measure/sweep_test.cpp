@@ -41,7 +41,7 @@ TEST(Sweep, theTablesHoldEveryPoint) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     EXPECT_THAT(csv, testing::StartsWith("schema_version,metric,chunk_size,tau_px,mean_ground_triangles,mean_"
                                          "skirt_triangles,mean_triangles"));
-    EXPECT_THAT(csv, HasSubstr("\n1,additive,33,2,30,20,50,"));
+    EXPECT_THAT(csv, HasSubstr("\n2,additive,33,2,30,20,50,"));
     const auto json = nlohmann::json::parse(sweepJson(points, "a.chk", "Down", SweepCost::FrameMs));
     EXPECT_EQ(json["cost"], "median frame, ms");
     EXPECT_EQ(json["points"][1]["worst_measured_px"], 1.5);
@@ -60,7 +60,7 @@ TEST(Sweep, countsAreWholeNumbersInBothTables) {
     EXPECT_EQ(json["violations"].dump(), "3");
     EXPECT_EQ(json["on_front"], true);
     EXPECT_TRUE(json["tau_px"].is_number_float());
-    EXPECT_THAT(sweepCsv({{point}}), HasSubstr("\n1,additive,33,0.5,"));
+    EXPECT_THAT(sweepCsv({{point}}), HasSubstr("\n2,additive,33,0.5,"));
     EXPECT_THAT(sweepCsv({{point}}), HasSubstr(",1234567.25,12345678,"));
     EXPECT_THAT(sweepCsv({{point}}), testing::EndsWith(",3,true\n"));
 }
@@ -120,6 +120,14 @@ TEST(Sweep, aGoalThatNothingKeepsIsToldAndOneThatAllKeepIsCheap) {
         suggestTau({}, [](double) -> planet::Result<double> { return planet::ioError("gone"); });
     ASSERT_FALSE(broken);
     EXPECT_EQ(broken.error().message, "gone");
+}
+
+TEST(Sweep, theLimitOfTrianglesIsAWholeNumber) {
+    ui::SweepSuggestion one;
+    one.goal = {false, SweepCost::Triangles, 20'000};
+    EXPECT_THAT(suggestionsJson(std::array{one}, "s.chk", "down"), testing::HasSubstr("\"limit\": 20000,"));
+    one.goal = {true, SweepCost::Triangles, 3};
+    EXPECT_THAT(suggestionsJson(std::array{one}, "s.chk", "down"), testing::HasSubstr("\"limit\": 3.0,"));
 }
 
 std::size_t pixelsOf(const Picture& picture, int red, int green, int blue) {

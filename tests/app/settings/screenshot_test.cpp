@@ -92,7 +92,7 @@ TEST(Screenshot, DamagedNotesAreRefused) {
     const std::vector<PictureText> badCamera = {{"worldy:settings", "[lod]\n"}, {"worldy:camera", "1,2,x"}};
     ASSERT_TRUE(writePicture(smallPicture(), folder / "camera.png", badCamera));
     EXPECT_THAT(readScreenshotNote(folder / "camera.png").error().message,
-                HasSubstr("camera.png: is damaged: its note of the camera"));
+                HasSubstr("camera.png: invalid camera metadata: 1,2,x; expected LAT,LON,ALT"));
     const std::vector<PictureText> badSettings = {{"worldy:settings", "[lod]\ntau_px = 1000\n"},
                                                   {"worldy:camera", "1,2,3"}};
     ASSERT_TRUE(writePicture(smallPicture(), folder / "settings.png", badSettings));

@@ -173,13 +173,13 @@ TEST(ShotOptions, NamedOptionsWinOverTheSettingsFileAndAssignmentsOverBoth) {
 
 TEST(ShotOptions, TheOldOptionsStillWork) {
     const std::array<const char*, 19> arguments = {
-        "worldy",       "shot",     "a.chk",       "-o",          "b.png",      "--tau",     "0.05",
+        "worldy",       "shot",     "a.chk",       "-o",          "b.png",      "--tau",     "0.25",
         "--no-culling", "--budget", "64",          "--colour-by", "load_order", "--surface", "ramp",
         "--no-skirts",  "--cube",   "--wireframe", "--fov",       "33"};
     const planet::Result<ShotOptions> options = shotOptionsFrom(arguments);
     ASSERT_TRUE(options) << options.error().message;
     const ui::ViewSettings& view = options->view;
-    EXPECT_EQ(view.lod.tauPx, 0.05);
+    EXPECT_EQ(view.lod.tauPx, 0.25);
     EXPECT_FALSE(view.lod.frustumCulling || view.lod.horizonCulling);
     EXPECT_EQ(view.paging.budgetMB, 64);
     EXPECT_EQ(view.overlay.colourBy, ui::ColourBy::LoadOrder);
@@ -198,7 +198,7 @@ TEST(ShotOptions, WrongAssignmentsAreErrors) {
         return options ? std::string("no error") : options.error().message;
     };
     EXPECT_THAT(errorOf("lod.tau_px=0"),
-                HasSubstr("--set lod.tau_px=0: lod.tau_px is 0; expected a number of pixels"));
+                HasSubstr("--set lod.tau_px=0: lod.tau_px is 0; expected a number in [0.1, 64] px"));
     EXPECT_THAT(errorOf("lod.tau=3"), HasSubstr("the nearest one is lod.tau_px"));
     EXPECT_THAT(errorOf(""), Not(HasSubstr("no error")));
 }

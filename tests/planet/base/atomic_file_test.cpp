@@ -114,6 +114,32 @@ TEST(AtomicFile, linkToNothingMakesTheFileThatItNames) {
     EXPECT_EQ(contentOf(folder / "later"), "new");
 }
 
+TEST(AtomicFile, replacedFileKeepsItsMode) {
+    const tests::TemporaryFolder folder;
+    const auto path = folder / "private";
+    std::ofstream(path) << "old";
+    const auto own = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+    for (const auto mode : {own, own | std::filesystem::perms::group_write}) {
+        std::filesystem::permissions(path, mode);
+        auto file = AtomicFile::create(path);
+        ASSERT_TRUE(file);
+        ASSERT_TRUE(file->commit());
+        EXPECT_EQ(std::filesystem::status(path).permissions(), mode);
+    }
+}
+
+TEST(AtomicFile, placeThatCannotBeWrittenIsToldBeforehand) {
+    const tests::TemporaryFolder folder;
+    std::filesystem::create_symlink("loop", folder / "loop");
+    std::filesystem::create_symlink("nowhere/file", folder / "link");
+    for (const char* name : {"loop", "link", "nowhere/file", "."})
+        EXPECT_FALSE(checkWritable(folder / name)) << name;
+    EXPECT_FALSE(checkWritable("/dev/null"));
+    EXPECT_TRUE(checkWritable(folder / "new"));
+    std::ofstream(folder / "old") << "old";
+    EXPECT_TRUE(checkWritable(folder / "old"));
+}
+
 TEST(AtomicFile, linkToItselfIsAnErrorThatNamesIt) {
     const tests::TemporaryFolder folder;
     std::filesystem::create_symlink("loop", folder / "loop");

@@ -682,10 +682,26 @@ TEST(PopMeter, ADrawnSeaHidesTheBedsJump) {
 
 // The mean over the screen, by many small squares of the finer chunk, each with its area on screen. It shares
 // no more with the meter than where the surfaces lie.
-double meanBySquares(const DrawnChunk& coarser, const DrawnChunk& finer, int quadrant, const View& view) {
+// Vertices below the sea are lifted to it, and squares that it covers before and after are left out.
+double meanBySquares(const DrawnChunk& coarser, const DrawnChunk& finer, int quadrant, const View& view,
+                     bool coarserIsAfter = false, std::optional<double> seaM = std::nullopt) {
     const PlanetShape& shape = fakePyramid().shape;
-    const DrawnGrid coarse = drawnGrid(shape, coarser.item, *coarser.heights, false);
-    const DrawnGrid fine = drawnGrid(shape, finer.item, *finer.heights, false);
+    const double seaRadiusM = shape.radiusM + seaM.value_or(-shape.radiusM);
+    const auto drawn = [&](const DrawnChunk& chunk) {
+        DrawnGrid grid = drawnGrid(shape, chunk.item, *chunk.heights, chunk.stitched);
+        for (glm::dvec3& pointM : grid.positionM)
+            if (glm::length(pointM) < seaRadiusM) pointM *= seaRadiusM / glm::length(pointM);
+        return grid;
+    };
+    const DrawnGrid coarse = drawn(coarser);
+    const DrawnGrid fine = drawn(finer);
+    const auto coarseAt = [&](double x, double y) {
+        return pointOn(coarse, (x + 16 * (quadrant % 2)) / 2, (y + 16 * (quadrant / 2)) / 2);
+    };
+    const auto fineAt = [&](double x, double y) { return pointOn(fine, x, y); };
+    const auto after = [&](double x, double y) { return coarserIsAfter ? coarseAt(x, y) : fineAt(x, y); };
+    const auto before = [&](double x, double y) { return coarserIsAfter ? fineAt(x, y) : coarseAt(x, y); };
+    const auto isCovered = [&](const glm::dvec3& pointM) { return glm::length(pointM) <= seaRadiusM + 1e-3; };
     const auto project = [&](const glm::dvec3& pointM) {
         const glm::dvec3 fromEye = pointM - view.eyeM;
         const double ahead = -glm::dot(fromEye, view.back);
@@ -699,14 +715,14 @@ double meanBySquares(const DrawnChunk& coarser, const DrawnChunk& finer, int qua
     for (int i = 0; i < squares * squares; ++i) {
         const double x = side * (i % squares);
         const double y = side * (i / squares);
-        const glm::dvec3 corner = project(pointOn(fine, x, y));
-        const glm::dvec3 east = project(pointOn(fine, x + side, y)) - corner;
-        const glm::dvec3 north = project(pointOn(fine, x, y + side)) - corner;
-        const double middleX = x + side / 2;
-        const double middleY = y + side / 2;
-        const glm::dvec3 now = project(pointOn(fine, middleX, middleY));
-        const glm::dvec3 was = project(
-            pointOn(coarse, (middleX + 16 * (quadrant % 2)) / 2, (middleY + 16 * (quadrant / 2)) / 2));
+        const glm::dvec3 corner = project(after(x, y));
+        const glm::dvec3 east = project(after(x + side, y)) - corner;
+        const glm::dvec3 north = project(after(x, y + side)) - corner;
+        const glm::dvec3 nowM = after(x + side / 2, y + side / 2);
+        const glm::dvec3 wasM = before(x + side / 2, y + side / 2);
+        if (isCovered(nowM) && isCovered(wasM)) continue;
+        const glm::dvec3 now = project(nowM);
+        const glm::dvec3 was = project(wasM);
         if (now.z <= 0 || was.z <= 0) continue;
         if (2 * scalePx * std::abs(now.x) > view.widthPx || 2 * scalePx * std::abs(now.y) > view.heightPx)
             continue;
@@ -745,6 +761,90 @@ TEST(PopMeter, TheMeanIsOverTheScreen) {
         }
     }
     EXPECT_GT(checked, 10);
+}
+
+// From high above, so that all of a chunk is in the picture.
+View aboveMountain() {
+    const glm::dvec3 middle = glm::normalize(vertexM(fakePyramid().shape, fakePyramid().at(mountain), 8, 8));
+    const Geographic place = geographicFromDirection(middle);
+    return viewFromPose({glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad), 200'000, 30, -90},
+                        1e5, 1.0, 800, 500);
+}
+
+DrawnChunk chunkOfTree(const ChunkId& id, float morph, bool stitched = false) {
+    const DrawItem item = itemOf(wholeTree(), id, morph);
+    return {item, wholeTree().nodes[item.node].heights, stitched};
+}
+
+TEST(PopMeter, TheMeanOfAMergeIsOverTheScreenToo) {
+    const View view = aboveMountain();
+    const DrawnChunk coarse = chunkOfTree(mountain, 0);
+    for (int q = 0; q < quadrantCount; ++q) {
+        const DrawnChunk fine = chunkOfTree(childOf(mountain, q), 0.3f);
+        const SurfaceJump jump = surfaceJump(fakePyramid().shape, coarse, {&fine, 1}, true, view);
+        ASSERT_GT(jump.places, 30u);
+        const double expectedPx = meanBySquares(coarse, fine, q, view, true);
+        ASSERT_GT(expectedPx, 0.001);
+        EXPECT_NEAR(jump.meanPx, expectedPx, 0.02 * expectedPx) << q;
+    }
+}
+
+// Of stitched edges the mean counts the grid points alone.
+TEST(PopMeter, TheMeanOfStitchedChunksIsOverTheScreenToo) {
+    const View view = aboveMountain();
+    const DrawnChunk coarse = chunkOfTree(mountain, 0, true);
+    for (int q = 0; q < quadrantCount; ++q) {
+        DrawnChunk fine = chunkOfTree(childOf(mountain, q), 0.3f, true);
+        fine.item.edgeMorph[static_cast<std::size_t>(Edge::South)] = 1;
+        fine.item.coarserBy[static_cast<std::size_t>(Edge::East)] = 1;
+        for (const bool coarserIsAfter : {false, true}) {
+            const SurfaceJump jump =
+                surfaceJump(fakePyramid().shape, coarse, {&fine, 1}, coarserIsAfter, view);
+            const double expectedPx = meanBySquares(coarse, fine, q, view, coarserIsAfter);
+            ASSERT_GT(expectedPx, 0.001);
+            EXPECT_NEAR(jump.meanPx, expectedPx, 0.04 * expectedPx) << q << " " << coarserIsAfter;
+        }
+    }
+}
+
+TEST(PopMeter, TheMeanBesideASeaIsOverWhatItLeavesDry) {
+    const View view = aboveMountain();
+    const DrawnChunk coarse = chunkOfTree(mountain, 0);
+    int checked = 0;
+    for (int q = 0; q < quadrantCount; ++q) {
+        const ChunkData& chunk = fakePyramid().at(childOf(mountain, q));
+        const DrawnChunk fine = chunkOfTree(chunk.id, 0);
+        const double seaM =
+            0.5 * (heightM(fakePyramid().shape, chunk.minStep) + heightM(fakePyramid().shape, chunk.maxStep));
+        const SurfaceJump dry = surfaceJump(fakePyramid().shape, coarse, {&fine, 1}, false, view);
+        const SurfaceJump jump = surfaceJump(fakePyramid().shape, coarse, {&fine, 1}, false, view, seaM);
+        if (jump.places < dry.places / 8 || jump.places > 7 * dry.places / 8) continue;
+        ++checked;
+        const double expectedPx = meanBySquares(coarse, fine, q, view, false, seaM);
+        EXPECT_NEAR(jump.meanPx, expectedPx, 0.05 * expectedPx) << q;
+    }
+    EXPECT_GT(checked, 1);
+}
+
+// An edge has no area on screen.
+TEST(PopMeter, TheMeanOfAnEdgeIsOverItsVertices) {
+    const View view = fromBeside(mountain);
+    const PlanetShape& shape = fakePyramid().shape;
+    const ChunkData& chunk = fakePyramid().at(mountain);
+    const DrawnChunk before = chunkOfTree(mountain, 0);
+    DrawnChunk after = before;
+    after.item.edgeMorph[static_cast<std::size_t>(Edge::West)] = 1;
+    double totalPx = 0;
+    for (int row = 1; row <= 16; row += 2) {
+        const glm::dvec3 middle =
+            0.5 * (vertexM(shape, chunk, 0, row - 1) + vertexM(shape, chunk, 0, row + 1));
+        const glm::dvec3 apart = middle - vertexM(shape, chunk, 0, row);
+        totalPx +=
+            glm::length(apart - glm::dot(apart, view.back) * view.back) * screenScalePx(view) / farAwayM;
+    }
+    const SurfaceJump jump = edgeJump(shape, before, after, Edge::West, view);
+    EXPECT_EQ(jump.places, 17u);
+    EXPECT_NEAR(jump.meanPx, totalPx / 17, 0.02 * totalPx / 17);
 }
 
 // Down from high up in small steps over several places, all loaded: what the morph is for. With a fade each
@@ -821,14 +921,39 @@ TEST(PopMeter, ForgetsAllForAnotherPlanetAndWhenTimeRunsBackwards) {
     EXPECT_TRUE(meter.events().empty());
 }
 
-TEST(PopMeter, NothingIsMeasuredAcrossAnotherExaggeration) {
+TEST(PopMeter, ASwitchWithAnotherExaggerationIsCountedAndNotMeasured) {
     ChunkTree tree = residentTree(fakePyramid(), 3);
     const View view = fromBeside(mountain);
     PopMeter meter;
     meter.add(tree, drawing({itemOf(tree, mountain)}), view, {}, 0);
     setExaggeration(tree, 2);
     meter.add(tree, drawingChildren(tree, mountain, {0, 0, 0, 0}), view, {}, popFrameS);
-    EXPECT_TRUE(meter.events().empty());
+    ASSERT_EQ(meter.events().size(), 1u);
+    const PopEvent& event = meter.events().front();
+    EXPECT_EQ(event.cause, PopCause::SettingsChanged);
+    EXPECT_EQ(event.toLevel, mountain.level + 1);
+    EXPECT_FALSE(counts(event));
+    EXPECT_STREQ(popNote(event), "not measured");
+    EXPECT_EQ(event.jump.largestPx, 0);
+    EXPECT_EQ(meter.totals().switches, 1u);
+    EXPECT_EQ(meter.totals().notMeasured, 1u);
+    EXPECT_EQ(meter.totals().counted + meter.totals().outsidePicture, 0u);
+    EXPECT_EQ(meter.percentilePx(1), 0);
+}
+
+// Fade 0: what the other heights want is drawn in the very frame that they are drawn in.
+TEST(PopMeter, AnotherExaggerationIsTheSettingsWhereNothingFades) {
+    ChunkTree tree = residentTree(fakePyramid(), 5);
+    PopMeter meter;
+    const View view = viewAt(30, 20);
+    LodSettings settings = tauOf(4);
+    settings.fadeS = 0;
+    addSelected(meter, tree, view, settings, 0);
+    setExaggeration(tree, 3);
+    addSelected(meter, tree, view, settings, popFrameS);
+    EXPECT_GT(meter.totals().switches, 0u);
+    EXPECT_EQ(countOf(meter, PopCause::SettingsChanged), meter.totals().switches);
+    EXPECT_EQ(meter.totals().notMeasured, meter.totals().switches);
 }
 
 TEST(PopMeter, KeepsTheLastMinutesAndWhatWasDrawnInThem) {

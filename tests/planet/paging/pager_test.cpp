@@ -282,7 +282,7 @@ TEST(Pager, ABadDiskFailsReadsAndSaysThatItDoes) {
     const auto loads = takeAll(pager);
     ASSERT_EQ(loads.size(), 1u);
     ASSERT_FALSE(loads[0].block);
-    EXPECT_EQ(loads[0].block.error().message, "z_pos/0/0/0: read failed on purpose (bad disk, seed 42)");
+    EXPECT_EQ(loads[0].block.error().message, "z_pos/0/0/0: injected read failure (seed 42)");
     EXPECT_EQ(loads[0].bytes, 0u);
     EXPECT_EQ(reads, 0);
 }

@@ -104,6 +104,7 @@ TEST(PagingQueue, OppositeRequestsCancelEachOther) {
     EXPECT_EQ(queue.submit(makeRequest(1, PagingType::PageIn, 5)), SubmitOutcome::Added);
     EXPECT_EQ(queue.submit(makeRequest(1, PagingType::PageOut, 5)), SubmitOutcome::Opposed);
     EXPECT_EQ(queue.counters().opposed, 2u);
+    EXPECT_EQ(queue.counters().cancelled, (std::array<std::uint64_t, 2>{1, 1}));
 }
 
 TEST(PagingQueue, WhatIsNotAskedForAgainIsCancelled) {
@@ -117,6 +118,8 @@ TEST(PagingQueue, WhatIsNotAskedForAgainIsCancelled) {
     EXPECT_EQ(cancelled[0].parent, chunkNumber(1));
     EXPECT_NE(queue.find(chunkNumber(2)), nullptr);
     EXPECT_NE(queue.find(chunkNumber(3)), nullptr);
+    ASSERT_TRUE(queue.cancel(chunkNumber(3)));
+    EXPECT_EQ(queue.counters().cancelled, (std::array<std::uint64_t, 2>{1, 1}));  // by type
 }
 
 TEST(PagingQueue, ARequestKeepsWhatItCarries) {

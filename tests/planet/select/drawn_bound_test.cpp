@@ -9,6 +9,7 @@
 
 #include "planet/measure/true_error.h"
 #include "planet/select/drawn_surface.h"
+#include "planet/select/screen_error.h"
 #include "tests/support/fake_selection.h"
 #include "tests/support/random_view.h"
 
@@ -73,7 +74,10 @@ TEST(DrawnBound, ofAChunkAtMorphOneIsItsParents) {
         fillDrawnBounds(selection.draw, spansOf(selection.draw), screenScalePx(view), metric, false);
         for (const DrawItem& item : selection.draw) {
             ASSERT_GT(item.parentEpsPx, 0);
-            EXPECT_EQ(item.drawnBoundPx, std::max(item.parentEpsPx, item.epsPx)) << toString(item.id);
+            const double seenPx = static_cast<double>(item.parentDeltaM) * screenScalePx(view) /
+                                  static_cast<double>(std::max(item.distanceM, item.nearestSampleM));
+            const float parentPx = std::min(item.parentEpsPx, static_cast<float>(seenPx));
+            EXPECT_EQ(item.drawnBoundPx, std::max(parentPx, item.epsPx)) << toString(item.id);
         }
     }
 }
@@ -81,12 +85,85 @@ TEST(DrawnBound, ofAChunkAtMorphOneIsItsParents) {
 TEST(DrawnBound, ofAChunkHalfWayLiesHalfWay) {
     DrawItem item;
     item.id = {Face::PosX, 3, 2, 2};
-    item.epsPx = 1;
-    item.parentEpsPx = 5;
+    item.distanceM = 1000;
+    item.epsPx = item.deltaCM = 1;
+    item.parentEpsPx = item.parentDeltaM = 5;
     item.morph = 0.5f;
     item.edgeMorph.fill(0.5f);
     fillDrawnBounds(std::span(&item, 1), std::vector{unknownM}, 1000, ErrorMetric::Additive, false);
     EXPECT_EQ(item.drawnBoundPx, 3);
+}
+
+TEST(DrawnBound, ofAChunkWhoseParentHoldsTheEyeCountsItsOwnDistance) {
+    DrawItem item;
+    item.id = {Face::PosX, 3, 2, 2};
+    item.distanceM = 1000;
+    item.epsPx = item.deltaCM = 1;
+    item.parentDeltaM = 5;
+    item.parentEpsPx = 5e6f;  // the eye is in the parent's box
+    item.morph = 1;
+    item.edgeMorph.fill(1);
+    fillDrawnBounds(std::span(&item, 1), std::vector{unknownM}, 1000, ErrorMetric::Additive, false);
+    EXPECT_EQ(item.drawnBoundPx, 5);
+    item.distanceM = static_cast<float>(nearestM);  // and in its own
+    item.nearestSampleM = 500;
+    item.deltaCM = item.epsPx = 0;
+    fillDrawnBounds(std::span(&item, 1), std::vector{unknownM}, 1000, ErrorMetric::Additive, false);
+    EXPECT_EQ(item.drawnBoundPx, 10);
+}
+
+TEST(DrawnBound, noSampleOfAChunkIsNearerThanItsNearestSample) {
+    std::mt19937 random(35);
+    const ChunkTree& tree = wholeTree();
+    std::size_t known = 0;
+    for (int i = 0; i < 200; ++i) {
+        const View view = randomView(random, tree.shape.radiusM);
+        const ChunkNode& node = tree.nodes[random() % tree.nodes.size()];
+        const double boundM = nearestSampleM(tree.shape, node, view.eyeM);
+        DrawItem item;
+        item.id = node.id;
+        for (const glm::dvec3& vertexM : drawnGrid(tree.shape, item, *node.heights, false).positionM)
+            EXPECT_LE(boundM, glm::distance(vertexM, view.eyeM) * (1 + 1e-12)) << toString(node.id);
+        known += boundM > 0;
+    }
+    EXPECT_GT(known, 100u);
+}
+
+// In the middle of a leaf's box, which reaches above its ground, while everything slides.
+TEST(DrawnBound, ofALeafThatHoldsTheEyeIsAsLargeAsItsNearestSampleShowsIt) {
+    const ChunkTree& tree = wholeTree();
+    std::size_t held = 0;
+    for (NodeIndex index = 0; index < tree.nodes.size(); index += 23) {
+        const ChunkNode& leaf = tree.nodes[index];
+        if (leaf.childrenState != ChildrenState::None) continue;
+        View view = viewFromPose({.altitudeM = 9000}, tree.shape.radiusM, 1.2, 1280, 720);
+        view.eyeM = leaf.bounds.box.centreM;
+        LodSettings settings = settingsOf(ErrorMetric::Additive, true);
+        settings.tauPx = 1e-3;
+        Selection selection = select(tree, view, settings);
+        for (DrawItem& item : selection.draw) {
+            if (item.id.level == 0) continue;
+            item.morph = 0.7f;
+            item.edgeMorph.fill(0.7f);
+            item.nearestSampleM =
+                static_cast<float>(nearestSampleM(tree.shape, tree.nodes[item.node], view.eyeM));
+        }
+        fillDrawnBounds(selection.draw, spansOf(selection.draw), screenScalePx(view), settings.metric, false);
+        if (held < 10) expectWithinBounds(measuredIn(tree, selection.draw, view));
+        const auto item = std::find_if(selection.draw.begin(), selection.draw.end(),
+                                       [&](const DrawItem& drawn) { return drawn.id == leaf.id; });
+        ASSERT_NE(item, selection.draw.end());
+        ASSERT_LE(item->distanceM, static_cast<float>(nearestM));
+        double sampleM = unknownM;
+        for (const glm::dvec3& vertexM :
+             drawnGrid(tree.shape, {.id = leaf.id}, *leaf.heights, false).positionM)
+            sampleM = std::min(sampleM, glm::distance(vertexM, view.eyeM));
+        const double parentM = static_cast<double>(item->parentDeltaM);
+        EXPECT_LE(static_cast<double>(item->drawnBoundPx), parentM * screenScalePx(view) / sampleM * 1.0001)
+            << toString(leaf.id);
+        ++held;
+    }
+    EXPECT_GT(held, 10u);
 }
 
 // Two chunks side by side, the eastern one coarser; a metre covers a pixel on the finer one.

@@ -32,7 +32,7 @@ glm::vec3 colourAt(const ColourSource& source, const Geographic& place) {
     return out[0];
 }
 
-std::string errorOf(const std::filesystem::path& path) {
+std::string colourErrorOf(const std::filesystem::path& path) {
     const Result<ColourSource> source = openColourSource(path);
     return source ? "opened" : source.error().message;
 }
@@ -106,12 +106,12 @@ TEST(ColourSource, WhatCannotBeColoursIsRefusedByName) {
     for (const Face face : allFaces) {
         std::ofstream(folder / ("raw_" + std::string(faceName(face)) + ".raw")) << std::string(9, 'x');
     }
-    EXPECT_NE(errorOf(folder / "five.tif").find("five.tif: expected a grey or an RGB image, found 5"),
+    EXPECT_NE(colourErrorOf(folder / "five.tif").find("five.tif: expected a grey or an RGB image, found 5"),
               std::string::npos);
-    EXPECT_NE(errorOf(folder / "signed.tif").find("has colours of type int16"), std::string::npos);
-    EXPECT_NE(errorOf(folder / "square.png").find("twice as wide as high"), std::string::npos);
-    EXPECT_NE(errorOf(folder / "raw").find("raw faces hold heights"), std::string::npos);
-    EXPECT_NE(errorOf(folder / "none.png").find("there is no such file"), std::string::npos);
+    EXPECT_NE(colourErrorOf(folder / "signed.tif").find("has colours of type int16"), std::string::npos);
+    EXPECT_NE(colourErrorOf(folder / "square.png").find("twice as wide as high"), std::string::npos);
+    EXPECT_NE(colourErrorOf(folder / "raw").find("raw faces hold heights"), std::string::npos);
+    EXPECT_NE(colourErrorOf(folder / "none.png").find("no such file"), std::string::npos);
 }
 
 TEST(ColourSource, HeightsMustStillBeOneChannel) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <string>
@@ -34,6 +35,7 @@ struct GeoTiff {
     std::vector<std::uint16_t> keys{};  // fours of key, location, count, value
     std::vector<double> doubleParams{};
     std::string noData{};
+    std::string metadata{};
 };
 
 constexpr std::array<std::uint16_t, 4> geographic = {1024, 0, 1, 2};
@@ -57,22 +59,25 @@ GeoTiff placedAt(int width, int height, double westDeg, double northDeg, double 
             .transformation = {},
             .keys = keysOf({geographic, rasterType}),
             .doubleParams = {},
-            .noData = {}};
+            .noData = {},
+            .metadata = {}};
 }
 
 using HeightAt = std::function<double(int column, int row)>;
 
 template <class T>
 void writeGeoTiff(const std::filesystem::path& path, const GeoTiff& tiff, const HeightAt& heightAt) {
-    std::array names = {std::string("scale"), std::string("tie"),     std::string("matrix"),
-                        std::string("keys"),  std::string("doubles"), std::string("nodata")};
-    const std::array<TIFFFieldInfo, 6> fields = {{
+    std::array names = {std::string("scale"),   std::string("tie"),     std::string("matrix"),
+                        std::string("keys"),    std::string("doubles"), std::string("nodata"),
+                        std::string("metadata")};
+    const std::array<TIFFFieldInfo, 7> fields = {{
         {33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[0].data()},
         {33922, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[1].data()},
         {34264, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[2].data()},
         {34735, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, names[3].data()},
         {34736, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[4].data()},
         {42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[5].data()},
+        {42112, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[6].data()},
     }};
     TIFF* const out = TIFFOpen(path.c_str(), "w");
     ASSERT_TRUE(out);
@@ -98,6 +103,7 @@ void writeGeoTiff(const std::filesystem::path& path, const GeoTiff& tiff, const 
     }
     set(34736, tiff.doubleParams);
     if (!tiff.noData.empty()) TIFFSetField(out, 42113, tiff.noData.c_str());
+    if (!tiff.metadata.empty()) TIFFSetField(out, 42112, tiff.metadata.c_str());
     std::vector<T> samples(static_cast<std::size_t>(tiff.width));
     for (int row = 0; row < tiff.height; ++row) {
         for (int column = 0; column < tiff.width; ++column)
@@ -283,6 +289,85 @@ TEST(GeoTiff, SamplesOfTheNoDataValueAreMissing) {
     });
     EXPECT_EQ(mustOpen(folder / "lowest.tif").missingCount, 36u);
     EXPECT_EQ(mustOpen(folder / "lowest.tif").maxM, 7);
+}
+
+std::string bandItem(const std::string& name, const std::string& role, const std::string& value) {
+    return "<Item name=\"" + name + "\" sample=\"0\" role=\"" + role + "\">" + value + "</Item>\n";
+}
+
+TEST(GeoTiff, ScaleOffsetAndUnitOfItsMetadataMakeMetres) {
+    const TemporaryFolder folder;
+    GeoTiff tiff = placedAt(72, 36, -180, 90, 5, pixelIsArea);
+    tiff.metadata = "<GDALMetadata>\n" + bandItem("OFFSET", "offset", "1000") +
+                    bandItem("SCALE", "scale", "0.5") + bandItem("UNITTYPE", "unittype", "ft") +
+                    "</GDALMetadata>";
+    writeGeoTiff<std::int16_t>(folder / "feet.tif", tiff, [](int, int) { return 200; });
+    const HeightSource source = mustOpen(folder / "feet.tif");
+    EXPECT_NEAR(source.maxM, 1100 * 0.3048, 1e-3);
+    EXPECT_NEAR(source.stepM, 0.5 * 0.3048, 1e-9);
+    HeightSourceSettings settings;
+    settings.metresPerUnit = 2;
+    EXPECT_EQ(mustOpen(folder / "feet.tif", settings).maxM, 400) << "the setting is meant";
+    tiff.metadata = "<GDALMetadata>" + bandItem("UNITTYPE", "unittype", "fathom") + "</GDALMetadata>";
+    writeGeoTiff<std::int16_t>(folder / "deep.tif", tiff, [](int, int) { return 200; });
+    EXPECT_THAT(
+        errorOf(folder / "deep.tif"),
+        HasSubstr("deep.tif: its heights are in fathom, which is not known; expected metres or feet"));
+    tiff.metadata = "<GDALMetadata>" + bandItem("UNITTYPE", "unittype", "metre") +
+                    "<Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item></GDALMetadata>";
+    writeGeoTiff<std::int16_t>(folder / "plain.tif", tiff, [](int, int) { return 200; });
+    EXPECT_EQ(mustOpen(folder / "plain.tif").maxM, 200);
+}
+
+TEST(GeoTiff, AWorldFileBesideAnImagePlacesIt) {
+    const TemporaryFolder folder;
+    const GeoTiff bare = {.width = 360, .height = 180};
+    writeGeoTiff<float>(folder / "from0.tif", bare, fieldFrom(0.5, 89.5, 1));
+    std::ofstream(folder / "from0.tfw") << "1\n0\n0\n-1\n0.5\n89.5\n";
+    expectIsTheField(folder / "from0.tif");
+    EXPECT_EQ(heightSourceFiles(folder / "from0.tif").files.size(), 2u);
+    for (const char* name : {"tfw", "tifw", "wld", "TFW"}) {
+        const std::filesystem::path image = folder / (std::string("region_") + name + ".tif");
+        writeGeoTiff<float>(image, bare, fieldFrom(0.5, 89.5, 1));
+        std::filesystem::path world = image;
+        world.replace_extension(name);
+        std::ofstream(world) << "0.01\n0\n0\n-0.01\n7.005\n46.995\n";
+        EXPECT_THAT(errorOf(image),
+                    HasSubstr("covers longitude 7 to 10.6 and latitude 45.2 to 47 degrees by " +
+                              world.filename().string()));
+        std::ofstream(world) << "no numbers";
+        EXPECT_THAT(errorOf(image), HasSubstr(world.filename().string() + ": is a world file beside"));
+    }
+}
+
+TEST(GeoTiff, AuxiliaryFileBesideAnImagePlacesAndScalesIt) {
+    const TemporaryFolder folder;
+    const GeoTiff bare = {.width = 72, .height = 36};
+    const HeightAt flat = [](int, int) { return 10; };
+    writeGeoTiff<std::int16_t>(folder / "a.tif", bare, flat);
+    const std::filesystem::path beside = folder / "a.tif.aux.xml";
+    std::ofstream(beside) << "<PAMDataset><PAMRasterBand band=\"1\"><Metadata><MDI "
+                             "key=\"STATISTICS_MAXIMUM\">10</MDI></Metadata></PAMRasterBand></PAMDataset>";
+    EXPECT_EQ(mustOpen(folder / "a.tif").maxM, 10);
+    std::ofstream(beside) << "<PAMDataset><PAMRasterBand band=\"1\"><Offset>5</Offset><Scale>2</Scale>"
+                             "</PAMRasterBand></PAMDataset>";
+    EXPECT_EQ(mustOpen(folder / "a.tif").maxM, 25);
+    std::ofstream(beside)
+        << "<PAMDataset><GeoTransform>  7.0, 1.0e-02, 0, 47.0, 0, -1.0e-02</GeoTransform></PAMDataset>";
+    EXPECT_THAT(errorOf(folder / "a.tif"), HasSubstr("by a.tif.aux.xml"));
+}
+
+TEST(GeoTiff, WorldEquidistantCylindricalNeedsNoKeysOfItsProjection) {
+    const TemporaryFolder folder;
+    for (const int code : {4087, 32662}) {
+        const double stepM = 6378137 * 2 * 3.14159265358979323846 / 360;
+        GeoTiff tiff = placedAt(360, 180, -180, 90, 1, pixelIsArea);
+        tiff.pixelScale = {stepM, stepM, 0};
+        tiff.tiepoint = {0, 0, 0, -180 * stepM, 90 * stepM, 0};
+        tiff.keys = keysOf({projected, pixelIsArea, {3072, 0, 1, static_cast<std::uint16_t>(code)}});
+        writeGeoTiff<float>(folder / "metres.tif", tiff, fieldFrom(-179.5, 89.5, 1));
+        expectIsTheField(folder / "metres.tif");
+    }
 }
 
 TEST(GeoTiff, ColoursArePlacedAsHeightsAre) {

@@ -405,12 +405,12 @@ TEST(HeightSourceFaces, FacesOfTheWrongShapeAreRefused) {
     writeFaceImages<std::uint8_t>(folder, "flat", ".png", 9, rough(9));
     writeImage(folder / "flat_y_pos.png", Image<std::uint8_t>(18, 9, [](int, int) { return 0; }));
     EXPECT_THAT(errorOf(folder / "flat"),
-                HasSubstr("flat_y_pos.png is 18 x 9 samples; a cube's face must be square"));
+                HasSubstr("flat_y_pos.png is 18 x 9 samples; expected a square cube face"));
     writeFaceImages<std::uint8_t>(folder, "named65", ".png", 9, rough(9));
     EXPECT_THAT(errorOf(folder / "named65"),
                 HasSubstr("named65_x_pos.png is 9 x 9 samples; its name says 65 x 65"));
     writeRawFaces(folder, "dot1", 1, rough(1));
-    EXPECT_THAT(errorOf(folder / "dot1"), HasSubstr("a face of 1 samples a side"));
+    EXPECT_THAT(errorOf(folder / "dot1"), HasSubstr("a face of 1 samples per side"));
 }
 
 TEST(HeightSourceFaces, APathStandsForItsFaces) {

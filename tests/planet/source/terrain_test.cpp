@@ -539,19 +539,18 @@ TEST(TerrainText, DetailOfAFileNamesItSoThatItIsFoundAgain) {
 }
 
 TEST(TerrainText, ErrorsTellWhatWouldBeRight) {
-    EXPECT_THAT(errorOf("noise:rigded"), HasSubstr("nearest one is noise:ridged"));
-    EXPECT_THAT(errorOf("noise:fbm,amplitud_m=3"), HasSubstr("nearest one is amplitude_m"));
-    EXPECT_THAT(errorOf("noise:fbm,octaves=99"),
-                HasSubstr("octaves is 99; expected a whole number from 1 to 24"));
-    EXPECT_THAT(errorOf("noise:fbm,octaves=2.5"), HasSubstr("whole number"));
+    EXPECT_THAT(errorOf("noise:rigded"), HasSubstr("did you mean noise:ridged? expected one of "));
+    EXPECT_THAT(errorOf("noise:fbm,amplitud_m=3"), HasSubstr("did you mean amplitude_m? expected one of "));
+    EXPECT_THAT(errorOf("noise:fbm,octaves=99"), HasSubstr("octaves is 99; expected an integer in [1, 24]"));
+    EXPECT_THAT(errorOf("noise:fbm,octaves=2.5"), HasSubstr("an integer"));
     EXPECT_THAT(errorOf("noise:fbm,gain=nan"), HasSubstr("gain is nan"));
-    EXPECT_THAT(errorOf("noise:fbm,gain=0.5x"), HasSubstr("gain is 0.5x; expected a number from 0 to 0.95"));
+    EXPECT_THAT(errorOf("noise:fbm,gain=0.5x"), HasSubstr("gain is 0.5x; expected a number in [0, 0.95]"));
     EXPECT_THAT(errorOf("noise:fbm,gain="), HasSubstr("gain is empty"));
     EXPECT_THAT(errorOf("noise:fbm,gain=0.1,gain=0.2"), HasSubstr("gain is given twice"));
     EXPECT_THAT(errorOf("noise:faults,max_delta_m=5,min_delta_m=6"), HasSubstr("at most max_delta_m, 5 m"));
     EXPECT_THAT(errorOf("detail:strength=1"), HasSubstr("detail: has no source"));
-    EXPECT_THAT(errorOf("detail:of=nothing.tif"), HasSubstr("nothing.tif: there is no such file"));
-    EXPECT_THAT(errorOf("detail:strenght=1,of=x.tif"), HasSubstr("nearest one is strength"));
+    EXPECT_THAT(errorOf("detail:of=nothing.tif"), HasSubstr("nothing.tif: no such file"));
+    EXPECT_THAT(errorOf("detail:strenght=1,of=x.tif"), HasSubstr("did you mean strength? expected one of "));
     HeightSourceSettings shifted;
     shifted.offsetM = 10;
     EXPECT_THAT(errorOf("noise:fbm", shifted), HasSubstr("is procedural terrain"));

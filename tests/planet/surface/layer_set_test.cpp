@@ -161,13 +161,13 @@ TEST(LayerSet, ContradictoryRangesAreNamed) {
     TextureLayer layer;
     EXPECT_EQ(layerProblem(layer), "");
     layer.heightM = {900, 300, 10};
-    EXPECT_THAT(layerProblem(layer), HasSubstr("heights from 900 to 300 m"));
+    EXPECT_THAT(layerProblem(layer), HasSubstr("heights: [900, 300] m is inverted"));
     layer = {};
     layer.slopeDeg = {-5, 40, 0};
-    EXPECT_THAT(layerProblem(layer), HasSubstr("expected values from 0 to 90"));
+    EXPECT_THAT(layerProblem(layer), HasSubstr("is out of range; expected values in [0, 90]"));
     layer = {};
     layer.latitudeDeg.softEdge = -1;
-    EXPECT_THAT(layerProblem(layer), HasSubstr("a falloff of -1 degrees"));
+    EXPECT_THAT(layerProblem(layer), HasSubstr("falloff -1° is out of range"));
     layer = {};
     layer.scaleM = 0;
     EXPECT_THAT(layerProblem(layer), HasSubstr("scale"));

@@ -163,6 +163,27 @@ TEST(ChunkTree, ResidentHeightIsExactAtVertices) {
     }
 }
 
+TEST(ChunkTree, SampledHeightIsExactAtVerticesAndBilinearBetweenThem) {
+    ChunkTree tree = residentTree(fakePyramid(), 2);
+    setExaggeration(tree, 1.5);
+    for (const ChunkNode& node : tree.nodes) {
+        if (node.id.level != 2) continue;
+        const FaceSquare square = faceSquareOf(node.id);
+        const auto sampleM = [&](int i, int j) {
+            return heightM(tree.shape, (*node.heights)[static_cast<std::size_t>(j * 17 + i)]);
+        };
+        const auto at = [&](double column, double row) {
+            const double cell = square.side / 16;
+            return sampledHeightM(tree, 3.0 * sphereFromCube(cubePoint(node.id.face, square.u + column * cell,
+                                                                       square.v + row * cell)));
+        };
+        EXPECT_NEAR(at(5, 9), sampleM(5, 9), 1e-6);
+        EXPECT_NEAR(at(5.25, 9), 0.75 * sampleM(5, 9) + 0.25 * sampleM(6, 9), 1e-6);
+        const double cornersM = sampleM(5, 9) + sampleM(6, 9) + sampleM(5, 10) + sampleM(6, 10);
+        EXPECT_NEAR(at(5.5, 9.5), cornersM / 4, 1e-6);
+    }
+}
+
 // The height at which a ray from the centre leaves the finest triangles, found by trying all of them.
 double heightByTryingAll(const ChunkTree& tree, const glm::dvec3& direction) {
     double highest = -1e300;

@@ -15,8 +15,9 @@ std::vector<std::string> namesOf(const CameraHeights& heights) {
 
 using Names = std::vector<std::string>;
 
-TEST(CameraHeights, onLandThereIsOneHeightAboveGround) {
-    EXPECT_EQ(namesOf({800, 800, 1500}), (Names{"above ground"}));
+TEST(CameraHeights, onLandTheyAreAboveGroundAndSeaLevel) {
+    EXPECT_EQ(namesOf({800, 800, 1500}), (Names{"above ground", "above sea level"}));
+    EXPECT_EQ(namedHeights({800, 800, 1500})[0].heightM, 800);
 }
 
 TEST(CameraHeights, aDrawnSeaSurfaceIsNamedBesideItsBed) {
@@ -32,27 +33,60 @@ TEST(CameraHeights, whereTheBedIsDrawnItIsNotCalledGround) {
     EXPECT_EQ(namedHeights(overBed)[1].heightM, 1500);
 }
 
-TEST(CameraHeights, areOfThePointBelowTheCamera) {
-    const auto planet = planet::openFake();
-    const double radiusM = planet->shape().radiusM;
-    const planet::CameraPose pose{.latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 0.5 * radiusM};
+struct Viewed {
     const FrameStats stats;
     const std::deque<FrameSample> history;
     const planet::LodChanges changes;
     const std::deque<LogLine> log;
     EditorView view{.stats = stats, .history = history, .changes = changes, .log = log};
-    view.planet = planet.get();
-    view.camera.pose = pose;
-    view.renderView = planet::viewFromPose(pose, radiusM, 1, 640, 480);
+
+    Viewed(const planet::Planet& planet, const planet::CameraPose& pose) {
+        view.planet = &planet;
+        view.camera.pose = pose;
+        view.renderView = planet::viewFromPose(pose, planet.shape().radiusM, 1, 640, 480);
+    }
+};
+
+TEST(CameraHeights, areOfThePointBelowTheCamera) {
+    const auto planet = planet::openFake();
+    const planet::CameraPose pose{
+        .latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 0.5 * planet->shape().radiusM};
+    Viewed viewed(*planet, pose);
     ViewSettings settings;
     settings.surface.seaLevelM = 100;
     settings.surface.exaggeration = 2;
-    const double groundM = planet::residentHeightM(planet->tree(), view.renderView.eyeM);
-    view.camera.heightAboveGroundM = pose.altitudeM - groundM;
-    const CameraHeights heights = cameraHeights(view, settings);
+    const double groundM = planet::sampledHeightM(planet->tree(), viewed.view.renderView.eyeM);
+    const CameraHeights heights = cameraHeights(viewed.view, settings);
     EXPECT_DOUBLE_EQ(heights.aboveGroundM, pose.altitudeM - groundM);
     EXPECT_DOUBLE_EQ(heights.aboveDrawnM, pose.altitudeM - groundM);
     EXPECT_DOUBLE_EQ(heights.aboveSeaLevelM, pose.altitudeM - 200);
+    viewed.view.camera.seaSurfaceM = groundM + 3000;
+    EXPECT_DOUBLE_EQ(cameraHeights(viewed.view, settings).aboveDrawnM, pose.altitudeM - groundM - 3000);
+}
+
+// The triangles of a root chunk sag below the sphere by far more than the plain is high.
+TEST(CameraHeights, aPlainOfACoarsePlanetIsNoSeaBed) {
+    constexpr double plainM = 500;
+    planet::PlanetSource source = planet::fakePyramid().source();
+    planet::PagingSettings paging;
+    paging.paused = true;
+    source.shape.radiusM = 6'371'000;
+    source.shape.quantumM = 1;
+    source.shape.baseHeightM = 0;
+    source.minStep = source.maxStep = 500;
+    for (planet::ChunkData& root : source.roots) {
+        std::fill(root.heights.begin(), root.heights.end(), std::int16_t{500});
+        root.minStep = root.maxStep = 500;
+    }
+    const auto planet = planet::Planet::open(std::move(source), paging).value();
+    for (double latitudeDeg = -80; latitudeDeg < 90; latitudeDeg += 9.7) {
+        Viewed viewed(*planet, {.latitudeDeg = latitudeDeg, .longitudeDeg = 13, .altitudeM = 14e6});
+        const CameraHeights heights = cameraHeights(viewed.view, {});
+        EXPECT_NEAR(heights.aboveGroundM, 14e6 - plainM, 1e-3);
+        EXPECT_EQ(namesOf(heights), (Names{"above ground", "above sea level"}));
+        viewed.view.camera.seaSurfaceM = 0;
+        EXPECT_EQ(namesOf(cameraHeights(viewed.view, {})), (Names{"above ground", "above sea level"}));
+    }
 }
 
 }  // namespace

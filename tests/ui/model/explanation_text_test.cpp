@@ -121,7 +121,7 @@ TEST(ExplanationText, OfResidentChunksNamesWhatIsDrawnInstead) {
         return whySpelled(below(ChunkState::Resident, above, epsPx));
     };
     EXPECT_EQ(resident(WhyNotSplit::GoodEnough, 0.8),
-              "Not drawn: z_pos/4/3/2 above it is good enough (eps 0.8 px).");
+              "Not drawn: z_pos/4/3/2 above it is within the tolerance (eps 0.8 px).");
     EXPECT_EQ(resident(WhyNotSplit::LevelLimit, 3),
               "Not drawn: z_pos/4/3/2 above it is drawn, and level 4 is the max LOD level.");
     EXPECT_EQ(resident(WhyNotSplit::SeamLimit, 3),
@@ -139,11 +139,11 @@ TEST(ExplanationText, OfMissingChunksSaysWhatTheyWaitFor) {
         return whySpelled(made);
     };
     EXPECT_EQ(missing(WhyNotSplit::GoodEnough),
-              "Not loaded: z_pos/4/3/2 above it is good enough (eps 0.8 px).");
+              "Not loaded: z_pos/4/3/2 above it is within the tolerance (eps 0.8 px).");
     EXPECT_EQ(missing(WhyNotSplit::WaitingInQueue),
-              "Not loaded: z_pos/4/3/2 above it comes first, 3rd of 60 in the queue.");
+              "Not loaded: z_pos/4/3/2 above it is loaded first, 3rd of 60 in the queue.");
     EXPECT_EQ(missing(WhyNotSplit::WaitingForRead),
-              "Not loaded: z_pos/4/3/2 above it comes first, and is being read.");
+              "Not loaded: z_pos/4/3/2 above it is loaded first, and is being read.");
     EXPECT_EQ(
         missing(WhyNotSplit::WaitingForBudget),
         "Not loaded: z_pos/4/3/2 above it is drawn, because its children do not fit into the memory budget.");

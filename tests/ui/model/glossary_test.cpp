@@ -13,7 +13,7 @@ namespace ui {
 namespace {
 
 TEST(Glossary, theReadmeHoldsEveryTermWithItsMeaning) {
-    const std::string readme = tests::contentOf(WORLDY_SOURCE_DIR "/README.md");
+    const std::string readme = tests::contentOf(WORLDY_SOURCE_DIR "/app/README.md");
     for (const Term& term : glossary) {
         EXPECT_THAT(readme,
                     testing::HasSubstr(fmt::format("| `{}` | {} | {} |", term.key, term.name, term.meaning)));

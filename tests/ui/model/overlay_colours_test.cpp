@@ -87,12 +87,12 @@ TEST(OverlayColours, TintsStandInTheDrawListsOrderAndMeanWhatTheLegendSays) {
     ASSERT_GT(selection.draw.size(), 20u);
     OverlaySettings overlay;
     overlay.colourBy = ColourBy::Level;
-    const auto levels = chunkTints(*planet, selection, overlay, 8, true);
+    const auto levels = chunkTints(*planet, selection, overlay, 8);
     overlay.colourBy = ColourBy::Error;
     overlay.errorScale = 0.5;
-    const auto errors = chunkTints(*planet, selection, overlay, 8, true);
+    const auto errors = chunkTints(*planet, selection, overlay, 8);
     overlay.colourBy = ColourBy::DeltaC;
-    const auto deltas = chunkTints(*planet, selection, overlay, 8, true);
+    const auto deltas = chunkTints(*planet, selection, overlay, 8);
     ASSERT_EQ(levels.size(), selection.draw.size());
     for (std::size_t i = 0; i < selection.draw.size(); ++i) {
         const planet::DrawItem& item = selection.draw[i];
@@ -105,17 +105,16 @@ TEST(OverlayColours, TintsStandInTheDrawListsOrderAndMeanWhatTheLegendSays) {
 
 TEST(OverlayColours, WithoutColouringThereAreNeitherTintsNorALegend) {
     const auto planet = settledPlanet();
-    EXPECT_TRUE(chunkTints(*planet, planet->selection(), {}, 2, true).empty());
+    EXPECT_TRUE(chunkTints(*planet, planet->selection(), {}, 2).empty());
     EXPECT_TRUE(legendOf({}, 2, 5).entries.empty());
 }
 
-TEST(OverlayColours, OpacityIsOfTheLitPictureAlone) {
+TEST(OverlayColours, OpacityIsThatOfTheSettings) {
     const auto planet = settledPlanet();
     OverlaySettings overlay;
     overlay.colourBy = ColourBy::Level;
     overlay.opacity = 0.4;
-    EXPECT_EQ(chunkTints(*planet, planet->selection(), overlay, 2, true).front().rgba[3], 102);
-    EXPECT_EQ(chunkTints(*planet, planet->selection(), overlay, 2, false).front().rgba[3], 255);
+    EXPECT_EQ(chunkTints(*planet, planet->selection(), overlay, 2).front().rgba[3], 102);
 }
 
 TEST(OverlayColours, WhatWasLoadedLastIsLightestByLoadOrder) {
@@ -123,7 +122,7 @@ TEST(OverlayColours, WhatWasLoadedLastIsLightestByLoadOrder) {
     const planet::Selection& selection = planet->selection();
     OverlaySettings overlay;
     overlay.colourBy = ColourBy::LoadOrder;
-    const auto tints = chunkTints(*planet, selection, overlay, 8, true);
+    const auto tints = chunkTints(*planet, selection, overlay, 8);
     std::size_t newest = 0;
     for (std::size_t i = 0; i < tints.size(); ++i) {
         const auto order = [&](std::size_t at) {

@@ -29,6 +29,21 @@ TEST(PagingText, aTileOfColourSaysWhatShareOfItsTexelsItHas) {
     EXPECT_STREQ(kindText(planet::BlockKind::Colours), "colours");
 }
 
+TEST(PagingText, residentBlocksAreWhatWasLoadedAndNotEvicted) {
+    planet::TilePagingCounters tiles;
+    tiles.loaded = 35;
+    tiles.evicted = 30;
+    tiles.residentTiles = 26;
+    const KindTotals colours = totalsOf("Colours", tiles);
+    EXPECT_EQ(colours.resident, 5u);
+    EXPECT_EQ(colours.tiles, 26u);
+    planet::PagingCounters chunks;
+    chunks.loaded = 7;
+    chunks.evicted = 2;
+    chunks.residentChunks = 26;
+    EXPECT_EQ(totalsOf("Heights", chunks).resident, 5u);
+}
+
 TEST(PagingText, aFailedBlockSaysWhenItIsTriedAgain) {
     EXPECT_EQ(retryText(std::nullopt), "never");
     EXPECT_EQ(retryText(1.25), "in 1.25 s");

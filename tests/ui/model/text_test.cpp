@@ -28,6 +28,15 @@ TEST(Text, DurationsReadAsPeopleSayThem) {
     EXPECT_EQ(durationText(7500), "2 h 5 min");
 }
 
+TEST(Text, longMeasurementsAreInSeconds) {
+    EXPECT_EQ(millisecondsText(0.42), "0.42 ms");
+    EXPECT_EQ(millisecondsText(12), "12.0 ms");
+    EXPECT_EQ(millisecondsText(420), "420 ms");
+    EXPECT_EQ(millisecondsText(2570.13), "2.57 s");
+    EXPECT_EQ(millisecondsText(64'000), "1 min 4 s");
+    EXPECT_EQ(clockText(20.28), "20:17");
+}
+
 TEST(Text, DistancesChangeUnitWithSize) {
     EXPECT_EQ(distanceText(4.21), "4.2 m");
     EXPECT_EQ(distanceText(950), "950 m");

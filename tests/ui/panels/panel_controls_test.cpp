@@ -281,6 +281,26 @@ TEST_F(PanelControls, aLayerSetIsSavedUnderItsName) {
     EXPECT_TRUE(click(PanelId::Surface, "/Save##set").empty()) << "a name is saved once";
 }
 
+TEST_F(PanelControls, aLayerSetThatWasRefusedKeepsItsName) {
+    const std::string_view name = "flight";
+    name.copy(states_.surface.layers.newName.data(), name.size());
+    view_.layers.setProblem = "flight.toml: exists and is not a layer set";
+    ASSERT_TRUE(only<SaveLayerSet>(click(PanelId::Surface, "/Save##set")));
+    EXPECT_EQ(std::string_view(states_.surface.layers.newName.data()), "flight");
+}
+
+TEST_F(PanelControls, aFileThatIsNoPresetIsNotReplaced) {
+    const std::array presets = {PresetView{.name = "broken", .problem = "line 1"}, PresetView{.name = "own"}};
+    view_.presets = presets;
+    const auto replaced = [&](std::string_view name) {
+        states_.presets.name.fill(0);
+        name.copy(states_.presets.name.data(), name.size());
+        return only<SavePreset>(click(PanelId::Presets, "Replace")) != nullptr;
+    };
+    EXPECT_FALSE(replaced("broken"));
+    EXPECT_TRUE(replaced("own"));
+}
+
 TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
     log_.push_back({LogLevel::Info, "14:03:22", "opened"});
     log_.push_back({LogLevel::Error, "14:03:23", "broken"});

@@ -4,12 +4,15 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/text.h"
@@ -45,20 +48,25 @@ void edited(const BakeRequest& request, double timeS, BakePanelState& state) {
     state.estimateAtS = timeS + estimateAfterS;
 }
 
-void parameterRow(const char* name, const std::string& value, bool live, const char* explanation) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextColored(palette().dim, "%s", name);
-    tooltip(explanation);
+struct Parameter {
+    const char* name;
+    std::string value;
+    bool live;  // set in another panel, else stored in the file
+    std::string explanation;
+};
+using Parameters = std::vector<Parameter>;
+
+void parameterRow(const Parameter& row) {
+    cell(row.name, palette().dim);
+    tooltip(row.explanation.c_str());
     ImGui::TableNextColumn();
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(value.c_str());
+    ImGui::TextUnformatted(row.value.c_str());
     ImGui::PopTextWrapPos();
-    tooltip(explanation);
-    ImGui::TableNextColumn();
-    ImGui::TextColored(live ? palette().good : palette().dim, "%s", live ? "live" : "baked");
-    tooltip(live ? "Takes effect immediately; change it in the panel named here."
-                 : "Stored in the chunk file. Change it below and bake again.");
+    tooltip(row.explanation.c_str());
+    cell(row.live ? "live" : "baked", row.live ? palette().good : palette().dim);
+    tooltip(row.live ? "Takes effect immediately; change it in the panel named here."
+                     : "Stored in the chunk file. Change it below and bake again.");
 }
 
 std::string bakedColours(const EditorView& view) {
@@ -66,49 +74,59 @@ std::string bakedColours(const EditorView& view) {
     return colour ? colourText(view.bake.current.settings.colour) : "none";
 }
 
-void bakedRows(const EditorView& view) {
+void addBaked(const EditorView& view, Parameters& rows) {
     const planet::BakeSettings& baked = view.bake.current.settings;
-    parameterRow("Source",
-                 view.bake.current.source.empty() ? "unknown" : sourceName(view.bake.current.source), false,
-                 view.bake.current.source.empty() ? "The file does not record the path of its source."
-                                                  : view.bake.current.source.string().c_str());
-    parameterRow("Face size", fmt::format("{} samples", baked.faceSize.value_or(0)), false,
-                 "Samples along a side of each of the six cube faces at the finest level.");
-    parameterRow("Chunk size", fmt::format("{} vertices", baked.chunkSize), false,
-                 "Vertices along a side of a chunk, the same at every level.");
-    parameterRow("Radius", fmt::format("{:.1f} km", baked.radiusM / 1000), false,
-                 "Radius of the sphere that heights are measured from.");
-    parameterRow("Quantum", fmt::format("{:g} m", baked.quantumM.value_or(0)), false,
-                 "Height of one of the 65536 quantisation steps of the file.");
-    parameterRow("Compression",
-                 view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel) : "unknown",
-                 false,
-                 "Compression level of the encoder. The level does not affect the reading speed. Older files "
-                 "do not record it.");
-    parameterRow(
-        "Colours", bakedColours(view), false,
-        view.planet->colour() ? view.planet->colour()->source.c_str() : "The file contains no colour tiles.");
+    rows.push_back(
+        {"Source", view.bake.current.source.empty() ? "unknown" : sourceName(view.bake.current.source), false,
+         view.bake.current.source.empty() ? "The file does not record the path of its source."
+                                          : view.bake.current.source.string().c_str()});
+    rows.push_back({"Face size", fmt::format("{} samples", baked.faceSize.value_or(0)), false,
+                    "Samples along a side of each of the six cube faces at the finest level."});
+    rows.push_back({"Chunk size", fmt::format("{} vertices", baked.chunkSize), false,
+                    "Vertices along a side of a chunk, the same at every level."});
+    rows.push_back({"Radius", fmt::format("{:.1f} km", baked.radiusM / 1000), false,
+                    "Radius of the sphere that heights are measured from."});
+    rows.push_back({"Quantum", fmt::format("{:g} m", baked.quantumM.value_or(0)), false,
+                    "Height of one of the 65536 quantisation steps of the file."});
+    rows.push_back(
+        {"Compression",
+         view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel) : "unknown", false,
+         "Compression level of the encoder. The level does not affect the reading speed. Older files "
+         "do not record it."});
+    rows.push_back({"Colours", bakedColours(view), false,
+                    view.planet->colour() ? view.planet->colour()->source.c_str()
+                                          : "The file contains no colour tiles."});
 }
 
-void liveRows(const ViewSettings& settings) {
-    parameterRow("Tolerance", fmt::format("{:.2f} px", settings.lod.tauPx), true,
-                 "Screen-space error threshold, set in the LOD panel.");
-    parameterRow("Exaggeration", fmt::format("{:.2f} x", settings.surface.exaggeration), true,
-                 "Factor applied to heights when drawing, set in the Surface panel.");
-    parameterRow("Sea level", fmt::format("{:.0f} m", settings.surface.seaLevelM), true,
-                 "Set in the Surface panel.");
-    parameterRow("Memory", fmt::format("{} MiB", settings.paging.budgetMB), true,
-                 "Budget for resident chunks and colour tiles, set in the Paging panel.");
+void addLive(const ViewSettings& settings, Parameters& rows) {
+    rows.push_back({"Tolerance", fmt::format("{:.2f} px", settings.lod.tauPx), true,
+                    "Screen-space error threshold, set in the LOD panel."});
+    rows.push_back({"Exaggeration", fmt::format("{:.2f} x", settings.surface.exaggeration), true,
+                    "Factor applied to heights when drawing, set in the Surface panel."});
+    rows.push_back({"Sea level", fmt::format("{:.0f} m", settings.surface.seaLevelM), true,
+                    "Set in the Surface panel."});
+    rows.push_back({"Memory", fmt::format("{} MiB", settings.paging.budgetMB), true,
+                    "Budget for resident chunks and colour tiles, set in the Paging panel."});
 }
 
 void openFileSection(const EditorView& view, const ViewSettings& settings) {
     if (!view.planet || !section("Open file")) return;
-    if (!ImGui::BeginTable("parameters", 3)) return;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed);
-    bakedRows(view);
-    liveRows(settings);
+    Parameters rows;
+    addBaked(view, rows);
+    addLive(settings, rows);
+    constexpr std::array columns = {TableColumn{"Parameter", 0.2f, nullptr, "Exaggeration"},
+                                    TableColumn{"Value", 5, nullptr, "1025 samples"},
+                                    TableColumn{"Set", 0.2f, nullptr, "baked"}};
+    if (!beginListTable("parameters", columns, rows.size() + 1, rows.size() + 2)) return;
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        if (column == 0) return std::string(rows[row].name);
+        if (column == 1) return textSortKey(rows[row].value);
+        return std::string(rows[row].live ? "live" : "baked");
+    };
+    for (const std::size_t row : tableOrder(rows.size(), chosenSort(), key)) {
+        ImGui::TableNextRow();
+        parameterRow(rows[row]);
+    }
     ImGui::EndTable();
 }
 
@@ -169,7 +187,7 @@ bool radiusControl(const BakeRequest& current, BakeRequest& request) {
         "1737.4. With a wrong radius, mountains look too steep or too flat.";
     bakeControl("Radius", request.settings.radiusM != current.settings.radiusM, explanation);
     double radiusKm = request.settings.radiusM / 1000;
-    const bool changed = ImGui::InputDouble("##radius", &radiusKm, 0, 0, "%.3f km");
+    const bool changed = numberField("##radius", radiusKm, "%.3f km");
     tooltip(explanation);
     if (changed) request.settings.radiusM = 1000 * std::clamp(radiusKm, 1e-3, 1e6);
     return changed;
@@ -190,7 +208,7 @@ bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     double metres = *quantum;
-    if (ImGui::InputDouble("##quantum", &metres, 0, 0, "%g m")) {
+    if (numberField("##quantum", metres, "%g m")) {
         quantum = std::clamp(metres, 1e-6, 1e6);
         changed = true;
     }

@@ -73,7 +73,7 @@ bool imageControl(ColourEdit& edit, Commands& commands) {
     const char* choose = "Choose###choose colours";
     const float room = ImGui::CalcTextSize("Choose").x + 3 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetNextItemWidth(std::max(ImGui::GetFontSize() * 3, ImGui::GetContentRegionAvail().x - room));
-    const bool changed = ImGui::InputTextWithHint("##colour image", "Path of an image or cube faces",
+    const bool changed = ImGui::InputTextWithHint("##colour image", "Image or cube faces",
                                                   edit.imageText.data(), edit.imageText.size());
     noteItem("Image");
     tooltip(edit.imageText[0] == 0 ? explanation

@@ -81,7 +81,7 @@ bool seedControl(const TerrainField& field, TerrainSettings& settings) {
 
 std::string formatOf(const TerrainField& field) {
     const std::string unit =
-        field.unit.empty() ? "" : " " + std::string(field.unit == "degrees of arc" ? "deg" : field.unit);
+        field.unit.empty() ? "" : (field.unit == "°" ? "" : " ") + std::string(field.unit);
     return (field.whole ? "%d" : "%.4g") + unit;
 }
 
@@ -89,7 +89,7 @@ bool fieldControl(const TerrainField& field, const TerrainSettings& defaults, Te
     if (field.name == "seed") return seedControl(field, settings);
     const std::string label(field.label);
     const std::string about = fmt::format("{} Range [{}, {}]{}{}.", field.about, field.least, field.most,
-                                          field.unit.empty() ? "" : " ", field.unit);
+                                          field.unit.empty() || field.unit == "°" ? "" : " ", field.unit);
     const std::string format = formatOf(field);
     const ImGuiSliderFlags flags = field.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
     if (field.whole) {
@@ -167,8 +167,8 @@ bool fileControl(SourceEdit& edit) {
         "Path of an equirectangular elevation image, of one of six cube faces, or of their common stem; or a "
         "terrain such as noise:ridged,seed=7.";
     labelledControl("File", explanation);
-    const bool changed = ImGui::InputTextWithHint("##source", "Path of an image or cube faces",
-                                                  edit.fileText.data(), edit.fileText.size());
+    const bool changed = ImGui::InputTextWithHint("##source", "Image or cube faces", edit.fileText.data(),
+                                                  edit.fileText.size());
     noteItem("File");
     tooltip(explanation);
     return changed;

@@ -52,7 +52,7 @@ void faceControl(PreviewBoxState& state) {
     int index = static_cast<int>(state.face);
     labelledControl("Face", explanation);
     const bool changed =
-        combo("Face", index, "+x, 0 E\0-x, 180 E\0+y, 90 E\0-y, 90 W\0+z, north\0-z, south\0");
+        combo("Face", index, "+x, 0°\0-x, 180°\0+y, 90° E\0-y, 90° W\0+z, north\0-z, south\0");
     tooltip(explanation);
     if (!changed) return;
     state.face = static_cast<planet::Face>(index);

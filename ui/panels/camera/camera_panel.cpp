@@ -28,13 +28,13 @@ struct PoseField {
 };
 using Pose = planet::CameraPose;
 constexpr std::array<PoseField, 5> poseFields = {{
-    {"Latitude", &Pose::latitudeDeg, -90, 90, "%.5f deg", "Latitude in degrees, north positive."},
-    {"Longitude", &Pose::longitudeDeg, -360, 360, "%.5f deg", "Longitude in degrees, east positive."},
+    {"Latitude", &Pose::latitudeDeg, -90, 90, "%.5f°", "Latitude in degrees, north positive."},
+    {"Longitude", &Pose::longitudeDeg, -360, 360, "%.5f°", "Longitude in degrees, east positive."},
     {"Altitude", &Pose::altitudeM, -1e8, 2e10, "%.1f m",
      "Height in metres above the planet's radius (not above the ground). The camera cannot go below the "
      "ground."},
-    {"Heading", &Pose::headingDeg, -360, 360, "%.2f deg", "Degrees clockwise from north."},
-    {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f deg", "Degrees above the horizontal; -90 looks straight down."},
+    {"Heading", &Pose::headingDeg, -360, 360, "%.2f°", "Degrees clockwise from north."},
+    {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f°", "Degrees above the horizontal; -90 looks straight down."},
 }};
 
 void modeControl(const EditorView& view, ViewSettings& settings, Commands& commands) {
@@ -55,7 +55,7 @@ void modeControl(const EditorView& view, ViewSettings& settings, Commands& comma
 
 void motionSection(const EditorView& view, ViewSettings& settings, Commands& commands) {
     modeControl(view, settings, commands);
-    slider("Field of view", settings.camera.fovDeg, defaultCamera.fovDeg, 5.0, 150.0, "%.0f deg",
+    slider("Field of view", settings.camera.fovDeg, defaultCamera.fovDeg, 5.0, 150.0, "%.0f°",
            "Horizontal field of view in degrees. Smaller: errors are magnified, so more detail is selected; "
            "K' = W / (2 tan(fov / 2)).");
     double factor = view.camera.speedFactor;
@@ -72,7 +72,7 @@ bool poseControl(int index, Pose& pose, CameraPanelState& state) {
     ImGui::PushID(index);
     labelledControl(field.label, field.explanation);
     double value = state.typedField == index ? state.typedValue : pose.*field.value;
-    ImGui::InputDouble("##value", &value, 0, 0, field.format);
+    numberField("##value", value, field.format);
     const bool entered = ImGui::IsItemDeactivatedAfterEdit();
     if (ImGui::IsItemActive()) {
         state.typedField = index;
@@ -115,7 +115,7 @@ void bookmarkRow(const Bookmark& bookmark, Commands& commands) {
     if (ImGui::Selectable(bookmark.name.c_str(), false, 0, {width, 0}))
         commands.push_back(MoveCamera{bookmark.pose});
     noteItem(bookmark.name);
-    tooltip(fmt::format("{}\naltitude {}, heading {:.0f} deg, pitch {:.0f} deg{}",
+    tooltip(fmt::format("{}\naltitude {}, heading {:.0f}°, pitch {:.0f}°{}",
                         placeText(bookmark.pose.latitudeDeg, bookmark.pose.longitudeDeg),
                         distanceText(bookmark.pose.altitudeM), bookmark.pose.headingDeg,
                         bookmark.pose.pitchDeg, bookmark.shipped ? "\nBuilt-in." : "")

@@ -10,6 +10,7 @@
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/font_symbols.h"
 #include "ui/model/text.h"
 
 namespace ui {
@@ -30,7 +31,7 @@ std::string explanationOf(const PresetView& preset) {
 
 // What stands at the right of a preset's name.
 std::string noteOf(const PresetView& preset) {
-    if (!preset.problem.empty()) return "cannot be read";
+    if (!preset.problem.empty()) return "unreadable";
     if (preset.differences.empty()) return "current";
     return fmt::format("{} change{}", preset.differences.size(), preset.differences.size() == 1 ? "" : "s");
 }
@@ -48,9 +49,9 @@ void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& com
     noteItem(preset.name);
     tooltip(explanationOf(preset).c_str());
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", preset.shipped ? "built-in" : "user");
-    ImGui::TableNextColumn();
     ImGui::TextColored(preset.problem.empty() ? palette().dim : palette().bad, "%s", noteOf(preset).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", preset.shipped ? "built-in" : "user");
     ImGui::PopID();
 }
 
@@ -59,18 +60,27 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
         wrappedText("There are no presets.", palette().dim);
         return;
     }
-    constexpr std::array columns = {TableColumn{"Name", 2}, TableColumn{"Origin", 0.9f, nullptr, "built-in"},
-                                    TableColumn{"Changes", 1.2f, nullptr, "cannot be read"}};
+    constexpr std::array columns = {TableColumn{"Name", 6, nullptr, "name of a preset"},
+                                    TableColumn{"Changes", 1, nullptr, "123 changes"},
+                                    TableColumn{"Origin", 0.5f, nullptr, "built-in"}};
     if (!beginListTable("presets", columns, view.presets.size(), 16)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const PresetView& preset = view.presets[row];
         if (column == 0) return preset.name;
-        if (column == 1) return preset.shipped ? 0.0 : 1.0;
+        if (column == 2) return preset.shipped ? 0.0 : 1.0;
         return preset.problem.empty() ? static_cast<double>(preset.differences.size()) : -1;
     };
     tableRows(view.presets.size(), key,
               [&](std::size_t row) { presetRow(view.presets[row], state, commands); });
     ImGui::EndTable();
+}
+
+// Null where the name can be saved under. same: the file that has the name.
+const char* saveRefusal(const PresetsPanelState& state, const PresetView* same) {
+    if (state.name[0] == 0) return "Type a name first.";
+    if (same && same->shipped) return "A built-in preset has this name and cannot be replaced.";
+    if (same && !same->problem.empty()) return "The file of this name is not a preset and is not replaced.";
+    return nullptr;
 }
 
 void saveControl(const EditorView& view, PresetsPanelState& state, Commands& commands) {
@@ -84,16 +94,14 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
     noteItem("Name");
     tooltip("Used as the file name: letters, digits, spaces, dots and dashes, up to 60 bytes.");
     ImGui::SameLine();
-    beginGrey(state.name[0] == 0 || (same && same->shipped),
-              state.name[0] == 0 ? "Type a name first."
-                                 : "A preset of this name comes with Worldy and stays as it is.");
+    const char* const refused = saveRefusal(state, same);
+    beginGrey(refused != nullptr, refused);
     const bool pressed =
-        button(label, same && same->shipped ? "A built-in preset has this name and cannot be replaced."
-                                            : "Saves all current view settings under this name.");
+        button(label, refused ? refused : "Saves all current view settings under this name.");
     endGrey();
     // Enter replaces nothing: that wants the button's word for it.
     if (!pressed && !(entered && !same)) return;
-    if (state.name[0] == 0) return;
+    if (refused) return;
     commands.push_back(SavePreset{state.name.data()});
     state.selected = state.name.data();
     state.name.fill(0);
@@ -127,7 +135,7 @@ void differencesTable(const PresetView& preset) {
     std::vector<std::array<std::string, 3>> rows;
     for (const SettingDifference& difference : preset.differences) {
         const auto [now, then] = shortNumberTexts(difference.here, difference.there);
-        rows.push_back({difference.setting, now, then});
+        rows.push_back({inFont(difference.label), now, then});
     }
     constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"Now", 1},
                                     TableColumn{"Preset", 1}};
@@ -147,7 +155,7 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
     }
     const bool readable = preset->problem.empty();
     beginGrey(!readable || preset->differences.empty(),
-              readable ? "All that it holds is as it is now." : "The preset cannot be read.");
+              readable ? "The preset equals the current settings." : "The preset cannot be read.");
     if (button("Load", "Applies the settings listed below. Undo reverts this."))
         commands.push_back(LoadPreset{preset->name});
     endGrey();
@@ -156,7 +164,7 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
     if (!readable) {
         wrappedText(preset->problem, palette().bad);
     } else if (preset->differences.empty()) {
-        wrappedText("All its settings have their current values.", palette().dim);
+        wrappedText("The preset equals the current settings.", palette().dim);
     } else {
         differencesTable(*preset);
     }

@@ -20,13 +20,13 @@ namespace {
 using With = StartCompare::With;
 
 // A combo that asks: its first item is what it asks for. The item chosen, from 0, or -1.
-int asked(const char* name, const char* question, const std::vector<std::string>& items,
+int asked(const char* name, const char* question, const std::vector<std::string>& items, const char* noneText,
           const char* explanation) {
     std::string list = question + std::string(1, '\0');
     for (const std::string& item : items) list += item + std::string(1, '\0');
     list += '\0';
     int index = 0;
-    beginGrey(items.empty(), "There is nothing to choose from.");
+    beginGrey(items.empty(), noneText);
     ImGui::SetNextItemWidth(-1);
     const bool chosen = combo(name, index, list.c_str());
     tooltip(explanation);
@@ -47,12 +47,12 @@ void chooseB(const EditorView& view, Commands& commands) {
     std::vector<std::string> presets, files;
     for (const PresetView& preset : view.presets) presets.push_back(preset.name);
     for (const std::filesystem::path& file : view.data.recent) files.push_back(file.filename().string());
-    const int preset = asked("Preset as B", "A preset as B...", presets,
+    const int preset = asked("Preset as B", "A preset as B...", presets, "No presets.",
                              "B uses the current settings with the preset applied.");
     if (preset >= 0)
         commands.push_back(
             StartCompare{With::Preset, view.presets[static_cast<std::size_t>(preset)].name, {}});
-    const int file = asked("File as B", "A file as B...", files,
+    const int file = asked("File as B", "A file as B...", files, "No recent files.",
                            "Recently opened chunk files or baked sources. The radius must match, because one "
                            "camera shows both.");
     if (file >= 0)
@@ -79,7 +79,7 @@ void differencesTable(const CompareView& compare) {
                         {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
     for (const SettingDifference& one : compare.different) {
         const auto [a, b] = shortNumberTexts(one.here, one.there);
-        rows.push_back({{one.setting, a, b}});
+        rows.push_back({{inFont(one.label), a, b}});
     }
     constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"A", 1}, TableColumn{"B", 1}};
     if (!beginListTable("sides", columns, rows.size())) return;
@@ -113,7 +113,7 @@ void pictureControls(const CompareView& compare, CompareKnobs& knobs) {
            "Side by side: the middle half of each picture at the same pixel size. Wipe: a movable divider. "
            "Difference: colour difference. Flip: one picture, F9 switches.");
     if (knobs.mode == CompareMode::Difference) {
-        slider("Gain", knobs.gain, defaults.gain, 1.0, 255.0, "x %.0f",
+        slider("Gain", knobs.gain, defaults.gain, 1.0, 255.0, "%.0f x",
                "Factor applied to the difference of each channel. 255: any difference is full brightness.",
                ImGuiSliderFlags_Logarithmic);
     }
@@ -138,7 +138,7 @@ void pictureControls(const CompareView& compare, CompareKnobs& knobs) {
     valueRow("Pixels that differ", pixels,
              "Pixels that differ by more than one 8-bit step in any channel, including lines and tints. They "
              "are not counted while a picture waits for its shaders or is not shown.");
-    valueRow("Largest difference", largest, "Largest difference of any pixel and channel.");
+    valueRow("Max difference", largest, "Largest difference of any pixel and channel.");
     endValues();
 }
 
@@ -158,7 +158,7 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
         TableColumn{"A", 1, "The planet shown in the window.", "1023 MiB"},
         TableColumn{"B", 1, "The planet it is compared with.", "1023 MiB"},
         TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-1023 MiB"}};
-    if (!beginListTable(id, columns, rows.size(), rows.size() + 1)) return;
+    if (!beginListTable(id, columns, rows.size(), rows.size() + 1, 1)) return;
     const auto key = [&](std::size_t row, std::size_t column) {
         return figureSortKey(rows[row], static_cast<FigureColumn>(column), figures);
     };
@@ -208,7 +208,7 @@ void flightControls(const EditorView& view, ComparePanelState& state, Commands& 
     slider("Sample frames", state.moments, 12, 2, 100, "%d",
            "Number of frames measured, evenly spread over the flight, with all chunks loaded; pops are "
            "measured over the whole flight. More: more reliable and slower.");
-    beginGrey(!view.compare.on, "Choose a B first: there is nothing to compare with.");
+    beginGrey(!view.compare.on, "Choose a B first.");
     if (button("Measure over the flight",
                "Flies twice with the settings of A and twice with those of B in the background: once to "
                "measure frames, once with all loads on time to measure pops. worldy compare does the same "
@@ -223,7 +223,7 @@ void flightSection(const EditorView& view, ComparePanelState& state, Commands& c
     if (flight.running) {
         usageBar(flight.progress,
                  flight.stopping ? "cancelling" : fmt::format("{:.0f} %", 100 * flight.progress));
-        beginGrey(flight.stopping, "It is stopping.");
+        beginGrey(flight.stopping, "Cancelling.");
         if (button("Cancel", "Cancels the measurement and discards its results."))
             commands.push_back(CancelCompareFlight{});
         endGrey();

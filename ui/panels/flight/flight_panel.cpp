@@ -50,6 +50,14 @@ void recordControl(FlightPanelState& state, Commands& commands) {
     state.name.fill(0);
 }
 
+// Selects a recording when it starts, and again if it is saved under another name.
+void selectLatest(const RecordingView& recording, FlightPanelState& state) {
+    const std::string& latest = recording.recording ? recording.recording->name : recording.saved;
+    if (latest == state.latest) return;
+    state.latest = latest;
+    if (!latest.empty()) state.selected = latest;
+}
+
 // The list.
 
 void deletePopup(const RecordedFlight& flight, Commands& commands) {
@@ -87,7 +95,7 @@ void flightList(const EditorView& view, FlightPanelState& state, Commands& comma
         wrappedText("No recorded flights. Press Record, fly, then stop and save.", palette().dim);
         return;
     }
-    constexpr std::array columns = {TableColumn{"Name", 3}, TableColumn{"Size", 1, nullptr, "12.3 MiB"}};
+    constexpr std::array columns = {TableColumn{"Name", 6}, TableColumn{"Size", 1, nullptr, "12.3 MiB"}};
     if (beginListTable("flights", columns, flights.size(), 7)) {
         const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
             if (column == 0) return flights[row].name;
@@ -273,9 +281,9 @@ void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& 
         runningReplay(*view.recording.replay, commands);
         return;
     }
+    selectLatest(view.recording, state);
     if (view.recording.recording) {
         runningRecording(*view.recording.recording, commands);
-        state.selected = view.recording.recording->name;  // once it is kept, it is in the list
     } else {
         recordControl(state, commands);
     }

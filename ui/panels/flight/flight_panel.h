@@ -14,6 +14,7 @@ namespace ui {
 struct FlightPanelState {
     std::array<char, 64> name{};  // of the next recording
     std::string selected;         // a recording's
+    std::string latest;           // the recording that runs, or was saved last; selected once
 };
 
 void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& settings, Commands& commands);

@@ -49,7 +49,8 @@ constexpr std::array<AllocationRow, 30> kindRows = {{
      [](const Held& h) { return asNumber(h.gpu.colourClipmap); }, true, nullptr},
     {"Shadow maps", "One shadow map per cascade.", [](const Held& h) { return asNumber(h.gpu.shadowMaps); },
      true, nullptr},
-    {"Pictures", "Render targets.", [](const Held& h) { return asNumber(h.targetBytes); }, true, nullptr},
+    {"Render targets", "Textures the program draws into.",
+     [](const Held& h) { return asNumber(h.targetBytes); }, true, nullptr},
     {"Buffers", "GL buffer objects.", [](const Held& h) { return asNumber(h.objects.buffers); }, false,
      "GL objects"},
     {"Textures##objects", "GL texture objects.", [](const Held& h) { return asNumber(h.objects.textures); },
@@ -72,10 +73,10 @@ constexpr std::array<AllocationRow, 30> kindRows = {{
      nullptr},
     {"Chunk slots", "Chunk slots reserved by the budgets.",
      [](const Held& h) { return asNumber(h.chunkSlots); }, false, nullptr},
-    {"Colour tiles##resident", "Resident tiles of colour.",
+    {"Colour tiles##resident", "Resident colour tiles.",
      [](const Held& h) { return asNumber(h.colourTiles); }, false, nullptr},
-    {"Normal tiles", "Resident tiles of normals.", [](const Held& h) { return asNumber(h.normalTiles); },
-     false, nullptr},
+    {"Normal tiles", "Resident normal tiles.", [](const Held& h) { return asNumber(h.normalTiles); }, false,
+     nullptr},
     {"Requests", "Blocks queued or being read.", [](const Held& h) { return asNumber(h.requests); }, false,
      nullptr},
     {"Finished requests", "Finished requests kept for the Paging panel, at most 1000 per planet.",
@@ -195,8 +196,9 @@ void allocationTable(const AllocationsView& view, double timeS, Commands& comman
     sameLineForButton("Copy##allocations");
     if (button("Copy##allocations", "Copies the table as tab-separated text with unrounded bytes."))
         commands.emplace_back(CopyText{allocationsText(view)});
-    ImGui::SameLine();
-    ImGui::TextDisabled("marked %s", agoText(timeS - view.mark.atS).c_str());
+    const std::string marked = "marked " + agoText(timeS - view.mark.atS);
+    sameLineIfRoom(ImGui::CalcTextSize(marked.c_str()).x);
+    ImGui::TextDisabled("%s", marked.c_str());
     tooltip("Time of the mark; initially the time when the first planet was opened.");
     drawTable(view);
 }

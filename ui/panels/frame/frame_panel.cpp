@@ -79,6 +79,8 @@ void times(const EditorView& view, Commands& commands) {
     valueRow("Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time.");
     valueRow("Frame", millisecondsText(stats.frameMs),
              "Time from the start of one frame to the next, including the wait for the monitor.");
+    valueRow("Longest, last 10 s", millisecondsText(longestFrameMs(view.history)),
+             "Longest frame of the last 10 seconds. Switching a feature on may take one long frame.");
     for (const Stage& stage : cpuStages)
         valueRow(fmt::format("CPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
                  stage.explanation);
@@ -141,7 +143,7 @@ void memoryByKind(const EditorView& view) {
         memoryBar("Colour tiles", asBytes(gpu.colourTiles), 3),
         memoryBar("Colour clipmap", asBytes(gpu.colourClipmap), 6),
         memoryBar("Shadow maps", asBytes(gpu.shadowMaps), 5),
-        memoryBar("Pictures", asBytes(stats.targetBytes), 4)};
+        memoryBar("Render targets", asBytes(stats.targetBytes), 4)};
     ImGui::TextDisabled("GPU: %s", bytesText(asBytes(gpu.total() + stats.targetBytes)).c_str());
     tooltip("Memory the program allocated from the driver.");
     barList("gpu", kinds);
@@ -166,7 +168,7 @@ void partCosts(const EditorView& view, Commands& commands) {
     if (!beginValues("parts")) return;
     for (const PartCost& cost : view.light.costs)
         valueRow(cost.part.c_str(),
-                 fmt::format("{:+.1f} ms, x {:.2f}", cost.withMs - cost.withoutMs,
+                 fmt::format("{:+.1f} ms, {:.2f} x", cost.withMs - cost.withoutMs,
                              cost.withMs / std::max(cost.withoutMs, 1e-6)),
                  "Additional frame time compared with the lit ground alone, which is 1.");
     endValues();

@@ -58,10 +58,8 @@ void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& comman
     featureKnob("Physical model", CostlyPart::Air, view, surface, commands,
                 "Molecules, haze and ozone scatter and absorb light as in the Earth's atmosphere, with "
                 "multiple scattering. Off: an analytic model, which costs almost nothing and leaves the "
-                "ground more contrast. Automatic: on, but off with software rendering.",
-                "it");
-    beginGrey(!planet::gl::isUsed(air.use, view.light.software),
-              "The physical atmosphere is off or turned down.");
+                "ground more contrast. Automatic: on, but off with software rendering.");
+    beginGrey(!planet::gl::isUsed(air.use, view.light.software), "The physical model is off.");
     amounts(air.settings);
     slider("Exposure", air.exposure, defaults.light.air.exposure, 0.1, 10, "%.2f x",
            "Multiplies all light. At 1 the ground by day is as bright as with the analytic model. Larger: "

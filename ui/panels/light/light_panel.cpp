@@ -31,8 +31,7 @@ void seaKnobs(const EditorView& view, SurfaceSettings& surface, Commands& comman
     const planet::gl::SeaDrawing defaults;
     featureKnob("Sea surface", CostlyPart::Sea, view, surface, commands,
                 "Draws water at the sea level: waves, reflections of the sky and the sun, and a colour that "
-                "depends on the depth. Off: flat colours on the sea bed. Measurements always use the bed.",
-                "waves");
+                "depends on the depth. Off: flat colours on the sea bed. Measurements always use the bed.");
     slider("Wind", sea.windMps, defaults.windMps, 0, 30, "%.1f m/s",
            "Wind speed 12.5 m above the water, in m/s. The variance of the wave slopes is 0.003 + 0.00512 "
            "wind (Cox and Munk). Larger: the sun's glint is wider and dimmer.");
@@ -50,8 +49,7 @@ void shadowKnobs(const EditorView& view, SurfaceSettings& surface, Commands& com
     const planet::gl::ShadowDrawing defaults;
     featureKnob("Shadows", CostlyPart::Shadows, view, surface, commands,
                 "Shadows of the ground on itself, from the drawn mesh, in three shadow map cascades. They "
-                "show how level of detail affects shadows.",
-                "drawing the ground three more times");
+                "show how level of detail affects shadows.");
     slider(
         "Map size", shadows.mapSizePx, defaults.mapSizePx, 256, 8192, "%d px",
         "Side of each of the three maps, in pixels; 12 bytes per pixel in total. Larger: sharper and slower.",

@@ -50,6 +50,9 @@ void whyNone(const EditorView& view) {
     if (view.planet->normalLeafLevel() < 0) {
         ImGui::TextDisabled("None: this planet's faces have fewer");
         ImGui::TextDisabled("than 256 cells; the mesh is enough.");
+    } else if (view.planet->normalsArePending()) {
+        ImGui::TextDisabled("Deriving the coarsest tiles;");
+        ImGui::TextDisabled("mesh normals are drawn.");
     } else if (view.planet->pagingSettings().normals) {
         ImGui::TextDisabled("None: share too small. Increase the");
         ImGui::TextDisabled("share, or the paging budget.");
@@ -65,8 +68,7 @@ void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& comma
     featureKnob("Fine normals", CostlyPart::Normals, view, settings.surface, commands,
                 "Lights coarse chunks by slopes of the finest heights, up to the screen resolution, using "
                 "tiles derived from the file's heights. Off: lights by vertex normals, which are smooth "
-                "where the mesh is coarse; no memory is needed.",
-                "fine normals");
+                "where the mesh is coarse; no memory is needed.");
     beginGrey(normals.use == planet::gl::FeatureUse::Off, "Fine normals are off.");
     slider("Texels per pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
            "%.2f",

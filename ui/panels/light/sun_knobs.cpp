@@ -74,11 +74,6 @@ void chooseSun(SurfaceSettings& surface) {
     surface.sunByDate = sun == SunChoice::ByDate;
 }
 
-std::string clockText(double hour) {
-    const int minutes = static_cast<int>(std::lround(hour * 60));
-    return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
-}
-
 // Where the sun stands for whoever is under the camera: degrees above the horizon.
 double sunHeightDeg(const EditorView& view, const SurfaceSettings& surface) {
     const planet::CameraPose& camera = view.camera.pose;
@@ -112,9 +107,9 @@ void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
     chooseSun(surface);
     if (!surface.sunFollows && surface.sunByDate) dateKnobs(surface.sunDate);
     if (!surface.sunFollows && !surface.sunByDate) {
-        slider("Sun latitude", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f deg",
+        slider("Sun latitude", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f°",
                "Latitude of the subsolar point, in degrees north.");
-        slider("Sun longitude", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f deg",
+        slider("Sun longitude", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f°",
                "Longitude of the subsolar point, in degrees east.");
     }
     if (sunMap(view, surface)) surface.sunFollows = surface.sunByDate = false;
@@ -122,7 +117,7 @@ void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
     const planet::Geographic sun = sunOverheadOf(surface);
     valueRow("Subsolar point", placeText(glm::degrees(sun.latitudeRad), glm::degrees(sun.longitudeRad), 1),
              "The place where the sun is in the zenith.");
-    valueRow("Sun elevation", fmt::format("{:.1f} deg", sunHeightDeg(view, surface)),
+    valueRow("Sun elevation", fmt::format("{:.1f}°", sunHeightDeg(view, surface)),
              "Angle of the sun's centre above the horizon of a sphere, at the place under the camera. "
              "Negative: night.");
     endValues();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/explanation_text.h"
@@ -38,9 +39,9 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
         state.problem.clear();
     }
     ImGui::SetNextItemWidth(-1);
-    const bool entered = ImGui::InputTextWithHint(
-        "##id", "face/level/x/y, as z_pos/3/5/2", state.idText.data(), state.idText.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool entered =
+        ImGui::InputTextWithHint("##id", "z_pos/3/5/2", state.idText.data(), state.idText.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     noteItem("Id");
     tooltip(
         "Chunk id: face, level (0 is the whole face), and x and y from the face's south-west corner, each in "
@@ -236,10 +237,18 @@ std::string levelDifference(int own, int other) {
 void neighbours(const EditorView& view, const ChunkId& id, Commands& commands) {
     const auto beside = drawnNeighbours(view.planet->selection(), id);
     constexpr std::array names = {"West", "East", "South", "North"};
-    if (!ImGui::BeginTable("neighbours", 2, ImGuiTableFlags_SizingFixedFit)) return;
-    ImGui::TableSetupColumn("edge", ImGuiTableColumnFlags_WidthFixed, 3.6f * ImGui::GetFontSize());
-    ImGui::TableSetupColumn("chunks", ImGuiTableColumnFlags_WidthStretch);
-    for (std::size_t edge = 0; edge < planet::edgeCount; ++edge) {
+    if (!ImGui::BeginTable(
+            "neighbours", 2,
+            ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate))
+        return;
+    ImGui::TableSetupColumn("Edge", ImGuiTableColumnFlags_WidthFixed, 4.6f * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("Chunks", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableHeadersRow();
+    const auto key = [&](std::size_t edge, std::size_t column) -> SortKey {
+        if (column == 0) return std::string(names[edge]);
+        return beside[edge].empty() ? SortKey(std::string()) : sortKey(beside[edge].front());
+    };
+    for (const std::size_t edge : tableOrder(planet::edgeCount, chosenSort(), key)) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", names[edge]);

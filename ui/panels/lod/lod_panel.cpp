@@ -36,10 +36,11 @@ void toleranceKnobs(LodKnobs& lod) {
                .c_str(),
            ImGuiSliderFlags_Logarithmic);
     slider("Hysteresis", lod.hysteresis, defaults.hysteresis, 0, 0.9, "%.2f",
-           fmt::format("Fraction of {0} by which a merge is delayed: a split chunk stays split until {1} <= "
-                       "{0} (1 - hysteresis). Larger: fewer chunks switch back and forth, but more triangles "
-                       "are drawn. 0: chunks near {0} may switch with every camera movement.",
-                       tauSymbol(), epsSymbol())
+           fmt::format(
+               "Fraction of {0} by which a merge is delayed: a split chunk stays split until {1} <= "
+               "{0} (1 - hysteresis). Larger: fewer chunks change level back and forth, but more triangles "
+               "are drawn. 0: chunks near {0} may change level with every camera movement.",
+               tauSymbol(), epsSymbol())
                .c_str());
     slider("Max LOD level", lod.maxLevel, defaults.maxLevel, 0, planet::maxLevel, "%d",
            "Deepest level drawn; chunks of this level are not split. Level 0 is a whole cube face. Smaller: "
@@ -116,7 +117,7 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
     ImGui::TextColored(palette().warning, "%s", running ? "baking" : "baked");
     ImGui::SameLine();
     beginGrey(!view.bake.canBake || running,
-              running ? "A bake is running." : "The source of this file is not known or no longer there.");
+              running ? "A bake is running." : "The source of this file is unknown or missing.");
     const char* explanation =
         running ? "A bake is running; see the Bake panel."
         : view.bake.canBake && !view.bake.lostColours.empty()
@@ -184,7 +185,7 @@ void drawnValues(const EditorView& view, double tauPx) {
     valueRow("Visited", countText(s.visited), "Quadtree nodes visited by the selection.");
     valueRow("Culled", fmt::format("{} + {}", countText(s.culledFrustum), countText(s.culledHorizon)),
              "Culled subtrees: outside the frustum + below the horizon.");
-    valueRow("Drawn", countText(s.drawn), "Number of chunks drawn.");
+    valueRow(terms::drawnChunks.name, countText(s.drawn), terms::drawnChunks.meaning);
     valueRow(
         "Waiting", countText(s.waiting),
         "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
@@ -221,7 +222,7 @@ void levelBars(const planet::Planet& planet) {
             {fmt::format("{}", level),
              static_cast<double>(chunks[level]),
              {c.r, c.g, c.b, 1},
-             fmt::format("{}   {} tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
+             fmt::format("{}   {} ground tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
     }
     barList("levels", bars);
     tooltip("Chunks drawn per level and their ground triangles. Level 0 is a whole cube face.");

@@ -17,18 +17,18 @@ namespace ui {
 namespace {
 
 void colourKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
-    const std::string colours = std::string("Nothing") + '\0' + "Level" + '\0' + epsSymbol() + " / " +
-                                tauSymbol() + '\0' + "δc" + '\0' + "Morph" + '\0' + "Age" + '\0' +
-                                "Load order" + '\0' + "Measured" + '\0';
+    const std::string colours = std::string("none") + '\0' + "level" + '\0' + epsSymbol() + " / " +
+                                tauSymbol() + '\0' + "δc" + '\0' + "morph" + '\0' + "age" + '\0' +
+                                "load order" + '\0' + "measured" + '\0';
     choice("Colour by", overlay.colourBy, defaults.colourBy, colours.c_str(),
            "Quantity that tints the chunks in the viewport: level, screen-space error relative to the "
            "tolerance, geometric error δc in metres, morph, time since loading, load order, or the last "
            "measured error (True error panel) relative to the tolerance. F8 cycles through them.");
-    beginGrey(overlay.colourBy == ColourBy::None, "Choose a tint first: nothing colours the chunks.");
+    beginGrey(overlay.colourBy == ColourBy::None, "Choose a tint first.");
     slider("Opacity", overlay.opacity, defaults.opacity, 0, 1, "%.2f",
            "Opacity of the tint, [0, 1]. Smaller: more of the ground shows, but colours are harder to tell "
-           "apart. At 1, and without lighting, the colours are exactly those of the legend: neither light "
-           "nor the atmosphere changes them.");
+           "apart. At 1, the colours are exactly those of the legend: neither light nor the atmosphere "
+           "changes them.");
     endGrey();
     if (overlay.colourBy == ColourBy::Error || overlay.colourBy == ColourBy::Measured)
         slider("Midpoint", overlay.errorScale, defaults.errorScale, 0.01, 100,
@@ -65,11 +65,11 @@ void drawnKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
              "If streamed colours use the clipmap (Surface panel): tints each clipmap level by its colour. "
              "Texels filled in the last two seconds are magenta if the window moved, cyan if tiles were "
              "loaded or evicted. Freeze LOD or use an observer to see it from outside.");
-    choice("Skirts", overlay.skirtPaint, defaults.skirtPaint, "As ground\0Highlighted\0Only skirts\0",
+    choice("Skirts", overlay.skirtPaint, defaults.skirtPaint, "as ground\0highlighted\0only skirts\0",
            "How skirts are drawn: with the colour of the ground; in one bright colour, so that every crack "
            "they fill is visible; or only the skirts in that colour, without the ground.");
     const std::string labels =
-        std::string("None") + '\0' + "Level" + '\0' + epsSymbol() + '\0' + "Level and " + epsSymbol() + '\0';
+        std::string("none") + '\0' + "level" + '\0' + epsSymbol() + '\0' + "level and " + epsSymbol() + '\0';
     choice("Labels", overlay.labels, defaults.labels, labels.c_str(),
            "Text at the centre of drawn chunks, nearest first, as far as there is room; ε in pixels. Costs a "
            "few tenths of a millisecond per frame.");

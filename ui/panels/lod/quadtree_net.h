@@ -145,7 +145,7 @@ struct TreeRow {
 using OpenChunks = std::unordered_set<planet::ChunkId>;
 // Returns the roots, and below each chunk that is open its children. sort orders the roots, and the children
 // of each chunk, by a TreeColumn; without it they are in the order of the file.
-enum class TreeColumn : std::uint8_t { Chunk, State, Eps };
+enum class TreeColumn : std::uint8_t { Chunk, Eps, State };
 std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open,
                               const std::optional<TableSort>& sort = std::nullopt);
 // So that a row shows it.

@@ -78,8 +78,8 @@ void legendRows(const Legend& legend) {
 void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
     choiceIndex(
         "Colour by", state.colourBy, 0,
-        (std::string("State") + '\0' + "Level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "δc" +
-         '\0' + "Age" + '\0' + "tight" + '\0')
+        (std::string("state") + '\0' + "level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "δc" +
+         '\0' + "age" + '\0' + "tight" + '\0')
             .c_str(),
         "Quantity shown by the colours: selection state, level, screen-space error relative to the "
         "tolerance, geometric error δc, time since loading, or the tight metric on the scale of δc. Except "
@@ -195,8 +195,8 @@ void netMouse(const NetData& data, const Rect& area, QuadtreePanelState& state, 
     if (ImGui::IsItemActivated()) state.dragging = false;
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) state.dragging = true;
     if (ImGui::IsItemActive() && state.dragging) {
-        state.focus = movedBy(state.focus, area, static_cast<double>(io.MouseDelta.x),
-                              static_cast<double>(io.MouseDelta.y));
+        const ImVec2 moved = dragDelta(ImGuiMouseButton_Left);
+        state.focus = movedBy(state.focus, area, static_cast<double>(moved.x), static_cast<double>(moved.y));
     }
     if (!ImGui::IsItemHovered()) return;
     ImGui::SetItemUsingMouseWheel();
@@ -294,6 +294,8 @@ void treeRow(const EditorView& view, const TreeRow& row, QuadtreePanelState& sta
     ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) commands.emplace_back(HoverChunk{row.id});
     ImGui::TableNextColumn();
+    if (row.node != planet::noNode) ImGui::TextUnformatted(pixelsText(row.epsPx, "").c_str());
+    ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float swatch = std::round(ImGui::GetFontSize() * 0.6f);
     const float top = at.y + (ImGui::GetFontSize() - swatch) / 2;
@@ -301,8 +303,6 @@ void treeRow(const EditorView& view, const TreeRow& row, QuadtreePanelState& sta
                                               packed(stateColour(row.state)), 2);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + swatch * 1.5f);
     ImGui::TextUnformatted(shortStateText(row.state));
-    ImGui::TableNextColumn();
-    if (row.node != planet::noNode) ImGui::TextUnformatted(pixelsText(row.epsPx, "").c_str());
     ImGui::PopID();
 }
 
@@ -323,9 +323,9 @@ void treeList(const EditorView& view, const NetData& data, ImVec2 size, Quadtree
               Commands& commands) {
     const std::string eps = fmt::format("{} px", epsSymbol());
     const std::array columns = {
-        TableColumn{"Chunk", 1.6f, "Sorting orders the chunks below each parent.", "+X/12/1234/1234"},
-        TableColumn{"State", 1.2f, nullptr, "not resident xx"},
-        TableColumn{eps.c_str(), 0.8f, "Predicted error of the chunk's own surface, in pixels."}};
+        TableColumn{"Chunk", 1.6f, "Sorting orders the chunks below each parent.", "xxx 7/127/127"},
+        TableColumn{eps.c_str(), 0.3f, "Predicted error of the chunk's own surface, in pixels.", "> 1 M"},
+        TableColumn{"State", 0.8f, nullptr, "xx not resident"}};
     if (!beginSizedTable("tree", columns, size)) return;
     const std::optional<TableSort> sort = chosenSort();
     std::vector<TreeRow> rows = treeRows(data, state.open, sort);

@@ -26,7 +26,7 @@ void depthKnobs(SeamKnobs& seams) {
            "Automatic: each skirt is as deep as the errors it must hide. Fixed: one depth for all chunks.");
     if (seams.depth == planet::SkirtDepth::Automatic) {
         slider(
-            "Factor", seams.skirtFactor, defaults.skirtFactor, 0, 10, "%.2f",
+            "Factor", seams.skirtFactor, defaults.skirtFactor, 0, 10, "%.3f",
             "Skirt depth = factor (δc of the chunk + the largest δc of its drawn neighbours). At 1 no crack "
             "shows, because each surface is within its δc of the finest data. Smaller: cracks may show; 0: "
             "no skirts. Larger: more overdraw, and longer walls where a skirt is seen from the side.");
@@ -102,17 +102,19 @@ const char* edgeName(planet::Edge edge) {
 }
 
 void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& commands) {
+    cell(fmt::format("{}", difference(seam)));
     chunkCell(seam.finer, view, commands);
     cell(edgeName(seam.edge));
     chunkCell(seam.coarser, view, commands);
-    cell(fmt::format("{}", difference(seam)));
 }
 
 // Widest first, then by id. Only the rows that are seen are sorted.
 void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
-    constexpr std::array columns = {TableColumn{"Finer", 1.6f, nullptr, "z_pos/10/1023/1023"},
-                                    TableColumn{"Edge", 0.9f}, TableColumn{"Coarser", 1.6f},
-                                    TableColumn{"Difference", 1.0f, "Level difference."}};
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {TableColumn{"Difference", 0.5f, "Level difference."},
+                                TableColumn{"Finer", 1.6f, nullptr, chunk.c_str()},
+                                TableColumn{"Edge", 0.5f, nullptr, "south"},
+                                TableColumn{"Coarser", 1.6f, nullptr, chunk.c_str()}};
     if (!beginListTable("pairs", columns, seams.size(), 14)) return;
     std::vector<const planet::LevelSeam*> order;
     order.reserve(seams.size());
@@ -124,10 +126,10 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
     if (chosenSort()) {
         const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
             const planet::LevelSeam& seam = seams[row];
-            if (column == 0) return sortKey(seam.finer);
-            if (column == 1) return std::string(edgeName(seam.edge));
-            if (column == 2) return sortKey(seam.coarser);
-            return static_cast<double>(difference(seam));
+            if (column == 0) return static_cast<double>(difference(seam));
+            if (column == 1) return sortKey(seam.finer);
+            if (column == 2) return std::string(edgeName(seam.edge));
+            return sortKey(seam.coarser);
         };
         tableRows(seams.size(), key, [&](std::size_t row) { seamRow(seams[row], view, commands); });
     } else {

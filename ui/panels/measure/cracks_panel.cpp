@@ -76,14 +76,16 @@ bool foundRow(const char* name, const std::string& value, const char* explanatio
     beginGrey(!whyNot.empty(), whyNot.c_str());
     const bool pressed = ImGui::SmallButton("Apply");
     noteItem(std::string("Apply ") + name);
-    tooltip("Sets skirts of this in the Seams panel. Undo takes it back.");
+    tooltip("Applies this value in the Seams panel. Undo reverts it.");
     endGrey();
     ImGui::PopID();
     return pressed;
 }
 
 void depthRow(const char* name, double depthM, const char* explanation, bool replayed, SeamKnobs& seams) {
-    const std::string whyNot = replayed ? "A replay has settings of its own; end it first." : "";
+    const std::string whyNot = replayed      ? "Settings are locked during a replay; end it first."
+                               : depthM <= 0 ? "No cracks found."
+                                             : "";
     if (!foundRow(name, distanceText(depthM), explanation, whyNot)) return;
     seams.mode = planet::SeamMode::Skirts;
     seams.depth = planet::SkirtDepth::Fixed;
@@ -92,8 +94,9 @@ void depthRow(const char* name, double depthM, const char* explanation, bool rep
 
 void factorRow(const char* name, double factor, const char* explanation, bool replayed, SeamKnobs& seams) {
     constexpr double mostFactor = 10;
-    const std::string whyNot = replayed              ? "A replay has settings of its own; end it first."
-                               : factor > mostFactor ? "A factor may be 10 at most: apply the depth instead."
+    const std::string whyNot = replayed              ? "Settings are locked during a replay; end it first."
+                               : factor <= 0         ? "No cracks found."
+                               : factor > mostFactor ? "The factor exceeds 10; apply the depth instead."
                                                      : "";
     const std::string text = std::isfinite(factor) ? fmt::format("{:.3f}", factor) : std::string("none");
     if (!foundRow(name, text, explanation, whyNot)) return;
@@ -104,6 +107,9 @@ void factorRow(const char* name, double factor, const char* explanation, bool re
 
 void values(const CracksView& cracks, bool replayed, SeamKnobs& seams) {
     const CrackMeasurement& measured = *cracks.measured;
+    const double worstGapM = measured.gaps.empty() ? 0 : measured.gaps.front().gapM;
+    const char* const note = roundingNote(measured.map.pixels.size(), worstGapM);
+    if (*note != '\0') wrappedText(note, palette().dim);
     if (!beginValues("cracks")) return;
     const ImVec4 good = palette().good;
     const ImVec4 bad = palette().bad;
@@ -155,17 +161,18 @@ void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& co
     cell(fmt::format("{}", spot.leaking), spot.leaking > 0 ? palette().bad : palette().dim);
     if (!hasPair) return cell("no drawn neighbour");
     chunkCell(measured.items[measured.pairs[spot.pair].finer], view, commands);
-    chunkCell(measured.items[measured.pairs[spot.pair].coarser], view, commands);
+    chunkLink(measured.items[measured.pairs[spot.pair].coarser], view, commands);
 }
 
 void spotTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::CrackSpot>& spots = view.cracks.measured->spots;
     if (spots.empty()) return wrappedText("There are no crack pixels in this view.", palette().dim);
     // Go comes first: a narrow panel scrolls the last columns out of sight.
-    constexpr std::array columns = {TableColumn{"##go", 0.5f}, TableColumn{"Pixels", 0.8f},
-                                    TableColumn{"Uncovered", 1.0f}, TableColumn{"Finer", 1.6f},
-                                    TableColumn{"Coarser", 1.6f}};
-    if (!beginListTable("spots", columns, spots.size())) return;
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {TableColumn{"##go", 0.1f, nullptr, "Go xx"}, TableColumn{"Pixels", 0.5f},
+                                TableColumn{"Uncovered", 0.5f},
+                                TableColumn{"Finer, coarser", 2, nullptr, chunk.c_str()}};
+    if (!beginListTable("spots", columns, 2 * spots.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::CrackSpot& spot = spots[row];
         if (column <= 1) return static_cast<double>(spot.pixels);
@@ -173,7 +180,7 @@ void spotTable(const EditorView& view, Commands& commands) {
         if (spot.pair == planet::noPair) return std::string();
         const CrackMeasurement& measured = *view.cracks.measured;
         const planet::DrawnPair& pair = measured.pairs[spot.pair];
-        return sortKey(measured.items[column == 3 ? pair.finer : pair.coarser]);
+        return sortKey(measured.items[pair.finer]);
     };
     tableRows(spots.size(), key, [&](std::size_t row) { spotRow(view, spots[row], commands); });
     ImGui::EndTable();
@@ -201,9 +208,11 @@ void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& comman
 void gapTable(const EditorView& view, Commands& commands) {
     const std::vector<planet::EdgeGap>& gaps = view.cracks.measured->gaps;
     if (gaps.empty()) return wrappedText("All adjacent edges match.", palette().dim);
-    constexpr std::array columns = {TableColumn{"##go", 0.5f}, TableColumn{"Gap", 0.9f},
-                                    TableColumn{"px", 0.7f}, TableColumn{"Skirt", 0.9f},
-                                    TableColumn{"Finer, coarser", 1.7f}};
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {TableColumn{"##go", 0.1f, nullptr, "Go xx"},
+                                TableColumn{"Gap", 0.5f, nullptr, "12.3 km"}, TableColumn{"Gap, px", 0.5f},
+                                TableColumn{"Skirt", 0.5f, nullptr, "12.3 km"},
+                                TableColumn{"Finer, coarser", 2, nullptr, chunk.c_str()}};
     if (!beginListTable("gaps", columns, 2 * gaps.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::EdgeGap& gap = gaps[row];
@@ -227,12 +236,11 @@ void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settin
         wrappedText("Out of date: the camera or the drawn chunks have changed since this measurement.",
                     palette().warning);
     }
-    const float alpha = ImGui::GetStyle().Alpha * (view.cracks.current ? 1.0f : 0.6f);
-    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
+    beginGrey(!view.cracks.current, "Out of date: measure again.");
     if (section("Results")) values(view.cracks, view.recording.replay.has_value(), settings.seams);
     if (section("Crack clusters")) spotTable(view, commands);
     if (section("Edge gaps")) gapTable(view, commands);
-    ImGui::PopStyleVar();
+    endGrey();
 }
 
 }  // namespace ui

@@ -65,14 +65,17 @@ void errorsControls(const EditorView& view, ViewSettings& settings, Commands& co
 // Which frame the figures are of.
 void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
     const std::uint64_t since = view.errors.frame - std::min(view.errors.frame, last.frame);
-    wrappedText(
+    const std::string when =
         fmt::format("Frame {}, {} ago. {} {}, {} metric. Duration {}.", last.frame,
                     since == 1 ? "1 frame" : fmt::format("{} frames", since), tauSymbol(),
                     pixelsText(last.tauPx), last.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
-                    durationText(last.tookS)),
-        palette().dim);
-    tooltip(
-        "The list shows the chunks drawn in that frame for its LOD view. The camera may have moved since.");
+                    millisecondsText(1000 * last.tookS));
+    if (view.errors.current)
+        wrappedText(when, palette().dim);
+    else
+        wrappedText("Out of date: the view, the settings or the drawn chunks have changed. " + when,
+                    view.errors.keepMeasuring ? palette().dim : palette().warning);
+    tooltip("The list shows the chunks drawn in that frame for its LOD view.");
 }
 
 void figures(const ErrorMeasurement& last) {
@@ -87,17 +90,18 @@ void figures(const ErrorMeasurement& last) {
                  "Violations whose largest error lies in a cell beside an edge stitched to a coarser chunk. "
                  "Triangles there span several cells, which δc does not cover.",
                  &palette().bad);
-    valueRow("Max error, facing", finePx(report.worstFacingPx),
+    valueRow("Geometric max error", finePx(report.worstFacingPx),
              "Largest error of any finest sample, in pixels, as if the view faced it: K' times the angle "
              "between its true and its drawn position. The drawn bound bounds this error.");
     valueRow(
-        "Max error, screen space", finePx(report.worstScreenPx),
-        "Largest error in the projected picture, in pixels, of the samples inside the picture, including "
-        "hidden ones. The projection stretches towards the corners, so this can exceed the facing error.");
+        "Screen-space max error", finePx(report.worstScreenPx),
+        "Largest error in the projected image, in pixels, of the samples inside it, including hidden ones. "
+        "The projection stretches towards the corners, so this can exceed the geometric error.");
     valueRow("99th percentile", finePx(report.p99FacingPx),
-             "99 % of the chunks have no larger error, in facing pixels; each chunk counts once.");
+             "99 % of the chunks have no larger error, as if the view faced it; each chunk counts once.");
     valueRow(fmt::format("Max {}", epsSymbol()).c_str(), finePx(report.worstEpsPx),
-             "Largest predicted error of a drawn chunk's own surface, in pixels. Morph is not counted in.");
+             "Largest predicted error of a drawn chunk's own surface, in pixels. Compared with τ. "
+             "Excludes morph.");
     valueRow("Max drawn bound", finePx(report.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
     valueRow("Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
              "1 - measured / bound, mean over the chunks. Larger: more triangles than the tolerance needs.");
@@ -195,7 +199,7 @@ void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& c
                 finePx(chunk.drawnBoundPx).c_str());
     ImGui::Text("max error %s", distanceText(chunk.errorM).c_str());
     if (planet::isViolation(chunk)) ImGui::TextColored(palette().bad, "violation");
-    ImGui::TextDisabled("click: select   double-click: go to the worst place");
+    ImGui::TextDisabled("click: select   double-click: go to the max error");
     ImGui::EndTooltip();
 }
 
@@ -254,7 +258,7 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
 
 constexpr std::array worstColumns = {
     TableColumn{"Chunk", 1.9f, "Click to select the chunk; double-click to look at it."},
-    TableColumn{"##go", 0.6f},
+    TableColumn{"##go", 0.1f, nullptr, "Go xx"},
     TableColumn{"Measured", 1.1f, terms::measuredPx.meaning},
     TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning},
     TableColumn{"Slack", 0.8f, "1 - measured / bound."},
@@ -266,7 +270,10 @@ constexpr std::array worstColumns = {
     TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
 
 void worstList(const EditorView& view, Commands& commands) {
-    if (!beginWideTable("worst", worstColumns, 30, 1)) return;
+    const std::string widest = widestChunkName(view);
+    std::array columns = worstColumns;
+    columns[0].widest = widest.c_str();
+    if (!beginWideTable("worst", columns, 1)) return;
     const ErrorMeasurement& last = *view.errors.last;
     const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
         return last.report.chunks[last.worstFirst[row]];

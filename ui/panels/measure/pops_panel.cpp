@@ -75,13 +75,14 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
                     palette().dim);
     } else {
         // A line of its own: else it may be broken at its decimal point.
-        ImGui::TextWrapped("99 %% of switches move less than\n%s; %s measured.",
+        ImGui::TextWrapped("P99 jump:\n< %s; %s level changes",
                            popPxText(std::max(sample.p99Px, leastPopPx)).c_str(),
                            countText(static_cast<double>(sample.seen)).c_str());
         tooltip(
             "Level changes in the last five minutes that are visible and do not follow a camera jump: the "
             "largest screen-space distance, in "
-            "pixels, that a surface point jumps in the frame of the switch, including morphing. Less than "
+            "pixels, that a surface point jumps in the frame of the level change, including morphing. Less "
+            "than "
             "0.1 px is invisible.");
     }
     const std::array marks = {
@@ -90,7 +91,7 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     histogram("jumps", sample.counts, fmt::format("{} px", leastPopPx), fmt::format("{} px", mostPopPx),
               sample.seen > 0 ? std::span<const HistogramMark>(marks) : std::span<const HistogramMark>(), 4,
               [](double position) { return popPxText(logarithmicValue(position, leastPopPx, mostPopPx)); });
-    tooltip("Histogram of switches by largest jump in pixels, on a logarithmic axis.");
+    tooltip("Histogram of level changes by largest jump in pixels, on a logarithmic axis.");
 }
 
 void totals(const EditorView& view, const PopsPanelState& state) {
@@ -101,8 +102,8 @@ void totals(const EditorView& view, const PopsPanelState& state) {
     constexpr std::array<const char*, planet::popCauseCount> meanings = {
         "The chunk's screen-space error crossed the tolerance because the camera moved.",
         "A setting that affects LOD selection was changed: tolerance, hysteresis, metric, max LOD level, "
-        "culling, stitched seams, field of view, picture size or exaggeration. A switch that fades keeps "
-        "this cause.",
+        "culling, stitched seams, field of view, picture size or exaggeration. A level change that fades "
+        "keeps this cause.",
         "The chunk was drawn too coarse until its children were loaded.",
         "The chunk's children were evicted although they were needed: the memory budget is too small.",
         "Stitched seams limit the level difference of neighbours, and a neighbour changed.",
@@ -114,43 +115,52 @@ void totals(const EditorView& view, const PopsPanelState& state) {
                  t.byCause[i] > 0 ? &colour : nullptr);
     }
     valueRow("median jump", popPxText(state.sample.medianPx),
-             "Median of the switches in the histogram, in pixels.");
+             "Median of the level changes in the histogram, in pixels.");
     valueRow("max jump", popPxText(t.worstPx),
-             "Largest jump of the switches that count since the list was cleared, in pixels.");
+             "Largest jump of the level changes that count since the list was cleared, in pixels.");
     valueRow("max adjacent jump", popPxText(t.worstBesidePx),
-             "Largest jump along an edge of an unchanged chunk beside a switch, in pixels; the edge follows "
-             "its neighbour.");
+             "Largest jump along an edge of an unchanged chunk adjacent to a level change, in pixels; the "
+             "edge follows its neighbour.");
     valueRow(
         "late now", count(meter.lateOpen()),
         "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
         meter.lateOpen() > 0 ? &palette().warning : nullptr);
     valueRow("late, total", count(t.late), "Late chunks since the list was cleared.");
+    valueRow("not measured", count(t.notMeasured),
+             "Level changes in a frame in which the exaggeration changed too: all heights jump there, so no "
+             "jump is measured. They count only in the totals by cause.");
     valueRow("outside picture", count(t.outsidePicture),
-             "Switches outside the picture; they count only in the totals by cause.");
+             "Level changes outside the picture; they count only in the totals by cause.");
+    valueRow("under sea", count(t.underSea),
+             "Level changes of the sea bed under a sea that is drawn as water. They are not visible and "
+             "count only "
+             "in the totals by cause.");
     valueRow(
-        "under sea", count(t.underSea),
-        "Switches of the sea bed under a sea that is drawn as water. They are not visible and count only "
-        "in the totals by cause.");
-    valueRow("after jump", count(t.afterJump),
-             "Switches caused by a camera jump or by the start of the measurement: the loads and fades that "
-             "were due then. They are listed last and count only in the totals by cause.");
+        "after jump", count(t.afterJump),
+        "Level changes caused by a camera jump or by the start of the measurement: the loads and fades that "
+        "were due then. They are listed last and count only in the totals by cause.");
     endValues();
 }
 
 void flip(const EditorView& view, Commands& commands) {
     const PopsView& pops = view.pops;
     constexpr std::array<const char*, 3> names = {"Live", "Before", "After"};
-    constexpr std::array<const char*, 3> meanings = {"Draws the current selection.",
-                                                     "Draws all chunks as in the frame before the switch.",
-                                                     "Draws all chunks as in the frame of the switch."};
+    constexpr std::array<const char*, 3> meanings = {
+        "Draws the current selection.", "Draws all chunks as in the frame before the level change.",
+        "Draws all chunks as in the frame of the level change."};
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i > 0) ImGui::SameLine();
         const auto side = static_cast<PopSide>(i);
         if (ImGui::RadioButton(names[i], pops.side == side)) commands.push_back(ShowPopSide{side});
         noteItem(names[i]);
-        tooltip(fmt::format("Switch of {}: {}", planet::toString(pops.shown->chunk), meanings[i]).c_str());
+        tooltip(
+            fmt::format("Level change of {}: {}", planet::toString(pops.shown->chunk), meanings[i]).c_str());
     }
     if (!pops.problem.empty()) wrappedText(pops.problem, palette().warning);
+}
+
+std::string jumpText(const PopEvent& event, double px) {
+    return event.measured ? popPxText(px) : "-";
 }
 
 void selectedValues(const PopEvent& event) {
@@ -160,16 +170,16 @@ void selectedValues(const PopEvent& event) {
     const ImVec4 colour = popColour(event.cause);
     valueRow("cause", planet::popCauseName(event.cause), "Cause of the level change.", &colour);
     if (!planet::counts(event))
-        valueRow("note", planet::popNote(event), "Why the switch does not count.", &palette().warning);
-    valueRow("largest", popPxText(event.jump.largestPx),
+        valueRow("note", planet::popNote(event), "Why the level change does not count.", &palette().warning);
+    valueRow("largest", jumpText(event, event.jump.largestPx),
              "Largest screen-space distance that a point jumps, in pixels, between the projections before "
              "and after through the new view.");
-    valueRow("facing", popPxText(event.jump.largestFacingPx),
+    valueRow("facing", jumpText(event, event.jump.largestFacingPx),
              "Largest jump in pixels as if the view faced the place, without the stretching towards the "
              "picture's corners.");
-    valueRow("mean", popPxText(event.jump.meanPx),
+    valueRow("mean", jumpText(event, event.jump.meanPx),
              "Mean over its screen area in the picture, in pixels, without what a drawn sea covers.");
-    valueRow("adjacent", popPxText(event.besidePx),
+    valueRow("adjacent", jumpText(event, event.besidePx),
              "Largest jump along edges of unchanged adjacent chunks, in pixels.");
     endValues();
 }
@@ -181,12 +191,13 @@ void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& comm
     });
     if (found == events.end()) {
         wrappedText(
-            "Click a tick or a row to select a switch. Drag the timeline to pan; use the wheel to zoom.",
+            "Click a tick or a row to select a level change. Drag the timeline to pan; use the wheel to "
+            "zoom.",
             palette().dim);
     } else {
-        if (button(
-                "Go to view",
-                "Moves the camera to where the switch was seen, freezes LOD there, and selects its chunk."))
+        if (button("Go to view",
+                   "Moves the camera to where the level change was seen, freezes LOD there, and selects its "
+                   "chunk."))
             commands.push_back(GoBackToPop{found->frame, found->chunk});
         ImGui::SameLine();
         chunkLink(found->chunk, view, commands);
@@ -213,6 +224,7 @@ void timeline(const EditorView& view, PopsPanelState& state, bool wide, Commands
 }
 
 void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, PopsPanelState& state) {
+    if (!planet::counts(event)) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
     ImGui::TableNextColumn();
     const bool isSelected = state.selected == keyOf(event);
     const double agoS = std::max(view.pops.meter->lastTimeS() - event.timeS, 0.0);
@@ -221,27 +233,29 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
     if (ImGui::Selectable(ago.c_str(), isSelected, ImGuiSelectableFlags_SpanAllColumns))
         state.selected = keyOf(event);
     if (row < 3) noteItem(fmt::format("Row {}", row));
-    cell(popPxText(event.jump.largestPx));
-    cell(planet::toString(event.chunk));
-    cell(fmt::format("{} > {}", event.fromLevel, event.toLevel));
+    cell(jumpText(event, event.jump.largestPx));
     cell(planet::popCauseName(event.cause), popColour(event.cause));
-    cell(popPxText(event.jump.meanPx));
-    cell(popPxText(event.besidePx));
+    cell(fmt::format("{} > {}", event.fromLevel, event.toLevel));
+    cell(planet::toString(event.chunk));
     cell(planet::popNote(event), palette().dim);
+    cell(jumpText(event, event.jump.meanPx));
+    cell(jumpText(event, event.besidePx));
+    if (!planet::counts(event)) ImGui::PopStyleColor();
 }
 
 void worstFirst(const EditorView& view, PopsPanelState& state) {
     const auto& events = view.pops.meter->events();
     if (events.empty()) return emptyState("No level changes recorded.");
-    constexpr std::array columns = {TableColumn{"Ago", 0.8f},
-                                    TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
-                                    TableColumn{"Chunk", 1.6f},
-                                    TableColumn{"Levels", 0.9f},
-                                    TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
-                                    TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
-                                    TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"},
-                                    TableColumn{"Note", 1.3f, nullptr, "outside picture"}};
-    if (!beginWideTable("worst", columns, 40)) return;
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
+                                TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
+                                TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
+                                TableColumn{"Levels", 0.9f, nullptr, "10 > 11"},
+                                TableColumn{"Chunk", 1.6f, nullptr, chunk.c_str()},
+                                TableColumn{"Note", 1.3f, nullptr, "outside picture"},
+                                TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
+                                TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
+    if (!beginWideTable("worst", columns)) return;
     std::vector<std::size_t> order(events.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto worse = [&](std::size_t a, std::size_t b) { return planet::isWorsePop(events[a], events[b]); };
@@ -254,17 +268,17 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                 case 1:
                     return event.jump.largestPx;
                 case 2:
-                    return sortKey(event.chunk);
+                    return std::string(planet::popCauseName(event.cause));
                 case 3:
                     return static_cast<double>(event.fromLevel);
                 case 4:
-                    return std::string(planet::popCauseName(event.cause));
+                    return sortKey(event.chunk);
                 case 5:
-                    return event.jump.meanPx;
-                case 6:
-                    return event.besidePx;
-                default:
                     return std::string(planet::popNote(event));
+                case 6:
+                    return event.jump.meanPx;
+                default:
+                    return event.besidePx;
             }
         };
         order = tableOrder(events.size(), sort, key);

@@ -10,6 +10,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
+#include "ui/kit/widgets.h"
 #include "ui/model/plot_scale.h"
 #include "ui/model/text.h"
 
@@ -125,8 +126,9 @@ void tellAt(const Plot& plot, const planet::PopMeter& meter, const planet::PopEv
     if (event) {
         ImGui::Text("%s, level %d to %d", planet::toString(event->chunk).c_str(), event->fromLevel,
                     event->toLevel);
-        ImGui::TextColored(popColour(event->cause), "%s, jumps %s", planet::popCauseName(event->cause),
-                           popPxText(event->jump.largestPx).c_str());
+        const std::string jump =
+            event->measured ? ", jumps " + popPxText(event->jump.largestPx) : std::string();
+        ImGui::TextColored(popColour(event->cause), "%s%s", planet::popCauseName(event->cause), jump.c_str());
         if (!planet::counts(*event)) ImGui::TextUnformatted(planet::popNote(*event));
     }
     if (late > 0) ImGui::Text("%zu late chunks, max error %s", late, pixelsText(worstPx).c_str());
@@ -137,7 +139,7 @@ void moveInTime(const Plot& plot, PopTimelineState& state) {
     const ImGuiIO& io = ImGui::GetIO();
     const double width = std::max(static_cast<double>(plot.end.x - plot.start.x), 1.0);
     if (ImGui::IsItemActive()) {
-        const auto movedPx = static_cast<double>(io.MouseDelta.x);
+        const auto movedPx = static_cast<double>(dragDelta(ImGuiMouseButton_Left).x);
         state.behindS += movedPx / width * state.spanS;
         state.movedPx += std::abs(movedPx);
     }

@@ -38,18 +38,18 @@ void precisionRows(const planet::VertexPrecision& p) {
              "from the planet's centre. x points to latitude 0, longitude 0.");
     valueRow("y", fmt::format("{:.4f} m", p.positionM.y), "y points to latitude 0, longitude 90° E.");
     valueRow("z", fmt::format("{:.4f} m", p.positionM.z), "z points to the north pole.");
-    valueRow("Float error relative to the camera", errorText(p.shader.errorM),
+    valueRow("Camera-relative float error", errorText(p.shader.errorM),
              "Camera-relative rendering: error of the vertex shader's single-precision position, in "
              "millimetres. The same computation "
              "is done in floats, relative to the camera and a nearby reference point.");
-    valueRow("", errorPxText(p.shader.errorPx),
+    valueRow("Camera-relative error in px", errorPxText(p.shader.errorPx),
              "The error in screen space: K' |a/|a| - b/|b||, with a and b relative to the camera. Above "
              "about 0.5 px vertices jitter.",
              p.shader.errorPx > 0.5 ? &palette().bad : nullptr);
-    valueRow("Float error relative to the centre", errorText(p.fromCentre.errorM),
+    valueRow("Planet-origin float error", errorText(p.fromCentre.errorM),
              "For comparison: the error with float positions relative to the planet's centre minus a float "
              "camera position.");
-    valueRow("", errorPxText(p.fromCentre.errorPx), "The error in screen space.",
+    valueRow("Planet-origin error in px", errorPxText(p.fromCentre.errorPx), "The error in screen space.",
              p.fromCentre.errorPx > 0.5 ? &palette().warning : nullptr);
 }
 
@@ -69,8 +69,9 @@ void depthRows(const DepthSteps& depth) {
 std::string textOf(const ProbedVertex& probed) {
     const planet::VertexPrecision& p = probed.precision;
     return fmt::format(
-        "{} vertex {}, {}: {:.4f} {:.4f} {:.4f} m, {:.3f} m away; shader {:.6f} mm {:.6f} px; from centre "
-        "{:.6f} mm {:.6f} px; {:.3f} m ahead, depth step reversed {:.6g} m, fallback {:.6g} m",
+        "{} vertex {}, {}: {:.4f} {:.4f} {:.4f} m, distance {:.3f} m; float error: camera-relative {:.6f} mm "
+        "{:.6f} px, planet-origin {:.6f} mm {:.6f} px; view depth {:.3f} m; depth step: reversed Z {:.6g} m, "
+        "non-reversed Z {:.6g} m",
         planet::toString(p.chunk), p.vertex.x, p.vertex.y, p.positionM.x, p.positionM.y, p.positionM.z,
         p.distanceM, 1000 * p.shader.errorM, p.shader.errorPx, 1000 * p.fromCentre.errorM,
         p.fromCentre.errorPx, probed.depth.aheadM, probed.depth.reversedFloatM, probed.depth.fallbackM);

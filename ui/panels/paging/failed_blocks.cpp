@@ -55,19 +55,22 @@ std::string retryText(const std::optional<double>& retryInS) {
 void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands) {
     if (blocks.empty())
         return emptyState("No read has failed. \"Failure rate\" under I/O fault injection makes reads fail.");
-    // As wide as their texts, in heights of the font.
-    constexpr std::array columns = {
-        TableColumn{"##retry", 3.6f},
-        TableColumn{"Parent", 7, "Click to select the chunk; double-click to look at it."},
-        TableColumn{"Retry", 6.8f,
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {
+        TableColumn{"##retry", 0.1f, nullptr, "Retry xx"},
+        TableColumn{"Parent", 1, "Click to select the chunk; double-click to look at it.", chunk.c_str()},
+        TableColumn{"Retry", 1,
                     "When the block is retried automatically: after a delay that doubles with each failure, "
                     "if a view needs it. Never: the block has failed permanently and only the Retry button "
                     "requests it again. \"Retries\" and \"Retry delay\" set the number and the delay; "
-                    "corrupt blocks fail permanently at once."},
-        TableColumn{"Attempts", 3.2f, "Failed reads since the block was last loaded or retried manually."},
-        TableColumn{"Kind", 4.4f, "Kind of block: heights of a chunk, colour tile or normal tile."},
-        TableColumn{"Reason", 24, "The last error; its tooltip shows the full text."}};
-    if (!beginWideTable("failed", columns, 49, 2)) return;
+                    "corrupt blocks fail permanently at once.",
+                    "when needed"},
+        TableColumn{"Attempts", 0.5f, "Failed reads since the block was last loaded or retried manually."},
+        TableColumn{"Kind", 0.5f, "Kind of block: heights of a chunk, colour tile or normal tile.",
+                    "heights"},
+        TableColumn{"Reason", 20, "The last error; its tooltip shows the full text.",
+                    "planet.chk: block z_pos/3/5/2 at byte 1234567: read failed"}};
+    if (!beginWideTable("failed", columns, 2)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::FailedBlock& failed = blocks[row];
         switch (column) {

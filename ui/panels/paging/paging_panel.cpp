@@ -9,6 +9,7 @@
 #include <span>
 
 #include "planet/base/percentile.h"
+#include "planet/paging/normal_tile.h"
 #include "planet/select/screen_error.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
@@ -93,6 +94,15 @@ void buttons(const EditorView& view, Commands& commands) {
         "instead; permanently failed colour tiles are drawn as a checkerboard. The Failed tab lists them.");
 }
 
+bool hasNormals(const EditorView& view) {
+    return view.stats.normalPaging.tileCapacity > 0;
+}
+
+// Whether there is more than heights to tell apart.
+bool hasKinds(const EditorView& view) {
+    return view.planet->colour() || hasNormals(view);
+}
+
 std::size_t tileBytes(const planet::Planet& planet) {
     return planet::colourTileBytes(planet.colour()->format);
 }
@@ -119,17 +129,35 @@ void colourMemory(const EditorView& view) {
     }
 }
 
+void normalMemory(const EditorView& view) {
+    const planet::TilePagingCounters& p = view.stats.normalPaging;
+    constexpr double bytes = planet::normalTileBytes;
+    const double used = static_cast<double>(p.residentTiles) * bytes;
+    const double room = p.tileCapacity * bytes;
+    usageBar(used / room, fmt::format("normals {} of {}", bytesText(used), bytesText(room)));
+    tooltip(fmt::format("Resident normal tiles and their share of the budget, all on the GPU: {} of {} tiles "
+                        "of {} each. The Light panel sets the share.",
+                        p.residentTiles, p.tileCapacity, bytesText(bytes))
+                .c_str());
+    if (p.budgetWaits > 0) {
+        wrappedText(
+            fmt::format("{} requested normal tiles do not fit into their share.", countText(p.budgetWaits)),
+            palette().warning);
+    }
+}
+
 void residentMemory(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
     const planet::PagingSettings& settings = view.planet->pagingSettings();
     const bool hasColours = view.planet->colour().has_value();
     const double used = static_cast<double>(p.residentBytesCpu + p.residentBytesGpu);
-    const double budget =
-        static_cast<double>(settings.budgetBytes) * (hasColours ? 1 - settings.colourShare : 1);
+    const double budget = static_cast<double>(settings.budgetBytes) *
+                          (hasColours ? 1 - settings.colourShare : 1) *
+                          (hasNormals(view) ? 1 - settings.normalShare : 1);
     usageBar(budget > 0 ? used / budget : 0,
-             fmt::format("{}{} of {}", hasColours ? "heights " : "", bytesText(used), bytesText(budget)));
+             fmt::format("{}{} of {}", hasKinds(view) ? "heights " : "", bytesText(used), bytesText(budget)));
     tooltip(fmt::format("Resident chunks and {}: {} chunks, {} on the CPU and {} on the GPU.",
-                        hasColours ? "the budget minus the colour share" : "the budget",
+                        hasKinds(view) ? "the budget minus the shares of colours and normals" : "the budget",
                         countText(static_cast<double>(p.residentChunks)),
                         bytesText(static_cast<double>(p.residentBytesCpu)),
                         bytesText(static_cast<double>(p.residentBytesGpu)))
@@ -139,6 +167,7 @@ void residentMemory(const EditorView& view) {
                     palette().warning);
     }
     if (hasColours) colourMemory(view);
+    if (hasNormals(view)) normalMemory(view);
 }
 
 double asNumber(std::uint64_t value) {
@@ -149,20 +178,6 @@ std::string countCell(std::uint64_t value) {
 }
 std::string bytesCell(std::uint64_t value) {
     return bytesText(asNumber(value));
-}
-
-struct KindTotals {
-    const char* kind;
-    std::uint64_t loaded, evicted, failed, bytesRead;
-    std::size_t resident;
-    std::uint32_t budgetWaits;
-};
-
-KindTotals totalsOf(const char* kind, const planet::PagingCounters& p) {
-    return {kind, p.loaded, p.evicted, p.failed, p.bytesRead, p.residentChunks, p.budgetWaits};
-}
-KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& p) {
-    return {kind, p.loaded, p.evicted, p.failed, p.bytesRead, p.residentTiles, p.budgetWaits};
 }
 
 void totalsByKind(const FrameStats& stats) {
@@ -179,18 +194,19 @@ void totalsByKind(const FrameStats& stats) {
                     "Bytes read from the chunk file. Normals are derived from heights, which are read again "
                     "for them.",
                     "1023 MiB"},
-        TableColumn{
-            "Resident", 0.7f,
-            "Resident chunks and tiles of 256 x 256 texels; the six roots of each are always resident."},
+        TableColumn{"Resident", 0.6f, "Blocks resident now: loaded minus evicted."},
+        TableColumn{"Tiles", 0.6f,
+                    "Resident chunks, or tiles of 256 x 256 texels: four per block, the six roots, and "
+                    "the checkerboards in place of failed colour tiles."},
         TableColumn{"Over budget", 1,
                     "Blocks requested in the last frame that do not fit into the budget or its share."}};
     if (!beginListTable("kinds", columns, kinds.size(), 12, 1)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const KindTotals& of = kinds[row];
         if (column == 0) return std::string(of.kind);
-        const std::array<double, 6> values = {asNumber(of.loaded),   asNumber(of.evicted),
-                                              asNumber(of.failed),   asNumber(of.bytesRead),
-                                              asNumber(of.resident), asNumber(of.budgetWaits)};
+        const std::array<double, 7> values = {
+            asNumber(of.loaded),   asNumber(of.evicted), asNumber(of.failed),     asNumber(of.bytesRead),
+            asNumber(of.resident), asNumber(of.tiles),   asNumber(of.budgetWaits)};
         return values[column - 1];
     };
     tableRows(kinds.size(), key, [&](std::size_t row) {
@@ -201,6 +217,7 @@ void totalsByKind(const FrameStats& stats) {
         cell(countCell(of.failed), of.failed > 0 ? palette().bad : palette().text);
         cell(bytesCell(of.bytesRead));
         cell(countCell(of.resident));
+        cell(countCell(of.tiles));
         cell(countCell(of.budgetWaits), of.budgetWaits > 0 ? palette().warning : palette().text);
     });
     ImGui::EndTable();
@@ -209,11 +226,14 @@ void totalsByKind(const FrameStats& stats) {
 void totals(const EditorView& view) {
     const planet::PagingCounters& p = view.stats.paging;
     if (!beginValues("totals")) return;
-    valueRow("Requested", countCell(p.requested),
-             "Load requests of all kinds queued since the file was opened.");
-    valueRow("Merged", countCell(p.merged), "Requests repeated while they were queued.");
-    valueRow("Cancelled", countCell(p.cancelled),
+    const auto loadAndEvict = [](std::uint64_t loads, std::uint64_t evictions) {
+        return fmt::format("{} load, {} evict", countCell(loads), countCell(evictions));
+    };
+    valueRow("Requested", loadAndEvict(p.requested, p.pageOutsQueued),
+             "Requests of all kinds queued since the file was opened.");
+    valueRow("Cancelled", loadAndEvict(p.cancelled - p.pageOutsCancelled, p.pageOutsCancelled),
              "Requests cancelled by the opposite request or no longer needed.");
+    valueRow("Merged", countCell(p.merged), "Requests of either type repeated while they were queued.");
     endValues();
     totalsByKind(view.stats);
 }
@@ -268,6 +288,8 @@ void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::
     std::vector<PagingRow>& queue = sample.queue;
     queue.clear();
     sample.hidden = 0;
+    sample.loads = planet.pendingRequests(planet::PagingType::PageIn).size();
+    sample.evictions = planet.pendingRequests(planet::PagingType::PageOut).size();
     for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
         const auto requests = shownView < 0
                                   ? planet.pendingRequests(type)
@@ -308,7 +330,8 @@ void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelStat
 
 void refresh(const EditorView& view, PagingPanelState& state) {
     if (state.shownView >= static_cast<int>(view.planet->viewCount())) state.shownView = -1;
-    if (!view.planet->colour()) state.shownKind.reset();
+    if (state.shownKind == planet::BlockKind::Colours && !view.planet->colour()) state.shownKind.reset();
+    if (state.shownKind == planet::BlockKind::Normals && !hasNormals(view)) state.shownKind.reset();
     PagingPanelState::Sample& sample = state.sample;
     const bool current = sample.planet == view.planet && sample.shownView == state.shownView &&
                          sample.shownKind == state.shownKind &&
@@ -339,7 +362,7 @@ std::size_t wantingView(std::uint32_t views, std::size_t viewCount) {
 
 std::string reason(const planet::Planet& planet, const PagingRow& row, int shownView, double ageS) {
     if (row.type == planet::PagingType::PageOut) return pageOutReason(ageS);
-    if (row.kind == planet::BlockKind::Colours) return colourReason(row.priority);
+    if (row.kind != planet::BlockKind::Heights) return colourReason(row.priority);
     const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
     if (index == planet::noNode) return "parent evicted";
     const std::size_t v =
@@ -353,44 +376,53 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     return text;
 }
 
-// A link as long as the row, after its kind where there are two.
+// A link as long as the row, after its kind where there are several.
 void rowLink(const planet::ChunkId& id, planet::BlockKind kind, const EditorView& view, Commands& commands) {
-    const bool colours = kind == planet::BlockKind::Colours;
-    if (view.planet->colour()) cell(kindText(kind), colours ? palette().accent : palette().text);
-    if (!colours) return chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
+    const bool tiles = kind != planet::BlockKind::Heights;
+    if (hasKinds(view)) cell(kindText(kind), tiles ? palette().accent : palette().text);
+    if (!tiles) return chunkCell(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
     ImGui::TableNextColumn();
     colourLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
 }
 
-// Columns of a table of requests, the kind before the name where there are two.
+// Columns of a table of requests, the kind before the name where there are several.
 std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableColumn> columns,
                                   std::size_t name) {
     std::vector<TableColumn> all(columns.begin(), columns.end());
-    if (view.planet->colour())
-        all.insert(all.begin() + static_cast<std::ptrdiff_t>(name),
-                   TableColumn{"Kind", 0.9f,
-                               "Kind of block: heights of a chunk, or colour tiles. Click a tile to select "
-                               "the chunk it covers; double-click to look at it."});
+    if (hasKinds(view))
+        all.insert(
+            all.begin() + static_cast<std::ptrdiff_t>(name),
+            TableColumn{"Kind", 0.9f,
+                        "Kind of block: heights of a chunk, colour tiles or normal tiles. Click a tile "
+                        "to select the chunk it covers; double-click to look at it.",
+                        "heights"});
     return all;
 }
 
 // The column's place in a table without kinds; none: the kind itself.
 std::optional<std::size_t> withoutKind(const EditorView& view, std::size_t column, std::size_t name) {
-    if (!view.planet->colour() || column < name) return column;
+    if (!hasKinds(view) || column < name) return column;
     return column == name ? std::nullopt : std::optional(column - 1);
 }
 
 void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = true) {
-    if (!view.planet->colour()) return;
-    const float width = ImGui::CalcTextSize("heights, colours").x + 2 * ImGui::GetFrameHeight();
+    if (!hasKinds(view)) return;
+    std::vector<planet::BlockKind> kinds = {planet::BlockKind::Heights};
+    if (view.planet->colour()) kinds.push_back(planet::BlockKind::Colours);
+    if (hasNormals(view)) kinds.push_back(planet::BlockKind::Normals);
+    std::string all;
+    for (const planet::BlockKind kind : kinds) all += (all.empty() ? "" : ", ") + std::string(kindText(kind));
+    const float width = ImGui::CalcTextSize(all.c_str()).x + 2 * ImGui::GetFrameHeight();
     if (goesOn) sameLineIfRoom(width);
     ImGui::SetNextItemWidth(std::min(width, ImGui::GetContentRegionAvail().x));
-    int index = state.shownKind ? static_cast<int>(*state.shownKind) + 1 : 0;
-    if (combo("Kind", index, "heights, colours\0heights\0colours\0")) {
+    std::string names = all + '\0';
+    for (const planet::BlockKind kind : kinds) names += kindText(kind) + std::string(1, '\0');
+    const auto shown = std::find(kinds.begin(), kinds.end(), state.shownKind);
+    int index = shown == kinds.end() ? 0 : static_cast<int>(shown - kinds.begin()) + 1;
+    if (combo("Kind", index, names.c_str()))
         state.shownKind =
-            index == 0 ? std::nullopt : std::optional(static_cast<planet::BlockKind>(index - 1));
-    }
-    tooltip("Shows requests and latencies of both kinds of blocks or of one.");
+            index == 0 ? std::nullopt : std::optional(kinds[static_cast<std::size_t>(index - 1)]);
+    tooltip("Shows requests and latencies of all kinds of blocks or of one.");
 }
 
 void queueFilter(const EditorView& view, PagingPanelState& state) {
@@ -400,7 +432,7 @@ void queueFilter(const EditorView& view, PagingPanelState& state) {
     ImGui::Checkbox("Evict", &state.showPageOuts);
     tooltip(
         "Eviction candidates: unused blocks, least recently used first. They stay resident until their "
-        "memory is needed. Colour tiles are not listed; they are evicted directly when memory is needed.");
+        "memory is needed. Tiles are not listed; they are evicted directly when memory is needed.");
     kindFilter(view, state);
     if (view.planet->viewCount() < 2) return;
     ImGui::SameLine();
@@ -430,8 +462,9 @@ const char* emptyQueueText(const EditorView& view, const PagingPanelState& state
     if (p.awaitingRetry > 0)
         return "The queue is empty: missing blocks could not be read and will be retried.";
     if (p.failedForGood > 0) return "The queue is empty: missing blocks could not be read.";
-    const bool waiting =
-        view.stats.selection.waiting > 0 || view.planet->colourSelection().counters.waiting > 0;
+    const bool waiting = view.stats.selection.waiting > 0 ||
+                         view.planet->colourSelection().counters.waiting > 0 ||
+                         view.planet->normalSelection().counters.waiting > 0;
     return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
 }
 
@@ -439,11 +472,13 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     queueFilter(view, state);
     const std::span<const PagingRow> queue = shownQueue(state);
     if (queue.empty()) return emptyState(emptyQueueText(view, state));
-    constexpr std::array columns = {TableColumn{"Type", 0.6f}, TableColumn{"Parent", 1.7f},
-                                    TableColumn{"Priority", 0.9f}, TableColumn{"Age", 1.15f},
-                                    TableColumn{"Reason", 2.4f}};
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {
+        TableColumn{"Type", 0.6f, nullptr, "evict"}, TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
+        TableColumn{"Priority", 0.9f, nullptr, "12.3 M"}, TableColumn{"Age", 1.15f, nullptr, "59 min 59 s"},
+        TableColumn{"Reason", 2.4f, nullptr, "unused for 59 min 59 s"}};
     const std::vector<TableColumn> shown = withKind(view, columns, 1);
-    if (!beginWideTable("queue", shown, shown.size() > columns.size() ? 31 : 27)) return;
+    if (!beginWideTable("queue", shown)) return;
     const auto ageOf = [&](const PagingRow& row) {
         return std::max(view.planet->seconds() - row.askedAtS, 0.0);
     };
@@ -484,10 +519,12 @@ void loadingTable(const EditorView& view, PagingPanelState& state, Commands& com
     if (any && loading.empty()) return emptyState("No block of this kind is being read.");
     if (loading.empty())
         return emptyState(view.pagingPaused ? "Paging is paused." : "No block is being read.");
-    constexpr std::array columns = {TableColumn{"Parent", 1.7f}, TableColumn{"Priority"}, TableColumn{"Size"},
-                                    TableColumn{"Elapsed"}};
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {
+        TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()}, TableColumn{"Priority", 1, nullptr, "12.3 M"},
+        TableColumn{"Size", 1, nullptr, "123 KiB"}, TableColumn{"Elapsed", 1, nullptr, "99.9 ms"}};
     const std::vector<TableColumn> shown = withKind(view, columns, 0);
-    if (!beginWideTable("loading", shown, shown.size() > columns.size() ? 24 : 20)) return;
+    if (!beginWideTable("loading", shown)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::LoadInProgress& load = loading[row];
         const std::optional<std::size_t> plain = withoutKind(view, column, 0);
@@ -585,12 +622,16 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
         if (isShown(*event, state)) shown.push_back(&*event);
     if (shown.empty())
         return emptyState(history.empty() ? "No request has finished yet." : "No requests of this kind.");
-    constexpr std::array columns = {TableColumn{"Outcome", 1.1f}, TableColumn{"Parent", 1.7f},
-                                    TableColumn{"Waited"},        TableColumn{"Reading"},
-                                    TableColumn{"Size"},          TableColumn{"Requests", 0.7f},
-                                    TableColumn{"Finished", 1.2f}};
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {TableColumn{"Outcome", 1.1f, nullptr, "cancelled"},
+                                TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
+                                TableColumn{"Waited", 1, nullptr, "99.9 ms"},
+                                TableColumn{"Reading", 1, nullptr, "99.9 ms"},
+                                TableColumn{"Size", 1, nullptr, "123 KiB"},
+                                TableColumn{"Requests", 0.7f},
+                                TableColumn{"Finished", 1.2f, nullptr, "59 min 59 s ago"}};
     const std::vector<TableColumn> all = withKind(view, columns, 1);
-    if (!beginWideTable("history", all, all.size() > columns.size() ? 38 : 34)) return;
+    if (!beginWideTable("history", all)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::PagingEvent& event = *shown[row];
         const std::optional<std::size_t> plain = withoutKind(view, column, 1);
@@ -658,6 +699,12 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
         });
         rate.push_back({"colours", seriesColour(3), growthPerS(times, colours, windowS)});
     }
+    if (hasNormals(view)) {
+        const auto normals = historyValues<double>(view.history, [](const FrameStats& s) {
+            return static_cast<double>(s.normalPaging.bytesRead) / 1e6;
+        });
+        rate.push_back({"normals", seriesColour(4), growthPerS(times, normals, windowS)});
+    }
     linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
     latencyHistogram(state, lines);
 }
@@ -687,7 +734,9 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("tables")) return;
     const planet::PagingCounters& p = view.stats.paging;
-    if (ImGui::BeginTabItem(fmt::format("Queue {}###queue", p.queued).c_str())) {
+    const std::string queue =
+        fmt::format("Queue {} load, {} evict###queue", state.sample.loads, state.sample.evictions);
+    if (ImGui::BeginTabItem(queue.c_str())) {
         queueTable(view, state, commands);
         ImGui::EndTabItem();
     }

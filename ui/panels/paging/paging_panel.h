@@ -40,8 +40,10 @@ struct PagingPanelState {
         int shownView = -1;
         std::optional<planet::BlockKind> shownKind{};
         bool latencyOfReading = false;
-        std::vector<PagingRow> queue;             // page-ins, then page-outs, each most urgent first
-        std::size_t hidden = 0;                   // requests of the other kind
+        std::vector<PagingRow> queue;  // page-ins, then page-outs, each most urgent first
+        std::size_t hidden = 0;        // requests of the other kinds
+        std::size_t loads = 0;         // queued, of all kinds and views
+        std::size_t evictions = 0;
         std::vector<planet::FailedBlock> failed;  // where they are shown
         bool failedShown = false;
         std::vector<float> latencyCounts;

@@ -78,12 +78,12 @@ void ranges(TextureLayer& layer) {
                "both ends at their limits it covers all heights. Drag, or Ctrl+click to type.",
                "Width of the transition at each end, in metres. 0: a sharp border."},
               layer.heightM);
-    rangeKnob({"Slope", "Slope falloff", planet::allSlopesDeg, 60, "%.0f deg", 0.2f,
+    rangeKnob({"Slope", "Slope falloff", planet::allSlopesDeg, 60, "%.0f°", 0.2f,
                "Slope range of the layer in degrees; 0 is level, 90 vertical. Computed from the drawn "
                "heights, so coarse data has no cliffs.",
                "Width of the transition at each end, in degrees. 0: a sharp border."},
               layer.slopeDeg);
-    rangeKnob({"Latitude", "Latitude falloff", planet::allLatitudesDeg, 60, "%.0f deg", 0.3f,
+    rangeKnob({"Latitude", "Latitude falloff", planet::allLatitudesDeg, 60, "%.0f°", 0.3f,
                "Latitude range of the layer in degrees, north positive.",
                "Width of the transition at each end, in degrees. 0: a sharp border."},
               layer.latitudeDeg);

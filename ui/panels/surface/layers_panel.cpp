@@ -26,7 +26,7 @@ void useKnobs(const EditorView& view, SurfaceSettings& surface, Commands& comman
     LayerSettings& layers = surface.layers;
     const LayerSettings defaults;
     featureKnob("Layers", CostlyPart::Layers, view, surface, commands,
-                "Draws material textures on near ground.", "layers");
+                "Draws material textures on near ground.");
     slider("Opacity", layers.opacity, defaults.opacity, 0, 1, "%.2f",
            "Opacity of all layers over the image or the ramp, [0, 1].");
     slider("Fade start", layers.beginM, defaults.beginM, 0, 1e6, "%.0f m",
@@ -187,9 +187,9 @@ void readout(const EditorView& view, const LayerSettings& layers) {
     if (!beginValues("readout")) return;
     valueRow("Height", fmt::format("{:.0f} m", under.place.heightM),
              "Height above sea level, without exaggeration.");
-    valueRow("Slope", fmt::format("{:.1f} deg", under.place.slopeDeg),
+    valueRow("Slope", fmt::format("{:.1f}°", under.place.slopeDeg),
              "Slope of the drawn heights used by the layers, without exaggeration.");
-    valueRow("Latitude", fmt::format("{:.2f} deg", under.place.latitudeDeg), "Latitude, north positive.");
+    valueRow("Latitude", fmt::format("{:.2f}°", under.place.latitudeDeg), "Latitude, north positive.");
     double rest = 1;
     for (std::size_t i = layers.set.layers.size(); i-- > 0;) {
         rest -= under.weights[i];
@@ -214,7 +214,7 @@ void loadControl(const EditorView& view, LayersPanelState& state, const LayerSet
         return;
     }
     for (const LayerSetFile& set : view.layers.sets) {
-        const std::string label = fmt::format("{}{}", set.name, set.shipped ? "" : "  (own)");
+        const std::string label = fmt::format("{}{}", set.name, set.shipped ? "" : "  (user)");
         if (ImGui::Selectable(label.c_str())) commands.push_back(LoadLayerSet{set.file});
         noteItem("set: " + set.name);
         tooltip(set.file.string().c_str());
@@ -227,6 +227,9 @@ void loadControl(const EditorView& view, LayersPanelState& state, const LayerSet
 void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettings& layers,
               Commands& commands) {
     loadControl(view, state, layers, commands);
+    // A name that was refused stays, to be mended; the message box says why.
+    if (state.saving && view.layers.setProblem.empty()) state.newName.fill(0);
+    state.saving = false;
     const float room = ImGui::CalcTextSize("Save").x + 2 * ImGui::GetStyle().FramePadding.x +
                        ImGui::GetStyle().ItemSpacing.x;
     ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - room, ImGui::GetFontSize() * 4));
@@ -239,10 +242,9 @@ void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettin
     beginGrey(state.newName[0] == 0, "Type a name first.");
     if (button("Save##set", "Saves the layers as a TOML file.")) {
         commands.push_back(SaveLayerSet{state.newName.data()});
-        state.newName.fill(0);
+        state.saving = true;
     }
     endGrey();
-    if (!view.layers.setProblem.empty()) wrappedText(view.layers.setProblem, palette().bad);
 }
 
 }  // namespace

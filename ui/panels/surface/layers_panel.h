@@ -13,6 +13,7 @@ struct LayersPanelState {
     std::size_t chosen = 0;          // of the layers; the last one where there are fewer
     std::string set;                 // chosen to be loaded, by name
     std::array<char, 61> newName{};  // of a set to be saved
+    bool saving = false;             // under that name, in the frame before
 };
 
 // Sections of the current window.

@@ -268,7 +268,7 @@ void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings
     if (section("Height ramp")) rampEditor(view, state, surface);
     if (section("Sea")) seaKnobs(surface);
     if (section("Relief")) {
-        slider("Exaggeration", surface.exaggeration, defaults.exaggeration, 0.1, 100, "x %.2f",
+        slider("Exaggeration", surface.exaggeration, defaults.exaggeration, 0.1, 100, "%.2f x",
                "Factor applied to heights; errors, bounds and skirts scale with it. Larger: more chunks for "
                "the same tolerance.",
                ImGuiSliderFlags_Logarithmic);

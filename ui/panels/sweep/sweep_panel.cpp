@@ -53,6 +53,9 @@ void flightControl(const Flights& flights, SweepPanelState& state) {
     const char* explanation =
         "Flight to measure: a flight of keys or a recorded flight, from the folders \"flights\".";
     labelledControl("Flight", explanation);
+    // Names of flights are long: in a narrow dock the control stands below its label.
+    if (ImGui::GetContentRegionAvail().x < 14 * ImGui::GetFontSize()) ImGui::NewLine();
+    ImGui::SetNextItemWidth(-1);
     combo("Flight", index, names.c_str());
     tooltip(explanation);
     state.flight = flights[static_cast<std::size_t>(index)].string();
@@ -184,7 +187,7 @@ void progressLines(const EditorView& view, Commands& commands) {
         now +=
             fmt::format("; {}{} left", view.sweep.suggesting ? "at most " : "about ", durationText(*p.leftS));
     // Over the text, whose lines come and go.
-    beginGrey(view.sweep.cancelling, "It is stopping.");
+    beginGrey(view.sweep.cancelling, "Cancelling.");
     if (button("Cancel", "Cancels the sweep. Points measured so far stay visible, but are not saved."))
         commands.push_back(CancelSweep{});
     endGrey();
@@ -242,7 +245,7 @@ void goalControl(SweepPanelState& state) {
         "per frame for selection and drawing, or MiB of resident chunks.";
     labelledControl("below", explanation);
     double limit = state.limits[goal];
-    ImGui::InputDouble("##limit", &limit, 0, 0, goalKinds[goal].unit);
+    numberField("##limit", limit, goalKinds[goal].unit);
     noteItem("Limit");
     tooltip(explanation);
     if (limit > 0 && std::isfinite(limit)) state.limits[goal] = limit;
@@ -256,7 +259,7 @@ void answer(const SweepSuggestion& suggestion, const EditorView& view, ViewSetti
         suggestion.found.met ? palette().text : palette().warning);
     if (!suggestion.found.met) return;
     ImGui::PushID(tight ? 1 : 0);
-    beginGrey(view.recording.replay.has_value(), "A replay has settings of its own; end it first.");
+    beginGrey(view.recording.replay.has_value(), "Settings are locked during a replay; end it first.");
     if (ImGui::Button("Apply")) {
         settings.lod.tauPx = suggestion.found.tauPx;
         settings.lod.metric = suggestion.metric;
@@ -333,8 +336,9 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
     const SweepPoint* point = state.selected ? &table.points[*state.selected] : nullptr;
     const bool samePlanet = table.source == view.data.source;
     const bool otherSize = point && point->chunkSize != planet::chunkSize(view.planet->shape());
-    beginGrey(!point || view.recording.replay.has_value(),
-              point ? "A replay has settings of its own; end it first." : "Select a point or a row first.");
+    beginGrey(
+        !point || view.recording.replay.has_value(),
+        point ? "Settings are locked during a replay; end it first." : "Select a point or a row first.");
     const bool pressed = ImGui::Button("Use these settings");
     noteItem("Use these settings");
     endGrey();
@@ -345,7 +349,7 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
         if (otherSize)
             meaning += samePlanet
                            ? fmt::format(", and opens the chunks of {} baked for the sweep", point->chunkSize)
-                           : ". The chunk size stays, because another planet is open";
+                           : ". The chunk size is kept: another planet is open";
         meaning += ".";
     }
     tooltip(meaning.c_str());
@@ -358,7 +362,7 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
 void saveButton(const SweepTable& table, const SweepPanelState& state, Commands& commands) {
     const char* label = "Save table and plot";
     sameLineIfRoom(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x);
-    beginGrey(!table.whole, "Only a sweep that has come to its end is saved.");
+    beginGrey(!table.whole, "Only a completed sweep can be saved.");
     if (button(label, table.whole ? "Saves the table as .csv and .json and the plot as .png, beside the "
                                     "screenshots. The log shows the paths."
                                   : "Only a completed sweep can be saved."))

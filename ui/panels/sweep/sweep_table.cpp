@@ -93,9 +93,9 @@ void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
 void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected) {
     std::array<TableColumn, sweepColumns.size()> columns{};
     std::transform(sweepColumns.begin(), sweepColumns.end(), columns.begin(), [](const SweepColumn& column) {
-        return TableColumn{column.title, column.share, column.explanation};
+        return TableColumn{column.title, column.share, column.explanation, "additive"};
     });
-    if (!beginWideTable("points", columns, 48, 1)) return;
+    if (!beginWideTable("points", columns, 1)) return;
     const std::vector<SweepSeries> series = seriesOf(points);
     std::vector<std::size_t> seriesIndex(points.size());
     for (std::size_t s = 0; s < series.size(); ++s) {

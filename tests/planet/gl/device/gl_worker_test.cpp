@@ -125,6 +125,21 @@ protected:
     View view_ = viewFrom({}, 20, 30, 1e7);
 };
 
+TEST_F(StandInTest, theAnalyticAtmosphereIsDrawnUntilTheFirstTablesAreThere) {
+    RenderSettings settings = plainSettings();
+    settings.atmosphere = settings.lighting = true;
+    settings.light.air.use = FeatureUse::Off;
+    const Picture analytic = drawn(settings, ShaderWait::UntilReady);
+    settings.light.air.use = FeatureUse::On;
+    settings.light.air.settings.haze = 6.75;  // that no other test has tables of
+    renderer_.setAirInBackground(true);
+    EXPECT_EQ(drawn(settings, ShaderWait::Never).rgb, analytic.rgb);
+    EXPECT_TRUE(standIn());
+    EXPECT_TRUE(renderer_.airFigures().working);
+    EXPECT_NE(drawn(settings, ShaderWait::UntilReady).rgb, analytic.rgb);
+    EXPECT_FALSE(standIn());
+}
+
 TEST_F(StandInTest, theLastProgramDrawsUntilTheWantedOneIsCompiled) {
     const Picture plain = drawn(plainSettings(), ShaderWait::UntilReady);
     EXPECT_FALSE(standIn());

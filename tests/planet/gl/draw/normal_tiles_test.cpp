@@ -303,7 +303,7 @@ TEST_F(NormalTiles, TheirMemoryIsCountedAndGivenBack) {
     EXPECT_EQ(planet_.renderer().gpuMemory().textures, before);
     const auto tooMany = planet_.renderer().setNormals(NormalPoolConfig{1, 1u << 20, 1});
     ASSERT_FALSE(tooMany);
-    EXPECT_THAT(tooMany.error().message, testing::HasSubstr("1048576 tiles of normals"));
+    EXPECT_THAT(tooMany.error().message, testing::HasSubstr("1048576 normal tiles"));
 }
 
 }  // namespace

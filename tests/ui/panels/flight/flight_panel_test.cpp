@@ -46,10 +46,9 @@ TEST(FlightPanel, ChangesAreSteppedThroughOneByOne) {
     EXPECT_EQ(nextTickS({}, 0.7, true), 0.7);
 }
 
-TEST(FlightPanel, TheFlightThatIsRecordedIsSelected) {
+TEST(FlightPanel, aRecordingIsSelectedOnceAndAgainUnderTheNameItIsSavedBy) {
     PanelWindow window{{400, 600}};
     FlightPanelState state;
-    state.selected = "an old one";
     const FrameStats stats;
     const std::deque<FrameSample> history;
     const planet::LodChanges changes;
@@ -60,8 +59,17 @@ TEST(FlightPanel, TheFlightThatIsRecordedIsSelected) {
     view.recording.recording = RecordingNow{"flight 7", 1, 60, 1000, false};
     ViewSettings settings;
     Commands commands;
-    window.frame([&] { flightPanel(view, state, settings, commands); });
+    const auto draw = [&] { window.frame([&] { flightPanel(view, state, settings, commands); }); };
+    state.selected = "an old one";
+    draw();
     EXPECT_EQ(state.selected, "flight 7");
+    state.selected = "an old one";  // picked while it records
+    draw();
+    EXPECT_EQ(state.selected, "an old one");
+    view.recording.recording.reset();
+    view.recording.saved = "flight 8";  // the name was taken
+    draw();
+    EXPECT_EQ(state.selected, "flight 8");
 }
 
 }  // namespace

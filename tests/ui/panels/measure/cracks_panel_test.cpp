@@ -72,12 +72,37 @@ TEST_F(CracksPanel, appliesWhatTheGapsAskFor) {
     EXPECT_EQ(settings_.seams.skirtFactor, 0.75);
 }
 
+TEST_F(CracksPanel, withoutCracksThereIsNothingToApply) {
+    smallest_ = {0, 0};
+    measured_.required = {0, 0};
+    for (const char* name : {"Apply Smallest depth", "Apply Smallest factor",
+                             "Apply Required depth (max gap)", "Apply Required factor (max gap)"}) {
+        click(name);
+        EXPECT_TRUE(saysWhy(name)) << name;
+    }
+    EXPECT_EQ(settings_, ViewSettings{});
+}
+
+TEST_F(CracksPanel, resultsThatAreOutOfDateAreGreyAndSayWhy) {
+    view_.cracks.current = false;
+    click("Apply Smallest depth");
+    EXPECT_EQ(settings_, ViewSettings{});
+    EXPECT_TRUE(saysWhy("Apply Smallest depth"));
+}
+
 TEST_F(CracksPanel, aFactorThatNobodyMaySetIsGreyAndSaysWhy) {
     smallest_.factor = std::numeric_limits<double>::infinity();
     click("Apply Smallest factor");
     EXPECT_EQ(settings_, ViewSettings{});
     EXPECT_TRUE(saysWhy("Apply Smallest factor"));
     EXPECT_FALSE(saysWhy("Apply Smallest depth"));
+}
+
+TEST(CracksView, crackPixelsWithoutAGapComeFromRounding) {
+    EXPECT_STREQ(roundingNote(0, 0), "");
+    EXPECT_STREQ(roundingNote(1, 0.0006), "");
+    EXPECT_STRNE(roundingNote(1, 0.0004), "");
+    EXPECT_STRNE(roundingNote(1, 0), "");
 }
 
 TEST_F(CracksPanel, findSmallestSkirtsSaysWhyItIsGrey) {

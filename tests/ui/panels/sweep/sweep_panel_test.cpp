@@ -44,13 +44,12 @@ TEST(SweepPanel, SaysWhatIsWrongWithTolerancesAndWhatWouldBeRight) {
 
 TEST(SweepPanel, AnswersInWords) {
     EXPECT_EQ(suggestionText({true, SweepCost::Triangles, 1}, {1.8342, 0.9831, true, 7}, "tau"),
-              "tau 1.83 px keeps the max measured error at 0.983 px (7 flights flown).");
+              "tau = 1.83 px: max measured error 0.983 px, within the limit (7 flights flown).");
     EXPECT_EQ(suggestionText({false, SweepCost::Triangles, 200'000}, {2, 198'000, true, 11}, "tau"),
-              "tau 2 px keeps the mean number of triangles at 198 k (11 flights flown).");
-    EXPECT_EQ(
-        suggestionText({false, SweepCost::MemoryMiB, 4}, {64, 12.5, false, 1}, "tau"),
-        "No tau from 0.1 to 64 px keeps the memory of resident chunks within 4 MiB: at 64 px it is 12.5 MiB "
-        "(1 flight flown).");
+              "tau = 2 px: mean triangles 198 k, within the limit (11 flights flown).");
+    EXPECT_EQ(suggestionText({false, SweepCost::MemoryMiB, 4}, {64, 12.5, false, 1}, "tau"),
+              "No tau in [0.1, 64] px meets the limit of 4 MiB; at 64 px: memory of resident chunks 12.5 MiB "
+              "(1 flight flown).");
 }
 
 TEST(SweepPanel, JoinsPointsOfOneChunkSizeAndMetricByTheirTau) {

@@ -1,0 +1,131 @@
+#include "app/settings/setting_labels.h"
+
+#include <algorithm>
+#include <array>
+
+namespace worldy {
+
+namespace {
+
+struct SettingLabel {
+    std::string_view name;
+    std::string_view label;
+};
+
+constexpr std::array settingLabelTable = {
+    SettingLabel{"lod.tau_px", "Tolerance τ"},
+    SettingLabel{"lod.hysteresis", "Hysteresis"},
+    SettingLabel{"lod.max_level", "Max LOD level"},
+    SettingLabel{"lod.morph", "Morph"},
+    SettingLabel{"lod.morph_range", "Morph range"},
+    SettingLabel{"lod.frustum_culling", "Frustum culling"},
+    SettingLabel{"lod.horizon_culling", "Horizon culling"},
+    SettingLabel{"lod.metric", "Error metric"},
+    SettingLabel{"lod.fade_s", "Fade"},
+    SettingLabel{"seams.mode", "Seams"},
+    SettingLabel{"seams.depth", "Skirt depth"},
+    SettingLabel{"seams.skirt_factor", "Skirt factor"},
+    SettingLabel{"seams.skirt_depth_m", "Fixed skirt depth"},
+    SettingLabel{"seams.show_pairs", "Highlight LOD seams"},
+    SettingLabel{"paging.budget_mb", "Budget"},
+    SettingLabel{"paging.loader_threads", "Loaders"},
+    SettingLabel{"paging.upload_limit_ms", "Upload limit"},
+    SettingLabel{"paging.colour_share", "Colour share"},
+    SettingLabel{"paging.normal_share", "Fine normals share"},
+    SettingLabel{"paging.retries", "Retries"},
+    SettingLabel{"paging.retry_delay_s", "Retry delay"},
+    SettingLabel{"paging.simulated", "Simulated paging"},
+    SettingLabel{"bad_disk.latency_ms", "Latency"},
+    SettingLabel{"bad_disk.bandwidth_mb_s", "Bandwidth"},
+    SettingLabel{"bad_disk.failure_rate", "Failure rate"},
+    SettingLabel{"bad_disk.shuffled_order", "Shuffled order"},
+    SettingLabel{"bad_disk.seed", "Seed"},
+    SettingLabel{"overlay.colour_by", "Colour by"},
+    SettingLabel{"overlay.opacity", "Tint opacity"},
+    SettingLabel{"overlay.error_scale", "Midpoint"},
+    SettingLabel{"overlay.delta_top_m", "Max δc"},
+    SettingLabel{"overlay.age_top_s", "Max age"},
+    SettingLabel{"overlay.outlines", "Outlines"},
+    SettingLabel{"overlay.bounds", "Bounds"},
+    SettingLabel{"overlay.wireframe", "Wireframe"},
+    SettingLabel{"overlay.skirt_paint", "Skirts"},
+    SettingLabel{"overlay.labels", "Labels"},
+    SettingLabel{"overlay.cube", "Unprojected cube"},
+    SettingLabel{"overlay.clipmap", "Clipmap"},
+    SettingLabel{"surface.colour", "Surface colour"},
+    SettingLabel{"surface.image_opacity", "Image opacity"},
+    SettingLabel{"surface.streamed", "Streamed"},
+    SettingLabel{"surface.texels_per_pixel", "Texels per pixel"},
+    SettingLabel{"surface.colour_mode", "Sampling"},
+    SettingLabel{"surface.clipmap_size_px", "Clipmap size"},
+    SettingLabel{"surface.ramp", "Height ramp"},
+    SettingLabel{"surface.sea", "Sea"},
+    SettingLabel{"surface.sea_level_m", "Sea level"},
+    SettingLabel{"surface.exaggeration", "Exaggeration"},
+    SettingLabel{"surface.lighting", "Lighting"},
+    SettingLabel{"surface.atmosphere", "Atmosphere"},
+    SettingLabel{"surface.detail", "Surface detail"},
+    SettingLabel{"surface.sun_follows", "Sun follows"},
+    SettingLabel{"surface.sun_by_date", "Sun by date"},
+    SettingLabel{"surface.sun_year", "Year"},
+    SettingLabel{"surface.sun_month", "Month"},
+    SettingLabel{"surface.sun_day", "Day"},
+    SettingLabel{"surface.sun_hour", "Hour"},
+    SettingLabel{"surface.sun_latitude_deg", "Sun latitude"},
+    SettingLabel{"surface.sun_longitude_deg", "Sun longitude"},
+    SettingLabel{"surface.layer_use", "Layers"},
+    SettingLabel{"surface.layer_opacity", "Layer opacity"},
+    SettingLabel{"surface.layer_begin_m", "Fade start"},
+    SettingLabel{"surface.layer_end_m", "Fade end"},
+    SettingLabel{"surface.layer_colour_below", "Base-colour blend"},
+    SettingLabel{"surface.layer_preview", "Layer preview"},
+    SettingLabel{"surface.layer_previewed", "Previewed layer"},
+    SettingLabel{"surface.layer_blend", "Blend by"},
+    SettingLabel{"surface.layer_blend_depth", "Blend depth"},
+    SettingLabel{"surface.layer_set", "Layer set"},
+    SettingLabel{"surface.layers", "Layer stack"},
+    SettingLabel{"light.air", "Physical model"},
+    SettingLabel{"light.sea", "Sea surface"},
+    SettingLabel{"light.sea_wind_mps", "Wind"},
+    SettingLabel{"light.sea_clarity_m", "Clarity"},
+    SettingLabel{"light.sea_waves", "Waves"},
+    SettingLabel{"light.shadows", "Shadows"},
+    SettingLabel{"light.shadow_map_px", "Shadow map size"},
+    SettingLabel{"light.shadow_reach_m", "Shadow distance"},
+    SettingLabel{"light.shadow_softness", "Softness"},
+    SettingLabel{"light.normals", "Fine normals"},
+    SettingLabel{"light.normal_texels_per_pixel", "Fine normals, texels per pixel"},
+    SettingLabel{"light.fill", "Fill light"},
+    SettingLabel{"light.air_rayleigh", "Rayleigh"},
+    SettingLabel{"light.air_haze", "Haze"},
+    SettingLabel{"light.air_ozone", "Ozone"},
+    SettingLabel{"light.air_forward", "Mie asymmetry g"},
+    SettingLabel{"light.air_thickness", "Scale height"},
+    SettingLabel{"light.air_exposure", "Exposure"},
+    SettingLabel{"light.air_steps", "Steps"},
+    SettingLabel{"view.fov_deg", "Field of view"},
+    SettingLabel{"view.mode", "Camera mode"},
+    SettingLabel{"view.observer", "Observer"},
+    SettingLabel{"view.observer_own_lod", "Own LOD"},
+    SettingLabel{"view.show_frustum", "Frustum"},
+    SettingLabel{"view.show_horizon", "Horizon"},
+    SettingLabel{"view.show_switch_distances", "Switch distance"},
+    SettingLabel{"view.flight", "Flight"},
+    SettingLabel{"cracks.live", "Measure while flying"},
+    SettingLabel{"cracks.every_frames", "Crack measurement every"},
+    SettingLabel{"cracks.mark", "Highlight in viewport"},
+    SettingLabel{"compare.mode", "Compare: show"},
+    SettingLabel{"compare.gain", "Gain"},
+    SettingLabel{"compare.wipe", "Divider"},
+    SettingLabel{"compare.show_b", "Show B"},
+};
+
+}  // namespace
+
+std::string_view settingLabel(std::string_view name) {
+    const auto found = std::find_if(settingLabelTable.begin(), settingLabelTable.end(),
+                                    [&](const SettingLabel& one) { return one.name == name; });
+    return found == settingLabelTable.end() ? name : found->label;
+}
+
+}  // namespace worldy

@@ -1,0 +1,50 @@
+#include "app/editor/input.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/panel_fixture.h"
+
+namespace worldy {
+namespace {
+
+class Input : public testing::Test {
+protected:
+    PointerInput at(ImVec2 place, bool down, ImGuiMouseButton button = 0) {
+        ui::PanelWindow::movePointer(place);
+        ImGui::GetIO().MouseDown[button] = down;
+        PointerInput input;
+        window_.frame([&] {
+            ImGui::InvisibleButton("picture", {300, 200},
+                                   ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+            input = readPointer(1);
+        });
+        return input;
+    }
+
+    ui::PanelWindow window_{{400, 300}};
+};
+
+TEST_F(Input, motionBeforeThePressIsNoDrag) {
+    for (const ImGuiMouseButton button : {ImGuiMouseButton_Left, ImGuiMouseButton_Right}) {
+        at({20, 20}, false, button);
+        at({20, 20}, false, button);
+        const PointerInput pressed = at({120, 90}, true, button);  // moved and pressed in one frame
+        EXPECT_EQ(pressed.dragPx, glm::dvec2(0, 0));
+        EXPECT_EQ(pressed.lookPx, glm::dvec2(0, 0));
+        const PointerInput dragged = at({125, 88}, true, button);
+        EXPECT_EQ(button == 0 ? dragged.dragPx : dragged.lookPx, glm::dvec2(5, -2));
+        at({125, 88}, false, button);
+    }
+}
+
+TEST_F(Input, aClickRightAfterAMotionSelectsAndDoesNotMove) {
+    at({20, 20}, false);
+    at({20, 20}, false);
+    EXPECT_EQ(at({150, 100}, true).dragPx, glm::dvec2(0, 0));
+    const PointerInput released = at({150, 100}, false);
+    EXPECT_TRUE(released.clicked);
+    EXPECT_EQ(released.dragPx, glm::dvec2(0, 0));
+}
+
+}  // namespace
+}  // namespace worldy

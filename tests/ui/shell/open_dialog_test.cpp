@@ -1,0 +1,18 @@
+#include "ui/shell/open_dialog.h"
+
+#include <gtest/gtest.h>
+
+#include "app/flight/flight_record.h"
+#include "ui/model/recording_view.h"
+
+namespace ui {
+namespace {
+
+TEST(OpenDialog, listsRecordedFlights) {
+    const std::filesystem::path flight = std::string("canyon") + recordedFlightEnding;
+    EXPECT_TRUE(worldy::isFlightRecord(flight));
+    EXPECT_TRUE(mayBeOpened(flight));
+}
+
+}  // namespace
+}  // namespace ui
