@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/base/places.h"
-#include "planet/bake/bake.h"
 #include "planet/source/terrain.h"
 #include "ui/model/own_colour.h"
 

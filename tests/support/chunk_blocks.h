@@ -10,6 +10,7 @@
 
 #include "planet/base/little_endian.h"
 #include "planet/format/chunk_file_format.h"
+#include "planet/sphere/block_id.h"
 
 namespace planet::test {
 

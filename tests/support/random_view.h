@@ -1,6 +1,7 @@
 // Views from anywhere to anywhere, for tests that have to hold for all of them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
