@@ -734,8 +734,8 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("tables")) return;
     const planet::PagingCounters& p = view.stats.paging;
-    const std::string queue =
-        fmt::format("Queue {} load, {} evict###queue", state.sample.loads, state.sample.evictions);
+    // The rows of the table, loads and evictions; a longer title is cut in a narrow dock.
+    const std::string queue = fmt::format("Queue {}###queue", state.sample.loads + state.sample.evictions);
     if (ImGui::BeginTabItem(queue.c_str())) {
         queueTable(view, state, commands);
         ImGui::EndTabItem();
