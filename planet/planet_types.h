@@ -1,4 +1,4 @@
-// What a Planet (planet.h) is opened from and stepped with: plain data.
+// The inputs of Planet::open and Planet::step (planet.h), as plain data.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ namespace worldy {
 
 namespace {
 
-// Of the first write to standard output that failed; 0: none, or not known.
+// The errno of the first write to standard output that failed; 0 if none failed or its reason is unknown.
 std::atomic<int> outputError = 0;
 
 }  // namespace

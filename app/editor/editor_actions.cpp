@@ -77,7 +77,7 @@ bool followOpening(const Session& session, Editor& editor) {
     if (session.open && session.problem->kind != planet::ErrorKind::Cancelled)
         editor.message = {fmt::format("{} cannot be baked", file.filename().string()),
                           session.problem->message,
-                          "The planet that is open stays. Correct the file, or open another one.", true};
+                          "The open planet is kept. Fix the file or open another one.", true};
     return false;
 }
 

@@ -41,8 +41,8 @@ bool jumpsBetween(const FlightPath& path, double fromS, double toS);
 // is that of --step-s: more than `most` views.
 planet::Result<int> flightViews(const FlightPath& path, double stepS, int most);
 
-// Where along a flight a command samples it: a number of frames, evenly spread from the first key to the
-// last, or one frame every so many seconds. One of the two is given.
+// The times at which a command samples a flight: either a number of frames, spread evenly from the first key
+// to the last, or one frame per step. Exactly one of the two is set.
 struct FlightSampling {
     std::optional<int> frames{};    // >= 1
     std::optional<double> stepS{};  // > 0

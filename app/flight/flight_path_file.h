@@ -21,7 +21,7 @@
 namespace worldy {
 
 // Reads a TOML file of keys, or the path of a recorded .flight (app/flight/flight_record.h). The Error names
-// the file, the key's number from 1 and what would be right.
+// the file, the key's number from 1 and the expected value.
 planet::Result<FlightPath> loadFlightPath(const std::filesystem::path& file);
 // Does the same for a TOML file's text; place stands for the file's name in errors.
 planet::Result<FlightPath> flightPathFromText(std::string_view text, const std::filesystem::path& place);

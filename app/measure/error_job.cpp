@@ -37,7 +37,7 @@ void takeResult(ErrorMeter& meter) {
     meter.last = std::move(measurement);
 }
 
-// What a planet draws in this frame.
+// Returns what the planet draws in this frame and the settings that it was selected with.
 ui::ErrorMeasurement frameOf(const planet::Planet& planet) {
     const planet::LodSettings& lod = planet.lodSettings();
     ui::ErrorMeasurement frame;

@@ -18,7 +18,7 @@ namespace worldy {
 bool operator==(const Settings& a, const Settings& b);
 
 // Reads a settings file. Missing keys keep the values of base; keys of older versions are understood. The
-// Error names the file, the line, the key and what would be right.
+// Error names the file, the line, the key and the expected value.
 planet::Result<Settings> loadSettings(const std::filesystem::path& file, const Settings& base = {});
 // Does the same for text; place stands for the file's name in errors.
 planet::Result<Settings> settingsFromText(std::string_view text, const std::filesystem::path& place,
@@ -31,7 +31,7 @@ std::string settingsText(const Settings& settings);
 planet::Result<void> saveSettings(const Settings& settings, const std::filesystem::path& file);
 
 // Sets one setting: "lod.tau_px=3", "surface.colour=ramp", texts with or without quotes. On failure nothing
-// changes, and the Error names the setting or the nearest one, and what would be right.
+// changes, and the Error names the setting or the nearest one, and the expected value.
 planet::Result<void> setSetting(Settings& settings, std::string_view assignment);
 
 // Returns the view settings that differ, as text: "lod.tau_px", "2", "3".

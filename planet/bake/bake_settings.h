@@ -1,4 +1,4 @@
-// What a bake is asked for (bake.h, colour_bake.h): plain data.
+// The settings of a bake (bake.h, colour_bake.h), as plain data.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ inline constexpr std::size_t chunkFileHeaderBytes = 512;
 inline constexpr std::uint32_t chunkFileVersion = 3;
 inline constexpr std::uint32_t oldestChunkFileVersion = 2;  // it has no colours; the reader still accepts it
 
-// Where a block lies in the file. Offset 0 is the header, so it means "none".
+// The place of a block in the file. Offset 0 is the header, so it means "none".
 struct BlockLocation {
     std::uint64_t offset = 0;  // bytes from the file's start
     std::uint32_t size = 0;    // bytes, checksum included

@@ -61,8 +61,8 @@ struct PagingEvent {
     PagingType type = PagingType::PageIn;  // only Cancelled has either; page-outs end in no other way
 };
 
-// What the loaders did to the requests in one step or one call between steps: everything about paging that
-// depends on a clock, and what was requested.
+// The outcome of requests in one step or one call between steps: everything about paging that depends on a
+// clock, and the blocks that were requested.
 struct PagingMoves {
     struct Arrival {
         BlockId block;

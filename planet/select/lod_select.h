@@ -21,9 +21,9 @@
 // Until then the switch waits, and what waits slides there; edges have morphs of their own, for which the
 // same holds. So a switch moves nothing, a change over several levels takes fadeS for each, and what was not
 // in the picture before begins at its natural value.
-// What still pops: children that are no longer resident, or that stitched seams do not allow, are gone at
-// once; and one edge of a chunk moves if a coarser chunk beside it is split in the very frame in which it
-// takes its children's place, or in which it is split itself and what comes of the other there is culled.
+// Two cases still pop. Children that are evicted, or that stitched seams do not allow, vanish at once. One edge
+// of a chunk moves if a coarser chunk beside it is split in the frame in which the chunk replaces its children,
+// or in which the chunk is split itself and the neighbour's children there are culled.
 //
 // Stitched seams: along an edge whose neighbour is coarser by d levels, the vertex shader moves each vertex
 // onto a multiple of 2^d, so both sides have the same vertices; drawn_surface.h says which, and how they go

@@ -1,4 +1,4 @@
-// What a selection of chunks is asked for and what it returns (lod_select.h): plain data.
+// The settings and the result of a selection of chunks (lod_select.h), as plain data.
 #pragma once
 
 #include <array>
@@ -37,9 +37,8 @@ struct LodSettings {
     SeamMode seams = SeamMode::Skirts;
     SkirtDepth skirtDepth = SkirtDepth::Automatic;
     double skirtDepthM = 1000;  // of Fixed, metres, >= 0; less than the gaps: cracks show
-    // Of Automatic: skirt depth / (delta_c of a chunk + delta_c of the drawn neighbour that differs most from
-    // the truth). At 1 no crack shows, since neither surface is farther than its delta_c from the finest; 0:
-    // no skirts.
+    // For Automatic: skirt depth / (delta_c of the chunk + the largest delta_c among its drawn neighbours).
+    // At 1 no crack shows, because each surface is within its delta_c of the finest data. 0: no skirts.
     double skirtFactor = 1;
 
     bool operator==(const LodSettings&) const = default;

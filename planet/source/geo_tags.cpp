@@ -141,8 +141,8 @@ std::string projectionText(const GeoKeys& keys) {
                                : fmt::format("projected coordinates, EPSG {}", code);
 }
 
-// Of the equirectangular projections with a code, all centred on longitude 0; 0 of any other. Files with a code
-// often leave the projection's own keys out.
+// Returns the radius in metres of the equirectangular projection with an EPSG code, 0 for any other code.
+// These projections are centred on longitude 0. Files with a code often omit the projection's own keys.
 double knownRadiusM(std::optional<int> code) {
     if (code == 4087 || code == 32662) return 6378137;  // WGS 84
     return code == 4088 ? 6371007 : 0;
@@ -223,7 +223,8 @@ std::string elementText(const std::string& xml, const std::string& name, const T
     return {};
 }
 
-// Of GDAL_METADATA: <Item name="SCALE" sample="0" role="scale">0.1</Item>.
+// Reads scale, offset and unit of the first band from GDAL_METADATA:
+//     <Item name="SCALE" sample="0" role="scale">0.1</Item>.
 void takeBandItems(const std::string& xml, GeoTags& tags) {
     const auto item = [&](const char* role) {
         return elementText(xml, "Item", [&](const std::string& start) {
@@ -267,7 +268,7 @@ std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
     return {};
 }
 
-// As many numbers as it begins with.
+// Returns the numbers at the beginning of a text that separates them by commas or spaces.
 std::vector<double> numbersIn(std::string text) {
     std::replace(text.begin(), text.end(), ',', ' ');
     std::istringstream stream(text);

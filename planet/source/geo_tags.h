@@ -1,6 +1,6 @@
-// What is known of an image's samples besides their values: where they lie, which value means that one is
-// missing, and how values become heights. From the tags of a GeoTIFF, which OpenImageIO 2.4 does not pass on,
-// and from the files that may lie beside an image. Internal to the library. Any thread.
+// Reads the metadata of an image's samples: their place, the value that marks a missing sample, and the scale
+// from values to heights. The sources are the tags of a GeoTIFF, which OpenImageIO 2.4 does not pass on, and
+// the world file or .aux.xml beside an image. Internal to the library; any thread.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct GeoPlacement {
 struct GeoTags {
     std::optional<GeoPlacement> placement;
     std::optional<double> noDataValue;  // GDAL_NODATA; NaN is left out, since it is missing anyway
-    // Of the first band: height = (offset + scale * value) units.
+    // For the first band, height = (offset + scale * value) units.
     std::optional<double> scale;
     std::optional<double> offset;
     std::string unit;  // "m", "ft"; empty: not told

@@ -177,7 +177,7 @@ TEST(PlanetNormals, TurnedOffAndOnTheirRootsAreKept) {
     EXPECT_EQ(pool.tiles.size(), 6u);
 }
 
-// What is recorded must not depend on when a thread is done.
+// A recording must not depend on when a thread ends.
 TEST(PlanetNormals, WhereStepsAreRecordedTheirRootsAreThereAtOnce) {
     PagingSettings settings = roomForNormalTiles(200);
     SlowlyRead slow(settings);

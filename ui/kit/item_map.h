@@ -1,5 +1,6 @@
-// Where controls are on the screen, by name: for scripts that drive the window, as the tests and the manual's
-// pictures do. Nothing is noted unless it is asked for. One thread, as ImGui.
+// Maps the names of controls to their places on the screen, for scripts that drive the window: the tests and
+// the script that takes the manual's pictures. Nothing is collected unless collectItems() asks for it. One
+// thread.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ std::string pageOutReason(double ageS);
 // "heights", "colours", "normals".
 const char* kindText(planet::BlockKind kind);
 
-// What one kind of blocks has come to.
+// The totals of one kind of blocks since the planet was opened.
 struct KindTotals {
     const char* kind;
     std::uint64_t loaded, evicted, failed, bytesRead;

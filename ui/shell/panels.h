@@ -26,7 +26,7 @@
 
 namespace ui {
 
-// What panels remember from frame to frame that is no setting.
+// The state that panels keep between frames and that is not a setting.
 struct PanelStates {
     QuadtreePanelState quadtree;
     ChunkPanelState chunk;

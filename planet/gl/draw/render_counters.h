@@ -1,4 +1,4 @@
-// What the renderer (chunk_renderer.h) tells of the context, its memory and the last frame: plain data.
+// The renderer's (chunk_renderer.h) counters, capabilities and GPU memory, as plain data.
 #pragma once
 
 #include <cstddef>

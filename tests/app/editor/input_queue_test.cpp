@@ -45,7 +45,7 @@ TEST(InputQueue, aKeyTappedWithinAFrameIsDownForOneFrame) {
     EXPECT_EQ(framesOf(twice).size(), 4u);
 }
 
-// As GLFW tells of BackSpace tapped three times without a pause.
+// GLFW reports BackSpace tapped three times without a pause like this.
 TEST(InputQueue, aRepeatThatComesWithoutAHoldIsAnotherTap) {
     const auto at = [](InputKind kind, double s) {
         return InputEvent{.kind = kind, .code = GLFW_KEY_BACKSPACE, .atS = s};

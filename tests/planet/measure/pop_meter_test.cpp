@@ -789,7 +789,7 @@ TEST(PopMeter, TheMeanOfAMergeIsOverTheScreenToo) {
     }
 }
 
-// Of stitched edges the mean counts the grid points alone.
+// For stitched edges the mean counts grid points only.
 TEST(PopMeter, TheMeanOfStitchedChunksIsOverTheScreenToo) {
     const View view = aboveMountain();
     const DrawnChunk coarse = chunkOfTree(mountain, 0, true);
