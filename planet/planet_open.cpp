@@ -39,15 +39,6 @@ Error namingFile(const ChunkFile* file, Error error) {
     return error;
 }
 
-Result<ChunkTree> makeChunkTree(const ChunkFile& file) {
-    auto roots = readRoots(file);
-    if (!roots) return tl::unexpected(std::move(roots.error()));
-    const ChunkFileInfo& info = file.info();
-    auto tree = makeChunkTree(info.shape, info.minStep, info.maxStep, std::move(*roots));
-    if (!tree) return tl::unexpected(namingFile(&file, std::move(tree.error())));
-    return tree;
-}
-
 Result<std::unique_ptr<Planet>> Planet::open(const std::filesystem::path& path,
                                              const PagingSettings& settings, const FileCalls& calls) {
     Result<ChunkFile> file = ChunkFile::open(path, calls);

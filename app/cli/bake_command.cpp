@@ -41,6 +41,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"root_tight_m", report.largestDeltaTightM},
                                          {"colour_tiles", report.colourTiles},
                                          {"colour_bytes", report.colourBytes},
+                                         {"colour_notice", report.colourNotice},
                                          {"seconds", report.seconds}};
     fmt::print("{}", jsonText(json));
 }
@@ -69,6 +70,7 @@ void printWarnings(const BakeOptions& options, const planet::BakeReport& report)
         printMessage("worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
                      report.missingSamples, options.sourceSettings.fillM);
     }
+    if (!report.colourNotice.empty()) printMessage("worldy: {}\n", report.colourNotice);
 }
 
 void printField(const planet::TerrainField& field, const planet::TerrainSettings& defaults) {

@@ -113,9 +113,13 @@ constexpr std::array<OldSpelling, 5> oldSpellings = {{
 
 void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
     command
-        .add_option("--metres-per-unit", source.metresPerUnit, "Metres per unit of the source's values (1)")
+        .add_option("--metres-per-unit", source.metresPerUnit,
+                    "Metres per unit of the source's values; overrides the file's own scale, offset and unit "
+                    "(the file's, else 1)")
         ->check(number(-1e9, 1e9, false));
-    command.add_option("--offset", source.offsetM, "Metres added to every height (0)")
+    command
+        .add_option("--offset", source.offsetM,
+                    "Metres added to every height; overrides the file's own offset (the file's, else 0)")
         ->check(number(-1e9, 1e9));
     command.add_option("--no-data", source.noDataValue,
                        "Value that means \"no data\", instead of a GeoTIFF's own; NaN is always no data");

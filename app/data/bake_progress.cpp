@@ -73,6 +73,7 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
         return bakeWithColour(source, settings, output, show, colour, problem);
     }();
     if (!problem.empty()) printMessage("worldy: {}; baked without colours\n", problem);
+    if (report && !report->colourNotice.empty()) printMessage("worldy: {}\n", report->colourNotice);
     return report;
 }
 

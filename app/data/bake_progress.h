@@ -27,7 +27,7 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,
                                                   const planet::ColourSource* colour = nullptr);
-// The same of an image. Where it may fail, why it did is told there too.
+// Bakes with the colours of an image. Prints its notice, and why it failed where it may fail.
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,

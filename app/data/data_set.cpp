@@ -49,12 +49,16 @@ fs::path bakedColourOf(const fs::path& chunkFile, const fs::path& colourImage) {
 // Empty for the defaults, so that their bakes keep their names. Memory for the source changes nothing.
 std::string identityOf(const planet::HeightSourceSettings& settings) {
     const auto text = [](const planet::HeightSourceSettings& s) {
-        return fmt::format(" s{} {} {} {} {} {} {} {} {}", s.metresPerUnit, s.offsetM,
+        return fmt::format(" s{} {} {} {} {} {} {} {} {}", s.metresPerUnit.value_or(1), s.offsetM.value_or(0),
                            s.noDataValue.has_value(), s.noDataValue.value_or(0), s.fillM,
                            s.rawSize.value_or(0), s.rawBits.value_or(0), s.rawSigned, s.rawBigEndian);
     };
-    const std::string identity = text(settings);
-    return identity == text({}) ? std::string() : identity;
+    std::string identity = text(settings);
+    if (identity == text({})) identity.clear();
+    // They override what the file says; the text has them where nothing is given, too.
+    if (settings.metresPerUnit == 1) identity += " unit 1";
+    if (settings.offsetM == 0) identity += " offset 0";
+    return identity;
 }
 
 // Path, size and time of change of each.

@@ -147,6 +147,7 @@ void finishBake(Session& session, const ui::ViewSettings& settings, const Log& l
     session.bakeReport = report;
     const std::string colourProblem = bake.job->colourProblem();
     if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);
+    if (!report.colourNotice.empty()) log->warn("{}", report.colourNotice);
     bake.data.needsBake = false;
     Result<OpenPlanet> open = openPlanet(session, bake.data, settings, log);
     if (!open) return failBake(session, bake, open.error(), log);

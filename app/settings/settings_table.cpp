@@ -595,7 +595,7 @@ tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::stri
     }
     // A name that is far from all settings is no misspelt one.
     const std::size_t letters = std::max(std::min(name.size(), mostLetters), nearest.size());
-    std::string instead = 3 * least <= letters ? "the nearest one is " + nearest
+    std::string instead = 3 * least <= letters ? "did you mean " + nearest + "?"
                                                : "expected a name of the settings file, such as lod.tau_px";
     if (name == "key") instead = "the file seems to be a flight; expected a settings file";
     if (name == "layer") instead = "the file seems to be a texture layer set; expected a settings file";

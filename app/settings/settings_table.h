@@ -70,7 +70,7 @@ bool isFormerName(std::string_view name);
 planet::Result<void> readField(const std::filesystem::path& file, const Field& field, std::string_view name,
                                const toml::node& node);
 
-// "place: lod.tua_px is not a setting; the nearest one is lod.tau_px", or where none is near, what the name
+// "place: lod.tua_px is not a setting; did you mean lod.tau_px?", or where none is near, what the name
 // seems to belong to.
 tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::string_view name,
                                              std::span<const Field> fields);

@@ -354,6 +354,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     report.missingSamples = source.missingCount;
     report.colourTiles = colourTiles;
     report.colourBytes = fileBytes - bytesWithoutColours;
+    if (colour) report.colourNotice = colour->notice;
     for (const BakedChunk& root : assembler.roots()) {
         report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
         report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);

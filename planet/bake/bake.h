@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "planet/bake/bake_settings.h"
 #include "planet/base/result.h"
@@ -46,6 +47,7 @@ struct BakeReport {
     float largestDeltaTightM = 0;
     std::uint64_t colourTiles = 0;
     std::uint64_t colourBytes = 0;  // of the file
+    std::string colourNotice;       // ColourSource::notice
     double seconds = 0;
 };
 

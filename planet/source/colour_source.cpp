@@ -67,6 +67,7 @@ Result<ColourSource> openColourSource(const std::filesystem::path& path, std::si
     ColourSource source;
     source.description = channels[0].description;
     source.naturalFaceSize = channels[0].naturalFaceSize;
+    source.notice = std::ranges::max_element(channels, {}, &HeightSource::seamEdges)->notice;
     source.sample = [channels = std::move(channels)](const SampleTile& tile, std::span<glm::vec3> out) {
         return sampleChannels(channels, tile, out);
     };

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 #include "planet/sphere/face_fold.h"
@@ -63,71 +65,119 @@ std::string_view sideName(const FaceGridPoint& first, const FaceGridPoint& last,
 
 struct EdgeDifference {
     SharedEdge edge;
-    double largestM = 0;
-    std::array<float, 2> heightsM{};  // where it is largest
-    int at = 0;                       // that sample, from the edge's first
-    int samples = 0;                  // that differ by more than the tolerance
+    double largest = 0;
+    std::array<float, 2> values{};  // where it is largest
+    int at = 0;                     // that sample, from the edge's first
+    int samples = 0;                // that differ by more than the tolerance
+};
+
+// Values are compared after a clamp to [least, most].
+struct Comparison {
+    double tolerance = 0;
+    float least = -std::numeric_limits<float>::infinity();
+    float most = std::numeric_limits<float>::infinity();
 };
 
 Result<EdgeDifference> differenceAlong(const std::array<HeightRaster, faceCount>& faces,
-                                       const SharedEdge& edge, const FaceEdgeCheck& check) {
-    std::array<std::vector<float>, 2> lines;
+                                       const SharedEdge& edge, const FaceLines& lines,
+                                       const Comparison& comparison) {
+    std::array<std::vector<float>, 2> both;
     for (std::size_t i = 0; i < 2; ++i) {
         const HeightRaster& raster = faces[static_cast<std::size_t>(edge.first[i].face)];
-        Result<std::vector<float>> line = readLine(raster, edge.first[i], edge.last[i], check.size - 1);
+        Result<std::vector<float>> line = readLine(raster, edge.first[i], edge.last[i], lines.size - 1);
         if (!line) return tl::unexpected(std::move(line.error()));
-        lines[i] = *std::move(line);
+        both[i] = *std::move(line);
     }
     EdgeDifference difference{edge};
-    for (std::size_t i = 0; i < lines[0].size(); ++i) {
-        const std::array heights{lines[0][i], lines[1][i]};
-        if (check.hasMissing && (heights[0] == check.fillM || heights[1] == check.fillM)) continue;
-        const double apart = std::abs(static_cast<double>(heights[0]) - static_cast<double>(heights[1]));
-        if (apart > check.toleranceM) ++difference.samples;
-        if (apart <= difference.largestM) continue;
-        difference.largestM = apart;
-        difference.heightsM = heights;
+    const auto clamped = [&](float value) { return std::clamp(value, comparison.least, comparison.most); };
+    for (std::size_t i = 0; i < both[0].size(); ++i) {
+        if (lines.hasMissing && (both[0][i] == lines.fill || both[1][i] == lines.fill)) continue;
+        const std::array values{clamped(both[0][i]), clamped(both[1][i])};
+        const double apart = std::abs(static_cast<double>(values[0]) - static_cast<double>(values[1]));
+        if (apart > comparison.tolerance) ++difference.samples;
+        if (apart <= difference.largest) continue;
+        difference.largest = apart;
+        difference.values = values;
         difference.at = static_cast<int>(i);
     }
     return difference;
 }
 
-Error edgeError(const EdgeDifference& worst, int edges, const FaceEdgeCheck& check) {
-    const SharedEdge& edge = worst.edge;
-    const int cells = check.size - 1;
-    const FaceGridPoint& first = edge.first[0];
-    const FaceGridPoint& last = edge.last[0];
-    const bool alongColumn = first.column == last.column;
+// The differences along all edges of the cube.
+Result<std::vector<EdgeDifference>> differencesOf(const std::array<HeightRaster, faceCount>& faces,
+                                                  const FaceLines& lines, const Comparison& comparison) {
+    std::vector<EdgeDifference> differences;
+    for (const SharedEdge& edge : sharedEdges(lines.size - 1)) {
+        Result<EdgeDifference> difference = differenceAlong(faces, edge, lines, comparison);
+        if (!difference) return tl::unexpected(std::move(difference.error()));
+        differences.push_back(*difference);
+    }
+    return differences;
+}
+
+// "the right column of x_pos and the left column of y_pos"
+std::string sidesText(const SharedEdge& edge, int cells) {
+    return fmt::format("the {} of {} and the {} of {}", sideName(edge.first[0], edge.last[0], cells),
+                       faceName(edge.first[0].face), sideName(edge.first[1], edge.last[1], cells),
+                       faceName(edge.first[1].face));
+}
+
+Error heightError(const EdgeDifference& worst, std::size_t edges, const FaceLines& lines,
+                  const std::string& stem, double toleranceM) {
+    const int cells = lines.size - 1;
+    const FaceGridPoint& first = worst.edge.first[0];
+    const bool alongColumn = first.column == worst.edge.last[0].column;
     const int place = alongColumn ? cells - (first.row + worst.at) : first.column + worst.at;
     return {
         ErrorKind::BadInput,
         fmt::format(
-            "{}: faces {} and {} differ by up to {:.6g} m along their shared edge, the {} of {} and the {} "
-            "of {}: {:.6g} m and {:.6g} m at {} {} of {}; {} of {} samples there and {} of {} edges "
-            "differ; expected the same heights on both faces, to {:.6g} m. The outermost samples of a face "
-            "lie on the cube's edges, so neighbours repeat them: check the faces' names, orientation, "
-            "sample type and byte order, and resample faces whose samples lie at pixel centres",
-            check.stem, faceName(first.face), faceName(edge.first[1].face), worst.largestM,
-            sideName(first, last, cells), faceName(first.face), sideName(edge.first[1], edge.last[1], cells),
-            faceName(edge.first[1].face), worst.heightsM[0], worst.heightsM[1],
-            alongColumn ? "row" : "column", place, faceName(first.face), worst.samples, check.size, edges,
-            cubeEdgeCount, check.toleranceM)};
+            "{}: faces {} and {} differ by up to {:.6g} m along their shared edge, {}: {:.6g} m and "
+            "{:.6g} m at {} {} of {}; {} of {} samples there and {} of {} edges differ; expected the "
+            "same heights on both faces, to {:.6g} m. The outermost samples of a face lie on the cube's "
+            "edges, so neighbours repeat them: check the faces' names, orientation, sample type and byte "
+            "order, and resample faces whose samples lie at pixel centres",
+            stem, faceName(first.face), faceName(worst.edge.first[1].face), worst.largest,
+            sidesText(worst.edge, cells), worst.values[0], worst.values[1], alongColumn ? "row" : "column",
+            place, faceName(first.face), worst.samples, lines.size, edges, cubeEdgeCount, toleranceM)};
+}
+
+constexpr double visibleDifference = 0.1;  // linear light
+
+std::string seamNotice(const EdgeDifference& worst, std::size_t edges, const FaceLines& lines,
+                       const std::string& stem) {
+    return fmt::format(
+        "{}: the colours of faces {} and {} differ along their shared edge, {}: {} of {} samples there "
+        "differ by more than {} in linear light, by up to {:.2f}; {} of {} edges differ so and will show a "
+        "seam; expected the same colours on both faces. Check the faces' names and orientation",
+        stem, faceName(worst.edge.first[0].face), faceName(worst.edge.first[1].face),
+        sidesText(worst.edge, lines.size - 1), worst.samples, lines.size, visibleDifference, worst.largest,
+        edges, cubeEdgeCount);
 }
 
 }  // namespace
 
-Result<void> checkFaceEdges(const std::array<HeightRaster, faceCount>& faces, const FaceEdgeCheck& check) {
-    EdgeDifference worst;
-    int edges = 0;
-    for (const SharedEdge& edge : sharedEdges(check.size - 1)) {
-        const Result<EdgeDifference> difference = differenceAlong(faces, edge, check);
-        if (!difference) return tl::unexpected(difference.error());
-        if (difference->samples == 0) continue;
-        ++edges;
-        if (difference->largestM > worst.largestM) worst = *difference;
-    }
-    if (edges == 0) return {};
-    return tl::unexpected(edgeError(worst, edges, check));
+Result<void> checkHeightEdges(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
+                              const std::string& stem, double toleranceM) {
+    Result<std::vector<EdgeDifference>> found = differencesOf(faces, lines, {.tolerance = toleranceM});
+    if (!found) return tl::unexpected(std::move(found.error()));
+    std::erase_if(*found, [](const EdgeDifference& difference) { return difference.samples == 0; });
+    if (found->empty()) return {};
+    const EdgeDifference& worst = *std::ranges::max_element(*found, {}, &EdgeDifference::largest);
+    return tl::unexpected(heightError(worst, found->size(), lines, stem, toleranceM));
+}
+
+Result<ColourSeams> findColourSeams(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
+                                    const std::string& stem) {
+    Result<std::vector<EdgeDifference>> found =
+        differencesOf(faces, lines, {.tolerance = visibleDifference, .least = 0, .most = 1});
+    if (!found) return tl::unexpected(std::move(found.error()));
+    // Single samples may differ in lossy pictures.
+    std::erase_if(*found, [&](const EdgeDifference& difference) {
+        return std::int64_t{10} * difference.samples <= lines.size;
+    });
+    if (found->empty()) return ColourSeams();
+    const EdgeDifference& worst = *std::ranges::max_element(*found, {}, &EdgeDifference::samples);
+    return ColourSeams{static_cast<int>(found->size()), seamNotice(worst, found->size(), lines, stem)};
 }
 
 }  // namespace planet

@@ -11,16 +11,28 @@
 
 namespace planet {
 
-struct FaceEdgeCheck {
-    std::string stem;         // of the files' names, for the message
+// How the outermost samples of the faces are read and compared.
+struct FaceLines {
     int size = 0;             // samples a side, at least 2
-    double toleranceM = 0;    // differences up to this are rounding
-    bool hasMissing = false;  // samples of height fillM may be missing ones, which agree with anything
-    float fillM = 0;
+    bool hasMissing = false;  // samples of value fill may be missing ones, which agree with anything
+    float fill = 0;
 };
 
-// Reads the outermost samples of all faces, in the order of allFaces. The Error names the two faces and sides
-// that differ most, by how many metres and where, and on how many edges there are differences. Any thread.
-Result<void> checkFaceEdges(const std::array<HeightRaster, faceCount>& faces, const FaceEdgeCheck& check);
+// Both read the outermost samples of all faces, in the order of allFaces, on any thread. stem: of the files'
+// names, for the message.
+
+// The Error names the two faces and sides that differ most, by how many metres and where, and on how many
+// edges there are differences. Differences up to toleranceM are rounding.
+Result<void> checkHeightEdges(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
+                              const std::string& stem, double toleranceM);
+
+// The edges along which a seam is visible: more than a tenth of their samples differ by more than 0.1, in
+// linear light clamped to [0, 1].
+struct ColourSeams {
+    int edges = 0;
+    std::string notice;  // names the two faces and sides that differ most; empty if there is no such edge
+};
+Result<ColourSeams> findColourSeams(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
+                                    const std::string& stem);
 
 }  // namespace planet

@@ -18,13 +18,14 @@ constexpr double mostM = 1e9;  // heights and steps beyond this make no planet
 
 Result<void> checkSettings(const HeightSourceSettings& settings) {
     // Written so that NaN fails too.
-    if (!(std::abs(settings.metresPerUnit) > 0 && std::abs(settings.metresPerUnit) <= mostM)) {
+    const double metresPerUnit = settings.metresPerUnit.value_or(1);
+    if (!(std::abs(metresPerUnit) > 0 && std::abs(metresPerUnit) <= mostM)) {
         return badInput(fmt::format("metresPerUnit is {}; expected a magnitude over 0, at most {}",
-                                    settings.metresPerUnit, mostM));
+                                    metresPerUnit, mostM));
     }
-    if (!(std::abs(settings.offsetM) <= mostM)) {
-        return badInput(
-            fmt::format("offsetM is {}; expected at most {} in magnitude", settings.offsetM, mostM));
+    const double offsetM = settings.offsetM.value_or(0);
+    if (!(std::abs(offsetM) <= mostM)) {
+        return badInput(fmt::format("offsetM is {}; expected at most {} in magnitude", offsetM, mostM));
     }
     if (!(std::abs(settings.fillM) <= mostM)) {
         return badInput(fmt::format("fillM is {}; expected at most {} in magnitude", settings.fillM, mostM));
@@ -41,9 +42,9 @@ Result<void> checkSettings(const HeightSourceSettings& settings) {
 
 bool asRead(const HeightSourceSettings& settings) {
     const HeightSourceSettings plain;
-    return settings.metresPerUnit == plain.metresPerUnit && settings.offsetM == plain.offsetM &&
-           !settings.noDataValue && settings.fillM == plain.fillM && !settings.rawSize && !settings.rawBits &&
-           !settings.rawSigned && !settings.rawBigEndian;
+    return !settings.metresPerUnit && !settings.offsetM && !settings.noDataValue &&
+           settings.fillM == plain.fillM && !settings.rawSize && !settings.rawBits && !settings.rawSigned &&
+           !settings.rawBigEndian;
 }
 
 Result<HeightSource> openTerrain(const std::filesystem::path& text, const HeightSourceSettings& settings) {
@@ -74,7 +75,7 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
     }
     if (isTerrainText(path)) return openTerrain(path, settings);
     if (const std::optional<FaceFiles> faces = findFaceFiles(path)) {
-        // Lossy pictures differ along their edges, which does colours no harm.
+        // Lossy pictures differ a little along their edges, which is no error in colours.
         const FaceEdges edges = settings.colourChannel ? FaceEdges::MayDiffer : FaceEdges::MustAgree;
         return openFaceSource(*faces, settings, edges);
     }

@@ -447,11 +447,15 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
     const auto side = static_cast<std::uint64_t>(format.size);
     source.sampleCount = faceCount * side * side;
     describeHeights(source, conversion, statistics);
+    const FaceLines lines{format.size, statistics.missingCount > 0, conversion.fillM};
     if (edges == FaceEdges::MustAgree) {
-        const FaceEdgeCheck check{files.stem, format.size, roundingOf(format, source),
-                                  statistics.missingCount > 0, conversion.fillM};
-        if (Result<void> agree = checkFaceEdges(set.faces, check); !agree)
-            return tl::unexpected(std::move(agree.error()));
+        const Result<void> agree = checkHeightEdges(set.faces, lines, files.stem, roundingOf(format, source));
+        if (!agree) return tl::unexpected(agree.error());
+    } else {
+        Result<ColourSeams> seams = findColourSeams(set.faces, lines, files.stem);
+        if (!seams) return tl::unexpected(std::move(seams.error()));
+        source.seamEdges = seams->edges;
+        source.notice = std::move(seams->notice);
     }
     source.sample = [shared = std::move(set)](const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);

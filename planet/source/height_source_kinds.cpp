@@ -17,11 +17,10 @@ double asStored(double value, SampleType type) {
     return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
 }
 
-// A setting that is not the default takes the place of what the file says.
+// Takes what the file says of its scale, offset and unit, except what the settings override.
 Result<void> takeUnits(const std::string& file, const HeightSourceSettings& settings, const GeoTags& tags,
                        HeightConversion& conversion) {
-    const HeightSourceSettings plain;
-    if (settings.metresPerUnit != plain.metresPerUnit) return {};
+    if (settings.metresPerUnit) return {};
     const std::optional<double> unitM = metresIn(tags.unit);
     if (!unitM) {
         return badInput(
@@ -30,7 +29,7 @@ Result<void> takeUnits(const std::string& file, const HeightSourceSettings& sett
                         file, tags.unit));
     }
     conversion.metresPerUnit = tags.scale.value_or(1) * *unitM;
-    if (settings.offsetM == plain.offsetM) conversion.offsetM = tags.offset.value_or(0) * *unitM;
+    if (!settings.offsetM) conversion.offsetM = tags.offset.value_or(0) * *unitM;
     if (conversion.metresPerUnit != 0) return {};
     return badInput(fmt::format("{}: its scale is 0; expected another, or --metres-per-unit", file));
 }
@@ -41,8 +40,8 @@ Result<HeightConversion> conversionFor(const std::string& file, const HeightSour
                                        SampleType type, const GeoTags& tags) {
     HeightConversion conversion;
     conversion.type = type;
-    conversion.metresPerUnit = settings.metresPerUnit;
-    conversion.offsetM = settings.offsetM;
+    conversion.metresPerUnit = settings.metresPerUnit.value_or(1);
+    conversion.offsetM = settings.offsetM.value_or(0);
     if (!settings.colourChannel) {
         if (Result<void> taken = takeUnits(file, settings, tags, conversion); !taken)
             return tl::unexpected(std::move(taken.error()));

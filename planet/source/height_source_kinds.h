@@ -33,7 +33,8 @@ struct FaceFiles {
 // The six faces that a path names one of, or names the common stem of; none where it does neither.
 std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path);
 
-// MustAgree: faces that differ along their shared edges by more than rounding are an Error.
+// MustAgree, for heights: faces that differ along their shared edges by more than rounding are an Error.
+// MayDiffer, for colours: faces that differ visibly there get a notice.
 enum class FaceEdges : std::uint8_t { MustAgree, MayDiffer };
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
                                     FaceEdges edges);

@@ -38,6 +38,10 @@ struct HeightSource {
     double maxM = 0;
     std::uint64_t sampleCount = 0;
     std::uint64_t missingCount = 0;  // samples without data, filled
+    // Colours only: the number of the cube's edges along which six faces differ visibly, and the notice that
+    // says so. 0 and empty if the faces agree.
+    int seamEdges = 0;
+    std::string notice;
 
     // Fills out, row-major, columns x rows heights in metres. A sample's value depends only on its point of
     // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
@@ -49,8 +53,10 @@ struct HeightSource {
 };
 
 struct HeightSourceSettings {
-    double metresPerUnit = 1;  // height = offsetM + metresPerUnit * value; not 0
-    double offsetM = 0;        // metres
+    // height = offsetM + metresPerUnit * value, where the file says nothing else: 1 and 0. metresPerUnit, not
+    // 0, overrides the file's scale, offset and unit; offsetM, metres, overrides its offset alone.
+    std::optional<double> metresPerUnit;
+    std::optional<double> offsetM;
     // A value that means "missing", instead of the file's own GDAL_NODATA; NaN and infinities always do.
     std::optional<double> noDataValue;
     double fillM = 0;            // height given to missing samples, metres

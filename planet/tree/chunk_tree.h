@@ -20,7 +20,7 @@
 #include <memory>
 #include <vector>
 
-#include "planet/format/chunk_file.h"
+#include "planet/format/chunk_file_types.h"
 #include "planet/sphere/bounds.h"
 #include "planet/tree/block_state.h"
 #include "planet/tree/node_index.h"
@@ -71,8 +71,6 @@ struct ChunkTree {
 // a root that is not what checkChunk wants, or a planet whose lowest height lies below its centre.
 Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
                                 std::array<ChunkData, faceCount>&& roots);
-// The same, read from a file.
-Result<ChunkTree> makeChunkTree(const ChunkFile& file);
 
 // Draws heights this many times as high, (0, largestExaggeration]: shape, and every node's heights, bounds
 // and both metrics follow, as will those of nodes added later.

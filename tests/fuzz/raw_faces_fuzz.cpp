@@ -93,6 +93,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     memory.write(shape & 1, input.rest());
     const FaceEdges edges = shape & 4 ? FaceEdges::MustAgree : FaceEdges::MayDiffer;
     const auto source = openFaceSource(files, settings, edges);
-    if (isRead(source)) sample(*source, tileByte);
+    if (!isRead(source)) return 0;
+    require(source->seamEdges >= 0 && source->seamEdges <= 12, "a cube has 12 edges");
+    require((source->seamEdges > 0) == !source->notice.empty(), "seams get a notice");
+    require(edges == FaceEdges::MayDiffer || source->notice.empty(), "faces that agree get no notice");
+    sample(*source, tileByte);
     return 0;
 }

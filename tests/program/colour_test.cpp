@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "planet/format/chunk_file_format.h"
 #include "tests/program/editor_window.h"
@@ -44,6 +45,32 @@ Shares sharesOf(const std::filesystem::path& file) {
         shares.magenta += magenta ? 1.0 / static_cast<double>(count) : 0;
     }
     return shares;
+}
+
+// Six faces, each of one grey of its own.
+void writeGreyFaces(const TemporaryFolder& folder) {
+    int grey = 0;
+    for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
+        std::ofstream stream(folder.path() / (std::string("grey_") + face + ".pgm"), std::ios::binary);
+        stream << "P5\n9 9\n255\n" << std::string(9 * 9, static_cast<char>(grey));
+        grey += 51;
+    }
+}
+
+TEST(ColourFaces, ThatDifferAlongTheirEdgesGiveAWarningOfTheBake) {
+    const TemporaryFolder folder;
+    writeHills(folder);
+    writeGreyFaces(folder);
+    const std::string bake = "bake hills.pgm -o planet.chk --chunk-size 17 --face-size 33 ";
+    const Ran warned = runWorldy(folder, bake + "--colour grey --json");
+    EXPECT_EQ(warned.exitCode, 0) << warned.errors;
+    EXPECT_THAT(warned.errors, HasSubstr("worldy: grey: the colours of faces "));
+    const std::string notice = nlohmann::json::parse(warned.output)["colour_notice"];
+    EXPECT_THAT(warned.errors, HasSubstr(notice));
+    writeMap(folder);
+    const Ran whole = runWorldy(folder, bake + "--colour map.ppm --json");
+    EXPECT_EQ(whole.exitCode, 0) << whole.errors;
+    EXPECT_EQ(nlohmann::json::parse(whole.output)["colour_notice"], "");
 }
 
 class ColourProgram : public testing::Test {

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/kit/widgets.h"
 
@@ -15,17 +16,28 @@ constexpr float wideFrom = 42;
 // Below this a column would show next to nothing, so the window scrolls instead.
 constexpr float leastColumnLines = 5;
 
+float gapWidth() {
+    return ImGui::GetFontSize() * 0.8f;
+}
+
+// The current window's width without the gaps between the columns, pixels.
+float roomFor(std::span<const Column> columns) {
+    const float gaps = columns.empty() ? 0 : static_cast<float>(columns.size() - 1);
+    return ImGui::GetContentRegionAvail().x - gaps * gapWidth();
+}
+
+// A column scrolls by itself, so that it needs room for a scrollbar too.
+float neededWidth(const Column& column) {
+    return column.needed > 0 ? std::ceil(column.needed + ImGui::GetStyle().ScrollbarSize) : 0;
+}
+
 void drawSideBySide(std::span<const Column> columns) {
-    float shares = 0;
-    for (const Column& column : columns) shares += column.share;
-    const float gap = ImGui::GetFontSize() * 0.8f;
-    const auto count = static_cast<float>(columns.size());
-    const float room = ImGui::GetContentRegionAvail().x - gap * (count - 1);
+    const std::vector<float> widths = sideBySideWidths(columns, roomFor(columns));
     const float height =
         std::max(ImGui::GetContentRegionAvail().y, leastColumnLines * ImGui::GetTextLineHeightWithSpacing());
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (i > 0) ImGui::SameLine(0, gap);
-        ImGui::BeginChild(columns[i].title, {room * columns[i].share / shares, height});
+        if (i > 0) ImGui::SameLine(0, gapWidth());
+        ImGui::BeginChild(columns[i].title, {widths[i], height});
         columns[i].draw();
         ImGui::EndChild();
     }
@@ -46,13 +58,39 @@ void drawStacked(std::span<const Column> columns) {
 
 }  // namespace
 
-bool hasWideRoom() {
-    return ImGui::GetContentRegionAvail().x > wideFrom * ImGui::GetFontSize();
+bool hasWideRoom(std::span<const Column> columns) {
+    float needed = 0;
+    for (const Column& column : columns) needed += neededWidth(column);
+    return ImGui::GetContentRegionAvail().x > wideFrom * ImGui::GetFontSize() && roomFor(columns) >= needed;
+}
+
+std::vector<float> sideBySideWidths(std::span<const Column> columns, float width) {
+    std::vector<float> widths(columns.size(), 0);
+    // Columns whose share is less than they need take it from the others, which may make others fall short.
+    std::vector<bool> atNeed(columns.size(), false);
+    for (bool changed = true; changed;) {
+        changed = false;
+        float shares = 0, left = width;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (atNeed[i])
+                left -= widths[i];
+            else
+                shares += columns[i].share;
+        }
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (atNeed[i]) continue;
+            widths[i] = std::max(left, 0.0f) * columns[i].share / shares;
+            if (widths[i] >= neededWidth(columns[i])) continue;
+            widths[i] = neededWidth(columns[i]);
+            atNeed[i] = changed = true;
+        }
+    }
+    return widths;
 }
 
 void drawColumns(const char* id, std::span<const Column> columns) {
     ImGui::PushID(id);
-    if (hasWideRoom()) {
+    if (hasWideRoom(columns)) {
         drawSideBySide(columns);
     } else {
         drawStacked(columns);

@@ -258,6 +258,10 @@ void linePlot(const char* id, std::span<const float> timesS, std::span<const Ser
     ImGui::EndGroup();
 }
 
+float leastPlotWidth() {
+    return 2 * 4 * ImGui::GetTextLineHeightWithSpacing();
+}
+
 float linesThatFit(std::size_t plots, float otherLines, float most) {
     const float lines = ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing();
     return std::clamp((lines - otherLines) / static_cast<float>(plots), 1.5f, most);

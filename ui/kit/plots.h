@@ -28,6 +28,9 @@ ImVec4 seriesColour(std::size_t index);
 void linePlot(const char* id, std::span<const float> timesS, std::span<const Series> series, const char* unit,
               double top = 0, float lines = 4, bool stacked = false, double mark = 0);
 
+// Returns the width at which a plot of the default height is twice as wide as it is high, pixels.
+float leastPlotWidth();
+
 struct Bar {
     std::string label;
     double value = 0;

@@ -68,7 +68,8 @@ bool beginTable(const char* id, std::span<const TableColumn> columns, ImVec2 siz
     const float room = size.x > 0 ? size.x : ImGui::GetContentRegionAvail().x;
     const float width = std::max(room - ImGui::GetStyle().ScrollbarSize, tableWidth(columns));
     if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), listFlags, size, width)) return false;
-    header(columns, width, frozenColumns);
+    const float frozen = tableWidth(columns.first(static_cast<std::size_t>(frozenColumns)));
+    header(columns, width, frozen <= room / 2 ? frozenColumns : 0);
     return true;
 }
 
@@ -78,6 +79,20 @@ float tableWidth(std::span<const TableColumn> columns) {
     float width = borderWidth(columns.size());
     for (const TableColumn& column : columns) width += neededWidth(column);
     return width;
+}
+
+std::string widestText(std::span<const std::string> texts) {
+    const auto width = [](const std::string& text) {
+        return ImGui::CalcTextSize(inFont(text.c_str()).c_str()).x;
+    };
+    const auto widest =
+        std::max_element(texts.begin(), texts.end(),
+                         [&](const std::string& a, const std::string& b) { return width(a) < width(b); });
+    return widest == texts.end() ? std::string() : *widest;
+}
+
+float listTableWidth(std::span<const TableColumn> columns) {
+    return tableWidth(columns) + ImGui::GetStyle().ScrollbarSize;
 }
 
 std::vector<float> columnWidths(std::span<const TableColumn> columns, float width) {
@@ -99,8 +114,7 @@ bool beginWideTable(const char* id, std::span<const TableColumn> columns, int fr
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines, int frozenColumns) {
     const float lines = static_cast<float>(std::clamp<std::size_t>(rows + 1, 4, mostLines));
-    const bool scrolls =
-        tableWidth(columns) > ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+    const bool scrolls = listTableWidth(columns) > ImGui::GetContentRegionAvail().x;
     const float height = lines * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
                          (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
     return beginTable(id, columns, {0, height}, frozenColumns);

@@ -25,11 +25,15 @@ struct TableColumn {
 
 // Returns the width at which every column holds its title and its widest text, pixels.
 float tableWidth(std::span<const TableColumn> columns);
+// Returns the text that is widest on screen; empty: there is none.
+std::string widestText(std::span<const std::string> texts);
+// Returns the width that a list table fills without scrolling sideways, pixels.
+float listTableWidth(std::span<const TableColumn> columns);
 // Divides a table's width among its columns, pixels: each gets what it needs and its share of the rest.
 std::vector<float> columnWidths(std::span<const TableColumn> columns, float width);
 
 // Fills the available space. Scrolls sideways if it is narrower than the titles and the widest texts need.
-// The first frozenColumns do not scroll.
+// The first frozenColumns do not scroll, unless they would take more than half of the width.
 bool beginWideTable(const char* id, std::span<const TableColumn> columns, int frozenColumns = 0);
 // Is as wide as the panel and as high as its rows, within limits; scrolls sideways like a wide table.
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,

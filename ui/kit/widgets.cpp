@@ -150,6 +150,21 @@ void endValues() {
     ImGui::EndTable();
 }
 
+void valueRows(const char* id, std::span<const ValueRow> rows) {
+    if (!beginValues(id)) return;
+    for (const ValueRow& row : rows) valueRow(row.name.c_str(), row.value, row.explanation);
+    endValues();
+}
+
+float valuesWidth(std::span<const ValueRow> rows, const char* widestValue) {
+    float name = 0;
+    for (const ValueRow& row : rows)
+        name = std::max(name, ImGui::CalcTextSize(inFont(row.name.c_str()).c_str()).x);
+    // A value that takes more than its share of the width is wrapped.
+    const float value = ImGui::CalcTextSize(widestValue).x;
+    return std::max(name + value + 2 * ImGui::GetStyle().CellPadding.x, value / valueShare) + 1;
+}
+
 ImVec2 dragDelta(ImGuiMouseButton button) {
     if (!ImGui::IsMouseDown(button) || ImGui::IsMouseClicked(button)) return {0, 0};
     return ImGui::GetIO().MouseDelta;

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <span>
 #include <string>
 
 #include "ui/model/layout.h"
@@ -28,6 +29,14 @@ bool beginValues(const char* id);
 void valueRow(const char* name, const std::string& value, const char* explanation,
               const ImVec4* colour = nullptr);
 void endValues();
+struct ValueRow {
+    std::string name;
+    std::string value;
+    const char* explanation = "";
+};
+void valueRows(const char* id, std::span<const ValueRow> rows);
+// Returns the width at which no row wraps while values are no wider than widestValue, pixels.
+float valuesWidth(std::span<const ValueRow> rows, const char* widestValue);
 
 // Returns how far the pointer has moved this frame with the button down, pixels; {0, 0} in the frame in which
 // the button goes down, because that motion came before the press.

@@ -60,7 +60,7 @@ std::string changeText(const CompareRow& row, const std::optional<double>& a, co
 
 // Sorts a row of figures of A and B by a column of the table. Unknown figures come first. Rows sort by the
 // ratio B / A: 1 where both are equal, infinity where only A is 0.
-enum class FigureColumn : std::uint8_t { Name, A, B, Change };
+enum class FigureColumn : std::uint8_t { Name, Change, A, B };
 SortKey figureSortKey(const CompareRow& row, FigureColumn column,
                       const std::array<ComparedFigures, 2>& figures);
 

@@ -68,8 +68,9 @@ void planetCells(const EditorView& view, const ViewSettings& settings, Cells& ce
     const std::uint32_t waiting = paging.queued + paging.loading;
     cells.add(fmt::format("queue {}", waiting), "Blocks queued, being read or waiting for upload.",
               waiting > 0 ? colours.good : colours.dim);
-    cells.add("memory " + bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
-              "Memory of resident chunks, CPU and GPU together.", colours.text);
+    cells.add("chunks " + bytesText(static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu)),
+              "Memory of resident chunks, CPU and GPU together. Excludes colour and normal tiles.",
+              colours.text);
     for (std::size_t i = 1; i < heights.size(); ++i) addHeight(heights[i]);
 }
 

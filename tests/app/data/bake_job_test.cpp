@@ -65,6 +65,27 @@ void writeColourImage(const fs::path& file) {
     for (int i = 0; i < 16 * 8 * 3; ++i) stream.put(static_cast<char>(i % 200));
 }
 
+// Six faces, each of one grey of its own.
+void writeGreyFaces(const TemporaryFolder& folder) {
+    int grey = 0;
+    for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
+        std::ofstream stream(folder.path() / (std::string("grey_") + face + ".pgm"), std::ios::binary);
+        stream << "P5\n9 9\n255\n" << std::string(9 * 9, static_cast<char>(grey));
+        grey += 51;
+    }
+}
+
+TEST(BakeJob, ReportsFacesOfColoursThatDifferAlongTheirEdges) {
+    const TemporaryFolder folder;
+    writeGreyFaces(folder);
+    BakeJob job(writeImage(folder), {}, {.faceSize = 65, .chunkSize = 17}, folder.path() / "slope.chk",
+                {folder.path() / "grey", true});
+    const planet::Result<planet::BakeReport> report = waitFor(job);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_TRUE(report->colourNotice.starts_with("grey: the colours of faces ")) << report->colourNotice;
+    EXPECT_EQ(job.colourProblem(), "");
+}
+
 TEST(BakeJob, LeavesAChunkFileWithColours) {
     const TemporaryFolder folder;
     writeColourImage(folder.path() / "map.ppm");
@@ -74,6 +95,7 @@ TEST(BakeJob, LeavesAChunkFileWithColours) {
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->colourTiles, 6u);
     EXPECT_EQ(job.colourProblem(), "");
+    EXPECT_EQ(report->colourNotice, "");
     EXPECT_EQ(job.progress().samplesTotal, 6u * 64 * 64 + 6u * 256 * 256);
     EXPECT_EQ(job.progress().samplesDone, job.progress().samplesTotal);
     const auto file = planet::ChunkFile::open(folder.path() / "slope.chk");

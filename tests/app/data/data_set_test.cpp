@@ -98,6 +98,14 @@ TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
     EXPECT_EQ(cachedBakeOf(image, {.threads = 3}, source), first);
     source.metresPerUnit = 10;
     EXPECT_NE(cachedBakeOf(image, {}, source), first);
+    // 1 and 0 override what the file says.
+    source.metresPerUnit = 1;
+    const fs::path inMetres = cachedBakeOf(image, {}, source);
+    EXPECT_NE(inMetres, first);
+    source = {};
+    source.offsetM = 0;
+    EXPECT_NE(cachedBakeOf(image, {}, source), first);
+    EXPECT_NE(cachedBakeOf(image, {}, source), inMetres);
     source = {};
     source.noDataValue = 0;
     EXPECT_NE(cachedBakeOf(image, {}, source), first);

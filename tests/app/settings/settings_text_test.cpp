@@ -229,7 +229,7 @@ TEST(Settings, AWrongRampIsRefusedWithTheStopThatIsWrong) {
 
 TEST(Settings, UnknownKeysAreRefusedWithTheNearestKnownOne) {
     EXPECT_THAT(settingsErrorOf("[lod]\ntua_px = 2\n"),
-                HasSubstr("line 2: lod.tua_px is not a setting; the nearest one is lod.tau_px"));
+                HasSubstr("line 2: lod.tua_px is not a setting; did you mean lod.tau_px?"));
     EXPECT_THAT(settingsErrorOf("[lot]\ntau_px = 2\n"), HasSubstr("lot is not a setting"));
     EXPECT_THAT(settingsErrorOf("tau_px = 2\n"), HasSubstr("tau_px is not a setting"));
     EXPECT_THAT(settingsErrorOf("lod = 2\n"), HasSubstr("lod is not a setting"));
@@ -279,13 +279,13 @@ TEST(SetSetting, TakesWordsTextsNumbersAndRampsAsTheyAreWritten) {
 TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
     EXPECT_EQ(setErrorOf("lod.tau_px=0"), "lod.tau_px=0: lod.tau_px is 0; expected a number in [0.1, 64] px");
     EXPECT_THAT(setErrorOf("lod.tua_px=3"),
-                HasSubstr("lod.tua_px is not a setting; the nearest one is lod.tau_px"));
+                HasSubstr("lod.tua_px is not a setting; did you mean lod.tau_px?"));
     EXPECT_THAT(setErrorOf("lod.tau_px"), HasSubstr("has no value; expected lod.tau_px=2"));
     EXPECT_THAT(setErrorOf("overlay.colour_by=mood"), HasSubstr("overlay.colour_by is 'mood'"));
     for (const char* nameless : {"", "=", "=3", "tau=3"})
         EXPECT_THAT(setErrorOf(nameless), HasSubstr("is not a setting; expected a name of the settings file"))
             << nameless;
-    EXPECT_THAT(setErrorOf("lod.morp=3"), HasSubstr("the nearest one is lod.morph"));
+    EXPECT_THAT(setErrorOf("lod.morp=3"), HasSubstr("did you mean lod.morph?"));
     EXPECT_THAT(setErrorOf("key=3"), HasSubstr("the file seems to be a flight"));
     for (const char* wrong : {"lod.tau_px=", "lod.tau_px=two", "lod.tau_px=3 4", "lod.tau_px=3\nmore=4",
                               "lod.tau_px=[3]", "lod.morph=yes"}) {

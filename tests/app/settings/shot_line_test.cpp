@@ -199,7 +199,7 @@ TEST(ShotOptions, WrongAssignmentsAreErrors) {
     };
     EXPECT_THAT(errorOf("lod.tau_px=0"),
                 HasSubstr("--set lod.tau_px=0: lod.tau_px is 0; expected a number in [0.1, 64] px"));
-    EXPECT_THAT(errorOf("lod.tau=3"), HasSubstr("the nearest one is lod.tau_px"));
+    EXPECT_THAT(errorOf("lod.tau=3"), HasSubstr("did you mean lod.tau_px?"));
     EXPECT_THAT(errorOf(""), Not(HasSubstr("no error")));
 }
 

@@ -1,8 +1,10 @@
 #include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -112,6 +114,81 @@ TEST(ColourSource, WhatCannotBeColoursIsRefusedByName) {
     EXPECT_NE(colourErrorOf(folder / "square.png").find("twice as wide as high"), std::string::npos);
     EXPECT_NE(colourErrorOf(folder / "raw").find("raw faces hold heights"), std::string::npos);
     EXPECT_NE(colourErrorOf(folder / "none.png").find("no such file"), std::string::npos);
+}
+
+// The colour of a face's sample, row 0 at the top, in a channel's own units.
+using FaceColour = std::function<double(Face face, int column, int row, int channel)>;
+
+template <class T>
+void writeColourFaces(const std::filesystem::path& stem, const std::string& extension, int size,
+                      const FaceColour& colour) {
+    for (const Face face : allFaces) {
+        test::writeColours<T>(
+            stem.string() + "_" + std::string(faceName(face)) + extension, size, size, 3,
+            [&](int column, int row, int channel) { return colour(face, column, row, channel); });
+    }
+}
+
+// Continuous over the cube, in [0, 255].
+double smoothColour(Face face, int column, int row, int size) {
+    const glm::dvec3 direction =
+        sphereFromCube(cubePoint(face, 2.0 * column / (size - 1) - 1, 1 - 2.0 * row / (size - 1)));
+    return 127.5 + 127.5 * std::sin(5 * direction.x + 2 * direction.y + 7 * direction.z);
+}
+
+std::string noticeOf(const std::filesystem::path& path) {
+    const Result<ColourSource> source = openColourSource(path);
+    EXPECT_TRUE(source) << source.error().message;
+    return source ? source->notice : std::string();
+}
+
+TEST(ColourSource, FacesThatDifferVisiblyAlongTheirEdgesGetANotice) {
+    const TemporaryFolder folder;
+    constexpr int size = 33;
+    const auto turned = [](Face face, int column, int row) {
+        return face == Face::PosZ ? smoothColour(face, row, size - 1 - column, size)
+                                  : smoothColour(face, column, row, size);
+    };
+    writeColourFaces<std::uint8_t>(folder / "turned", ".png", size, [&](Face face, int column, int row, int) {
+        return turned(face, column, row);
+    });
+    using ::testing::AllOf;
+    using ::testing::HasSubstr;
+    using ::testing::MatchesRegex;
+    const std::string notice = noticeOf(folder / "turned");
+    EXPECT_THAT(notice, MatchesRegex("turned: the colours of faces [xy]_(pos|neg) and z_pos differ along "
+                                     "their shared edge, the top row of [xy]_(pos|neg) and the .* of z_pos: "
+                                     ".*4 of 12 edges differ so and will show a seam.*"));
+    EXPECT_THAT(notice, Not(HasSubstr(" m ")));
+    // The channel with the most seams is told of, and what is brighter than white is white.
+    writeColourFaces<float>(folder / "blue", ".exr", size, [](Face face, int column, int row, int channel) {
+        if (channel == 0) return face == Face::PosX && column == 0 ? 1.0 : 0.0;
+        if (channel == 1) return face == Face::PosX ? 3.0 : 2.0;
+        return face == Face::NegY || face == Face::NegX ? smoothColour(face, column, row, size) / 255 : 0.0;
+    });
+    EXPECT_THAT(noticeOf(folder / "blue"), AllOf(HasSubstr("_neg"), HasSubstr("6 of 12 edges")));
+}
+
+TEST(ColourSource, FacesThatAgreeOrDifferLittleGetNoNotice) {
+    const TemporaryFolder folder;
+    constexpr int size = 65;
+    const auto same = [](Face face, int column, int row, int) {
+        return std::round(smoothColour(face, column, row, size));
+    };
+    writeColourFaces<std::uint8_t>(folder / "same", ".png", size, same);
+    EXPECT_EQ(noticeOf(folder / "same"), "");
+    writeColourFaces<std::uint8_t>(folder / "lossy", ".jpg", size, same);
+    EXPECT_EQ(noticeOf(folder / "lossy"), "");
+    // As a lossy picture may differ: all samples a little, and less than a tenth of an edge by much.
+    writeColourFaces<std::uint8_t>(
+        folder / "near", ".png", size, [&](Face face, int column, int row, int channel) {
+            if (face == Face::PosY && column == 0 && row < 6) return 255 - same(face, column, row, channel);
+            const int noise = (column * 7 + row * 13 + static_cast<int>(face) * 5) % 11 - 5;
+            return std::clamp(same(face, column, row, channel) + noise, 0.0, 255.0);
+        });
+    EXPECT_EQ(noticeOf(folder / "near"), "");
+    test::writeColours<std::uint8_t>(folder / "whole.png", 64, 32, 3, [](int, int, int) { return 9.0; });
+    EXPECT_EQ(noticeOf(folder / "whole.png"), "");
 }
 
 TEST(ColourSource, HeightsMustStillBeOneChannel) {

@@ -308,11 +308,22 @@ TEST(GeoTiff, ScaleOffsetAndUnitOfItsMetadataMakeMetres) {
     HeightSourceSettings settings;
     settings.metresPerUnit = 2;
     EXPECT_EQ(mustOpen(folder / "feet.tif", settings).maxM, 400) << "the setting is meant";
+    settings.metresPerUnit = 1;
+    EXPECT_EQ(mustOpen(folder / "feet.tif", settings).maxM, 200) << "1 is given, and so is no offset";
+    settings.offsetM = 7;
+    EXPECT_EQ(mustOpen(folder / "feet.tif", settings).maxM, 207);
+    settings.metresPerUnit.reset();
+    EXPECT_NEAR(mustOpen(folder / "feet.tif", settings).maxM, 100 * 0.3048 + 7, 1e-3);
+    settings.offsetM = 0;
+    EXPECT_NEAR(mustOpen(folder / "feet.tif", settings).maxM, 100 * 0.3048, 1e-3) << "0 is given";
     tiff.metadata = "<GDALMetadata>" + bandItem("UNITTYPE", "unittype", "fathom") + "</GDALMetadata>";
     writeGeoTiff<std::int16_t>(folder / "deep.tif", tiff, [](int, int) { return 200; });
     EXPECT_THAT(
         errorOf(folder / "deep.tif"),
         HasSubstr("deep.tif: its heights are in fathom, which is not known; expected metres or feet"));
+    settings = {};
+    settings.metresPerUnit = 1;
+    EXPECT_EQ(mustOpen(folder / "deep.tif", settings).maxM, 200) << "the unit is overridden";
     tiff.metadata = "<GDALMetadata>" + bandItem("UNITTYPE", "unittype", "metre") +
                     "<Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item></GDALMetadata>";
     writeGeoTiff<std::int16_t>(folder / "plain.tif", tiff, [](int, int) { return 200; });

@@ -554,6 +554,8 @@ TEST(TerrainText, ErrorsTellWhatWouldBeRight) {
     HeightSourceSettings shifted;
     shifted.offsetM = 10;
     EXPECT_THAT(errorOf("noise:fbm", shifted), HasSubstr("is procedural terrain"));
+    shifted.offsetM = 0;
+    EXPECT_THAT(errorOf("noise:fbm", shifted), HasSubstr("is procedural terrain"));
 }
 
 TEST(Terrain, SettingsOutOfRangeAreToldByName) {

@@ -29,11 +29,11 @@ std::string explanationOf(const PresetView& preset) {
                        preset.shipped ? "Built-in." : "User preset.", preset.file.string());
 }
 
-// What stands at the right of a preset's name.
+// Returns the cell of the column "Changes".
 std::string noteOf(const PresetView& preset) {
     if (!preset.problem.empty()) return "unreadable";
     if (preset.differences.empty()) return "current";
-    return fmt::format("{} change{}", preset.differences.size(), preset.differences.size() == 1 ? "" : "s");
+    return fmt::format("{}", preset.differences.size());
 }
 
 void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& commands) {
@@ -60,9 +60,10 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
         wrappedText("There are no presets.", palette().dim);
         return;
     }
-    constexpr std::array columns = {TableColumn{"Name", 6, nullptr, "name of a preset"},
-                                    TableColumn{"Changes", 1, nullptr, "123 changes"},
-                                    TableColumn{"Origin", 0.5f, nullptr, "built-in"}};
+    constexpr std::array columns = {
+        TableColumn{"Name", 6, nullptr, "crack hunting"},
+        TableColumn{"Changes", 1, "Number of current settings that it would change.", "unreadable"},
+        TableColumn{"Origin", 0.5f, nullptr, "built-in"}};
     if (!beginListTable("presets", columns, view.presets.size(), 16)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const PresetView& preset = view.presets[row];
@@ -133,12 +134,17 @@ void textCell(const std::string& text) {
 
 void differencesTable(const PresetView& preset) {
     std::vector<std::array<std::string, 3>> rows;
+    std::array<std::vector<std::string>, 2> values;
     for (const SettingDifference& difference : preset.differences) {
         const auto [now, then] = shortNumberTexts(difference.here, difference.there);
         rows.push_back({inFont(difference.label), now, then});
+        values[0].push_back(now);
+        values[1].push_back(then);
     }
-    constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"Now", 1},
-                                    TableColumn{"Preset", 1}};
+    const std::string widestNow = widestText(values[0]);
+    const std::string widestThen = widestText(values[1]);
+    const std::array columns = {TableColumn{"Setting", 2}, TableColumn{"Now", 1, nullptr, widestNow.c_str()},
+                                TableColumn{"Preset", 1, nullptr, widestThen.c_str()}};
     if (!beginListTable("differences", columns, rows.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) { return textSortKey(rows[row][column]); };
     tableRows(rows.size(), key, [&](std::size_t row) {

@@ -77,11 +77,18 @@ void differencesTable(const CompareView& compare) {
     if (compare.fileA != compare.fileB)
         rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
                         {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
+    // Without the files: their names may be of any length, and their tooltips show the whole paths.
+    std::array<std::vector<std::string>, 2> values;
     for (const SettingDifference& one : compare.different) {
         const auto [a, b] = shortNumberTexts(one.here, one.there);
         rows.push_back({{inFont(one.label), a, b}});
+        values[0].push_back(a);
+        values[1].push_back(b);
     }
-    constexpr std::array columns = {TableColumn{"Setting", 2}, TableColumn{"A", 1}, TableColumn{"B", 1}};
+    const std::string widestA = widestText(values[0]);
+    const std::string widestB = widestText(values[1]);
+    const std::array columns = {TableColumn{"Setting", 2}, TableColumn{"A", 1, nullptr, widestA.c_str()},
+                                TableColumn{"B", 1, nullptr, widestB.c_str()}};
     if (!beginListTable("sides", columns, rows.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) {
         return textSortKey(rows[row].texts[column]);
@@ -153,11 +160,12 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
     std::vector<CompareRow> rows;
     std::copy_if(compareRows().begin(), compareRows().end(), std::back_inserter(rows),
                  [&](const CompareRow& row) { return live ? row.live : row.flight; });
+    // The ratio stands before A and B: a narrow panel scrolls the last columns out of sight.
     constexpr std::array columns = {
         TableColumn{"Figure", 1.5f, nullptr, "Max drawn bound"},
-        TableColumn{"A", 1, "The planet shown in the window.", "1023 MiB"},
-        TableColumn{"B", 1, "The planet it is compared with.", "1023 MiB"},
-        TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-1023 MiB"}};
+        TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-99.9 MiB"},
+        TableColumn{"A", 1, "The planet shown in the window.", "99.9 MiB"},
+        TableColumn{"B", 1, "The planet it is compared with.", "99.9 MiB"}};
     if (!beginListTable(id, columns, rows.size(), rows.size() + 1, 1)) return;
     const auto key = [&](std::size_t row, std::size_t column) {
         return figureSortKey(rows[row], static_cast<FigureColumn>(column), figures);
@@ -169,7 +177,7 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
         const ImVec4 colour = live && stale && isMeasured(row) ? palette().dim : palette().text;
         cell(inFont(row.name), palette().dim);
         tooltip(row.explanation);
-        for (const std::string& text : {figureText(row, a), figureText(row, b), changeText(row, a, b)}) {
+        for (const std::string& text : {changeText(row, a, b), figureText(row, a), figureText(row, b)}) {
             rightCell(text, colour);
             tooltip(row.explanation);
         }

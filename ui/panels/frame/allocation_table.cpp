@@ -18,6 +18,14 @@ namespace {
 
 using Held = Allocations;
 
+constexpr std::array allocationColumns = {
+    TableColumn{"Kind", 1.8f, nullptr, "Finished requests"},
+    TableColumn{"Now", 1, "Values in the last frame.", "99.9 MiB"},
+    TableColumn{"Change", 1, "Now minus Mark. Sort by it to see what grows.", "+99.9 MiB"},
+    TableColumn{"Mark", 1, "Values when Mark was pressed.", "99.9 MiB"}};
+constexpr std::span<const TableColumn> withoutMark =
+    std::span(allocationColumns).first(allocationColumns.size() - 1);
+
 double asNumber(std::size_t value) {
     return static_cast<double>(value);
 }
@@ -114,13 +122,8 @@ void drawRow(const AllocationRow& row, const AllocationsView& view, bool withMar
 }
 
 void drawTable(const AllocationsView& view) {
-    constexpr std::array columns = {
-        TableColumn{"Kind", 1.8f, nullptr, "Finished requests"},
-        TableColumn{"Now", 1, "Values in the last frame.", "1023 MiB"},
-        TableColumn{"Change", 1, "Now minus Mark. Sort by it to see what grows.", "+1023 MiB"},
-        TableColumn{"Mark", 1, "Values when Mark was pressed.", "1023 MiB"}};
-    const bool withMark = ImGui::GetContentRegionAvail().x > 28 * ImGui::GetFontSize();
-    const std::span<const TableColumn> shown = std::span(columns).first(withMark ? 4 : 3);
+    const bool withMark = ImGui::GetContentRegionAvail().x >= listTableWidth(allocationColumns);
+    const std::span<const TableColumn> shown = withMark ? std::span(allocationColumns) : withoutMark;
     const auto groups = static_cast<std::size_t>(std::count_if(
         kindRows.begin(), kindRows.end(), [](const AllocationRow& row) { return row.group != nullptr; }));
     if (!beginListTable("allocations", shown, kindRows.size() + groups, kindRows.size() + groups + 1)) return;
@@ -182,6 +185,10 @@ std::string allocationsText(const AllocationsView& view) {
                             row.value(view.mark), row.value(*view.now) - row.value(view.mark));
     }
     return text;
+}
+
+float allocationTableWidth() {
+    return listTableWidth(withoutMark);
 }
 
 void allocationTable(const AllocationsView& view, double timeS, Commands& commands) {

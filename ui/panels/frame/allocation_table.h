@@ -31,6 +31,8 @@ std::string allocationChange(const AllocationRow& row, const Allocations& before
 // All rows with tabs between, to be put beside another day's.
 std::string allocationsText(const AllocationsView& view);
 
+// Returns the width at which the table shows all columns but the one of the mark, pixels.
+float allocationTableWidth();
 // Fills the current column.
 void allocationTable(const AllocationsView& view, double timeS, Commands& commands);
 

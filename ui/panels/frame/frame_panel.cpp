@@ -71,23 +71,22 @@ void pauseControls(const EditorView& view, Commands& commands) {
     endGrey();
 }
 
-void times(const EditorView& view, Commands& commands) {
-    pauseControls(view, commands);
+std::vector<ValueRow> timeRows(const EditorView& view) {
     const FrameStats& stats = view.stats;
-    if (!beginValues("times")) return;
     const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
-    valueRow("Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time.");
-    valueRow("Frame", millisecondsText(stats.frameMs),
-             "Time from the start of one frame to the next, including the wait for the monitor.");
-    valueRow("Longest, last 10 s", millisecondsText(longestFrameMs(view.history)),
-             "Longest frame of the last 10 seconds. Switching a feature on may take one long frame.");
+    std::vector<ValueRow> rows = {
+        {"Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time."},
+        {"Frame", millisecondsText(stats.frameMs),
+         "Time from the start of one frame to the next, including the wait for the monitor."},
+        {"Longest, last 10 s", millisecondsText(longestFrameMs(view.history)),
+         "Longest frame of the last 10 seconds. Switching a feature on may take one long frame."}};
     for (const Stage& stage : cpuStages)
-        valueRow(fmt::format("CPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
-                 stage.explanation);
+        rows.push_back(
+            {fmt::format("CPU {}", stage.name), millisecondsText(stage.ms(stats)), stage.explanation});
     for (const Stage& stage : gpuStages)
-        valueRow(fmt::format("GPU {}", stage.name).c_str(), millisecondsText(stage.ms(stats)),
-                 stage.explanation);
-    endValues();
+        rows.push_back(
+            {fmt::format("GPU {}", stage.name), millisecondsText(stage.ms(stats)), stage.explanation});
+    return rows;
 }
 
 // Of each frame, one stage on the other; times that no stage counts are left out. Timer queries answer some
@@ -100,18 +99,16 @@ void plots(const EditorView& view, bool wide) {
     stagePlot(view, "gpu", "ms GPU", gpuStages, sampleTimes, lines);
 }
 
-void counts(const EditorView& view) {
+std::vector<ValueRow> countRows(const EditorView& view) {
     const FrameStats& stats = view.stats;
-    if (!beginValues("counts")) return;
-    valueRow("Chunks drawn", countText(stats.selection.drawn), "Chunks selected for the LOD view.");
-    valueRow(terms::triangles.name, countText(static_cast<double>(stats.selection.triangles())),
-             terms::triangles.meaning);
-    valueRow("Triangles, all pictures", countText(static_cast<double>(stats.render.triangles())),
-             "Triangles drawn in this frame in all pictures of the planet, the observer's included.");
-    valueRow("Uploads", countText(stats.render.uploads), "Chunks uploaded since the previous frame.");
-    valueRow("Nodes visited", countText(stats.selection.visited),
-             "Quadtree nodes visited by the LOD selection.");
-    endValues();
+    return {{terms::drawnChunks.name, countText(stats.selection.drawn), terms::drawnChunks.meaning},
+            {terms::triangles.name, countText(static_cast<double>(stats.selection.triangles())),
+             terms::triangles.meaning},
+            {"Triangles, all pictures", countText(static_cast<double>(stats.render.triangles())),
+             "Triangles drawn in this frame in all pictures of the planet, the observer's included."},
+            {"Uploads", countText(stats.render.uploads), "Chunks uploaded since the previous frame."},
+            {"Nodes visited", countText(stats.selection.visited),
+             "Quadtree nodes visited by the LOD selection."}};
 }
 
 double asBytes(std::size_t bytes) {
@@ -164,32 +161,44 @@ void partCosts(const EditorView& view, Commands& commands) {
         commands.emplace_back(MeasureCosts{});
     endGrey();
     if (measuring) usageBar(view.light.measured, fmt::format("{:.0f} %", 100 * view.light.measured));
-    if (view.light.costs.empty()) return;
-    if (!beginValues("parts")) return;
+}
+
+std::vector<ValueRow> partRows(const EditorView& view) {
+    std::vector<ValueRow> rows;
     for (const PartCost& cost : view.light.costs)
-        valueRow(cost.part.c_str(),
-                 fmt::format("{:+.1f} ms, {:.2f} x", cost.withMs - cost.withoutMs,
-                             cost.withMs / std::max(cost.withoutMs, 1e-6)),
-                 "Additional frame time compared with the lit ground alone, which is 1.");
-    endValues();
+        rows.push_back({cost.part,
+                        fmt::format("{:+.1f} ms, {:.2f} x", cost.withMs - cost.withoutMs,
+                                    cost.withMs / std::max(cost.withoutMs, 1e-6)),
+                        "Additional frame time compared with the lit ground alone, which is 1."});
+    return rows;
 }
 
 }  // namespace
 
 void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
-    const bool wide = hasWideRoom();
-    const std::array columns = {Column{"Times", 0.8f, 0,
-                                       [&] {
-                                           times(view, commands);
-                                           partCosts(view, commands);
-                                       }},
-                                Column{"Last 10 seconds", 1.7f, 0, [&] { plots(view, wide); }},
-                                Column{"Counts and memory", 1, 0, [&] {
-                                           counts(view);
-                                           memoryByKind(view);
-                                           if (section("Allocations"))
-                                               allocationTable(view.allocations, view.timeS, commands);
-                                       }}};
+    const std::vector<ValueRow> times = timeRows(view);
+    const std::vector<ValueRow> parts = partRows(view);
+    const std::vector<ValueRow> counts = countRows(view);
+    const auto drawTimes = [&] {
+        pauseControls(view, commands);
+        valueRows("times", times);
+        partCosts(view, commands);
+        if (!parts.empty()) valueRows("parts", parts);
+    };
+    bool wide = false;
+    const auto drawCounts = [&] {
+        valueRows("counts", counts);
+        memoryByKind(view);
+        if (section("Allocations")) allocationTable(view.allocations, view.timeS, commands);
+    };
+    float timesWidth = valuesWidth(times, "99.9 ms");
+    if (!parts.empty()) timesWidth = std::max(timesWidth, valuesWidth(parts, "+99.9 ms, 1.23 x"));
+    const float countsWidth = std::max(valuesWidth(counts, "99.9 M"), allocationTableWidth());
+    const std::array columns = {
+        Column{"Times", 0.8f, 0, drawTimes, timesWidth},
+        Column{"Last 10 seconds", 1.7f, 0, [&] { plots(view, wide); }, leastPlotWidth()},
+        Column{"Counts and memory", 1, 0, drawCounts, countsWidth}};
+    wide = hasWideRoom(columns);
     drawColumns("frame", columns);
 }
 

@@ -23,7 +23,7 @@ namespace ui {
 
 namespace {
 
-// Of the list of chunks that flip back and forth.
+// Length of the list of thrashing chunks.
 constexpr std::size_t thrashingShown = 6;
 
 void toleranceKnobs(LodKnobs& lod) {
@@ -246,7 +246,7 @@ void drawnPlots(const EditorView& view, double tauPx) {
     linePlot("errors", times, errors, "px", 0, 3, false, tauPx);
 }
 
-// The chunks that flipped back last, newest first, each once.
+// Returns the chunks that thrashed last, newest first, each once.
 std::vector<planet::ChunkId> lastThrashing(const planet::LodChanges& changes) {
     std::vector<planet::ChunkId> chunks;
     if (changes.thrashRecent() == 0) return chunks;
@@ -276,7 +276,7 @@ void changes(const EditorView& view, Commands& commands) {
     }
     const std::vector<planet::ChunkId> chunks = lastThrashing(c);
     if (chunks.empty()) return;
-    ImGui::TextDisabled("Last to switch back:");
+    ImGui::TextDisabled("Latest thrash, newest first:");
     for (const planet::ChunkId& id : chunks) chunkLink(id, view, commands);
 }
 

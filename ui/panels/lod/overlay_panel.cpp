@@ -10,6 +10,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/model/glossary.h"
 #include "ui/model/text.h"
 
 namespace ui {
@@ -108,7 +109,7 @@ void errorHistogram(const planet::Planet& planet) {
         "Histogram of the screen-space error of drawn chunks. Leaves have error 0. Chunks right of τ wait "
         "for their children or may not be split.");
     if (!beginValues("errors")) return;
-    valueRow("Drawn", fmt::format("{}", selection.draw.size()), "Number of chunks drawn.");
+    valueRow(terms::drawnChunks.name, fmt::format("{}", selection.draw.size()), terms::drawnChunks.meaning);
     const bool any = errors.over > 0;
     valueRow(fmt::format("Over {}", tauSymbol()).c_str(), fmt::format("{}", errors.over),
              "Chunks drawn although their error exceeds the tolerance, because their children are not loaded "

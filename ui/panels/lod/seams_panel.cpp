@@ -103,19 +103,18 @@ const char* edgeName(planet::Edge edge) {
 
 void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& commands) {
     cell(fmt::format("{}", difference(seam)));
-    chunkCell(seam.finer, view, commands);
     cell(edgeName(seam.edge));
-    chunkCell(seam.coarser, view, commands);
+    chunkCell(seam.finer, view, commands);
+    chunkLink(seam.coarser, view, commands);
 }
 
 // Widest first, then by id. Only the rows that are seen are sorted.
 void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {TableColumn{"Difference", 0.5f, "Level difference."},
-                                TableColumn{"Finer", 1.6f, nullptr, chunk.c_str()},
-                                TableColumn{"Edge", 0.5f, nullptr, "south"},
-                                TableColumn{"Coarser", 1.6f, nullptr, chunk.c_str()}};
-    if (!beginListTable("pairs", columns, seams.size(), 14)) return;
+    const std::array columns = {TableColumn{"Levels", 0.5f, "Level difference."},
+                                TableColumn{"Edge", 0.5f, "Edge of the finer chunk.", "south"},
+                                TableColumn{"Finer, coarser", 2, nullptr, chunk.c_str()}};
+    if (!beginListTable("pairs", columns, 2 * seams.size(), 15)) return;
     std::vector<const planet::LevelSeam*> order;
     order.reserve(seams.size());
     for (const planet::LevelSeam& seam : seams) order.push_back(&seam);
@@ -127,9 +126,8 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
         const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
             const planet::LevelSeam& seam = seams[row];
             if (column == 0) return static_cast<double>(difference(seam));
-            if (column == 1) return sortKey(seam.finer);
-            if (column == 2) return std::string(edgeName(seam.edge));
-            return sortKey(seam.coarser);
+            if (column == 1) return std::string(edgeName(seam.edge));
+            return sortKey(seam.finer);
         };
         tableRows(seams.size(), key, [&](std::size_t row) { seamRow(seams[row], view, commands); });
     } else {

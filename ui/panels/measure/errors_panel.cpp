@@ -105,7 +105,7 @@ void figures(const ErrorMeasurement& last) {
     valueRow("Max drawn bound", finePx(report.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
     valueRow("Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
              "1 - measured / bound, mean over the chunks. Larger: more triangles than the tolerance needs.");
-    valueRow("Chunks", fmt::format("{}", report.chunks.size()), "Chunks drawn in that frame.");
+    valueRow(terms::drawnChunks.name, fmt::format("{}", report.chunks.size()), "Chunks drawn in that frame.");
     valueRow("Samples", countText(static_cast<double>(report.samples)), "Number of finest samples compared.");
     endValues();
 }
