@@ -21,7 +21,7 @@ struct ColourSource {
     std::string description;  // "colour.jpg, 2048 x 1024 uint8, equirectangular"
     int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no resolution
     // Says that six faces differ along the cube's edges so that seams will be visible; empty if they agree.
-    std::string notice;
+    std::string notice{};
 
     // Fills out, row-major, columns x rows colours in linear light, [0, 1]. As HeightSource::sample: filtered
     // to the grid's spacing, and on an edge of the cube the same to the last bit through either face.

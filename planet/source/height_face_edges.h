@@ -30,7 +30,7 @@ Result<void> checkHeightEdges(const std::array<HeightRaster, faceCount>& faces, 
 // linear light clamped to [0, 1].
 struct ColourSeams {
     int edges = 0;
-    std::string notice;  // names the two faces and sides that differ most; empty if there is no such edge
+    std::string notice{};  // names the two faces and sides that differ most; empty if there is no such edge
 };
 Result<ColourSeams> findColourSeams(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
                                     const std::string& stem);

@@ -41,7 +41,7 @@ struct HeightSource {
     // Colours only: the number of the cube's edges along which six faces differ visibly, and the notice that
     // says so. 0 and empty if the faces agree.
     int seamEdges = 0;
-    std::string notice;
+    std::string notice{};
 
     // Fills out, row-major, columns x rows heights in metres. A sample's value depends only on its point of
     // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
