@@ -11,12 +11,13 @@
 #include <utility>
 
 #include "planet/planet_state.h"
+#include "planet/planet_tools.h"
 
 namespace planet {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = PlanetState::Clock;
 
 Result<void> checkSettings(const PagingSettings& settings) {
     if (settings.loaderThreads < 1 || settings.loaderThreads > maxLoaderThreads) {
@@ -67,8 +68,8 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
     std::size_t chunkBytes = shares.chunks;
     if (hasNormals) {
         const TilePyramid pyramid{"normal tiles", normalLeafLevel(shape), normalTileBytes};
-        const Result<std::uint32_t> normals = tilesFor(pyramid, shares.normals, settings.maxNormalTiles);
-        if (normals && slotsFor(shape, chunkBytes)) {
+        const Result<std::uint32_t> normals = tileSlotsFor(pyramid, shares.normals, settings.maxNormalTiles);
+        if (normals && chunkSlotsFor(shape, chunkBytes)) {
             room.normals = *normals;
             room.normalHeightBytes = shares.normalHeights;
         } else {
@@ -77,13 +78,13 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
             chunkBytes = sharesOf(settings, colour.has_value(), false).chunks;
         }
     }
-    const Result<std::uint32_t> slots = slotsFor(shape, chunkBytes);
+    const Result<std::uint32_t> slots = chunkSlotsFor(shape, chunkBytes);
     if (!slots) return tl::unexpected(slots.error());
     room.slots = *slots;
     if (!colour) return room;
     const Result<std::uint32_t> tiles =
-        tilesFor({"colour tiles", colour->leafLevel, colourTileBytes(colour->format)}, shares.colours,
-                 settings.maxColourTiles);
+        tileSlotsFor({"colour tiles", colour->leafLevel, colourTileBytes(colour->format)}, shares.colours,
+                     settings.maxColourTiles);
     if (!tiles) return tl::unexpected(tiles.error());
     room.colours = *tiles;
     return room;
@@ -91,19 +92,33 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
 
 }  // namespace
 
+PlanetState::PlanetState(ChunkTree&& tree, std::uint32_t chunkSlots,
+                         std::shared_ptr<const ChunkFile> chunkFile, std::unique_ptr<NormalDeriver> deriver)
+    : file(std::move(chunkFile)),
+      heights(std::move(tree), chunkSlots, file),
+      normalRoots(std::move(deriver)) {}
+
 Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSettings& settings) {
     if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
     const Result<Room> room = roomFor(source.shape, source.colour, settings);
     if (!room) return tl::unexpected(room.error());
     auto tree = makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots));
     if (!tree) return tl::unexpected(namingFile(source.file.get(), std::move(tree.error())));
-    auto state = std::make_unique<PlanetState>();
+    const int normalLevel = normalLeafLevel(source.shape);
+    std::unique_ptr<NormalDeriver> deriver;
+    if (normalLevel >= 0) {
+        std::array<HeldChunk, faceCount> roots;
+        for (std::size_t face = 0; face < faceCount; ++face) {
+            const ChunkNode& root = tree->nodes[face];
+            roots[face] = {root.id, root.heights, root.children};
+        }
+        deriver = std::make_unique<NormalDeriver>(source.shape, roots, source.loadChildren);
+    }
+    auto state = std::make_unique<PlanetState>(std::move(*tree), room->slots, std::move(source.file),
+                                               std::move(deriver));
     state->settings = settings;
-    state->file = std::move(source.file);
-    state->tree = std::move(*tree);
-    state->slotCapacity = room->slots;
-    state->freeSlots = freeSlotsFrom(faceCount, room->slots);
-    state->problems = std::move(source.problems);
+    state->run.retry = settings.retry;
+    state->run.log.problems = std::move(source.problems);
     if (source.colour) {
         state->colours.leafLevel = source.colour->leafLevel;
         state->colours.checkers = source.colour->format;
@@ -111,21 +126,12 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
         state->colours.begin(room->colours, 0);
         state->colour = std::move(source.colour);
     }
-    state->normals.kind = BlockKind::Normals;
-    state->normals.leafLevel = planet::normalLeafLevel(source.shape);
-    if (state->normals.leafLevel >= 0) {
-        std::array<HeldChunk, faceCount> roots;
-        for (std::size_t face = 0; face < faceCount; ++face) {
-            const ChunkNode& root = state->tree.nodes[face];
-            roots[face] = {root.id, root.heights, root.children};
-        }
-        state->deriver = std::make_unique<NormalDeriver>(source.shape, roots, source.loadChildren);
-        for (const Face face : allFaces) state->normals.roots[static_cast<std::size_t>(face)].id.face = face;
-    }
+    state->normals.leafLevel = normalLevel;
+    for (const Face face : allFaces) state->normals.roots[static_cast<std::size_t>(face)].id.face = face;
     state->beginNormals(room->normals, room->normalHeightBytes, room->problem);
     BlockLoaders loaders{std::move(source.loadChildren), std::move(source.loadColours)};
-    loaders.normals = [deriver = state->deriver.get()](const ChunkId& parent) {
-        return deriver->childrenOf(parent);
+    loaders.normals = [of = state->normalRoots.deriver()](const ChunkId& parent) {
+        return of->childrenOf(parent);
     };
     state->pager = std::make_unique<Pager>(std::move(loaders), settings.loaderThreads);
     state->pager->setTime(settings.time);  // there is nothing to give up
@@ -142,53 +148,45 @@ void Planet::step(const View& lodView, const LodSettings& settings, const Upload
     step(std::span(&only, 1), upload);
 }
 
-void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload) {
-    const double elapsedS = state_->clockS();
-    state_->step(views, upload, elapsedS, elapsedS);
-}
-
-void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload, double elapsedS) {
-    state_->lastStep = PlanetState::Clock::now();
-    state_->step(views, upload, elapsedS, elapsedS);
+void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload,
+                  std::optional<double> elapsedS) {
+    const double clockS = state_->clockS();
+    state_->step(views, upload, elapsedS.value_or(clockS), elapsedS.value_or(clockS));
 }
 
 // Seconds since this was asked last.
 double PlanetState::clockS() {
     const Clock::time_point now = Clock::now();
-    return std::chrono::duration<double>(now - std::exchange(lastStep, now)).count();
+    return std::chrono::duration<double>(now - std::exchange(lastStepAt, now)).count();
 }
 
 void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
                        double fadeElapsedS) {
     assert(!inputs.empty() && inputs.size() <= maxViews && std::isfinite(elapsedS) && elapsedS >= 0);
-    ++frame;
+    ++run.frame;
     changed = false;
-    nowS += elapsedS;
-    sinceAnewS += elapsedS;
-    lastElapsedS = elapsedS;
+    run.nowS += elapsedS;
+    run.sinceAnewS += elapsedS;
+    lastStep.nowS = run.nowS;
+    lastStep.elapsedS = elapsedS;
     views.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
 
     Clock::time_point start = Clock::now();
     if (settings.time != PagingTime::Clock) pager->advance(elapsedS);
-    followNormalRoots();
+    if (normalRoots.follow(normals, run)) selectAgain();
     dropYielding();
     uploadFinished(upload);
-    times.uploadMs = msSince(start);
+    lastStep.times.uploadMs = msSince(start);
 
     start = Clock::now();
     select(fadeElapsedS);
-    times.selectMs = msSince(start);
+    lastStep.times.selectMs = msSince(start);
 
     start = Clock::now();
-    pager->withQueue([&](PagingQueue& queue) {
-        noteTaken(queue);
-        markUsed(queue);
-        request(queue);
-    });
-    chooseYielding();
+    page();
     count();
-    times.pagingMs = msSince(start);
+    lastStep.times.pagingMs = msSince(start);
 }
 
 bool Planet::settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload,
@@ -206,7 +204,7 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
         if (settled()) return true;
         if (Clock::now() >= deadline || state_->settings.time == PagingTime::Recorded) return false;
         if (state_->normalsArePending()) {
-            state_->normalRootComing.wait_until(deadline);
+            state_->normalRoots.waitUntil(deadline);
             continue;
         }
         const PagerStatus status = state_->pager->status();
@@ -230,7 +228,7 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
     double leftS = timeoutS;
     double stepS = 0;
     while (true) {
-        state_->lastStep = PlanetState::Clock::now();
+        state_->lastStepAt = PlanetState::Clock::now();
         state_->step(views, upload, stepS, std::numeric_limits<double>::infinity());
         if (settled()) return true;
         const PagerStatus status = state_->pager->status();
@@ -246,32 +244,36 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
     }
 }
 
-// What the budget has no room for can still come while a block is resident that no view uses, or that yields
-// to it, for that block will be dropped.
+// A block that the budget has no room for can still arrive where another block is about to be dropped.
+bool PlanetState::isSettled() const {
+    const auto all = kinds();
+    const bool roomIsComing =
+        std::any_of(all.begin(), all.end(), [](const BlockPaging* kind) { return kind->roomIsComing(); });
+    return run.frame > 0 && !changed && pager->status().idle() && !roomIsComing && !normalsArePending() &&
+           !untilRetryS();
+}
+
 bool Planet::settled() const {
-    const PlanetState& state = *state_;
-    const bool roomToCome = state.hasBlocksOutOfUse() || !state.yielding.empty();
-    return state.frame > 0 && !state.changed && state.pager->status().idle() &&
-           (state.paging.budgetWaits == 0 || !roomToCome) && !state.colours.roomToCome &&
-           !state.normals.roomToCome && !state.normalsArePending() && !state.untilRetryS();
+    return state_->isSettled();
 }
 
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
     PlanetState& state = *state_;
     if (settings == state.settings) return false;
     if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
-    const Result<Room> room = roomFor(state.tree.storedShape, state.colour, settings);
+    const Result<Room> room = roomFor(state.heights.tree.storedShape, state.colour, settings);
     if (!room) return tl::unexpected(room.error());
     const bool otherTime = settings.time != state.settings.time;
     state.settings = settings;
+    state.run.retry = settings.retry;
     state.changed = true;
     // First what holds for the reads that the other time begins with.
     applyTo(*state.pager, settings);
-    if (otherTime) state.putBack(state.pager->setTime(settings.time));
-    const bool resized = room->slots != state.slotCapacity;
-    if (resized) state.resize(room->slots);
-    if (room->colours != state.colours.tileCapacity) state.resizeTiles(state.colours, room->colours);
-    if (room->normals != state.normalCapacity || room->problem != state.normalProblem)
+    if (otherTime) state.requeue(state.pager->setTime(settings.time));
+    const bool resized = room->slots != state.heights.capacity();
+    if (resized) state.resizeHeights(room->slots);
+    if (room->colours != state.colours.capacity()) state.resizeTiles(state.colours, room->colours);
+    if (room->normals != state.normalRoots.capacity() || room->problem != state.normalRoots.problem())
         state.beginNormals(room->normals, room->normalHeightBytes, room->problem);
     else if (otherTime && state.normalsArePending())
         state.finishNormalRoots();
@@ -279,58 +281,9 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     return resized;
 }
 
-void Planet::loadOne() {
-    state_->pager->loadOne();
-}
-
-void Planet::dropAll() {
-    state_->changed = true;
-    state_->dropEverything();
-    state_->count();
-}
-
-void Planet::startAnew() {
-    state_->lastStep = PlanetState::Clock::now();
-    state_->startAnew();
-    state_->count();
-}
-
-void Planet::forgetSelections() {
-    for (PlanetView& view : state_->views) view.selection = {};
-    state_->changed = true;
-}
-
-void Planet::keepMoves(bool kept) {
-    if (kept && state_->normalsArePending()) {
-        state_->finishNormalRoots();
-        state_->count();
-    }
-    state_->keepsMoves = kept;
-    state_->moves = {};
-}
-
-PagingMoves Planet::takeMoves() {
-    return std::exchange(state_->moves, {});
-}
-
-bool Planet::follow(const PagingMoves& moves) {
-    assert(state_->settings.time == PagingTime::Recorded);
-    Pager& pager = *state_->pager;
-    if (moves.gaveUp) state_->putBack(pager.giveUp());
-    bool whole = true;
-    for (const BlockId& block : moves.taken) whole &= pager.take(block);
-    for (const PagingMoves::Arrival& arrival : moves.arrived) {
-        std::optional<ErrorKind> failure;
-        if (arrival.outcome == PagingOutcome::Failed)
-            failure = arrival.badData ? ErrorKind::BadInput : ErrorKind::Io;
-        whole &= pager.finish(arrival.block, failure, arrival.outcome != PagingOutcome::Cancelled);
-    }
-    return whole;
-}
-
 void Planet::setExaggeration(double factor) {
     assert(factor > 0);
-    ChunkTree& tree = state_->tree;
+    ChunkTree& tree = state_->heights.tree;
     const double possible = std::min(factor, largestExaggeration(tree));
     if (possible == tree.exaggeration) return;
     planet::setExaggeration(tree, possible);
@@ -338,121 +291,56 @@ void Planet::setExaggeration(double factor) {
 }
 
 void Planet::uploadAll(const UploadChunk& upload) const {
-    forEachNode(state_->tree, [&](NodeIndex, const ChunkNode& node) { upload(node.slot, *node.heights); });
+    forEachNode(tree(), [&](NodeIndex, const ChunkNode& node) { upload(node.slot, *node.heights); });
+}
+
+std::vector<TileChange> Planet::takeTileChanges(BlockKind kind) {
+    return std::exchange(state_->tilesOf(kind).changes, {});
+}
+
+void Planet::beginTilesAnew(BlockKind kind) {
+    TilePaging& tiles = state_->tilesOf(kind);
+    if (tiles.isOn()) state_->resizeTiles(tiles, tiles.capacity());
 }
 
 std::vector<std::string> Planet::takeProblems() {
-    return std::exchange(state_->problems, {});
+    return std::exchange(state_->run.log.problems, {});
 }
 
-std::vector<PagingRequest> Planet::pendingRequests(PagingType type) const {
-    return state_->pager->readQueue([&](const PagingQueue& queue) { return queue.sorted(type); });
-}
-
-std::vector<PagingRequest> Planet::pendingRequests(PagingType type, std::size_t view) const {
-    assert(view < viewCount());
-    std::vector<PagingRequest> pending = pendingRequests(type);
-    std::erase_if(pending, [&](const PagingRequest& request) { return request.viewPriority[view] == 0; });
-    std::stable_sort(pending.begin(), pending.end(), [&](const PagingRequest& a, const PagingRequest& b) {
-        return a.viewPriority[view] > b.viewPriority[view];
-    });
-    return pending;
-}
-
-std::vector<LoadInProgress> Planet::loadingNow() const {
-    return state_->pager->loadingNow();
+const PagingSettings& Planet::pagingSettings() const {
+    return state_->settings;
 }
 const ChunkFile& Planet::file() const {
     assert(state_->file);
     return *state_->file;
 }
-const PlanetShape& Planet::shape() const {
-    return state_->tree.shape;
-}
 const ChunkTree& Planet::tree() const {
-    return state_->tree;
+    return state_->heights.tree;
+}
+const std::optional<ColourPyramid>& Planet::colour() const {
+    return state_->colour;
+}
+const TileTree& Planet::tiles(BlockKind kind) const {
+    return state_->tilesOf(kind).tree;
+}
+std::span<const PlanetView> Planet::views() const {
+    return state_->views;
 }
 const Selection& Planet::selection(std::size_t view) const {
-    assert(view < viewCount());
+    assert(view < state_->views.size());
     return state_->views[view].selection;
-}
-std::size_t Planet::viewCount() const {
-    return state_->views.size();
-}
-const LodSettings& Planet::lodSettings(std::size_t view) const {
-    assert(view < viewCount());
-    return state_->views[view].input.lod;
-}
-const View& Planet::lodView(std::size_t view) const {
-    assert(view < viewCount());
-    return state_->views[view].input.lodView;
-}
-const PagingSettings& Planet::pagingSettings() const {
-    return state_->settings;
 }
 const PagingCounters& Planet::paging() const {
     return state_->paging;
 }
-std::uint64_t Planet::bytesRead() const {
-    return paging().bytesRead + colourPaging().bytesRead + normalPaging().bytesRead;
+const LastStep& Planet::lastStep() const {
+    return state_->lastStep;
 }
-const std::deque<PagingEvent>& Planet::pagingHistory() const {
-    return state_->history;
+PlanetInspector Planet::inspect() const {
+    return PlanetInspector(*state_);
 }
-const StageTimes& Planet::times() const {
-    return state_->times;
-}
-std::uint32_t Planet::slotCapacity() const {
-    return state_->slotCapacity;
-}
-double Planet::elapsedS() const {
-    return state_->lastElapsedS;
-}
-double Planet::seconds() const {
-    return state_->nowS;
-}
-
-const std::optional<ColourPyramid>& Planet::colour() const {
-    return state_->colour;
-}
-const TileTree& Planet::colourTree() const {
-    return state_->colours.tree;
-}
-const TileSelection& Planet::colourSelection(std::size_t view) const {
-    assert(view < viewCount());
-    return state_->views[view].colours;
-}
-const TilePagingCounters& Planet::colourPaging() const {
-    return state_->colours.counters;
-}
-std::vector<TileChange> Planet::takeColourChanges() {
-    return std::exchange(state_->colours.changes, {});
-}
-void Planet::beginColoursAnew() {
-    if (state_->colour) state_->resizeTiles(state_->colours, state_->colours.tileCapacity);
-}
-
-int Planet::normalLeafLevel() const {
-    return state_->normals.leafLevel;
-}
-const TileTree& Planet::normalTree() const {
-    return state_->normals.tree;
-}
-const TileSelection& Planet::normalSelection(std::size_t view) const {
-    assert(view < viewCount());
-    return state_->views[view].normals;
-}
-bool Planet::normalsArePending() const {
-    return state_->normalsArePending();
-}
-const TilePagingCounters& Planet::normalPaging() const {
-    return state_->normals.counters;
-}
-std::vector<TileChange> Planet::takeNormalChanges() {
-    return std::exchange(state_->normals.changes, {});
-}
-void Planet::beginNormalsAnew() {
-    state_->resizeTiles(state_->normals, state_->normals.tileCapacity);
+PlanetTools Planet::tools() {
+    return PlanetTools(*state_);
 }
 
 }  // namespace planet

@@ -1,6 +1,4 @@
 // Opening a planet from a chunk file: all that the run time needs of the file itself.
-#include <fmt/format.h>
-
 #include "planet/planet.h"
 #include "planet/planet_state.h"
 
@@ -34,19 +32,16 @@ void readColourRoots(const ChunkFile& file, PlanetSource& source) {
 
 }  // namespace
 
-Error namingFile(const ChunkFile* file, Error error) {
-    if (file) error.message = fmt::format("{}: {}; bake it again", file->name(), error.message);
-    return error;
-}
-
 Result<std::unique_ptr<Planet>> Planet::open(const std::filesystem::path& path,
                                              const PagingSettings& settings, const FileCalls& calls) {
     Result<ChunkFile> file = ChunkFile::open(path, calls);
     if (!file) return tl::unexpected(std::move(file.error()));
-    return open(std::move(*file), settings);
+    Result<PlanetSource> source = planetSource(std::move(*file));
+    if (!source) return tl::unexpected(std::move(source.error()));
+    return open(std::move(*source), settings);
 }
 
-Result<std::unique_ptr<Planet>> Planet::open(ChunkFile file, const PagingSettings& settings) {
+Result<PlanetSource> planetSource(ChunkFile file) {
     const auto shared = std::make_shared<const ChunkFile>(std::move(file));
     auto roots = readRoots(*shared);
     if (!roots) return tl::unexpected(std::move(roots.error()));
@@ -67,7 +62,7 @@ Result<std::unique_ptr<Planet>> Planet::open(ChunkFile file, const PagingSetting
         };
     }
     source.file = shared;
-    return open(std::move(source), settings);
+    return source;
 }
 
 }  // namespace planet

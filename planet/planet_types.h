@@ -3,15 +3,14 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "planet/format/chunk_file.h"
 #include "planet/paging/pager.h"
+#include "planet/paging/paging_types.h"
 #include "planet/select/lod_types.h"
 #include "planet/select/tile_select.h"
 #include "planet/sphere/planet_shape.h"
@@ -43,6 +42,19 @@ struct ViewInput {
     TileSettings normals{};
 };
 
+// One view of the last step.
+struct PlanetView {
+    ViewInput input;
+    Selection selection;
+    TileSelection colours;
+    TileSelection normals;
+
+    // kind: not Heights.
+    const TileSelection& tiles(BlockKind kind) const {
+        return kind == BlockKind::Colours ? colours : normals;
+    }
+};
+
 // The duration of each stage of the last step, ms.
 struct StageTimes {
     double uploadMs = 0;
@@ -50,11 +62,10 @@ struct StageTimes {
     double pagingMs = 0;  // page-out and requests
 };
 
-// Makes one chunk's heights drawable: chunkVertexCount steps into a slot below slotCapacity(). Called by the
-// thread that steps the planet.
-using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
-
-// No-op upload, for headless use.
-inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
+struct LastStep {
+    StageTimes times;
+    double nowS = 0;      // since the planet was opened, as of the last step
+    double elapsedS = 0;  // between the step before and the last step
+};
 
 }  // namespace planet

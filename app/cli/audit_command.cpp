@@ -23,6 +23,7 @@
 #include "app/scene/scene.h"
 #include "planet/base/percentile.h"
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "ui/model/glossary.h"
 #include "ui/model/text.h"
 
@@ -56,14 +57,14 @@ Result<std::vector<planet::CameraPose>> posesOf(const AuditOptions& options, con
 // below the ground is lifted above it, whose height is known once the view has settled.
 AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const planet::LodSettings& lod,
                      const AuditOptions& options, planet::View& view) {
-    const double radiusM = planet.shape().radiusM;
+    const double radiusM = planet.tree().shape.radiusM;
     Camera camera = cameraFromPose(pose, radiusM);
     AuditedView audited;
-    planet.startAnew();
+    planet.tools().startAnew();
     for (int attempt = 0; attempt < 4; ++attempt) {
         view = viewOf(camera, glm::radians(options.view.camera.fovDeg), options.size.widthPx,
                       options.size.heightPx);
-        planet.forgetSelections();
+        planet.tools().forgetSelections();
         audited.settled = planet.settle(view, lod, planet::noUpload, settleTimeoutS);
         const Ground ground{radiusM, planet::residentHeightM(planet.tree(), glm::normalize(camera.eyeM))};
         if (altitudeM(camera, ground) >= ground.heightM + minGroundClearanceM - 1e-3) break;

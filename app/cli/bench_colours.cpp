@@ -105,14 +105,15 @@ Result<void> pageInAll(const std::filesystem::path& chunkFile, std::uint64_t til
     const auto planet = planet::Planet::open(chunkFile, paging);
     if (!planet) return tl::unexpected(planet.error());
     planet::ViewInput input;
-    input.lodView = planet::viewFromPose({.altitudeM = 1e7}, (*planet)->shape().radiusM, 1.0, 640, 480);
+    input.lodView = planet::viewFromPose({.altitudeM = 1e7}, (*planet)->tree().shape.radiusM, 1.0, 640, 480);
     input.lod.frustumCulling = input.lod.horizonCulling = false;
     input.colours = {.enabled = true, .texelsPerPixel = 1e9};
     const Stopwatch watch;
-    while ((*planet)->colourPaging().residentTiles < tiles) {
+    while ((*planet)->paging()[planet::BlockKind::Colours].resident < tiles) {
         (*planet)->step({&input, 1}, [](std::uint32_t, std::span<const std::int16_t>) {});
-        pool.renderer.followColours((*planet)->takeColourChanges());
-        if (watch.elapsedMs() > 1000 * loadTimeoutS || (*planet)->colourPaging().failed > 0)
+        pool.renderer.followColours((*planet)->takeTileChanges(planet::BlockKind::Colours));
+        if (watch.elapsedMs() > 1000 * loadTimeoutS ||
+            (*planet)->paging()[planet::BlockKind::Colours].failed > 0)
             return planet::ioError(chunkFile.string() + ": not all of its colours could be loaded");
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     }

@@ -199,7 +199,7 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
             const auto opened = planet::Planet::open(planet.chunkFile, paging);
             if (!opened) return;
             (*opened)->settle(view, lod, nowhere, loadTimeoutS);
-            bytes = static_cast<double>((*opened)->bytesRead());
+            bytes = static_cast<double>((*opened)->paging().bytesRead());
             if (blocks.empty()) blocks = residentBlocks((*opened)->tree());
         },
         [&] {

@@ -143,7 +143,7 @@ Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const 
                                  "out vec4 colour;\nvoid main() { colour = vec4(0.5, 0.5, 0.5, 1.0); }\n"});
     if (!program) return tl::unexpected(program.error());
     const std::vector<std::uint32_t> indices = gridIndices(
-        selection.draw.size(), static_cast<std::uint32_t>(planet::chunkCells(scene.planet->shape())));
+        selection.draw.size(), static_cast<std::uint32_t>(planet::chunkCells(scene.planet->tree().shape)));
     StaticMesh mesh{std::move(*program),
                     planet::gl::makeVertexArray(),
                     planet::gl::makeBuffer(),
@@ -295,11 +295,11 @@ BenchRows benchSelection(const BenchPlanet& planet, const BenchOptions& options)
     planet::CameraPose high = benchPose;
     high.altitudeM = 5e6;
     high.pitchDeg = -90;
-    const planet::View above = planet::viewFromPose(high, tree.shape().radiusM, glm::radians(60.0),
+    const planet::View above = planet::viewFromPose(high, tree.tree().shape.radiusM, glm::radians(60.0),
                                                     options.size.widthPx, options.size.heightPx);
     std::vector<BenchRow> rows;
     for (const double tauPx : options.tausPx)
-        addSelection(tree, benchView(tree.shape(), options.size), tauPx, options.rounds, rows);
+        addSelection(tree, benchView(tree.tree().shape, options.size), tauPx, options.rounds, rows);
     addSelection(tree, above, everyLeafPx, options.rounds, rows);  // many nodes
     return rows;
 }

@@ -45,7 +45,7 @@ Result<void> runCosts(const CostsOptions& options) {
     const ui::ViewSettings all = partsOf(options.view, {}).back().settings;
     Result<Offscreen> offscreen = openOffscreen(config, all, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
-    const double radiusM = offscreen->scene.planet->shape().radiusM;
+    const double radiusM = offscreen->scene.planet->tree().shape.radiusM;
     const SettledView at =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), all);
     if (!at.settled) printMessage("worldy: loading timed out; chunks are missing\n");

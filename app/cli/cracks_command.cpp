@@ -17,6 +17,7 @@
 #include "app/measure/cracks.h"
 #include "app/scene/frame_report.h"
 #include "app/scene/offscreen.h"
+#include "planet/planet_tools.h"
 
 namespace worldy {
 
@@ -113,7 +114,7 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
     MeasuredView view;
     view.timeS = timeS;
     // Neither hysteresis nor what is resident may carry over from the view before.
-    offscreen.scene.planet->startAnew();
+    offscreen.scene.planet->tools().startAnew();
     view.at = settleAt(offscreen, pose, options.view);
     const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
     if (!measured) return tl::unexpected(measured.error());
@@ -147,7 +148,7 @@ Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const 
     settings.seams.skirtFactor = all.smallest.factor;
     int leaking = 0;
     for (const MeasuredView& view : all.views) {
-        offscreen.scene.planet->startAnew();
+        offscreen.scene.planet->tools().startAnew();
         const SettledView at = settleAt(offscreen, view.at.pose, settings);
         const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, at.view, settings);
         if (!measured) return tl::unexpected(measured.error());
@@ -315,7 +316,7 @@ void print(const Proof& proof, const Measured& all) {
 
 Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Measured& all) {
     if (options.flight.empty()) {
-        const double radiusM = offscreen.scene.planet->shape().radiusM;
+        const double radiusM = offscreen.scene.planet->tree().shape.radiusM;
         return measureView(offscreen, options.camera.value_or(startPose(options.start, radiusM)), 0, options,
                            all);
     }

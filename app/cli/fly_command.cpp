@@ -58,7 +58,7 @@ constexpr std::array<Quantity, 24> quantities = {{
     {"queued", [](const Stats& s) { return double{1} * s.paging.queued; }},
     {"resident_bytes_cpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesCpu); }},
     {"resident_bytes_gpu", [](const Stats& s) { return static_cast<double>(s.paging.residentBytesGpu); }},
-    {"bytes_read", [](const Stats& s) { return static_cast<double>(ui::bytesReadOf(s)); }},
+    {"bytes_read", [](const Stats& s) { return static_cast<double>(s.paging.bytesRead()); }},
     {"upload_ms", [](const Stats& s) { return s.stages.uploadMs; }},
     {"select_ms", [](const Stats& s) { return s.stages.selectMs; }},
     {"paging_ms", [](const Stats& s) { return s.stages.pagingMs; }},
@@ -95,7 +95,7 @@ Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity)
 Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS, double elapsedS,
                             const ui::ViewSettings& settings) {
     Scene& scene = offscreen.scene;
-    const double radiusM = scene.planet->shape().radiusM;
+    const double radiusM = scene.planet->tree().shape.radiusM;
     const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
     const Camera camera = keepInRange(wanted, groundBelow(scene, wanted.eyeM));
     const planet::View view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),

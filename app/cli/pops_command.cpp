@@ -140,7 +140,7 @@ Result<void> runPops(const PopsOptions& options) {
     for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
     if (!options.report.json) printSummary(*path, options, frames->stepS, *flown);
     return writeReport(options.report,
-                       jsonOf(options, *path, frames->stepS, *flown, (*planet)->shape().radiusM));
+                       jsonOf(options, *path, frames->stepS, *flown, (*planet)->tree().shape.radiusM));
 }
 
 }  // namespace worldy

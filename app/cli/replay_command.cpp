@@ -104,7 +104,9 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     Result<FlightReplay> replay = FlightReplay::create(
         std::make_shared<const FlightRecord>(std::move(*record)), options.paging, options.assignments);
     if (!replay) return tl::unexpected(replay.error());
-    const auto planet = planet::Planet::open(std::move(*file), replay->pagingAtStart());
+    planet::Result<planet::PlanetSource> source = planet::planetSource(std::move(*file));
+    if (!source) return tl::unexpected(source.error());
+    const auto planet = planet::Planet::open(std::move(*source), replay->pagingAtStart());
     if (!planet) return tl::unexpected(planet.error());
 
     replay->rewind(**planet);
@@ -113,8 +115,8 @@ Result<bool> replayFlight(const ReplayOptions& options) {
         if (watch.interrupted()) return planet::cancelled();
         if (const Result<void> stepped = replay->step(headless(**planet)); !stepped)
             return tl::unexpected(stepped.error());
-        static_cast<void>((*planet)->takeColourChanges());  // nothing draws them
-        static_cast<void>((*planet)->takeNormalChanges());
+        static_cast<void>((*planet)->takeTileChanges(planet::BlockKind::Colours));  // nothing draws them
+        static_cast<void>((*planet)->takeTileChanges(planet::BlockKind::Normals));
     }
     for (const std::string& problem : (*planet)->takeProblems()) printMessage("worldy: {}\n", problem);
     if (!options.report.json) printReport(*replay);

@@ -54,7 +54,8 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
     fmt::print("{}: {} chunks, {} triangles, max ε {:.2f} px, max drawn bound {:.2f} px, {} read\n",
                options.output.string(), stats.selection.drawn,
                ui::countText(static_cast<double>(stats.selection.triangles())), stats.selection.worstEpsPx,
-               stats.selection.worstDrawnBoundPx, ui::bytesText(static_cast<double>(ui::bytesReadOf(stats))));
+               stats.selection.worstDrawnBoundPx,
+               ui::bytesText(static_cast<double>(stats.paging.bytesRead())));
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ Result<void> takeShot(const ShotOptions& options) {
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, options.samples);
     if (!offscreen) return tl::unexpected(offscreen.error());
 
-    const double radiusM = offscreen->scene.planet->shape().radiusM;
+    const double radiusM = offscreen->scene.planet->tree().shape.radiusM;
     const SettledView view =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), options.view);
     if (view.lifted) {

@@ -3,6 +3,7 @@
 #include "app/base/process_memory.h"
 #include "app/editor/editor_state.h"
 #include "app/editor/session.h"
+#include "planet/planet_tools.h"
 
 namespace worldy {
 
@@ -14,12 +15,12 @@ void add(const Scene& scene, ui::Allocations& held) {
     held.gpu += scene.renderer.gpuMemory();
     const planet::Planet& planet = *scene.planet;
     ++held.planets;
-    held.chunks += planet.paging().residentChunks;
-    held.chunkSlots += planet.slotCapacity();
-    held.colourTiles += planet.colourPaging().residentTiles;
-    held.normalTiles += planet.normalPaging().residentTiles;
+    held.chunks += planet.paging()[planet::BlockKind::Heights].resident;
+    held.chunkSlots += planet.paging()[planet::BlockKind::Heights].capacity;
+    held.colourTiles += planet.paging()[planet::BlockKind::Colours].resident;
+    held.normalTiles += planet.paging()[planet::BlockKind::Normals].resident;
     held.requests += planet.paging().queued + planet.paging().loading;
-    held.rememberedEnds += planet.pagingHistory().size();
+    held.rememberedEnds += planet.inspect().pagingHistory().size();
 }
 
 std::size_t jobsOf(const Session& session, const Editor& editor) {

@@ -13,6 +13,7 @@
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"
+#include "planet/planet_tools.h"
 #include "planet/source/terrain.h"
 
 namespace worldy {
@@ -53,7 +54,7 @@ struct CommandHandler {
     void moveCamera(const Camera& camera) const {
         if (editor.rig) placeRig(*editor.rig, camera, editor.settings.view.camera);
     }
-    double radiusM() const { return shownScene(session)->planet->shape().radiusM; }
+    double radiusM() const { return shownScene(session)->planet->tree().shape.radiusM; }
     planet::CameraPose pose() const { return poseOf(editor.rig->camera, radiusM()); }
 
     void operator()(const ui::HoverChunk& command) const { editor.focus.hovered = command.id; }
@@ -97,13 +98,13 @@ struct CommandHandler {
     void operator()(const ui::PausePaging& command) const {
         if (mayTouchPaging()) editor.pagingPaused = command.paused;
     }
-    void operator()(const ui::LoadOne&) const { call(FlightCall::LoadOne, &planet::Planet::loadOne); }
-    void operator()(const ui::DropAll&) const { call(FlightCall::DropAll, &planet::Planet::dropAll); }
+    void operator()(const ui::LoadOne&) const { call(FlightCall::LoadOne, &planet::PlanetTools::loadOne); }
+    void operator()(const ui::DropAll&) const { call(FlightCall::DropAll, &planet::PlanetTools::dropAll); }
     void operator()(const ui::RetryFailed& command) const {
-        if (!command.block) return call(FlightCall::RetryFailed, &planet::Planet::retryFailed);
+        if (!command.block) return call(FlightCall::RetryFailed, &planet::PlanetTools::retryFailed);
         Scene* scene = shownScene(session);
         if (!scene || !mayTouchPaging()) return;
-        scene->planet->retryFailed(*command.block);
+        scene->planet->tools().retryFailed(*command.block);
         if (editor.desk.recorder)
             editor.desk.recorder->called(*scene->planet, FlightCall::RetryBlock, *command.block);
     }
@@ -116,10 +117,10 @@ struct CommandHandler {
         if (editor.desk.replay) log->warn("Paging cannot be changed during a replay");
         return !editor.desk.replay;
     }
-    void call(FlightCall which, void (planet::Planet::*function)()) const {
+    void call(FlightCall which, void (planet::PlanetTools::*function)()) const {
         Scene* scene = shownScene(session);
         if (!scene || !mayTouchPaging()) return;
-        (*scene->planet.*function)();
+        (scene->planet->tools().*function)();
         if (editor.desk.recorder) editor.desk.recorder->called(*scene->planet, which);
     }
     void operator()(const ui::PauseFrames& command) const { editor.framesPaused = command.paused; }
@@ -291,7 +292,7 @@ void CommandHandler::operator()(const ui::LookAtChunk& command) const {
     const glm::dvec3 middle =
         planet::sphereFromCube(planet::cubePoint(command.id.face, square.u + half, square.v + half));
     const glm::dvec3 corner = planet::sphereFromCube(planet::cubePoint(command.id.face, square.u, square.v));
-    const double radius = scene->planet->shape().radiusM;
+    const double radius = scene->planet->tree().shape.radiusM;
     const double sizeM = 2 * radius * glm::length(corner - middle);
     const planet::Geographic place = planet::geographicFromDirection(middle);
     const double groundM = planet::residentHeightM(scene->planet->tree(), middle);
@@ -431,7 +432,7 @@ void CommandHandler::operator()(const ui::SaveLayerSet& command) const {
 
 std::string lineOf(const Session& session, const Editor& editor) {
     const PlanetPicture& main = editor.viewport.main;
-    const double radiusM = shownScene(session)->planet->shape().radiusM;
+    const double radiusM = shownScene(session)->planet->tree().shape.radiusM;
     return shotLine(shownPlanet(session)->data.chunkFile, planet::poseFromView(main.view, radiusM),
                     {main.view.widthPx, main.view.heightPx}, editor.settings.view, session.colourFile);
 }
@@ -490,7 +491,7 @@ void keepScreenshot(const Window& window, const Session& session, Editor& editor
     note.version = WORLDY_VERSION;
     note.settings = settingsText(editor.settings);
     if (shownScene(session) && editor.rig) {
-        const double radiusM = shownScene(session)->planet->shape().radiusM;
+        const double radiusM = shownScene(session)->planet->tree().shape.radiusM;
         note.camera = poseOf(editor.rig->camera, radiusM);
         note.dataSet = shownPlanet(session)->data.source;
         note.shotLine = lineOf(session, editor);

@@ -59,13 +59,13 @@ Result<OpenPlanet> openFor(const ui::StartCompare& wanted, const Session& sessio
 
 // Of the planet; a drawn picture stretches nothing.
 double radiusOf(const Scene& scene) {
-    return scene.planet->shape().radiusM;
+    return scene.planet->tree().shape.radiusM;
 }
 
 void beginMeters(CompareDesk& desk, const Scene& a) {
     desk.meters = {};
-    desk.meters[0].bytesReadBefore = a.planet->bytesRead();
-    if (desk.other) desk.meters[1].bytesReadBefore = desk.other->planet.scene.planet->bytesRead();
+    desk.meters[0].bytesReadBefore = a.planet->paging().bytesRead();
+    if (desk.other) desk.meters[1].bytesReadBefore = desk.other->planet.scene.planet->paging().bytesRead();
     desk.measuredOf.reset();
     desk.difference.reset();
     desk.lastScene = a.identity;
@@ -73,7 +73,7 @@ void beginMeters(CompareDesk& desk, const Scene& a) {
 
 void keepPops(const Scene& scene, const CompareFrame& now, planet::PopMeter& pops) {
     const planet::Planet& planet = *scene.planet;
-    pops.add(planet.tree(), planet.selection(), now.view, planet.lodSettings(), now.timeS,
+    pops.add(planet.tree(), planet.selection(), now.view, planet.views()[0].input.lod, now.timeS,
              {.cameraJumped = now.cameraJumped, .seaM = scene.seaSurfaceM});
 }
 
@@ -145,7 +145,7 @@ ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters&
     figures.chunks = stats.selection.drawn;
     figures.residentBytes =
         static_cast<double>(stats.paging.residentBytesCpu + stats.paging.residentBytesGpu);
-    const std::uint64_t bytesRead = ui::bytesReadOf(stats);
+    const std::uint64_t bytesRead = stats.paging.bytesRead();
     figures.bytesRead = static_cast<double>(bytesRead - std::min(meters.bytesReadBefore, bytesRead));
     figures.selectMs = stats.stages.selectMs;
     figures.drawMs = stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs;

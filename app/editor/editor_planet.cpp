@@ -13,6 +13,7 @@
 #include "app/scene/observer.h"
 #include "app/scene/overlay_lines.h"
 #include "planet/measure/pick.h"
+#include "planet/planet_tools.h"
 #include "ui/model/overlay_colours.h"
 
 namespace worldy {
@@ -27,8 +28,8 @@ void meetPlanet(Scene& scene, Editor& editor, const Log& log) {
     // Both are about the planet that they began with, which may be gone.
     stopRecording(editor.desk, nullptr, log);
     endReplay(editor, nullptr);
-    planet.keepMoves(false);
-    const double radiusM = planet.shape().radiusM;
+    planet.tools().keepMoves(false);
+    const double radiusM = planet.tree().shape.radiusM;
     editor.beforeInspection.reset();
     if (radiusM != editor.lastRadiusM && editor.lastScene) {
         editor.rig.reset();
@@ -65,7 +66,7 @@ planet::View observerView(const Editor& editor, float pixelRatio) {
 
 // Also while frames are paused: there is always something to look through.
 void placeCameras(const Scene& scene, float pixelRatio, Editor& editor) {
-    const double radiusM = scene.planet->shape().radiusM;
+    const double radiusM = scene.planet->tree().shape.radiusM;
     if (!editor.rig) {
         editor.rig.emplace();
         editor.rig->camera = cameraFromPose(startPose(editor.settings.camera, radiusM), radiusM);
@@ -107,7 +108,7 @@ bool observerChooses(const Editor& editor) {
 // What the observer's picture draws. The second selection is there once a frame has chosen it: not at once
 // where frames are paused.
 std::size_t observerSelection(const Scene& scene, const Editor& editor) {
-    return observerChooses(editor) && scene.planet->viewCount() > 1 ? 1 : 0;
+    return observerChooses(editor) && scene.planet->views().size() > 1 ? 1 : 0;
 }
 
 // elapsedS: in place of the clock's, for single steps.
@@ -118,7 +119,7 @@ void chooseChunks(Scene& scene, float pixelRatio, Editor& editor, std::optional<
     const double passedS = std::max(editor.timeS - editor.pops.meter.lastTimeS(), 0.0);
     editor.cameraJumped =
         editor.lodView.eyeM != fromM &&
-        (placed || isCameraJump(fromM, editor.lodView.eyeM, scene.planet->shape().radiusM, passedS));
+        (placed || isCameraJump(fromM, editor.lodView.eyeM, scene.planet->tree().shape.radiusM, passedS));
     if (observerChooses(editor))
         stepScene(scene, editor.lodView, observerView(editor, pixelRatio), editor.settings.view, elapsedS);
     else
@@ -160,7 +161,7 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
             const glm::dvec3& toM = replayed.view().eyeM;
             const double passedS = std::max(replayed.timeS() - editor.pops.meter.lastTimeS(), 0.0);
             editor.cameraJumped =
-                isCameraJump(std::exchange(fromM, toM), toM, scene.planet->shape().radiusM, passedS);
+                isCameraJump(std::exchange(fromM, toM), toM, scene.planet->tree().shape.radiusM, passedS);
             measurePops(scene, replayed.view(), replayed.timeS(), editor.cameraJumped, editor.pops);
         },
         [&](const ui::ViewSettings& recorded, bool pagingPaused) {

@@ -8,6 +8,7 @@
 #include "app/base/places.h"
 #include "app/base/stopwatch.h"
 #include "app/editor/presets.h"
+#include "planet/planet_tools.h"
 
 namespace worldy {
 
@@ -233,7 +234,7 @@ void moveReplayTo(FlightDesk& desk, double timeS) {
 BeforeReplay stopReplay(FlightDesk& desk, Scene* scene) {
     BeforeReplay before = std::move(desk.replay->before);
     desk.replay.reset();
-    if (scene) scene->planet->keepMoves(false);
+    if (scene) scene->planet->tools().keepMoves(false);
     return before;
 }
 

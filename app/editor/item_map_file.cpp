@@ -27,7 +27,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("waiting", selection.waiting);
     add("deepest", selection.deepestLevel);
     add("widest_seam", selection.widestSeam);
-    add("resident", paging.residentChunks);
+    add("resident", paging[planet::BlockKind::Heights].resident);
     add("queued", paging.queued);
     add("loading", paging.loading);
     add("requested", paging.requested);
@@ -36,17 +36,17 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
         add("evicted_" + kind, totals.evicted);
         add("failed_" + kind, totals.failed);
     };
-    addTotals("heights", paging);
-    addTotals("colours", stats.colourPaging);
-    addTotals("normals", stats.normalPaging);
-    add("failed_for_good", paging.failedForGood);
-    add("awaiting_retry", paging.awaitingRetry);
-    add("colour_tiles", stats.colourPaging.residentTiles);
+    addTotals("heights", paging[planet::BlockKind::Heights]);
+    addTotals("colours", paging[planet::BlockKind::Colours]);
+    addTotals("normals", paging[planet::BlockKind::Normals]);
+    add("failed_for_good", paging.failedForGood());
+    add("awaiting_retry", paging.awaitingRetry());
+    add("colour_tiles", paging[planet::BlockKind::Colours].resident);
     add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
     if (const Scene* scene = shownScene(session); scene && editor.rig) {
-        const double radiusM = scene->planet->shape().radiusM;
+        const double radiusM = scene->planet->tree().shape.radiusM;
         add("camera", cameraText(roundedPose(poseOf(editor.rig->camera, radiusM))));
-        add("chunk_size", planet::chunkSize(scene->planet->shape()));
+        add("chunk_size", planet::chunkSize(scene->planet->tree().shape));
         add("file", scene->planet->file().name());
     }
     add("lod_frozen", editor.lodFrozen ? 1 : 0);

@@ -31,7 +31,7 @@ planet::BakeSettings bakeSettingsOf(const OpenPlanet& open) {
 }
 
 Result<SweptFile> sweptFileOf(const OpenPlanet& open, int chunkSize) {
-    const int own = planet::chunkSize(open.scene.planet->shape());
+    const int own = planet::chunkSize(open.scene.planet->tree().shape);
     if (!planet::heightSourceExists(open.baked.source)) {
         if (chunkSize == own) return SweptFile{own, open.data.chunkFile, false, open.baked.settings};
         return planet::badInput(
@@ -78,7 +78,7 @@ Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const ui::SweepRequest& re
                    .size = {request.widthPx, request.heightPx},
                    .view = settings};
     std::vector<int> sizes = request.chunkSizes;
-    if (sizes.empty()) sizes.push_back(planet::chunkSize(open.scene.planet->shape()));
+    if (sizes.empty()) sizes.push_back(planet::chunkSize(open.scene.planet->tree().shape));
     for (const int size : sizes) {
         Result<SweptFile> file = sweptFileOf(open, size);
         if (!file) return tl::unexpected(file.error());

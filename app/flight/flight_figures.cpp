@@ -9,6 +9,7 @@
 #include "app/base/stopwatch.h"
 #include "planet/base/percentile.h"
 #include "planet/measure/true_error.h"
+#include "planet/planet_tools.h"
 
 namespace worldy {
 
@@ -75,8 +76,8 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
     FlightFigures figures;
     Gathered gathered;
     // Residents of another setting are not this one's memory.
-    offscreen.scene.planet->dropAll();
-    const std::uint64_t readBefore = offscreen.scene.planet->bytesRead();
+    offscreen.scene.planet->tools().dropAll();
+    const std::uint64_t readBefore = offscreen.scene.planet->paging().bytesRead();
     for (int i = 0; i < frames.count; ++i) {
         const std::function<bool()> goOnHere = [&] { return goOn(i); };
         if (!goOnHere()) return planet::cancelled();
@@ -95,7 +96,7 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
         if (const Result<void> looked = atMoment(offscreen, at); !looked)
             return tl::unexpected(looked.error());
     }
-    figures.bytesRead = offscreen.scene.planet->bytesRead() - readBefore;
+    figures.bytesRead = offscreen.scene.planet->paging().bytesRead() - readBefore;
     figures.frames = frames.count;
     figures.meanGroundTriangles = meanOf(gathered.groundTriangles);
     figures.meanSkirtTriangles = meanOf(gathered.skirtTriangles);

@@ -10,6 +10,7 @@
 #include "app/flight/recorder.h"
 #include "app/flight/selection_hash.h"
 #include "app/scene/scene.h"
+#include "planet/planet_tools.h"
 
 namespace worldy {
 
@@ -95,8 +96,8 @@ planet::PagingSettings FlightReplay::pagingAtStart() const {
 }
 
 void FlightReplay::rewind(planet::Planet& planet) {
-    planet.startAnew();
-    planet.keepMoves(true);
+    planet.tools().startAnew();
+    planet.tools().keepMoves(true);
     settings_ = settingsBefore(*record_);
     next_ = 0;
     timeS_ = 0;
@@ -107,7 +108,7 @@ void FlightReplay::rewind(planet::Planet& planet) {
 
 void FlightReplay::follow(planet::Planet& planet, const PagingMoves& moves) const {
     // What cannot be followed shows in what is compared.
-    if (paging_ == ReplayPaging::AsRecorded) static_cast<void>(planet.follow(moves));
+    if (paging_ == ReplayPaging::AsRecorded) static_cast<void>(planet.tools().follow(moves));
 }
 
 Result<void> FlightReplay::repeat(const CalledInFlight& called, const ReplayedPlanet& replayed) {
@@ -119,10 +120,10 @@ Result<void> FlightReplay::repeat(const CalledInFlight& called, const ReplayedPl
         return replayed.apply(settings_, called.pagingPaused, time());
     }
     follow(replayed.planet, called.moves);
-    if (called.call == FlightCall::DropAll) replayed.planet.dropAll();
-    if (called.call == FlightCall::LoadOne) replayed.planet.loadOne();
-    if (called.call == FlightCall::RetryFailed) replayed.planet.retryFailed();
-    if (called.call == FlightCall::RetryBlock) replayed.planet.retryFailed(called.block);
+    if (called.call == FlightCall::DropAll) replayed.planet.tools().dropAll();
+    if (called.call == FlightCall::LoadOne) replayed.planet.tools().loadOne();
+    if (called.call == FlightCall::RetryFailed) replayed.planet.tools().retryFailed();
+    if (called.call == FlightCall::RetryBlock) replayed.planet.tools().retryFailed(called.block);
     return {};
 }
 
@@ -137,7 +138,7 @@ Result<void> FlightReplay::step(const ReplayedPlanet& replayed) {
     for (const FlownView& view : frame.views)
         views.push_back({view.view, lodSettingsOf(settings_), view.priorityFactor,
                          colourSettingsOf(settings_), normalSettingsOf(settings_)});
-    planet.takeMoves();  // those of the calls are not compared
+    planet.tools().takeMoves();  // those of the calls are not compared
     planet.step(views, replayed.upload, frame.elapsedS);
     timeS_ += frame.elapsedS;
     ++next_;
@@ -148,7 +149,7 @@ Result<void> FlightReplay::step(const ReplayedPlanet& replayed) {
 void FlightReplay::compare(planet::Planet& planet, const FlightFrame& frame) {
     drawn_.resize(frame.views.size());
     for (std::size_t v = 0; v < frame.views.size(); ++v) change(drawn_[v], frame.views[v]);
-    const PagingMoves moves = planet.takeMoves();
+    const PagingMoves moves = planet.tools().takeMoves();
     ReplayDifference difference{next_ - 1, timeS_, {}, {}, {}};
     const auto differs = [&](const char* what, const Blocks& replayed, const Blocks& recorded) {
         difference.what = what;

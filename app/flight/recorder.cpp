@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/flight/selection_hash.h"
+#include "planet/planet_tools.h"
 
 namespace worldy {
 
@@ -53,12 +54,12 @@ Recorder::Recorder(planet::Planet& planet, std::string name)
     std::error_code status;
     const std::filesystem::path whole = std::filesystem::absolute(data_.chunkFile, status);
     if (!status) data_.chunkFile = whole.string();
-    planet.startAnew();
-    planet.keepMoves(true);
+    planet.tools().startAnew();
+    planet.tools().keepMoves(true);
 }
 
 void Recorder::called(planet::Planet& planet, FlightCall call, const planet::BlockId& block) {
-    frame_.calls.push_back({.call = call, .block = block, .moves = planet.takeMoves()});
+    frame_.calls.push_back({.call = call, .block = block, .moves = planet.tools().takeMoves()});
 }
 
 void Recorder::givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused) {
@@ -66,25 +67,25 @@ void Recorder::givenSettings(planet::Planet& planet, const ui::ViewSettings& ask
     if (settings_ == settings && pagingPaused == pagingPaused_) return;
     CalledInFlight call{.call = FlightCall::Settings, .pagingPaused = pagingPaused};
     call.settings = settings_ ? flightSettings(*settings_, settings) : flightSettings(settings);
-    call.moves = planet.takeMoves();
+    call.moves = planet.tools().takeMoves();
     settings_ = settings;
     pagingPaused_ = pagingPaused;
     frame_.calls.push_back(std::move(call));
 }
 
 void Recorder::stepped(planet::Planet& planet, std::span<const double> priorityFactors) {
-    frame_.elapsedS = planet.elapsedS();
-    drawn_.resize(planet.viewCount());
-    for (std::size_t v = 0; v < planet.viewCount(); ++v) {
+    frame_.elapsedS = planet.lastStep().elapsedS;
+    drawn_.resize(planet.views().size());
+    for (std::size_t v = 0; v < planet.views().size(); ++v) {
         Ids now = drawnIds(planet.selection(v));
         FlownView& view = frame_.views.emplace_back();
-        view.view = planet.lodView(v);
+        view.view = planet.views()[v].input.lodView;
         view.priorityFactor = priorityFactors[v];
         view.appeared = without(now, drawn_[v]);
         view.vanished = without(drawn_[v], now);
         drawn_[v] = std::move(now);
     }
-    frame_.moves = planet.takeMoves();
+    frame_.moves = planet.tools().takeMoves();
     frame_.selectionHash = selectionHashOf(planet);
     const bool drawnFit = std::all_of(drawn_.begin(), drawn_.end(),
                                       [](const Ids& ids) { return ids.size() <= maxFlightChunks; });
@@ -96,7 +97,7 @@ void Recorder::stepped(planet::Planet& planet, std::span<const double> priorityF
 }
 
 void Recorder::stop(planet::Planet& planet) const {
-    planet.keepMoves(false);
+    planet.tools().keepMoves(false);
 }
 
 planet::Result<void> Recorder::write(const std::filesystem::path& file, IfThere ifThere) const {

@@ -12,7 +12,7 @@ namespace worldy {
 std::uint64_t selectionHashOf(const planet::Planet& planet) {
     std::vector<std::byte> bytes;
     planet::ByteWriter out(bytes);
-    for (std::size_t v = 0; v < planet.viewCount(); ++v) {
+    for (std::size_t v = 0; v < planet.views().size(); ++v) {
         const planet::Selection& selection = planet.selection(v);
         out.put(static_cast<std::uint64_t>(selection.draw.size()));
         for (const planet::DrawItem& item : selection.draw) {

@@ -16,7 +16,7 @@ namespace {
 using planet::Result;
 
 planet::DrawnGround groundOf(const Scene& scene, std::span<const planet::DrawItem> items, bool stitched) {
-    return {scene.planet->shape(), items, planet::heightsIn(scene.planet->tree()), stitched};
+    return {scene.planet->tree().shape, items, planet::heightsIn(scene.planet->tree()), stitched};
 }
 
 // Leaking pixels as a number of pixels by something that grows; never more of them when it does.
@@ -68,7 +68,7 @@ struct Trial {
     }
     Result<int> leaksOfFactor(std::span<const planet::DrawnPair> pairs, double factor) {
         const std::vector<float> depths = planet::automaticSkirtDepthsM(
-            scene.planet->tree(), scene.planet->lodSettings().metric, items, pairs, factor);
+            scene.planet->tree(), scene.planet->views()[0].input.lod.metric, items, pairs, factor);
         for (std::size_t i = 0; i < items.size(); ++i) items[i].skirtDepthM = depths[i];
         return leaks();
     }
@@ -83,7 +83,7 @@ Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& vie
     const planet::ChunkTree& tree = scene.planet->tree();
     ui::CrackMeasurement made;
     made.view = view;
-    made.lodView = scene.planet->lodView();
+    made.lodView = scene.planet->views()[0].input.lodView;
     made.seams = settings.seams.mode;
     made.pairs = planet::drawnPairs(selection.draw);
     for (const planet::DrawItem& item : selection.draw) made.items.push_back(item.id);
@@ -96,7 +96,7 @@ Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& vie
     made.map = std::move(*map);
     made.spots = planet::crackSpots(made.map.pixels, made.map.widthPx, made.map.heightPx);
     made.gaps = planet::edgeGaps(ground, made.pairs, view);
-    made.required = planet::requiredSkirts(tree, scene.planet->lodSettings().metric, selection.draw,
+    made.required = planet::requiredSkirts(tree, scene.planet->views()[0].input.lod.metric, selection.draw,
                                            made.pairs, made.gaps);
     const auto none = std::find_if(made.gaps.begin(), made.gaps.end(),
                                    [](const planet::EdgeGap& gap) { return gap.gapM == 0; });

@@ -39,9 +39,9 @@ void takeResult(ErrorMeter& meter) {
 
 // Returns what the planet draws in this frame and the settings that it was selected with.
 ui::ErrorMeasurement frameOf(const planet::Planet& planet) {
-    const planet::LodSettings& lod = planet.lodSettings();
+    const planet::LodSettings& lod = planet.views()[0].input.lod;
     ui::ErrorMeasurement frame;
-    frame.lodView = planet.lodView();
+    frame.lodView = planet.views()[0].input.lodView;
     frame.tauPx = lod.tauPx;
     frame.metric = lod.metric;
     frame.stitched = lod.seams == planet::SeamMode::Stitched;
@@ -55,10 +55,10 @@ bool drawnAlike(const planet::DrawItem& a, const planet::DrawItem& b) {
 }
 
 bool isOf(const ui::ErrorMeasurement& last, const planet::Planet& planet) {
-    const planet::LodSettings& lod = planet.lodSettings();
+    const planet::LodSettings& lod = planet.views()[0].input.lod;
     const auto& draw = planet.selection().draw;
-    return last.lodView == planet.lodView() && last.tauPx == lod.tauPx && last.metric == lod.metric &&
-           last.stitched == (lod.seams == planet::SeamMode::Stitched) &&
+    return last.lodView == planet.views()[0].input.lodView && last.tauPx == lod.tauPx &&
+           last.metric == lod.metric && last.stitched == (lod.seams == planet::SeamMode::Stitched) &&
            last.exaggeration == planet.tree().exaggeration &&
            std::equal(last.drawn.begin(), last.drawn.end(), draw.begin(), draw.end(), drawnAlike);
 }
@@ -114,7 +114,8 @@ void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double
     meter.running.frame = frame;
     meter.running.atS = timeS;
     meter.job = std::make_unique<ErrorJob>(
-        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.lodView(), meter.running.stitched),
+        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.views()[0].input.lodView,
+                           meter.running.stitched),
         meter.heights);
 }
 

@@ -20,7 +20,7 @@ void measurePops(const Scene& scene, const planet::View& view, double timeS, boo
     }
     const bool interrupted = std::exchange(pops.interrupted, false);
     const planet::Planet& planet = *scene.planet;
-    pops.meter.add(planet.tree(), planet.selection(), view, planet.lodSettings(), timeS,
+    pops.meter.add(planet.tree(), planet.selection(), view, planet.views()[0].input.lod, timeS,
                    {.cameraJumped = cameraJumped || interrupted, .seaM = scene.seaSurfaceM});
 }
 

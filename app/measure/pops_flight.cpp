@@ -25,7 +25,7 @@ using planet::Result;
 
 planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double timeS, double fovDeg,
                     const PictureSize& size) {
-    const double radiusM = planet.shape().radiusM;
+    const double radiusM = planet.tree().shape.radiusM;
     const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);
     const Ground ground{radiusM, planet::residentHeightM(planet.tree(), wanted.eyeM)};
     return viewOf(keepInRange(wanted, ground), glm::radians(fovDeg), size.widthPx, size.heightPx);
@@ -105,7 +105,7 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
         const double timeS = startS + i * stepS;
         const glm::dvec3 beforeM = std::exchange(fromM, view.eyeM);
         const bool jumped = jumpsBetween(path, timeS - stepS, timeS) ||
-                            isCameraJump(beforeM, view.eyeM, planet.shape().radiusM, stepS);
+                            isCameraJump(beforeM, view.eyeM, planet.tree().shape.radiusM, stepS);
         meter.add(planet.tree(), planet.selection(), view, lod, i * stepS,
                   {.cameraJumped = i > 0 && jumped, .seaM = seaM});
         // It forgets what is minutes old.

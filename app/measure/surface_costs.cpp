@@ -66,7 +66,8 @@ planet::Result<CostMeter> CostMeter::create(const Scene& scene, const planet::Vi
                                             const ui::ViewSettings& settings, int rounds) {
     auto target = planet::gl::RenderTarget::create(view.widthPx, view.heightPx);
     if (!target) return tl::unexpected(target.error());
-    const PartsThere there{scene.planet->colour().has_value(), scene.planet->normalPaging().tileCapacity > 0};
+    const PartsThere there{scene.planet->colour().has_value(),
+                           scene.planet->paging()[planet::BlockKind::Normals].capacity > 0};
     std::vector<Part> parts;
     for (PartSettings& part : partsOf(settings, there)) parts.push_back({std::move(part), {}, {}});
     return CostMeter(std::move(*target), view, barePicture(settings), std::move(parts), rounds);

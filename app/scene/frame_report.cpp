@@ -21,9 +21,9 @@ namespace {
 // Returns one object for a total that is counted per kind of block; countOf(counters) picks the total.
 template <class CountOf>
 nlohmann::ordered_json byKind(const ui::FrameStats& stats, const CountOf& countOf) {
-    return {{"heights", countOf(stats.paging)},
-            {"colours", countOf(stats.colourPaging)},
-            {"normals", countOf(stats.normalPaging)}};
+    return {{"heights", countOf(stats.paging[planet::BlockKind::Heights])},
+            {"colours", countOf(stats.paging[planet::BlockKind::Colours])},
+            {"normals", countOf(stats.paging[planet::BlockKind::Normals])}};
 }
 
 }  // namespace
@@ -44,15 +44,15 @@ nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
             {"requests", stats.paging.requested},
             {"queued", stats.paging.queued},
             {"loading", stats.paging.loading},
-            {"loaded_blocks", byKind(stats, [](const auto& paging) { return paging.loaded; })},
-            {"evicted_blocks", byKind(stats, [](const auto& paging) { return paging.evicted; })},
-            {"failed_reads", byKind(stats, [](const auto& paging) { return paging.failed; })},
-            {"failed_blocks", stats.paging.failedForGood},
-            {"budget_waits", stats.paging.budgetWaits},
-            {"resident_chunks", stats.paging.residentChunks},
+            {"loaded_blocks", byKind(stats, [](const planet::BlockCounters& kind) { return kind.loaded; })},
+            {"evicted_blocks", byKind(stats, [](const planet::BlockCounters& kind) { return kind.evicted; })},
+            {"failed_reads", byKind(stats, [](const planet::BlockCounters& kind) { return kind.failed; })},
+            {"failed_blocks", stats.paging.failedForGood()},
+            {"budget_waits", stats.paging[planet::BlockKind::Heights].budgetWaits},
+            {"resident_chunks", stats.paging[planet::BlockKind::Heights].resident},
             {"resident_bytes_cpu", stats.paging.residentBytesCpu},
             {"resident_bytes_gpu", stats.paging.residentBytesGpu},
-            {"bytes_read", ui::bytesReadOf(stats)},
+            {"bytes_read", stats.paging.bytesRead()},
             {"upload_ms", stats.stages.uploadMs},
             {"select_ms", stats.stages.selectMs},
             {"paging_ms", stats.stages.pagingMs},

@@ -57,9 +57,9 @@ void appendSwitchDistance(const planet::Planet& planet, const planet::View& lodV
     if (index == planet::noNode) return;
     const planet::ChunkNode& node = planet.tree().nodes[index];
     planet::appendBox(node.bounds.box, boundsColour, lines);
-    const double scale = planet::screenScalePx(lodView) / planet.lodSettings().tauPx;
+    const double scale = planet::screenScalePx(lodView) / planet.views()[0].input.lod.tauPx;
     const double switchDistanceM =
-        static_cast<double>(planet::deltaOf(node, planet.lodSettings().metric)) * scale;
+        static_cast<double>(planet::deltaOf(node, planet.views()[0].input.lod.metric)) * scale;
     if (switchDistanceM == 0) return;  // a leaf is never replaced
     for (std::size_t axis = 0; axis < 3; ++axis) {
         appendRoundedRectangle(node.bounds.box, axis, (axis + 1) % 3, switchDistanceM, switchColour, lines);

@@ -9,6 +9,7 @@
 #include "app/data/data_set.h"
 #include "app/settings/camera_text.h"
 #include "planet/measure/true_error.h"
+#include "planet/planet_tools.h"
 #include "ui/model/overlay_colours.h"
 
 namespace worldy {
@@ -43,12 +44,12 @@ bool settleWhile(Scene& scene, const planet::View& view, const ui::ViewSettings&
 planet::Result<std::optional<ui::ErrorMeasurement>> measuredFor(const planet::Planet& planet,
                                                                 const ui::ViewSettings& settings) {
     if (settings.overlay.colourBy != ui::ColourBy::Measured) return std::nullopt;
-    const planet::LodSettings& lod = planet.lodSettings();
+    const planet::LodSettings& lod = planet.views()[0].input.lod;
     planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(planet.file()));
-    auto report =
-        planet::measureTrueError(planet::snapshotOf(planet.tree(), planet.selection().draw, planet.lodView(),
-                                                    lod.seams == planet::SeamMode::Stitched),
-                                 heights);
+    auto report = planet::measureTrueError(
+        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.views()[0].input.lodView,
+                           lod.seams == planet::SeamMode::Stitched),
+        heights);
     if (!report) return tl::unexpected(report.error());
     ui::ErrorMeasurement measured = ui::measurementOf(std::move(*report));
     measured.tauPx = lod.tauPx;
@@ -109,14 +110,14 @@ Picture readPicture(const Offscreen& offscreen) {
 SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings,
                      const std::function<bool()>& goOn) {
     Scene& scene = offscreen.scene;
-    const double radiusM = scene.planet->shape().radiusM;
+    const double radiusM = scene.planet->tree().shape.radiusM;
     Camera camera = cameraFromPose(pose, radiusM);
     SettledView result;
     const auto settle = [&] {
         result.view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                              offscreen.target.heightPx());
         result.pose = planet::poseFromView(result.view, radiusM);
-        scene.planet->forgetSelections();
+        scene.planet->tools().forgetSelections();
         result.settled = settleWhile(scene, result.view, settings, goOn);
     };
     settle();

@@ -13,6 +13,7 @@
 #include "app/scene/clipmap_trace.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/layer_file.h"
+#include "planet/paging/normal_tile.h"
 #include "planet/select/shadow_cascades.h"
 #include "planet/sphere/cube_sphere.h"
 #include "ui/model/sun_overhead.h"
@@ -44,7 +45,8 @@ double rampTopM(const planet::ChunkTree& tree) {
 
 // The renderer's pool follows the planet's slots. Where it cannot, the planet goes back to the slots it had.
 planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before) {
-    planet::Result<void> fitted = scene.renderer.setSlotCapacity(scene.planet->slotCapacity());
+    planet::Result<void> fitted =
+        scene.renderer.setSlotCapacity(scene.planet->paging()[planet::BlockKind::Heights].capacity);
     if (!fitted) static_cast<void>(scene.planet->setPaging(before));
     scene.planet->uploadAll(uploadInto(scene.renderer));
     return fitted;
@@ -96,7 +98,7 @@ void followColours(Scene& scene) {
     const std::optional<planet::ColourPyramid>& colour = scene.planet->colour();
     if (!colour) return;
     const planet::gl::ColourPoolConfig wanted{colour->format, colour->leafLevel,
-                                              scene.planet->colourPaging().tileCapacity};
+                                              scene.planet->paging()[planet::BlockKind::Colours].capacity};
     if (scene.colourPool != wanted) {
         const planet::Result<void> made = scene.renderer.setColours(wanted);
         if (!made) {
@@ -109,7 +111,7 @@ void followColours(Scene& scene) {
         scene.clipmap.sizePx.reset();  // it went with the pool
         scene.drawsColours = made.has_value();
     }
-    const std::vector<planet::TileChange> changes = scene.planet->takeColourChanges();
+    const std::vector<planet::TileChange> changes = scene.planet->takeTileChanges(planet::BlockKind::Colours);
     if (scene.drawsColours) scene.renderer.followColours(changes);
 }
 
@@ -117,9 +119,9 @@ void followColours(Scene& scene) {
 void followNormals(Scene& scene) {
     const planet::Planet& planet = *scene.planet;
     std::optional<planet::gl::NormalPoolConfig> wanted;
-    if (planet.normalPaging().tileCapacity > 0)
-        wanted = {planet.normalLeafLevel(), planet.normalPaging().tileCapacity,
-                  planet.tree().storedShape.quantumM};
+    if (planet.paging()[planet::BlockKind::Normals].capacity > 0)
+        wanted = {planet::normalLeafLevel(planet.tree().storedShape),
+                  planet.paging()[planet::BlockKind::Normals].capacity, planet.tree().storedShape.quantumM};
     if (scene.normalPool != wanted) {
         const planet::Result<void> made = scene.renderer.setNormals(wanted);
         if (!made) {
@@ -130,7 +132,7 @@ void followNormals(Scene& scene) {
         scene.normalPool = wanted;
         scene.drawsNormals = made && wanted;
     }
-    const std::vector<planet::TileChange> changes = scene.planet->takeNormalChanges();
+    const std::vector<planet::TileChange> changes = scene.planet->takeTileChanges(planet::BlockKind::Normals);
     if (scene.drawsNormals) scene.renderer.followNormals(changes);
 }
 
@@ -144,8 +146,8 @@ std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::View
         return static_cast<double>(item.distanceM) < reachM;
     });
     if (!mayBeSeen || !scene.renderer.drawsShadows(render)) return {};
-    return planet::shadowCasters(scene.planet->tree(), scene.planet->lodView(), lodSettingsOf(settings),
-                                 reachM);
+    return planet::shadowCasters(scene.planet->tree(), scene.planet->views()[0].input.lodView,
+                                 lodSettingsOf(settings), reachM);
 }
 
 // The clipmap stands around the lod view, whose tiles it is filled from, whoever looks at it.
@@ -153,12 +155,13 @@ void followClipmap(Scene& scene, const ui::ViewSettings& settings) {
     const bool wanted = scene.drawsColours && settings.surface.colourMode == ui::ColourMode::Clipmap &&
                         colourSettingsOf(settings).enabled;
     int finestLevel = 0;
-    for (std::size_t view = 0; view < scene.planet->viewCount(); ++view) {
-        const planet::TileCounters& seen = scene.planet->colourSelection(view).counters;
+    for (std::size_t view = 0; view < scene.planet->views().size(); ++view) {
+        const planet::TileCounters& seen = scene.planet->views()[view].colours.counters;
         finestLevel = std::max(finestLevel, static_cast<int>(seen.deepestLevel));
     }
     moveClipmap(scene.renderer, wanted ? std::optional(settings.surface.clipmapSizePx) : std::nullopt,
-                scene.planet->lodView().eyeM, finestLevel, scene.planet->seconds(), scene.clipmap);
+                scene.planet->views()[0].input.lodView.eyeM, finestLevel, scene.planet->lastStep().nowS,
+                scene.clipmap);
 }
 
 ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
@@ -192,7 +195,8 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(settings.surface.exaggeration);
     auto renderer = planet::gl::ChunkRenderer::create(
-        {(*planet)->shape(), (*planet)->slotCapacity(), config.shaderFolder, config.programs});
+        {(*planet)->tree().shape, (*planet)->paging()[planet::BlockKind::Heights].capacity,
+         config.shaderFolder, config.programs});
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
     scene.identity = std::make_shared<const int>(0);
@@ -300,7 +304,7 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& ask
     if (scene.exaggeration != settings.surface.exaggeration) {
         scene.exaggeration = settings.surface.exaggeration;
         scene.planet->setExaggeration(settings.surface.exaggeration);
-        scene.renderer.setShape(scene.planet->shape());
+        scene.renderer.setShape(scene.planet->tree().shape);
     }
     return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time, drawsByCpu(scene)));
 }
@@ -390,9 +394,9 @@ ui::FrameStats statsOf(const Scene& scene) {
     ui::FrameStats stats;
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
-    stats.colourPaging = scene.planet->colourPaging();
-    stats.normalPaging = scene.planet->normalPaging();
-    stats.stages = scene.planet->times();
+    stats.paging[planet::BlockKind::Colours] = scene.planet->paging()[planet::BlockKind::Colours];
+    stats.paging[planet::BlockKind::Normals] = scene.planet->paging()[planet::BlockKind::Normals];
+    stats.stages = scene.planet->lastStep().times;
     stats.render = scene.drawn;
     stats.gpuMemory = scene.renderer.gpuMemory();
     stats.drawCpuMs = scene.drawCpuMs;
@@ -405,13 +409,14 @@ planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
     const planet::ChunkTree& tree = scene.planet->tree();
     planet::Lines lines = overlayLines(tree, selection, renderView, settings);
     if (settings.overlay.clipmap)
-        appendClipmapLines(scene.renderer, scene.clipmap, tree, renderView, scene.planet->seconds(), lines);
+        appendClipmapLines(scene.renderer, scene.clipmap, tree, renderView, scene.planet->lastStep().nowS,
+                           lines);
     return lines;
 }
 
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM) {
     const double groundM = planet::residentHeightM(scene.planet->tree(), glm::normalize(eyeM));
-    return {scene.planet->shape().radiusM, std::max(groundM, scene.seaSurfaceM.value_or(groundM))};
+    return {scene.planet->tree().shape.radiusM, std::max(groundM, scene.seaSurfaceM.value_or(groundM))};
 }
 
 }  // namespace worldy

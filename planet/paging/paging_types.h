@@ -1,9 +1,12 @@
 // Paging's settings, counters, events and changes: plain data that a Planet is given and tells.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planet/format/chunk_file_types.h"
@@ -79,41 +82,61 @@ struct PagingMoves {
     bool operator==(const PagingMoves&) const = default;
 };
 
-// Totals since the file was opened, unless said otherwise. Requests are counted over all kinds of blocks;
-// loaded, evicted, failed and bytesRead count heights alone, since TilePagingCounters has those of each kind
-// of tiles. For each kind, loaded - evicted blocks are resident now, not counting checker patterns in place
-// of failed ones.
+// The counters of one kind of blocks. loaded - evicted blocks are resident now, not counting checker patterns
+// in place of blocks of colours that failed.
+struct BlockCounters {
+    // Since the planet was opened.
+    std::uint64_t loaded = 0;   // blocks read and made resident
+    std::uint64_t evicted = 0;  // loaded blocks that are no longer resident
+    std::uint64_t failed = 0;   // reads that failed
+    std::uint64_t bytesRead =
+        0;  // from the file; for normals those of the heights that they are derived from
+
+    // Now.
+    std::uint32_t budgetWaits = 0;    // blocks wanted in the last step that the budget has no room for
+    std::uint32_t failedForGood = 0;  // blocks that are not requested again until retryFailed()
+    std::uint32_t awaitingRetry = 0;  // other blocks whose last read failed
+    std::size_t resident = 0;         // chunks or tiles, roots included
+    std::uint32_t capacity = 0;       // slots for them; 0 if the kind is off or has no room
+};
+
+// Counters over all kinds of blocks, since the planet was opened unless said otherwise, and those of each.
 struct PagingCounters {
     std::uint64_t requested = 0;          // page-ins put into the queue
     std::uint64_t merged = 0;             // requested again while queued
     std::uint64_t cancelled = 0;          // replaced by the opposite request, no longer wanted, or discarded
     std::uint64_t pageOutsQueued = 0;     // page-outs put into the queue
-    std::uint64_t pageOutsCancelled = 0;  // those in cancelled; the others are page-ins
-    std::uint64_t loaded = 0;             // blocks of heights read and made resident
-    double loadSeconds = 0;            // spent on reading and decoding blocks of any kind, over all threads
-    std::uint64_t evicted = 0;         // blocks of heights paged out
-    std::uint64_t failed = 0;          // reads of heights that failed
-    std::uint64_t bytesRead = 0;       // from the file, for blocks of heights
-    std::uint32_t failedForGood = 0;   // blocks of any kind, now: not requested again until told to
-    std::uint32_t awaitingRetry = 0;   // other blocks of any kind, now, whose last read failed
-    std::uint32_t queued = 0;          // now
-    std::uint32_t loading = 0;         // now being read, or read and waiting for their upload
-    std::uint32_t budgetWaits = 0;     // blocks wanted last step that the budget has no room for
-    std::size_t residentChunks = 0;    // now
-    std::size_t residentBytesCpu = 0;  // now
-    std::size_t residentBytesGpu = 0;  // now: heights in the pool that hold a resident chunk
+    std::uint64_t pageOutsCancelled = 0;  // the page-outs among the cancelled
+    double loadSeconds = 0;               // spent on reading and decoding, over all threads
+    std::uint32_t queued = 0;             // now
+    std::uint32_t loading = 0;            // now being read, or read and waiting for their upload
+    std::size_t residentBytesCpu = 0;     // now, of chunks
+    std::size_t residentBytesGpu = 0;     // now, of the slots that hold a resident chunk
+    std::array<BlockCounters, blockKindCount> blocks{};
+
+    const BlockCounters& operator[](BlockKind kind) const { return blocks[static_cast<std::size_t>(kind)]; }
+    BlockCounters& operator[](BlockKind kind) { return blocks[static_cast<std::size_t>(kind)]; }
+
+    // Sums over the kinds.
+    std::uint64_t bytesRead() const { return sum(&BlockCounters::bytesRead); }
+    std::uint32_t failedForGood() const { return sum(&BlockCounters::failedForGood); }
+    std::uint32_t awaitingRetry() const { return sum(&BlockCounters::awaitingRetry); }
+
+private:
+    template <class Count>
+    Count sum(Count BlockCounters::*count) const {
+        Count total = 0;
+        for (const BlockCounters& kind : blocks) total += kind.*count;
+        return total;
+    }
 };
 
-// The counters of one kind of tiles, colours or normals.
-struct TilePagingCounters {
-    std::uint64_t loaded = 0;        // blocks read and made resident
-    std::uint64_t evicted = 0;       // loaded blocks that are no longer resident
-    std::uint64_t failed = 0;        // reads that failed
-    std::uint64_t bytesRead = 0;     // from the file; for normals the heights that they are derived from
-    std::uint32_t budgetWaits = 0;   // blocks wanted last step that the share has no room for
-    std::size_t residentTiles = 0;   // now
-    std::uint32_t tileCapacity = 0;  // 0: off, or no room for any
-};
+// Makes the heights of one chunk drawable: chunkVertexCount steps into a slot below the capacity of heights.
+// Called by the thread that steps the planet.
+using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
+
+// No-op upload, for headless use.
+inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
 
 // An update that a pool of tiles makes to follow a step; updates are applied in order.
 struct TileChange {

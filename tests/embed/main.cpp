@@ -22,9 +22,10 @@ int main(int argc, char** argv) {
     if (window == nullptr) return std::fprintf(stderr, "no OpenGL 3.3\n"), 2;
     glfwMakeContextCurrent(window);
 
-    const planet::PlanetShape shape = (*planet)->shape();
+    const planet::PlanetShape shape = (*planet)->tree().shape;
     {
-        auto renderer = planet::gl::ChunkRenderer::create({shape, (*planet)->slotCapacity(), {}});
+        auto renderer = planet::gl::ChunkRenderer::create(
+            {shape, (*planet)->paging()[planet::BlockKind::Heights].capacity, {}});
         if (!renderer) return std::fprintf(stderr, "%s\n", renderer.error().message.c_str()), 2;
         const auto upload = [&](std::uint32_t slot, auto heights) { renderer->upload(slot, heights); };
         planet::CameraPose camera{.latitudeDeg = 28, .longitudeDeg = 60, .altitudeM = 8e6};
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
         }
         std::printf("%u chunks, %llu triangles, %zu resident\n", renderer->counters().chunks,
                     static_cast<unsigned long long>(renderer->counters().triangles()),
-                    (*planet)->paging().residentChunks);
+                    (*planet)->paging()[planet::BlockKind::Heights].resident);
     }
     glfwTerminate();
 }

@@ -13,6 +13,7 @@
 #include "planet/bake/bake.h"
 #include "planet/format/chunk_file.h"
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "tests/support/faulty_files.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/synthetic_colours.h"
@@ -125,7 +126,7 @@ TEST_F(FailingDiskFlight, EachCallInTurnIsTriedAgainAndTheSameIsDrawn) {
         callsToOpen = disk.count();
         whole = fly(*planet);
         calls = disk.count();
-        EXPECT_EQ(planet->paging().failed, 0u);
+        EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
     }
     EXPECT_EQ(disk.open(), 0);
     ASSERT_GT(calls, callsToOpen + 40);
@@ -146,9 +147,10 @@ TEST_F(FailingDiskFlight, EachCallInTurnIsTriedAgainAndTheSameIsDrawn) {
             } else {
                 ASSERT_EQ(fly(**planet), whole);
                 // But for what the flight has left behind meanwhile.
-                for (const FailedBlock& block : (*planet)->failedBlocks()) EXPECT_EQ(block.retryInS, 0);
-                retried += static_cast<int>((*planet)->paging().failed);
-                EXPECT_TRUE((*planet)->paging().failed == 0 || !mustNotMatter);
+                for (const FailedBlock& block : (*planet)->inspect().failedBlocks())
+                    EXPECT_EQ(block.retryInS, 0);
+                retried += static_cast<int>((*planet)->paging()[BlockKind::Heights].failed);
+                EXPECT_TRUE((*planet)->paging()[BlockKind::Heights].failed == 0 || !mustNotMatter);
                 EXPECT_THAT((*planet)->takeProblems(), IsEmpty());
             }
             if (!disk.faulted().empty()) ++injected[fault.name];
@@ -174,19 +176,19 @@ TEST_F(FailingDiskFlight, ADiskThatDiesInFlightLeavesWhatIsThereAndAllComesOnceI
         const auto planet = open(disk.calls());
         ASSERT_TRUE(planet);
         fly(*planet);
-        EXPECT_GT(planet->paging().failedForGood, 0u);
+        EXPECT_GT(planet->paging().failedForGood(), 0u);
         const std::vector<std::string> problems = planet->takeProblems();
-        EXPECT_EQ(problems.size(), planet->paging().failedForGood);
+        EXPECT_EQ(problems.size(), planet->paging().failedForGood());
         EXPECT_THAT(problems,
                     Each(HasSubstr("hills.chk: reading failed: Input/output error (tried 4 times)")));
         // Not asked for again, however long one flies.
-        const std::uint64_t failed = planet->paging().failed;
+        const std::uint64_t failed = planet->paging()[BlockKind::Heights].failed;
         fly(*planet, flownFrames - 1);
-        EXPECT_EQ(planet->paging().failed, failed);
+        EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, failed);
         disk.beWhole();
-        planet->retryFailed();
+        planet->tools().retryFailed();
         EXPECT_EQ(fly(*planet), whole);
-        EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+        EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
     }
 }
 
@@ -208,7 +210,7 @@ TEST_F(FailingDiskFlight, ADeletedFileGoesOn) {
     fly(*planet, 0, 2);
     std::filesystem::remove(path_);
     EXPECT_EQ(fly(*planet, 2), whole);
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
 TEST_F(FailingDiskFlight, AFileThatAnotherIsRenamedOverGoesOnAsItWas) {
@@ -218,7 +220,7 @@ TEST_F(FailingDiskFlight, AFileThatAnotherIsRenamedOverGoesOnAsItWas) {
     bakeHills(path_, 2);
     ASSERT_NE(contentOf(path_), bakedHills());
     EXPECT_EQ(fly(*planet, 2), whole);
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
 TEST_F(FailingDiskFlight, AFileThatIsCutAndWrittenAgainHealsByItself) {
@@ -227,11 +229,11 @@ TEST_F(FailingDiskFlight, AFileThatIsCutAndWrittenAgainHealsByItself) {
     const ViewInput input = inputAt(flownFrames - 1);
     std::filesystem::resize_file(path_, bakedHills().size() / 3);
     for (int i = 0; i < 3; ++i) planet->step({&input, 1}, noUpload, 1.0 / 30);
-    ASSERT_GT(planet->paging().awaitingRetry, 0u);
+    ASSERT_GT(planet->paging().awaitingRetry(), 0u);
     expectWhole(*planet);
     overwrite(path_, bakedHills());
     EXPECT_EQ(fly(*planet), whole);
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
     EXPECT_THAT(planet->takeProblems(), IsEmpty());
 }
 
@@ -239,9 +241,9 @@ TEST_F(FailingDiskFlight, AFileThatStaysCutIsDrawnAsFarAsItGoes) {
     const auto planet = open();
     std::filesystem::resize_file(path_, bakedHills().size() / 3);
     fly(*planet);
-    EXPECT_GT(planet->paging().failedForGood, 0u);
+    EXPECT_GT(planet->paging().failedForGood(), 0u);
     EXPECT_THAT(planet->takeProblems(), Each(HasSubstr("while open: it was truncated")));
-    for (const FailedBlock& block : planet->failedBlocks()) EXPECT_EQ(block.attempts, 4u);
+    for (const FailedBlock& block : planet->inspect().failedBlocks()) EXPECT_EQ(block.attempts, 4u);
 }
 
 TEST_F(FailingDiskFlight, AFileThatIsOverwrittenInPlaceIsReportedBlockByBlock) {
@@ -255,18 +257,18 @@ TEST_F(FailingDiskFlight, AFileThatIsOverwrittenInPlaceIsReportedBlockByBlock) {
         overwrite(path_, bakedHills());
         const auto planet = open();
         fly(*planet, 0, 2);
-        const std::uint64_t before = planet->paging().loaded;
+        const std::uint64_t before = planet->paging()[BlockKind::Heights].loaded;
         overwrite(path_, content);
         fly(*planet, 2);
-        EXPECT_GT(planet->paging().failedForGood, 0u);
-        EXPECT_GE(planet->paging().loaded, before);
+        EXPECT_GT(planet->paging().failedForGood(), 0u);
+        EXPECT_GE(planet->paging()[BlockKind::Heights].loaded, before);
         for (const std::string& problem : planet->takeProblems())
             EXPECT_THAT(problem, AnyOf(HasSubstr("hills.chk"), HasSubstr("_pos/"), HasSubstr("_neg/")));
         // The old file again, and all is well.
         overwrite(path_, bakedHills());
-        planet->retryFailed();
+        planet->tools().retryFailed();
         fly(*planet);
-        EXPECT_EQ(planet->paging().failedForGood, 0u);
+        EXPECT_EQ(planet->paging().failedForGood(), 0u);
     }
 }
 

@@ -40,7 +40,7 @@ protected:
         const auto suffices = [&](std::size_t bytes) {
             settings.budgetBytes = bytes;
             const auto planet = Planet::open(path_, settings);
-            return planet && (*planet)->normalPaging().tileCapacity > 0;
+            return planet && (*planet)->paging()[BlockKind::Normals].capacity > 0;
         };
         std::size_t tooLittle = 1 << 16, enough = 64 << 20;
         while (enough - tooLittle > 1 << 14) {
@@ -70,10 +70,10 @@ void expectFlat(const char* name, std::size_t early, std::size_t late) {
 void expectWithin(const Planet& planet, std::size_t budgetBytes) {
     const PagingCounters& paging = planet.paging();
     ASSERT_LE(paging.residentBytesCpu + paging.residentBytesGpu, budgetBytes);
-    ASSERT_LE(planet.tree().residentChunks, planet.slotCapacity());
-    ASSERT_LE(planet.tree().nodes.size(), planet.slotCapacity());
-    ASSERT_LE(planet.colourPaging().residentTiles, planet.colourPaging().tileCapacity);
-    ASSERT_LE(planet.normalPaging().residentTiles, planet.normalPaging().tileCapacity);
+    ASSERT_LE(planet.tree().residentChunks, planet.paging()[BlockKind::Heights].capacity);
+    ASSERT_LE(planet.tree().nodes.size(), planet.paging()[BlockKind::Heights].capacity);
+    ASSERT_LE(planet.paging()[BlockKind::Colours].resident, planet.paging()[BlockKind::Colours].capacity);
+    ASSERT_LE(planet.paging()[BlockKind::Normals].resident, planet.paging()[BlockKind::Normals].capacity);
 }
 
 struct FlownHour {
@@ -89,27 +89,30 @@ struct FlownHour {
 };
 
 void fly(Planet& planet, double seconds, FlownHour& flown) {
-    test::RandomFlight flight(47, planet.shape().radiusM);
+    test::RandomFlight flight(47, planet.tree().shape.radiusM);
     const auto frames = static_cast<std::uint64_t>(seconds / test::frameS);
-    flown.chunkSlots = planet.slotCapacity();
-    flown.colourSlots = planet.colourPaging().tileCapacity;
-    flown.normalSlots = planet.normalPaging().tileCapacity;
+    flown.chunkSlots = planet.paging()[BlockKind::Heights].capacity;
+    flown.colourSlots = planet.paging()[BlockKind::Colours].capacity;
+    flown.normalSlots = planet.paging()[BlockKind::Normals].capacity;
     const std::size_t budgetBytes = planet.pagingSettings().budgetBytes;
     for (; flown.frames < frames; ++flown.frames) {
         const View view = flight.view(1280, 720);
         CameraPose above = flight.pose();
         above.altitudeM *= 20;
         above.pitchDeg = -90;
-        const std::array views = {inputOf(view, 0.02),
-                                  inputOf(viewFromPose(above, planet.shape().radiusM, 1, 640, 480), 4, 0.5)};
+        const std::array views = {
+            inputOf(view, 0.02),
+            inputOf(viewFromPose(above, planet.tree().shape.radiusM, 1, 640, 480), 4, 0.5)};
         // On every third leg two views share the planet.
         planet.step(
             std::span(views).first(flown.legs % 3 == 0 ? 2 : 1),
             [](std::uint32_t, std::span<const std::int16_t>) {}, test::frameS);
         flown.problems += planet.takeProblems().size();
-        flown.framesShort += planet.paging().budgetWaits + planet.colourPaging().budgetWaits > 0;
-        planet.takeColourChanges();
-        planet.takeNormalChanges();
+        flown.framesShort += planet.paging()[BlockKind::Heights].budgetWaits +
+                                 planet.paging()[BlockKind::Colours].budgetWaits >
+                             0;
+        planet.takeTileChanges(BlockKind::Colours);
+        planet.takeTileChanges(BlockKind::Normals);
         flown.paging.look(planet);
         expectWithin(planet, budgetBytes);
         if (testing::Test::HasFatalFailure()) return;

@@ -16,6 +16,7 @@
 
 #include "planet/bake/bake.h"
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
 #include "tests/support/chunk_blocks.h"
@@ -106,7 +107,7 @@ struct FilledSlots {
 std::size_t residentBytes(const Planet& planet) {
     const std::size_t tileBytes = planet.colour() ? colourTileBytes(planet.colour()->format) : 0;
     return planet.paging().residentBytesCpu + planet.paging().residentBytesGpu +
-           planet.colourTree().residentTiles * tileBytes;
+           planet.tiles(BlockKind::Colours).residentTiles * tileBytes;
 }
 
 // Where a chunk begins and ends among all chunks of maxLevel, in quadtree order, which goes face by face.
@@ -139,9 +140,10 @@ bool coversThePlanet(const Planet& planet) {
 // Its heights are resident and uploaded, and all numbers are such.
 bool isDrawable(const Planet& planet, const DrawItem& item, const FilledSlots& pool) {
     const ChunkNode& node = planet.tree().nodes[item.node];
-    return node.id == item.id && node.slot == item.slot && item.slot < planet.slotCapacity() &&
-           item.slot < pool.slots.size() && pool.slots[item.slot] == *node.heights &&
-           std::isfinite(item.epsPx) && std::isfinite(item.skirtDepthM) && item.morph >= 0 && item.morph <= 1;
+    return node.id == item.id && node.slot == item.slot &&
+           item.slot < planet.paging()[BlockKind::Heights].capacity && item.slot < pool.slots.size() &&
+           pool.slots[item.slot] == *node.heights && std::isfinite(item.epsPx) &&
+           std::isfinite(item.skirtDepthM) && item.morph >= 0 && item.morph <= 1;
 }
 
 bool keepsItsExtremes(const ChunkNode& node) {
@@ -174,13 +176,13 @@ public:
             flown.drawn.insert(item.id);
             EXPECT_TRUE(keepsItsExtremes(planet_->tree().nodes[item.node])) << toString(item.id);
         }
-        for (const PagingEvent& event : planet_->pagingHistory()) {
+        for (const PagingEvent& event : planet_->inspect().pagingHistory()) {
             if (event.outcome == PagingOutcome::Failed) flown.failed.insert({event.parent, event.kind});
             if (event.outcome == PagingOutcome::Loaded) flown.loaded.insert({event.parent, event.kind});
         }
         flown.frames = frames_;
         flown.mostBytes = mostBytes_;
-        flown.evicted = planet_->paging().evicted;
+        flown.evicted = planet_->paging()[BlockKind::Heights].evicted;
         return flown;
     }
 
@@ -190,7 +192,7 @@ private:
         const ViewInput view = diveView(place_, frame);
         planet_->step(
             {&view, 1}, [&](std::uint32_t slot, auto heights) { pool_.put(slot, heights); }, 0.02);
-        planet_->takeColourChanges();
+        planet_->takeTileChanges(BlockKind::Colours);
         EXPECT_TRUE(coversThePlanet(*planet_));
         mostBytes_ = std::max(mostBytes_, residentBytes(*planet_));
         EXPECT_LE(mostBytes_, budget_);
@@ -220,7 +222,9 @@ ReadAt checkedReader(const Bytes& bytes) {
 Result<std::unique_ptr<Planet>> openPlanet(const Bytes& bytes, const PagingSettings& settings) {
     auto file = ChunkFile::open(fileName, bytes.size(), checkedReader(bytes));
     if (!file) return tl::unexpected(file.error());
-    return Planet::open(*std::move(file), settings);
+    Result<PlanetSource> source = planetSource(*std::move(file));
+    if (!source) return tl::unexpected(std::move(source.error()));
+    return Planet::open(*std::move(source), settings);
 }
 
 const Flown& wholeFlight(std::size_t place) {

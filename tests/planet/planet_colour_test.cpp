@@ -7,6 +7,7 @@
 #include <set>
 
 #include "planet/paging/tile_paging.h"
+#include "planet/planet_tools.h"
 #include "planet/select/tile_select.h"
 #include "tests/support/held_tiles.h"
 #include "tests/support/planet_fixture.h"
@@ -67,22 +68,22 @@ struct ColourPool : HeldTiles {
     std::set<ChunkId> checkers;
 
     void follow(Planet& planet) {
-        HeldTiles::follow(planet.takeColourChanges(), [this](const TileData& tile) {
+        HeldTiles::follow(planet.takeTileChanges(BlockKind::Colours), [this](const TileData& tile) {
             if (tile.texels == checkerTexels(ColourFormat::Bc1)) checkers.insert(tile.id);
         });
     }
 };
 
 void expectHolds(const Planet& planet, const ColourPool& pool) {
-    expectHolds(planet.colourTree(), planet.colourPaging().tileCapacity, pool);
+    expectHolds(planet.tiles(BlockKind::Colours), planet.paging()[BlockKind::Colours].capacity, pool);
 }
 
 // The tiles that a view shows, whatever may be resident under them.
 std::set<ChunkId> shown(const Planet& planet) {
-    const TileTree& tree = planet.colourTree();
+    const TileTree& tree = planet.tiles(BlockKind::Colours);
     std::set<ChunkId> ids;
-    for (const NodeIndex i : planet.colourSelection().touched) ids.insert(tree.nodes[i].id);
-    for (const ChildrenRequest& split : planet.colourSelection().splits) ids.erase(split.parentId);
+    for (const NodeIndex i : planet.views()[0].colours.touched) ids.insert(tree.nodes[i].id);
+    for (const ChildrenRequest& split : planet.views()[0].colours.splits) ids.erase(split.parentId);
     return ids;
 }
 
@@ -94,7 +95,7 @@ TEST(PlanetColours, SettlesOnAsManyTexelsAsAreWantedOrAsThereAre) {
         ASSERT_TRUE(colouredSettled(*planet, view, wanted));
         pool.follow(*planet);
         expectHolds(*planet, pool);
-        const TileSelection& selection = planet->colourSelection();
+        const TileSelection& selection = planet->views()[0].colours;
         EXPECT_TRUE(selection.requests.empty());
         EXPECT_EQ(selection.counters.waiting, 0u);
         EXPECT_GT(selection.counters.deepestLevel, 1u);
@@ -130,14 +131,15 @@ TEST(PlanetColours, ChunksAreChosenAsIfThereWereNone) {
         ASSERT_TRUE(plain->settle(view, fineSettings(), noUpload, timeoutS));
         EXPECT_EQ(drawn(*withColours), drawn(*plain));
     }
-    EXPECT_EQ(withColours->paging().residentChunks, plain->paging().residentChunks);
+    EXPECT_EQ(withColours->paging()[BlockKind::Heights].resident,
+              plain->paging()[BlockKind::Heights].resident);
 }
 
 TEST(PlanetColours, OffTheyAskForNothing) {
     const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
     ASSERT_TRUE(planet->settle(viewAt(10, 50, 1e5), fineSettings(), noUpload, timeoutS));
-    EXPECT_EQ(planet->colourTree().residentTiles, 6u);
-    EXPECT_EQ(planet->colourPaging().loaded, 0u);
+    EXPECT_EQ(planet->tiles(BlockKind::Colours).residentTiles, 6u);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].loaded, 0u);
 }
 
 TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
@@ -153,13 +155,13 @@ TEST(PlanetColours, TheShareIsKeptOverAFlightAndTheMostWantedIsResident) {
         expectHolds(*planet, pool);
         if (HasFailure()) return;
     }
-    EXPECT_GT(planet->colourPaging().evicted, 10u);
+    EXPECT_GT(planet->paging()[BlockKind::Colours].evicted, 10u);
     ASSERT_TRUE(colouredSettled(*planet, viewAt(40, 190, 2e4, -60), 2));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     // What waits is wanted no more than half as much again as what is there.
-    ASSERT_GT(planet->colourPaging().budgetWaits, 0u);
-    const TileSelection& selection = planet->colourSelection();
+    ASSERT_GT(planet->paging()[BlockKind::Colours].budgetWaits, 0u);
+    const TileSelection& selection = planet->views()[0].colours;
     float leastSplit = 1e9f;
     for (const ChildrenRequest& split : selection.splits) leastSplit = std::min(leastSplit, split.priority);
     ASSERT_FALSE(selection.requests.empty());
@@ -187,16 +189,16 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
     EXPECT_THAT(planet->takeProblems(), testing::ElementsAre(HasSubstr("x_pos/1/1/1 are gone")));
     ASSERT_EQ(pool.checkers.size(), 4u);
     for (const ChunkId& id : pool.checkers) EXPECT_EQ(parentOf(id), bad);
-    EXPECT_EQ(planet->colourPaging().failed, 1u);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].failed, 1u);
     broken = false;
     pool.checkers.clear();
-    planet->retryFailed();
+    planet->tools().retryFailed();
     ASSERT_TRUE(colouredSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
     EXPECT_TRUE(pool.checkers.empty());
     EXPECT_TRUE(planet->takeProblems().empty());
-    EXPECT_GT(planet->colourSelection().counters.deepestLevel, 2u);
+    EXPECT_GT(planet->views()[0].colours.counters.deepestLevel, 2u);
 }
 
 TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
@@ -214,25 +216,25 @@ TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
         expectHolds(*planet, pool);
         EXPECT_EQ(shown(*planet), before);
     };
-    planet->dropAll();
+    planet->tools().dropAll();
     comesAgain();
-    planet->beginColoursAnew();
+    planet->beginTilesAnew(BlockKind::Colours);
     comesAgain();
-    planet->startAnew();
+    planet->tools().startAnew();
     comesAgain();
     PagingSettings fewer = planet->pagingSettings();
     fewer.maxColourTiles = 500;
     ASSERT_TRUE(planet->setPaging(fewer));
-    EXPECT_EQ(planet->colourPaging().tileCapacity, 498u);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].capacity, 498u);
     comesAgain();
 }
 
 void expectTotalsOfEachKindAddUp(const Planet& planet) {
-    const PagingCounters& heights = planet.paging();
-    EXPECT_EQ(faceCount + quadrantCount * (heights.loaded - heights.evicted), heights.residentChunks);
-    const TilePagingCounters& colours = planet.colourPaging();
-    EXPECT_EQ(faceCount + quadrantCount * (colours.loaded - colours.evicted), colours.residentTiles);
-    EXPECT_EQ(planet.bytesRead(), heights.bytesRead + colours.bytesRead);
+    const BlockCounters& heights = planet.paging()[BlockKind::Heights];
+    EXPECT_EQ(faceCount + quadrantCount * (heights.loaded - heights.evicted), heights.resident);
+    const BlockCounters& colours = planet.paging()[BlockKind::Colours];
+    EXPECT_EQ(faceCount + quadrantCount * (colours.loaded - colours.evicted), colours.resident);
+    EXPECT_EQ(planet.paging().bytesRead(), heights.bytesRead + colours.bytesRead);
 }
 
 TEST(PlanetColours, TotalsOfEachKindCountThatKindAlone) {
@@ -245,21 +247,21 @@ TEST(PlanetColours, TotalsOfEachKindCountThatKindAlone) {
         expectTotalsOfEachKindAddUp(*planet);
         if (HasFailure()) return;
     }
-    EXPECT_GT(planet->paging().loaded, 0u);
-    EXPECT_GT(planet->colourPaging().evicted, 10u);
-    planet->dropAll();
+    EXPECT_GT(planet->paging()[BlockKind::Heights].loaded, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Colours].evicted, 10u);
+    planet->tools().dropAll();
     expectTotalsOfEachKindAddUp(*planet);
-    EXPECT_EQ(planet->paging().evicted, planet->paging().loaded);
-    EXPECT_EQ(planet->colourPaging().evicted, planet->colourPaging().loaded);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].evicted, planet->paging()[BlockKind::Heights].loaded);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].evicted, planet->paging()[BlockKind::Colours].loaded);
     planet->setPaging(roomForColourTiles(6 + 4 * 24)).value();
     expectTotalsOfEachKindAddUp(*planet);
     ASSERT_TRUE(colouredSettled(*planet, viewAt(20, 20, 40'000, -70)));
     expectTotalsOfEachKindAddUp(*planet);
-    ASSERT_GT(planet->paging().loaded, planet->paging().evicted);
-    planet->startAnew();
+    ASSERT_GT(planet->paging()[BlockKind::Heights].loaded, planet->paging()[BlockKind::Heights].evicted);
+    planet->tools().startAnew();
     const ViewInput far = coloured(viewAt(20, 20, 1e8));
     planet->step({&far, 1}, noUpload, 0);
-    EXPECT_EQ(planet->paging().residentChunks, faceCount);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].resident, faceCount);
     expectTotalsOfEachKindAddUp(*planet);
 }
 
@@ -273,11 +275,11 @@ TEST(PlanetColours, ACheckerPatternIsNeitherLoadedNorEvicted) {
                                      settings)
                             .value();
     ASSERT_TRUE(colouredSettled(*planet, viewAt(20, 20, 40'000, -70)));
-    const std::uint64_t loaded = planet->colourPaging().loaded;
+    const std::uint64_t loaded = planet->paging()[BlockKind::Colours].loaded;
     EXPECT_LE(loaded, faceCount);
-    EXPECT_GT(planet->colourPaging().residentTiles, faceCount + quadrantCount * loaded);
-    planet->dropAll();
-    EXPECT_EQ(planet->colourPaging().evicted, loaded);
+    EXPECT_GT(planet->paging()[BlockKind::Colours].resident, faceCount + quadrantCount * loaded);
+    planet->tools().dropAll();
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].evicted, loaded);
 }
 
 TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
@@ -307,33 +309,33 @@ TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
         [](int i) { return coloured(viewAt(20, 30 + 0.3 * i, 40'000, -60)); },
         [&](int i) { EXPECT_EQ(shown(*other), shown(*planet)) << i; });
     EXPECT_GT(ofColours, 20u);
-    EXPECT_GT(planet->colourPaging().failed, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Colours].failed, 0u);
 }
 
 // A tile that holds the eye in its bounds is wanted more than the one above it, whose bounds may not.
 TEST(PlanetColours, ABlockIsNotDroppedForWhatIsToComeUnderIt) {
-    TilePaging tiles;
+    TilePaging tiles(BlockKind::Colours);
     tiles.leafLevel = leafOfFile;
     tiles.checkers = ColourFormat::Bc1;
     for (const Face face : allFaces) tiles.roots[static_cast<std::size_t>(face)] = fakeTile({face, 0, 0, 0});
     tiles.begin(faceCount + quadrantCount, 0);
     PagingQueue queue;
-    std::uint64_t nextTicket = 1;
-    const TilePaging::Note ignore = [](const PagingRequest&, PagingOutcome) {};
+    PagingRun run{.frame = 1};
     const auto request = [&](const ChunkId& parent, float priority,
                              const std::vector<MergedRequest>& splits) {
         const MergedRequest wanted{findTile(tiles.tree, parent), parent, priority};
-        tiles.request(queue, {wanted}, splits, {1, 0, 0, nextTicket, ignore, nullptr});
+        tiles.request(queue, {{wanted}, splits}, run);
     };
     const ChunkId root{Face::PosX, 0, 0, 0}, child = childOf(root, 2);
     request(root, 2, {});
-    ASSERT_TRUE(queue.pop({root, BlockKind::Colours}));
-    tiles.finish(root, loadFakeTiles(root, fakeTile(root).children).value(), 1, 0);
+    std::optional<PagingRequest> taken = queue.pop({root, BlockKind::Colours});
+    ASSERT_TRUE(taken);
+    tiles.finish({*taken, loadFakeTiles(root, fakeTile(root).children).value()}, run, noUpload);
     tiles.use({0, findTile(tiles.tree, child)}, 1);
     const MergedRequest split{findTile(tiles.tree, root), root, 2};
     request(child, 100, {split});
     EXPECT_EQ(queue.count(PagingType::PageIn), 0u);
-    EXPECT_EQ(tiles.counters.budgetWaits, 1u);
+    EXPECT_EQ(tiles.counters().budgetWaits, 1u);
     EXPECT_NE(findTile(tiles.tree, child), noNode);
     // Elsewhere it yields.
     const ChunkId other{Face::NegX, 0, 0, 0};

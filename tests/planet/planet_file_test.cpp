@@ -45,7 +45,7 @@ TEST_F(PlanetFile, settlesWithEveryDrawnChunkWithinTheTolerance) {
     EXPECT_GT((*planet)->selection().counters.deepestLevel, 2u);
     for (const DrawItem& item : (*planet)->selection().draw) EXPECT_LE(item.epsPx, 0.5) << toString(item.id);
     EXPECT_EQ((*planet)->selection().counters.waiting, 0u);
-    EXPECT_EQ((*planet)->paging().failed, 0u);
+    EXPECT_EQ((*planet)->paging()[BlockKind::Heights].failed, 0u);
     EXPECT_TRUE((*planet)->takeProblems().empty());
 }
 
@@ -54,11 +54,11 @@ TEST_F(PlanetFile, everyBlockOfABakeLoadsWhenAllIsWanted) {
     ASSERT_TRUE(planet);
     const LodSettings all{.tauPx = 1e-9, .frustumCulling = false, .horizonCulling = false};
     ASSERT_TRUE((*planet)->settle(overHills(), all, ignoreUpload, 120));
-    EXPECT_EQ((*planet)->selection().draw.size(), 6u << (2 * leafLevel((*planet)->shape())));
-    EXPECT_EQ((*planet)->paging().failed, 0u);
+    EXPECT_EQ((*planet)->selection().draw.size(), 6u << (2 * leafLevel((*planet)->tree().shape)));
+    EXPECT_EQ((*planet)->paging()[BlockKind::Heights].failed, 0u);
     // Everything but the header and the roots was read, and nothing twice.
-    EXPECT_LT((*planet)->paging().bytesRead, std::filesystem::file_size(path_));
-    EXPECT_GT((*planet)->paging().bytesRead, std::filesystem::file_size(path_) * 9 / 10);
+    EXPECT_LT((*planet)->paging()[BlockKind::Heights].bytesRead, std::filesystem::file_size(path_));
+    EXPECT_GT((*planet)->paging()[BlockKind::Heights].bytesRead, std::filesystem::file_size(path_) * 9 / 10);
 }
 
 TEST_F(PlanetFile, damagedBlockIsReportedAndDrawnAsItsParent) {
@@ -72,7 +72,7 @@ TEST_F(PlanetFile, damagedBlockIsReportedAndDrawnAsItsParent) {
     ASSERT_TRUE(planet);
     const LodSettings all{.tauPx = 1e-9, .frustumCulling = false, .horizonCulling = false};
     ASSERT_TRUE((*planet)->settle(overHills(), all, ignoreUpload, 120));
-    EXPECT_EQ((*planet)->paging().failed, 1u);
+    EXPECT_EQ((*planet)->paging()[BlockKind::Heights].failed, 1u);
     const std::vector<std::string> problems = (*planet)->takeProblems();
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_NE(problems[0].find("hills.chk"), std::string::npos);
@@ -80,7 +80,7 @@ TEST_F(PlanetFile, damagedBlockIsReportedAndDrawnAsItsParent) {
     std::size_t drawnAsParent = 0;
     for (const DrawItem& item : (*planet)->selection().draw) drawnAsParent += item.id == (*children)[3].id;
     EXPECT_EQ(drawnAsParent, 1u);
-    const std::size_t leaves = std::size_t{6} << (2 * leafLevel((*planet)->shape()));
+    const std::size_t leaves = std::size_t{6} << (2 * leafLevel((*planet)->tree().shape));
     EXPECT_EQ((*planet)->selection().draw.size(), leaves - leaves / 24 + 1);
 }
 
@@ -89,7 +89,7 @@ TEST_F(PlanetFile, fileTruncatedWhileOpenGoesOnWithWhatIsResident) {
     ASSERT_TRUE(planet);
     std::filesystem::resize_file(path_, chunkFileHeaderBytes);
     ASSERT_TRUE((*planet)->settle(overHills(), LodSettings{.tauPx = 3}, ignoreUpload, 60));
-    EXPECT_GT((*planet)->paging().failed, 0u);
+    EXPECT_GT((*planet)->paging()[BlockKind::Heights].failed, 0u);
     for (const DrawItem& item : (*planet)->selection().draw) EXPECT_EQ(item.id.level, 0);
     EXPECT_NE((*planet)->takeProblems().at(0).find("truncated"), std::string::npos);
 }

@@ -37,7 +37,7 @@ void expectWhole(const Planet& planet, const RendererSlots& pool) {
     std::set<std::uint32_t> slots;
     forEachNode(planet.tree(), [&](NodeIndex index, const ChunkNode& node) {
         EXPECT_TRUE(slots.insert(node.slot).second);
-        EXPECT_LT(node.slot, planet.slotCapacity());
+        EXPECT_LT(node.slot, planet.paging()[BlockKind::Heights].capacity);
         if (index < faceCount) {
             EXPECT_EQ(node.slot, index);
         }
@@ -45,9 +45,9 @@ void expectWhole(const Planet& planet, const RendererSlots& pool) {
         ASSERT_TRUE(found != pool.heights.end()) << toString(node.id);
         EXPECT_EQ(found->second, *node.heights);
     });
-    EXPECT_LE(slots.size(), planet.slotCapacity());
+    EXPECT_LE(slots.size(), planet.paging()[BlockKind::Heights].capacity);
     EXPECT_EQ(slots.size(), planet.tree().residentChunks);
-    for (std::size_t v = 0; v < planet.viewCount(); ++v) {
+    for (std::size_t v = 0; v < planet.views().size(); ++v) {
         for (const DrawItem& item : planet.selection(v).draw) {
             EXPECT_EQ(findNode(planet.tree(), item.id), item.node);
             EXPECT_EQ(planet.tree().nodes[item.node].slot, item.slot);
@@ -70,7 +70,7 @@ void expectSettlesAsFresh(Planet& planet, const View& view, const LodSettings& s
     fresh.badDisk = {};
     const auto other = Planet::open(fakePyramid().source(), fresh).value();
     ASSERT_TRUE(other->settle(view, settings, noUpload, timeoutS));
-    EXPECT_EQ(other->paging().budgetWaits, 0u);
+    EXPECT_EQ(other->paging()[BlockKind::Heights].budgetWaits, 0u);
     EXPECT_EQ(drawn(planet), drawn(*other));
 }
 
@@ -87,15 +87,15 @@ TEST(Planet, AGrownBudgetTakesWhatHadNoRoom) {
     LodSettings settings;
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
-    EXPECT_GT(planet->paging().budgetWaits, 0u);
-    const std::uint64_t evicted = planet->paging().evicted;
+    EXPECT_GT(planet->paging()[BlockKind::Heights].budgetWaits, 0u);
+    const std::uint64_t evicted = planet->paging()[BlockKind::Heights].evicted;
     EXPECT_TRUE(planet->setPaging(budgetOf(1500)).value());
-    EXPECT_EQ(planet->slotCapacity(), 1498u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].capacity, 1498u);
     EXPECT_FALSE(planet->settled());
     pool.makeAnew(*planet);
     expectWhole(*planet, pool);
     expectSettlesAsFresh(*planet, viewAt(10, 20, 3e4, -90), settings, pool);
-    EXPECT_EQ(planet->paging().evicted, evicted);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].evicted, evicted);
 }
 
 TEST(Planet, AShrunkBudgetDropsWhatIsOutOfUseFirst) {
@@ -108,13 +108,14 @@ TEST(Planet, AShrunkBudgetDropsWhatIsOutOfUseFirst) {
     const auto before = drawn(*planet);
     EXPECT_GT(planet->tree().residentChunks, 90u);
     EXPECT_TRUE(planet->setPaging(budgetOf(90)).value());
-    EXPECT_EQ(planet->tree().residentChunks, planet->slotCapacity());  // no more than had to go
+    EXPECT_EQ(planet->tree().residentChunks,
+              planet->paging()[BlockKind::Heights].capacity);  // no more than had to go
     EXPECT_EQ(drawn(*planet), before);
     pool.makeAnew(*planet);
     expectWhole(*planet, pool);
-    const std::uint64_t loaded = planet->paging().loaded;
+    const std::uint64_t loaded = planet->paging()[BlockKind::Heights].loaded;
     expectSettlesAsFresh(*planet, viewAt(10, 20), pixelSettings(), pool);
-    EXPECT_EQ(planet->paging().loaded, loaded);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, loaded);
 }
 
 TEST(Planet, AShrunkBudgetDropsEvenWhatIsDrawn) {
@@ -125,12 +126,12 @@ TEST(Planet, AShrunkBudgetDropsEvenWhatIsDrawn) {
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
     EXPECT_GT(planet->tree().residentChunks, 100u);
     EXPECT_TRUE(planet->setPaging(budgetOf(70)).value());
-    EXPECT_EQ(planet->slotCapacity(), 70u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].capacity, 70u);
     pool.makeAnew(*planet);
     expectWhole(*planet, pool);
     EXPECT_FALSE(planet->selection().draw.empty());
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
-    EXPECT_GT(planet->paging().budgetWaits, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].budgetWaits, 0u);
     EXPECT_EQ(planet->tree().residentChunks, 70u);
     expectSettlesAsFresh(*planet, viewAt(40, 100), LodSettings{.tauPx = 4}, pool);
 }
@@ -147,8 +148,8 @@ TEST(Planet, ABudgetMayShrinkWhileBlocksAreBeingRead) {
     const auto arrived = static_cast<int>(gated.asked.size());
     planet->step(viewAt(10, 20), fineSettings(), pool.upload());
     gated.gate.waitForArrivals(arrived + 1);
-    const std::uint64_t failed = planet->paging().failed;
-    const std::uint64_t loaded = planet->paging().loaded;
+    const std::uint64_t failed = planet->paging()[BlockKind::Heights].failed;
+    const std::uint64_t loaded = planet->paging()[BlockKind::Heights].loaded;
     EXPECT_TRUE(planet->setPaging(budgetOf(90, 3)).value());
     pool.makeAnew(*planet);
     expectWhole(*planet, pool);
@@ -156,8 +157,8 @@ TEST(Planet, ABudgetMayShrinkWhileBlocksAreBeingRead) {
     EXPECT_LE(planet->tree().residentChunks + 4 * (paging.queued + paging.loading), 90u);
     gated.gate.open();
     expectSettlesAsFresh(*planet, viewAt(10, 20), pixelSettings(), pool);
-    EXPECT_GT(planet->paging().loaded, loaded);  // what was being read has come
-    EXPECT_EQ(planet->paging().failed, failed);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].loaded, loaded);  // what was being read has come
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, failed);
 }
 
 // More blocks on their way than the new budget has room for: some have to be thrown away when they arrive.
@@ -186,12 +187,12 @@ TEST(Planet, ABudgetMayShrinkBelowWhatIsBeingRead) {
     ASSERT_TRUE(planet->settle(viewAt(10, 20), whole, pool.upload(), timeoutS));
     expectWhole(*planet, pool);
     EXPECT_EQ(planet->tree().residentChunks, 70u);
-    const auto& history = planet->pagingHistory();
+    const auto& history = planet->inspect().pagingHistory();
     const auto thrownAway = std::count_if(history.begin(), history.end(), [](const PagingEvent& event) {
         return event.outcome == PagingOutcome::Cancelled && event.bytes > 0;
     });
     EXPECT_EQ(thrownAway, 40);
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
     expectSettlesAsFresh(*planet, viewAt(40, 100), LodSettings{.tauPx = 4}, pool);
 }
 
@@ -205,9 +206,9 @@ TEST(Planet, ABudgetMayChangeInEveryStep) {
         planet->step(viewAt(15, i * 0.7), settings, pool.upload());
         if (planet->setPaging(budgetOf(70 + random() % 300, 1 + i % 5)).value()) pool.makeAnew(*planet);
         if (i % 20 == 0) expectWhole(*planet, pool);
-        if (i % 50 == 25) planet->dropAll();
+        if (i % 50 == 25) planet->tools().dropAll();
     }
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
     planet->setPaging(budgetOf(400)).value();
     pool.makeAnew(*planet);
     expectSettlesAsFresh(*planet, viewAt(15, 3), settings, pool);
@@ -224,7 +225,7 @@ TEST(Planet, ThreadsMayChangeWhileBlocksAreBeingRead) {
     gated.gate.waitForArrivals(1);
     EXPECT_FALSE(planet->setPaging(budgetOf(1000, 4)).value());
     gated.gate.waitForArrivals(4);
-    EXPECT_EQ(planet->loadingNow().size(), 4u);
+    EXPECT_EQ(planet->inspect().loadingNow().size(), 4u);
     EXPECT_FALSE(planet->setPaging(budgetOf(1000, 1)).value());
     EXPECT_EQ(planet->paging().loading, 4u);
     gated.gate.open();
@@ -237,15 +238,15 @@ TEST(Planet, PausedItLoadsOnlyWhatIsLetThrough) {
     const auto planet = openPaused();
     RendererSlots pool;
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), pool.upload(), timeoutS));  // and at once
-    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
     EXPECT_GT(planet->paging().queued, 0u);
     EXPECT_FALSE(planet->settled());
     for (std::uint64_t i = 1; i <= 3; ++i) {
-        const ChunkId first = planet->pendingRequests(PagingType::PageIn)[0].parent;
-        planet->loadOne();
+        const ChunkId first = planet->inspect().pendingRequests(PagingType::PageIn)[0].parent;
+        planet->tools().loadOne();
         EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), pool.upload(), timeoutS));
-        EXPECT_EQ(planet->paging().loaded, i);
-        EXPECT_EQ(planet->pagingHistory().back().parent, first);
+        EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, i);
+        EXPECT_EQ(planet->inspect().pagingHistory().back().parent, first);
     }
     EXPECT_FALSE(planet->setPaging({}).value());
     expectSettlesAsFresh(*planet, viewAt(10, 20), fineSettings(), pool);
@@ -256,13 +257,13 @@ TEST(Planet, DropAllLeavesTheRoots) {
     RendererSlots pool;
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), pool.upload(), timeoutS));
     ASSERT_TRUE(planet->settle(viewAt(-20, 80), fineSettings(), pool.upload(), timeoutS));
-    EXPECT_FALSE(planet->pendingRequests(PagingType::PageOut).empty());
-    const std::uint64_t loaded = planet->paging().loaded;
-    planet->dropAll();
+    EXPECT_FALSE(planet->inspect().pendingRequests(PagingType::PageOut).empty());
+    const std::uint64_t loaded = planet->paging()[BlockKind::Heights].loaded;
+    planet->tools().dropAll();
     EXPECT_EQ(planet->tree().residentChunks, 6u);
-    EXPECT_EQ(planet->paging().evicted, loaded);
-    EXPECT_TRUE(planet->pendingRequests(PagingType::PageIn).empty());
-    EXPECT_TRUE(planet->pendingRequests(PagingType::PageOut).empty());
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].evicted, loaded);
+    EXPECT_TRUE(planet->inspect().pendingRequests(PagingType::PageIn).empty());
+    EXPECT_TRUE(planet->inspect().pendingRequests(PagingType::PageOut).empty());
     EXPECT_FALSE(planet->settled());
     for (const DrawItem& item : planet->selection().draw) EXPECT_EQ(item.id.level, 0);
     expectWhole(*planet, pool);
@@ -277,17 +278,18 @@ TEST(Planet, DropAllThrowsAwayWhatIsBeingRead) {
     settings.frustumCulling = settings.horizonCulling = false;
     planet->step(viewAt(10, 20), settings, pool.upload());
     gated.gate.waitForArrivals(4);
-    planet->dropAll();
+    planet->tools().dropAll();
     EXPECT_EQ(planet->paging().queued, 0u);
     EXPECT_EQ(planet->paging().loading, 4u);
     // The same blocks are asked for again before the first readings arrive.
     planet->step(viewAt(10, 20), settings, pool.upload());
     EXPECT_EQ(planet->paging().queued, 6u);
-    planet->dropAll();
+    planet->tools().dropAll();
     planet->step(viewAt(10, 20), settings, pool.upload());
     gated.gate.open();
     expectSettlesAsFresh(*planet, viewAt(10, 20), settings, pool);
-    EXPECT_EQ(planet->paging().bytesRead, (planet->paging().loaded + 4) * 100);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].bytesRead,
+              (planet->paging()[BlockKind::Heights].loaded + 4) * 100);
     EXPECT_EQ(planet->paging().cancelled, 2u + 6u + 4u);
 }
 
@@ -307,12 +309,12 @@ TEST(Planet, DropAllThrowsAwayWhatIsBeingReadDeepInTheTree) {
     settings.maxLevel = 4;
     planet->step(view, settings, pool.upload());
     gated.gate.waitForArrivals(arrived + 2);
-    EXPECT_EQ(planet->loadingNow()[0].parent.level, 2);
-    planet->dropAll();
+    EXPECT_EQ(planet->inspect().loadingNow()[0].parent.level, 2);
+    planet->tools().dropAll();
     EXPECT_EQ(planet->tree().residentChunks, 6u);
     gated.gate.open();
     expectSettlesAsFresh(*planet, view, settings, pool);
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
 TEST(Planet, BadSettingsAreRefusedAndChangeNothing) {
@@ -345,16 +347,17 @@ TEST(Planet, ABadDisksFailuresAreRetriedByHandUntilAllIsThere) {
     RendererSlots pool;
     int rounds = 0;
     do {
-        planet->retryFailed();
+        planet->tools().retryFailed();
         ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), pool.upload(), timeoutS));
         expectWhole(*planet, pool);
     } while (planet->selection().counters.waiting > 0 && ++rounds < 100);
     EXPECT_GT(rounds, 1);
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
-    EXPECT_GT(planet->paging().failed, 0u);
-    EXPECT_EQ(planet->paging().bytesRead, 100 * planet->paging().loaded);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].bytesRead,
+              100 * planet->paging()[BlockKind::Heights].loaded);
     const auto problems = planet->takeProblems();
-    ASSERT_EQ(problems.size(), planet->paging().failed);
+    ASSERT_EQ(problems.size(), planet->paging()[BlockKind::Heights].failed);
     EXPECT_THAT(problems[0], HasSubstr("injected read failure (seed 11)"));
 }
 
@@ -371,7 +374,7 @@ TEST(Planet, ABadDiskFailsTheSameBlocksForTheSameSeed) {
             EXPECT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
             const auto problems = planet->takeProblems();
             round.insert(problems.begin(), problems.end());
-            planet->dropAll();
+            planet->tools().dropAll();
         }
         EXPECT_EQ(rounds[0], rounds[1]);
         return rounds[0];
@@ -387,13 +390,13 @@ TEST(Planet, ALatencySwitchedOffHoldsNothingUp) {
     settings.badDisk = {.latencyMs = 10'000, .bandwidthMBs = 1e-12};  // a day for each read
     const auto planet = Planet::open(fakePyramid().source(), settings).value();
     planet->step(viewAt(10, 20), fineSettings(), noUpload);
-    while (planet->loadingNow().empty()) std::this_thread::yield();
+    while (planet->inspect().loadingNow().empty()) std::this_thread::yield();
     EXPECT_FALSE(planet->setPaging({}).value());
     EXPECT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
 }
 
 std::size_t countOf(const Planet& planet, PagingOutcome outcome) {
-    const auto& history = planet.pagingHistory();
+    const auto& history = planet.inspect().pagingHistory();
     return static_cast<std::size_t>(std::count_if(
         history.begin(), history.end(), [&](const PagingEvent& event) { return event.outcome == outcome; }));
 }
@@ -405,17 +408,17 @@ TEST(Planet, HistoryTellsHowEachRequestEnded) {
         ASSERT_TRUE(planet->settle(viewAt(0, i * 50), pixelSettings(), noUpload, timeoutS));
     }
     const PagingCounters& paging = planet->paging();
-    ASSERT_LT(planet->pagingHistory().size(), 1000u);
-    EXPECT_EQ(countOf(*planet, PagingOutcome::Loaded), paging.loaded);
-    EXPECT_EQ(countOf(*planet, PagingOutcome::Failed), paging.failed);
-    EXPECT_EQ(countOf(*planet, PagingOutcome::Evicted), paging.evicted);
+    ASSERT_LT(planet->inspect().pagingHistory().size(), 1000u);
+    EXPECT_EQ(countOf(*planet, PagingOutcome::Loaded), paging[BlockKind::Heights].loaded);
+    EXPECT_EQ(countOf(*planet, PagingOutcome::Failed), paging[BlockKind::Heights].failed);
+    EXPECT_EQ(countOf(*planet, PagingOutcome::Evicted), paging[BlockKind::Heights].evicted);
     EXPECT_EQ(countOf(*planet, PagingOutcome::Cancelled), paging.cancelled);
     for (const PagingOutcome outcome :
          {PagingOutcome::Loaded, PagingOutcome::Failed, PagingOutcome::Evicted}) {
         EXPECT_GT(countOf(*planet, outcome), 0u);
     }
     double beforeS = 0;
-    for (const PagingEvent& event : planet->pagingHistory()) {
+    for (const PagingEvent& event : planet->inspect().pagingHistory()) {
         EXPECT_GE(event.atS, beforeS);
         EXPECT_GE(event.waitedS, 0);
         EXPECT_LE(event.waitedS, event.atS);
@@ -430,7 +433,7 @@ TEST(Planet, HistoryTellsHowEachRequestEnded) {
         EXPECT_TRUE(event.outcome != PagingOutcome::Failed || Faulty::affects(event.parent));
         beforeS = event.atS;
     }
-    EXPECT_LE(beforeS, planet->seconds());
+    EXPECT_LE(beforeS, planet->lastStep().nowS);
 }
 
 TEST(Planet, HistoryKeepsTheLastThousand) {
@@ -438,35 +441,37 @@ TEST(Planet, HistoryKeepsTheLastThousand) {
     LodSettings all;
     all.frustumCulling = all.horizonCulling = false;
     all.tauPx = 1e-3;
-    while (planet->paging().loaded + planet->paging().evicted < 1500) {
+    while (planet->paging()[BlockKind::Heights].loaded + planet->paging()[BlockKind::Heights].evicted <
+           1500) {
         ASSERT_TRUE(planet->settle(viewAt(0, 0), all, noUpload, timeoutS));
-        planet->dropAll();
+        planet->tools().dropAll();
     }
-    EXPECT_EQ(planet->pagingHistory().size(), 1000u);
-    EXPECT_EQ(planet->pagingHistory().back().outcome, PagingOutcome::Evicted);
+    EXPECT_EQ(planet->inspect().pagingHistory().size(), 1000u);
+    EXPECT_EQ(planet->inspect().pagingHistory().back().outcome, PagingOutcome::Evicted);
 }
 
 TEST(Planet, PendingRequestsKnowHowOftenAndSinceWhenTheyAreAskedFor) {
     const auto planet = openPaused();
     planet->step(viewAt(10, 20), fineSettings(), noUpload);
-    const double firstS = planet->seconds();
+    const double firstS = planet->lastStep().nowS;
     for (int i = 0; i < 4; ++i) planet->step(viewAt(10, 20), fineSettings(), noUpload);
-    EXPECT_GT(planet->seconds(), firstS);
-    const auto pending = planet->pendingRequests(PagingType::PageIn);
+    EXPECT_GT(planet->lastStep().nowS, firstS);
+    const auto pending = planet->inspect().pendingRequests(PagingType::PageIn);
     ASSERT_FALSE(pending.empty());
     for (const PagingRequest& request : pending) {
         EXPECT_EQ(request.askedAtS, firstS);
         EXPECT_EQ(request.timesAsked, 5u);
     }
     planet->step(viewAt(10, 20, 8000, 90), fineSettings(), noUpload);  // up, at the stars
-    ASSERT_FALSE(planet->pagingHistory().empty());
-    EXPECT_EQ(planet->pagingHistory().size() + planet->pendingRequests(PagingType::PageIn).size(),
+    ASSERT_FALSE(planet->inspect().pagingHistory().empty());
+    EXPECT_EQ(planet->inspect().pagingHistory().size() +
+                  planet->inspect().pendingRequests(PagingType::PageIn).size(),
               pending.size());
-    for (const PagingEvent& event : planet->pagingHistory()) {
+    for (const PagingEvent& event : planet->inspect().pagingHistory()) {
         EXPECT_EQ(event.outcome, PagingOutcome::Cancelled);
         EXPECT_EQ(event.timesAsked, 5u);
-        EXPECT_EQ(event.atS, planet->seconds());
-        EXPECT_EQ(event.waitedS, planet->seconds() - firstS);
+        EXPECT_EQ(event.atS, planet->lastStep().nowS);
+        EXPECT_EQ(event.waitedS, planet->lastStep().nowS - firstS);
     }
 }
 
@@ -474,12 +479,12 @@ TEST(Planet, APageOutTakenBackIsCancelled) {
     const auto planet = openFake();
     ASSERT_TRUE(planet->settle(viewAt(10, 20), pixelSettings(), noUpload, timeoutS));
     planet->step(viewAt(10, 20, 8000, 90), pixelSettings(), noUpload);
-    const std::size_t outOfUse = planet->pendingRequests(PagingType::PageOut).size();
+    const std::size_t outOfUse = planet->inspect().pendingRequests(PagingType::PageOut).size();
     ASSERT_GT(outOfUse, 0u);
     planet->step(viewAt(10, 20), pixelSettings(), noUpload);
-    EXPECT_TRUE(planet->pendingRequests(PagingType::PageOut).empty());
+    EXPECT_TRUE(planet->inspect().pendingRequests(PagingType::PageOut).empty());
     EXPECT_EQ(countOf(*planet, PagingOutcome::Cancelled), outOfUse);
-    EXPECT_EQ(planet->pagingHistory().back().type, PagingType::PageOut);
+    EXPECT_EQ(planet->inspect().pagingHistory().back().type, PagingType::PageOut);
 }
 
 TEST(Planet, ChunksKnowWhenAndInWhatOrderTheyCame) {
@@ -488,7 +493,7 @@ TEST(Planet, ChunksKnowWhenAndInWhatOrderTheyCame) {
     std::map<std::uint32_t, int> byOrder;
     forEachNode(planet->tree(), [&](NodeIndex, const ChunkNode& node) {
         ++byOrder[node.loadOrder];
-        EXPECT_LE(node.loadedAtS, planet->seconds());
+        EXPECT_LE(node.loadedAtS, planet->lastStep().nowS);
         if (node.parent == noNode) {
             EXPECT_EQ(node.loadOrder, 0u);
             return;
@@ -497,8 +502,8 @@ TEST(Planet, ChunksKnowWhenAndInWhatOrderTheyCame) {
         EXPECT_GT(node.loadOrder, above.loadOrder);
         EXPECT_GE(node.loadedAtS, above.loadedAtS);
     });
-    EXPECT_EQ(byOrder.size(), planet->paging().loaded + 1);
-    EXPECT_EQ(byOrder.rbegin()->first, planet->paging().loaded);
+    EXPECT_EQ(byOrder.size(), planet->paging()[BlockKind::Heights].loaded + 1);
+    EXPECT_EQ(byOrder.rbegin()->first, planet->paging()[BlockKind::Heights].loaded);
     for (const auto& [order, chunks] : byOrder) EXPECT_EQ(chunks, order == 0 ? 6 : 4);
 }
 
@@ -511,7 +516,7 @@ TEST(Planet, ExaggerationChangesWhatIsDrawnAndNoSlot) {
     forEachNode(planet->tree(), [&](NodeIndex, const ChunkNode& node) { slots[node.id] = node.slot; });
     planet->setExaggeration(8);
     EXPECT_FALSE(planet->settled());
-    EXPECT_EQ(planet->shape().quantumM, 8 * fakePyramid().shape.quantumM);
+    EXPECT_EQ(planet->tree().shape.quantumM, 8 * fakePyramid().shape.quantumM);
     forEachNode(planet->tree(),
                 [&](NodeIndex, const ChunkNode& node) { EXPECT_EQ(node.slot, slots.at(node.id)); });
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 2e5, -90), settings, noUpload, timeoutS));
@@ -524,7 +529,7 @@ TEST(Planet, ExaggerationChangesWhatIsDrawnAndNoSlot) {
     std::sort(ids.begin(), ids.end());
     EXPECT_EQ(drawn(*planet), ids);
     EXPECT_NE(ids, drawnOfWhole(viewAt(10, 20, 2e5, -90), settings));
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
 TEST(Planet, ExaggerationStopsShortOfTheCentre) {

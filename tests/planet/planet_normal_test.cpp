@@ -6,6 +6,7 @@
 #include <set>
 
 #include "planet/paging/normal_tile.h"
+#include "planet/planet_tools.h"
 #include "tests/support/held_tiles.h"
 #include "tests/support/made_chunks.h"
 #include "tests/support/planet_fixture.h"
@@ -52,14 +53,14 @@ bool litSettled(Planet& planet, const View& view, double texelsPerPixel = 1) {
 
 struct NormalPool : HeldTiles {
     void follow(Planet& planet) {
-        HeldTiles::follow(planet.takeNormalChanges(), [](const TileData& tile) {
+        HeldTiles::follow(planet.takeTileChanges(BlockKind::Normals), [](const TileData& tile) {
             EXPECT_EQ(tile.texels.size(), normalTileBytes) << toString(tile.id);
         });
     }
 };
 
 void expectHolds(const Planet& planet, const NormalPool& pool) {
-    expectHolds(planet.normalTree(), planet.normalPaging().tileCapacity, pool);
+    expectHolds(planet.tiles(BlockKind::Normals), planet.paging()[BlockKind::Normals].capacity, pool);
 }
 
 TEST(PlanetNormals, SettleOnAsManyTexelsAsAreWantedWhateverTheChunks) {
@@ -70,16 +71,16 @@ TEST(PlanetNormals, SettleOnAsManyTexelsAsAreWantedWhateverTheChunks) {
         ASSERT_TRUE(litSettled(*planet, viewAt(20, 30, 240'000, -80), wanted));
         pool.follow(*planet);
         expectHolds(*planet, pool);
-        const TileCounters& seen = planet->normalSelection().counters;
+        const TileCounters& seen = planet->views()[0].normals.counters;
         EXPECT_EQ(seen.waiting, 0u);
         EXPECT_GE(seen.fewestTexelsPerPixel, wanted);
         EXPECT_GT(seen.deepestLevel, 0u);
     }
     EXPECT_EQ(planet->selection().counters.deepestLevel, 0u);
-    EXPECT_GT(planet->normalPaging().bytesRead, 0u);
-    EXPECT_EQ(planet->paging().bytesRead, 0u);
-    EXPECT_EQ(planet->bytesRead(), planet->normalPaging().bytesRead);
-    const PagingEvent& last = planet->pagingHistory().back();
+    EXPECT_GT(planet->paging()[BlockKind::Normals].bytesRead, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].bytesRead, 0u);
+    EXPECT_EQ(planet->paging().bytesRead(), planet->paging()[BlockKind::Normals].bytesRead);
+    const PagingEvent& last = planet->inspect().pagingHistory().back();
     EXPECT_EQ(last.kind, BlockKind::Normals);
     EXPECT_THAT(toString(BlockId{last.parent, last.kind}), HasSubstr(" (normals)"));
 }
@@ -90,19 +91,19 @@ TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
     settings.budgetBytes = std::size_t{64} << 20;  // less than all chunks and tiles
     settings.normals = false;
     const auto planet = Planet::open(made.source(), settings).value();
-    const std::uint32_t allSlots = planet->slotCapacity();
+    const std::uint32_t allSlots = planet->paging()[BlockKind::Heights].capacity;
     NormalPool pool;
     const View view = viewAt(20, 30, 60'000, -80);
     ASSERT_TRUE(litSettled(*planet, view));
-    EXPECT_TRUE(planet->normalTree().nodes.empty());
-    EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
-    EXPECT_EQ(planet->normalPaging().bytesRead, 0u);
-    EXPECT_TRUE(planet->takeNormalChanges().empty());
-    EXPECT_EQ(planet->normalLeafLevel(), 2);
+    EXPECT_TRUE(planet->tiles(BlockKind::Normals).nodes.empty());
+    EXPECT_EQ(planet->paging()[BlockKind::Normals].capacity, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Normals].bytesRead, 0u);
+    EXPECT_TRUE(planet->takeTileChanges(BlockKind::Normals).empty());
+    EXPECT_EQ(normalLeafLevel(planet->tree().storedShape), 2);
 
     settings.normals = true;
     ASSERT_TRUE(planet->setPaging(settings).value());
-    EXPECT_LT(planet->slotCapacity(), allSlots);
+    EXPECT_LT(planet->paging()[BlockKind::Heights].capacity, allSlots);
     ASSERT_TRUE(litSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
@@ -110,10 +111,10 @@ TEST(PlanetNormals, OffTheyTakeNoRoomAndComeAndGoLive) {
 
     settings.normals = false;
     ASSERT_TRUE(planet->setPaging(settings).value());
-    EXPECT_EQ(planet->slotCapacity(), allSlots);
-    EXPECT_TRUE(planet->normalTree().nodes.empty());
-    EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
-    EXPECT_TRUE(planet->takeNormalChanges().empty());
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].capacity, allSlots);
+    EXPECT_TRUE(planet->tiles(BlockKind::Normals).nodes.empty());
+    EXPECT_EQ(planet->paging()[BlockKind::Normals].capacity, 0u);
+    EXPECT_TRUE(planet->takeTileChanges(BlockKind::Normals).empty());
 }
 
 // A planet whose roots of normals take a while to read, as on a large file.
@@ -143,14 +144,14 @@ TEST(PlanetNormals, TurnedOnTheyAreNotWaitedFor) {
     SlowlyRead slow(settings);
     Planet& planet = *slow.planet;
     ASSERT_TRUE(planet.setPaging(settings).has_value());
-    EXPECT_TRUE(planet.normalsArePending());
+    EXPECT_TRUE(planet.inspect().normalsArePending());
     const ViewInput input = litFinely(viewAt(20, 30, 60'000, -80));
     planet.step({&input, 1}, noUpload, 1.0 / 30);
     EXPECT_FALSE(planet.settled());
-    EXPECT_EQ(planet.normalPaging().tileCapacity, 0u);
+    EXPECT_EQ(planet.paging()[BlockKind::Normals].capacity, 0u);
     slow.gate.open();
     ASSERT_TRUE(litSettled(planet, input.lodView));
-    EXPECT_FALSE(planet.normalsArePending());
+    EXPECT_FALSE(planet.inspect().normalsArePending());
     NormalPool pool;
     pool.follow(planet);
     expectHolds(planet, pool);
@@ -170,7 +171,7 @@ TEST(PlanetNormals, TurnedOffAndOnTheirRootsAreKept) {
         const int before = slow.reads;
         ASSERT_TRUE(planet.setPaging(settings).has_value());
         EXPECT_EQ(slow.reads, before);
-        EXPECT_FALSE(planet.normalsArePending());
+        EXPECT_FALSE(planet.inspect().normalsArePending());
     }
     NormalPool pool;
     pool.follow(planet);
@@ -183,10 +184,10 @@ TEST(PlanetNormals, WhereStepsAreRecordedTheirRootsAreThereAtOnce) {
     SlowlyRead slow(settings);
     slow.gate.open();
     Planet& planet = *slow.planet;
-    planet.keepMoves(true);
+    planet.tools().keepMoves(true);
     ASSERT_TRUE(planet.setPaging(settings).has_value());
-    EXPECT_FALSE(planet.normalsArePending());
-    EXPECT_GT(planet.normalPaging().tileCapacity, 0u);
+    EXPECT_FALSE(planet.inspect().normalsArePending());
+    EXPECT_GT(planet.paging()[BlockKind::Normals].capacity, 0u);
 }
 
 TEST(PlanetNormals, ARecordingThatBeginsWhileTheyAreDerivedWaitsForThem) {
@@ -194,11 +195,11 @@ TEST(PlanetNormals, ARecordingThatBeginsWhileTheyAreDerivedWaitsForThem) {
     SlowlyRead slow(settings);
     Planet& planet = *slow.planet;
     ASSERT_TRUE(planet.setPaging(settings).has_value());
-    EXPECT_TRUE(planet.normalsArePending());
+    EXPECT_TRUE(planet.inspect().normalsArePending());
     slow.gate.open();
-    planet.keepMoves(true);
-    EXPECT_FALSE(planet.normalsArePending());
-    EXPECT_GT(planet.normalPaging().tileCapacity, 0u);
+    planet.tools().keepMoves(true);
+    EXPECT_FALSE(planet.inspect().normalsArePending());
+    EXPECT_GT(planet.paging()[BlockKind::Normals].capacity, 0u);
 }
 
 TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
@@ -207,7 +208,7 @@ TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
     settings.time = PagingTime::Simulated;
     settings.badDisk = {.latencyMs = 20, .seed = 5};
     const auto planet = Planet::open(made.source(), settings).value();
-    ASSERT_EQ(planet->normalPaging().tileCapacity, 38u);
+    ASSERT_EQ(planet->paging()[BlockKind::Normals].capacity, 38u);
     NormalPool pool;
     for (int i = 0; i < 60; ++i) {
         const ViewInput input = litFinely(viewAt(20 + 0.1 * i, 30 + 1.5 * i, 40'000, -60));
@@ -216,14 +217,14 @@ TEST(PlanetNormals, TheShareIsKeptOverAFlightAndNothingTakesTurns) {
         expectHolds(*planet, pool);
         if (HasFailure()) return;
     }
-    EXPECT_GT(planet->normalPaging().evicted, 3u);
+    EXPECT_GT(planet->paging()[BlockKind::Normals].evicted, 3u);
     const View still = viewAt(26, 120, 20'000, -60);
     ASSERT_TRUE(litSettled(*planet, still, 2));
-    ASSERT_GT(planet->normalPaging().budgetWaits, 0u);
-    const std::uint64_t loaded = planet->normalPaging().loaded;
+    ASSERT_GT(planet->paging()[BlockKind::Normals].budgetWaits, 0u);
+    const std::uint64_t loaded = planet->paging()[BlockKind::Normals].loaded;
     const ViewInput input = litFinely(still, 2);
     for (int i = 0; i < 60; ++i) planet->step({&input, 1}, noUpload, 1.0 / 30);
-    EXPECT_EQ(planet->normalPaging().loaded, loaded);
+    EXPECT_EQ(planet->paging()[BlockKind::Normals].loaded, loaded);
 }
 
 TEST(PlanetNormals, ABlockOfHeightsThatCannotBeReadLeavesTheMeshAndSaysSo) {
@@ -235,17 +236,17 @@ TEST(PlanetNormals, ABlockOfHeightsThatCannotBeReadLeavesTheMeshAndSaysSo) {
     ASSERT_TRUE(litSettled(*planet, view));
     pool.follow(*planet);
     expectHolds(*planet, pool);
-    EXPECT_GT(planet->normalPaging().failed, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Normals].failed, 0u);
     const std::vector<std::string> problems = planet->takeProblems();
     ASSERT_FALSE(problems.empty());
     EXPECT_THAT(problems.front(), HasSubstr("normals of tile x_pos/"));
     EXPECT_THAT(problems.front(), HasSubstr("made.chk: the block of chunk x_pos/4/9/9 is damaged"));
-    const std::uint64_t failed = planet->normalPaging().failed;
+    const std::uint64_t failed = planet->paging()[BlockKind::Normals].failed;
     made.broken.reset();
-    planet->retryFailed();
+    planet->tools().retryFailed();
     ASSERT_TRUE(litSettled(*planet, view));
-    EXPECT_EQ(planet->normalPaging().failed, failed);
-    EXPECT_EQ(planet->normalSelection().counters.waiting, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Normals].failed, failed);
+    EXPECT_EQ(planet->views()[0].normals.counters.waiting, 0u);
     EXPECT_TRUE(planet->takeProblems().empty());
 }
 
@@ -260,26 +261,26 @@ TEST(PlanetNormals, ABlockThatADiskFailsToReadIsTriedAgain) {
     const ViewInput input = litFinely(viewAt(10, 10, 30'000, -80));
     const auto awaiting = [&] {
         std::size_t ofNormals = 0;
-        for (const FailedBlock& failed : planet->failedBlocks())
+        for (const FailedBlock& failed : planet->inspect().failedBlocks())
             ofNormals += failed.block.kind == BlockKind::Normals && failed.retryInS;
         return ofNormals;
     };
     for (int i = 0; i < 100 && awaiting() == 0; ++i) planet->step({&input, 1}, noUpload, 1.0 / 60);
     ASSERT_GT(awaiting(), 0u);
-    EXPECT_GT(planet->normalPaging().failed, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Normals].failed, 0u);
     EXPECT_FALSE(planet->settled());
     made.broken.reset();
     ASSERT_TRUE(planet->settle({&input, 1}, noUpload, 100));
-    EXPECT_TRUE(planet->failedBlocks().empty());
+    EXPECT_TRUE(planet->inspect().failedBlocks().empty());
     EXPECT_TRUE(planet->takeProblems().empty());
-    EXPECT_EQ(planet->normalSelection().counters.waiting, 0u);
+    EXPECT_EQ(planet->views()[0].normals.counters.waiting, 0u);
     // And where the disk stays as it is the light is the mesh's.
     made.broken = ChunkId{Face::PosX, 4, 9, 9};
     const auto broken = Planet::open(made.source(), settings).value();
     ASSERT_TRUE(broken->settle({&input, 1}, noUpload, 100));
-    EXPECT_GT(broken->paging().failedForGood, 0u);
-    EXPECT_EQ(broken->paging().awaitingRetry, 0u);
-    for (const FailedBlock& failed : broken->failedBlocks()) EXPECT_EQ(failed.attempts, 4u);
+    EXPECT_GT(broken->paging().failedForGood(), 0u);
+    EXPECT_EQ(broken->paging().awaitingRetry(), 0u);
+    for (const FailedBlock& failed : broken->inspect().failedBlocks()) EXPECT_EQ(failed.attempts, 4u);
     NormalPool pool;
     pool.follow(*broken);
     expectHolds(*broken, pool);
@@ -291,7 +292,7 @@ TEST(PlanetNormals, AFaceWhoseOwnTileCannotBeDerivedIsWithoutUntilItCan) {
     const auto planet = Planet::open(made.source(), roomForNormalTiles(30)).value();
     const auto arrivals = [&] {
         std::set<ChunkId> arrived;
-        for (const TileChange& change : planet->takeNormalChanges())
+        for (const TileChange& change : planet->takeTileChanges(BlockKind::Normals))
             for (const TileData& tile : change.arrived) arrived.insert(tile.id);
         return arrived;
     };
@@ -299,7 +300,7 @@ TEST(PlanetNormals, AFaceWhoseOwnTileCannotBeDerivedIsWithoutUntilItCan) {
     EXPECT_EQ(arrivals(), (std::set<ChunkId>{{Face::PosZ, 0, 0, 0}}));
     EXPECT_EQ(planet->takeProblems().size(), 5u);
     made.broken.reset();
-    planet->retryFailed();
+    planet->tools().retryFailed();
     EXPECT_EQ(arrivals().size(), 6u);
     EXPECT_TRUE(planet->takeProblems().empty());
 }
@@ -311,19 +312,19 @@ TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
     EXPECT_THAT(planet->takeProblems(),
                 testing::ElementsAre(
                     HasSubstr("budget too small for this planet: 20 normal tiles; expected at least")));
-    EXPECT_EQ(planet->normalPaging().tileCapacity, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Normals].capacity, 0u);
     ASSERT_TRUE(litSettled(*planet, viewAt(10, 10)));
     tight.uploadLimitMs = 3;
     EXPECT_TRUE(planet->setPaging(tight));
     EXPECT_TRUE(planet->takeProblems().empty());  // told once
 
     const auto small = Planet::open(fakePyramid().source(), roomForNormalTiles(2000)).value();
-    EXPECT_EQ(small->normalLeafLevel(), fakePyramid().shape.faceCellsLog2 - 8);
+    EXPECT_EQ(normalLeafLevel(small->tree().storedShape), fakePyramid().shape.faceCellsLog2 - 8);
     const MadeChunks tiny = madeChunks(7);
     const auto without = Planet::open(tiny.source(), roomForNormalTiles(2000)).value();
-    EXPECT_EQ(without->normalLeafLevel(), -1);
+    EXPECT_EQ(normalLeafLevel(without->tree().storedShape), -1);
     ASSERT_TRUE(litSettled(*without, viewAt(10, 10)));
-    EXPECT_TRUE(without->takeNormalChanges().empty());
+    EXPECT_TRUE(without->takeTileChanges(BlockKind::Normals).empty());
 
     PagingSettings wrong = roomForNormalTiles(200);
     wrong.normalShare = 0.95;
@@ -349,11 +350,11 @@ TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {
         expectHolds(*planet, pool);
         EXPECT_EQ(pool.tiles.size(), before);
     };
-    planet->dropAll();
+    planet->tools().dropAll();
     comesAgain();
-    planet->beginNormalsAnew();
+    planet->beginTilesAnew(BlockKind::Normals);
     comesAgain();
-    planet->startAnew();
+    planet->tools().startAnew();
     comesAgain();
 }
 

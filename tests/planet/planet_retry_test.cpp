@@ -7,6 +7,7 @@
 #include <random>
 
 #include "planet/paging/block_failures.h"
+#include "planet/planet_tools.h"
 #include "planet/tree/block_state.h"
 #include "tests/support/planet_fixture.h"
 
@@ -128,12 +129,12 @@ TEST(Retries, ComeAfterDelaysThatDoubleAndThenTheBlockHasFailedForGood) {
     EXPECT_DOUBLE_EQ(atS[1] - atS[0], 0.5 + stepS);
     EXPECT_DOUBLE_EQ(atS[2] - atS[1], 1.0 + stepS);
     EXPECT_DOUBLE_EQ(atS[3] - atS[2], 2.0 + stepS);
-    EXPECT_EQ(planet->paging().failed, 4u);
-    EXPECT_EQ(planet->paging().failedForGood, 1u);
-    EXPECT_EQ(planet->paging().awaitingRetry, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 4u);
+    EXPECT_EQ(planet->paging().failedForGood(), 1u);
+    EXPECT_EQ(planet->paging().awaitingRetry(), 0u);
     EXPECT_EQ(planet->tree().nodes[0].childrenState, ChildrenState::Failed);
-    ASSERT_THAT(planet->failedBlocks(), SizeIs(1));
-    const FailedBlock failed = planet->failedBlocks()[0];
+    ASSERT_THAT(planet->inspect().failedBlocks(), SizeIs(1));
+    const FailedBlock failed = planet->inspect().failedBlocks()[0];
     EXPECT_EQ(failed, (FailedBlock{posXRoot, 4, "fake.chk: x_pos/0/0/0: the disk is bad", std::nullopt}));
     EXPECT_THAT(planet->takeProblems(), ElementsAre(HasSubstr("the disk is bad (tried 4 times)")));
 }
@@ -143,20 +144,20 @@ TEST(Retries, ABlockThatComesAfterAllIsForgottenAsIfItHadNeverFailed) {
     flaky.failing[posXRoot] = {.left = 2};
     const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 3, .delayS = 0.5})).value();
     fly(*planet, flaky, 0.25);
-    ASSERT_THAT(planet->failedBlocks(), SizeIs(1));
-    EXPECT_EQ(planet->failedBlocks()[0].attempts, 1u);
-    ASSERT_TRUE(planet->failedBlocks()[0].retryInS);
-    EXPECT_GT(*planet->failedBlocks()[0].retryInS, 0.2);
-    EXPECT_LT(*planet->failedBlocks()[0].retryInS, 0.5);
+    ASSERT_THAT(planet->inspect().failedBlocks(), SizeIs(1));
+    EXPECT_EQ(planet->inspect().failedBlocks()[0].attempts, 1u);
+    ASSERT_TRUE(planet->inspect().failedBlocks()[0].retryInS);
+    EXPECT_GT(*planet->inspect().failedBlocks()[0].retryInS, 0.2);
+    EXPECT_LT(*planet->inspect().failedBlocks()[0].retryInS, 0.5);
     EXPECT_EQ(planet->tree().nodes[0].childrenState, ChildrenState::AwaitingRetry);
-    EXPECT_EQ(planet->paging().awaitingRetry, 1u);
+    EXPECT_EQ(planet->paging().awaitingRetry(), 1u);
     EXPECT_FALSE(planet->settled());
     fly(*planet, flaky, 3);
     EXPECT_TRUE(planet->settled());
     EXPECT_EQ(flaky.reads(posXRoot), 3u);
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
     EXPECT_THAT(planet->takeProblems(), IsEmpty());
-    EXPECT_EQ(planet->paging().awaitingRetry, 0u);
+    EXPECT_EQ(planet->paging().awaitingRetry(), 0u);
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
 }
 
@@ -166,8 +167,8 @@ TEST(Retries, WhatIsReadAndWrongHasFailedForGoodAtOnce) {
     const auto planet = Planet::open(flaky.source(), simulatedRetry({})).value();
     fly(*planet, flaky, 20);
     EXPECT_EQ(flaky.reads(posXRoot), 1u);
-    ASSERT_THAT(planet->failedBlocks(), SizeIs(1));
-    EXPECT_FALSE(planet->failedBlocks()[0].retryInS);
+    ASSERT_THAT(planet->inspect().failedBlocks(), SizeIs(1));
+    EXPECT_FALSE(planet->inspect().failedBlocks()[0].retryInS);
     EXPECT_THAT(planet->takeProblems(), ElementsAre(testing::EndsWith("the disk is bad")));
 }
 
@@ -180,23 +181,23 @@ TEST(Retries, AreAskedForByNameOrAllTogether) {
     all.tauPx = 0.02;
     const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 0})).value();
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
-    ASSERT_THAT(planet->failedBlocks(), SizeIs(2));
-    planet->retryFailed(posXRoot);
+    ASSERT_THAT(planet->inspect().failedBlocks(), SizeIs(2));
+    planet->tools().retryFailed(posXRoot);
     EXPECT_FALSE(planet->settled());
-    EXPECT_THAT(planet->failedBlocks(), SizeIs(1));
+    EXPECT_THAT(planet->inspect().failedBlocks(), SizeIs(1));
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
     EXPECT_EQ(flaky.reads(posXRoot), 2u);
     EXPECT_EQ(flaky.reads(other), 1u);
     flaky.failing.clear();
-    planet->retryFailed();
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+    planet->tools().retryFailed();
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), all));
     // Of blocks that have not failed, or that there are not, nothing comes.
-    planet->retryFailed(posXRoot);
-    planet->retryFailed(BlockId({Face::PosX, 20, 5, 5}));
-    planet->retryFailed({{Face::PosX, 9, 5, 5}, BlockKind::Colours});
-    planet->retryFailed({{Face::PosX, 9, 5, 5}, BlockKind::Normals});
+    planet->tools().retryFailed(posXRoot);
+    planet->tools().retryFailed(BlockId({Face::PosX, 20, 5, 5}));
+    planet->tools().retryFailed({{Face::PosX, 9, 5, 5}, BlockKind::Colours});
+    planet->tools().retryFailed({{Face::PosX, 9, 5, 5}, BlockKind::Normals});
     ASSERT_TRUE(planet->settle(viewAt(10, 20), all, noUpload, 100));
     EXPECT_EQ(flaky.reads(posXRoot), 3u);
 }
@@ -219,7 +220,7 @@ TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
         for (int k = 0; k < 4; ++k)
             ASSERT_TRUE(planet->settle(viewAt(0, 200 + 7 * k, 2e4), fineSettings(), noUpload, 100));
         times += findNode(planet->tree(), bad) == noNode;
-        EXPECT_THAT(planet->failedBlocks(), SizeIs(1));
+        EXPECT_THAT(planet->inspect().failedBlocks(), SizeIs(1));
         ASSERT_TRUE(planet->settle(toIt, fineSettings(), noUpload, 100));
         const NodeIndex node = findNode(planet->tree(), bad);
         ASSERT_NE(node, noNode);
@@ -227,13 +228,13 @@ TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
     }
     EXPECT_GT(times, 2);
     EXPECT_EQ(flaky.reads(bad), 2u);
-    planet->dropAll();
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+    planet->tools().dropAll();
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
     ASSERT_TRUE(planet->settle(toIt, fineSettings(), noUpload, 100));
     EXPECT_EQ(flaky.reads(bad), 4u);
-    planet->startAnew();
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
-    EXPECT_EQ(planet->paging().failedForGood, 0u);
+    planet->tools().startAnew();
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
+    EXPECT_EQ(planet->paging().failedForGood(), 0u);
     ASSERT_TRUE(planet->settle(toIt, fineSettings(), noUpload, 100));
     EXPECT_EQ(flaky.reads(bad), 6u);
 }
@@ -243,18 +244,18 @@ TEST(Retries, ADiskThatFailsEveryReadIsNotFlooded) {
     PagingSettings settings = simulatedRetry({});
     settings.badDisk.failureRate = 1;
     const auto planet = Planet::open(flaky.source(), settings).value();
-    planet->keepMoves(true);
+    planet->tools().keepMoves(true);
     std::map<BlockId, int> asked;
     for (int i = 0; i < 3000; ++i) {
         const ViewInput input = inputOf(viewAt(10, 0.12 * i), true);
         planet->step({&input, 1}, noUpload, stepS);
-        for (const BlockId& block : planet->takeMoves().requested) ++asked[block];
+        for (const BlockId& block : planet->tools().takeMoves().requested) ++asked[block];
     }
     EXPECT_GT(asked.size(), 6u);
     for (const auto& [block, times] : asked) EXPECT_LE(times, 5) << toString(block);
-    EXPECT_LE(planet->paging().failed, 5 * asked.size());
-    EXPECT_EQ(planet->paging().failedForGood + planet->paging().awaitingRetry, asked.size());
-    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_LE(planet->paging()[BlockKind::Heights].failed, 5 * asked.size());
+    EXPECT_EQ(planet->paging().failedForGood() + planet->paging().awaitingRetry(), asked.size());
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
 }
 
 TEST(Retries, OnlyBlocksThatAreWantedAreTriedAgain) {
@@ -262,14 +263,14 @@ TEST(Retries, OnlyBlocksThatAreWantedAreTriedAgain) {
     const ChunkId bad = childOf(posXRoot, 1);
     flaky.failing[bad] = {.left = 1};
     const auto planet = Planet::open(flaky.source(), simulatedRetry({.delayS = 1})).value();
-    while (planet->paging().awaitingRetry == 0) fly(*planet, flaky, stepS, false, viewAt(0, 30, 2e4));
+    while (planet->paging().awaitingRetry() == 0) fly(*planet, flaky, stepS, false, viewAt(0, 30, 2e4));
     fly(*planet, flaky, 5, false, viewAt(0, 200, 2e4));
     EXPECT_EQ(flaky.reads(bad), 1u);
     EXPECT_TRUE(planet->settled());
-    EXPECT_EQ(planet->failedBlocks()[0].retryInS, 0);
+    EXPECT_EQ(planet->inspect().failedBlocks()[0].retryInS, 0);
     fly(*planet, flaky, 2, false, viewAt(0, 30, 2e4));
     EXPECT_EQ(flaky.reads(bad), 2u);
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
 }
 
 TEST(Retries, ATileOfColourIsAChequerOnlyOnceItHasFailedForGood) {
@@ -278,26 +279,26 @@ TEST(Retries, ATileOfColourIsAChequerOnlyOnceItHasFailedForGood) {
     flaky.failing[bad] = {.left = -1};
     const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 1, .delayS = 1})).value();
     fly(*planet, flaky, 0.5, true);
-    EXPECT_EQ(planet->colourTree().nodes[0].childrenState, ChildrenState::AwaitingRetry);
-    EXPECT_EQ(planet->colourPaging().failed, 1u);
+    EXPECT_EQ(planet->tiles(BlockKind::Colours).nodes[0].childrenState, ChildrenState::AwaitingRetry);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].failed, 1u);
     fly(*planet, flaky, 2, true);
-    EXPECT_EQ(planet->colourTree().nodes[0].childrenState, ChildrenState::Resident);
-    EXPECT_TRUE(planet->colourTree().nodes[0].hasFailed);
-    EXPECT_EQ(planet->colourPaging().failed, 2u);
+    EXPECT_EQ(planet->tiles(BlockKind::Colours).nodes[0].childrenState, ChildrenState::Resident);
+    EXPECT_TRUE(planet->tiles(BlockKind::Colours).nodes[0].hasFailed);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].failed, 2u);
     EXPECT_THAT(planet->takeProblems(), ElementsAre(HasSubstr("(colours): the disk is bad (tried 2 times)")));
     // Begun anew it is known, and not read.
-    planet->beginColoursAnew();
+    planet->beginTilesAnew(BlockKind::Colours);
     fly(*planet, flaky, 2, true);
-    EXPECT_TRUE(planet->colourTree().nodes[0].hasFailed);
+    EXPECT_TRUE(planet->tiles(BlockKind::Colours).nodes[0].hasFailed);
     EXPECT_EQ(flaky.reads(bad), 2u);
-    EXPECT_EQ(planet->colourPaging().failed, 2u);
+    EXPECT_EQ(planet->paging()[BlockKind::Colours].failed, 2u);
     flaky.failing.clear();
-    planet->retryFailed(bad);
-    EXPECT_FALSE(planet->colourTree().nodes[0].hasFailed);
+    planet->tools().retryFailed(bad);
+    EXPECT_FALSE(planet->tiles(BlockKind::Colours).nodes[0].hasFailed);
     fly(*planet, flaky, 2, true);
-    EXPECT_EQ(planet->colourTree().nodes[0].childrenState, ChildrenState::Resident);
-    EXPECT_FALSE(planet->colourTree().nodes[0].hasFailed);
-    EXPECT_THAT(planet->failedBlocks(), IsEmpty());
+    EXPECT_EQ(planet->tiles(BlockKind::Colours).nodes[0].childrenState, ChildrenState::Resident);
+    EXPECT_FALSE(planet->tiles(BlockKind::Colours).nodes[0].hasFailed);
+    EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
 }
 
 TEST(Retries, SettlingWaitsForThemByTheClockWithoutSpinning) {
@@ -330,7 +331,7 @@ TEST(Retries, SettlingGivesUpAtItsTimeoutOrAtOnceWhilePaused) {
     ASSERT_TRUE(planet->setPaging(settings));
     EXPECT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
     EXPECT_EQ(flaky.reads(posXRoot), 2u);
-    EXPECT_EQ(planet->paging().failedForGood, 1u);
+    EXPECT_EQ(planet->paging().failedForGood(), 1u);
 }
 
 TEST(Retries, SettingsOutOfRangeAreRefused) {
@@ -362,11 +363,11 @@ TEST(Retries, OnlyTheLatestAreRemembered) {
 // What a planet says of its blocks must fit together, whatever happens.
 void expectConsistent(const Planet& planet) {
     std::map<BlockId, FailedBlock> known;
-    for (FailedBlock& block : planet.failedBlocks()) known[block.block] = std::move(block);
+    for (FailedBlock& block : planet.inspect().failedBlocks()) known[block.block] = std::move(block);
     std::size_t forGood = 0;
     for (const auto& [id, block] : known) forGood += !block.retryInS;
-    EXPECT_EQ(planet.paging().failedForGood, forGood);
-    EXPECT_EQ(planet.paging().awaitingRetry, known.size() - forGood);
+    EXPECT_EQ(planet.paging().failedForGood(), forGood);
+    EXPECT_EQ(planet.paging().awaitingRetry(), known.size() - forGood);
     const auto expectKnown = [&](const BlockId& id, ChildrenState state, bool checkers) {
         if (state == ChildrenState::None) return;  // a checker, or a leaf
         const auto found = known.find(id);
@@ -383,7 +384,7 @@ void expectConsistent(const Planet& planet) {
     };
     forEachNode(planet.tree(),
                 [&](NodeIndex, const ChunkNode& node) { expectKnown(node.id, node.childrenState, false); });
-    const TileTree& tiles = planet.colourTree();
+    const TileTree& tiles = planet.tiles(BlockKind::Colours);
     for (NodeIndex i = 0; i < tiles.nodes.size(); ++i) {
         const TileNode& node = tiles.nodes[i];
         if (i >= faceCount && node.parent == noNode) continue;
@@ -419,12 +420,13 @@ TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether
             input.lod.frustumCulling = input.lod.horizonCulling = false;
             planet.step({&input, 1}, noUpload, stepS);
             ASSERT_EQ(facesDrawn(planet), 6) << i;
-            if (random() % 150 == 0) planet.retryFailed();
-            if (random() % 100 == 0 && !planet.failedBlocks().empty())
-                planet.retryFailed(planet.failedBlocks()[random() % planet.failedBlocks().size()].block);
-            if (random() % 300 == 0) planet.dropAll();
-            if (random() % 300 == 0) planet.beginColoursAnew();
-            if (random() % 400 == 0) planet.startAnew();
+            if (random() % 150 == 0) planet.tools().retryFailed();
+            if (random() % 100 == 0 && !planet.inspect().failedBlocks().empty())
+                planet.tools().retryFailed(
+                    planet.inspect().failedBlocks()[random() % planet.inspect().failedBlocks().size()].block);
+            if (random() % 300 == 0) planet.tools().dropAll();
+            if (random() % 300 == 0) planet.beginTilesAnew(BlockKind::Colours);
+            if (random() % 400 == 0) planet.tools().startAnew();
             if (random() % 100 == 0) {
                 settings.maxColourTiles = 40 + static_cast<std::uint32_t>(random() % 60);
                 settings.retry.retries = static_cast<int>(random() % 4);
@@ -433,8 +435,8 @@ TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether
             expectConsistent(planet);
             if (HasFailure()) FAIL() << "seed " << seed << ", frame " << i;
         }
-        EXPECT_GT(planet.paging().failed, 100u);
-        EXPECT_GT(planet.paging().evicted, 20u);
+        EXPECT_GT(planet.paging()[BlockKind::Heights].failed, 100u);
+        EXPECT_GT(planet.paging()[BlockKind::Heights].evicted, 20u);
     }
 }
 
@@ -452,24 +454,24 @@ TEST(Retries, ARecordingWithThemIsFollowedExactly) {
     const auto replay = Planet::open(healthy.source(), settings).value();
     const ViewInput before = inputOf(viewAt(80, 0));
     for (int i = 0; i < 10; ++i) replay->step({&before, 1}, noUpload, 0.1 / 3);
-    replay->startAnew();
-    planet->keepMoves(true);
-    replay->keepMoves(true);
+    replay->tools().startAnew();
+    planet->tools().keepMoves(true);
+    replay->tools().keepMoves(true);
     for (int i = 0; i < 600; ++i) {
         ViewInput input = inputOf(viewAt(20 + 0.1 * i, 30 + 0.3 * i), true);
         input.lod.frustumCulling = input.lod.horizonCulling = false;
         planet->step({&input, 1}, noUpload, 1.0 / 60 + 1e-4 * (i % 7));
-        const PagingMoves moves = planet->takeMoves();
-        ASSERT_TRUE(replay->follow(moves)) << i;
-        replay->step({&input, 1}, noUpload, planet->elapsedS());
-        const PagingMoves again = replay->takeMoves();
+        const PagingMoves moves = planet->tools().takeMoves();
+        ASSERT_TRUE(replay->tools().follow(moves)) << i;
+        replay->step({&input, 1}, noUpload, planet->lastStep().elapsedS);
+        const PagingMoves again = replay->tools().takeMoves();
         ASSERT_EQ(again.requested, moves.requested) << i;
         ASSERT_EQ(again.arrived, moves.arrived) << i;
         ASSERT_EQ(drawn(*replay), drawn(*planet)) << i;
     }
-    EXPECT_GT(planet->paging().failed, 20u);
-    EXPECT_GT(planet->paging().failedForGood, 1u);
-    EXPECT_EQ(replay->paging().failedForGood, planet->paging().failedForGood);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].failed, 20u);
+    EXPECT_GT(planet->paging().failedForGood(), 1u);
+    EXPECT_EQ(replay->paging().failedForGood(), planet->paging().failedForGood());
 }
 
 }  // namespace

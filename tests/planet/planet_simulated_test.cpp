@@ -25,7 +25,7 @@ PagingSettings simulated(const BadDiskSettings& badDisk, int loaders = 1) {
 std::unique_ptr<Planet> openWith(const PagingSettings& settings,
                                  PlanetSource source = fakePyramid().source()) {
     auto planet = Planet::open(std::move(source), settings).value();
-    planet->keepMoves(true);
+    planet->tools().keepMoves(true);
     return planet;
 }
 
@@ -46,14 +46,14 @@ struct Trace {
 
 Trace traceOf(Planet& planet) {
     Trace trace;
-    for (std::size_t v = 0; v < planet.viewCount(); ++v) {
+    for (std::size_t v = 0; v < planet.views().size(); ++v) {
         trace.drawn.emplace_back();
         for (const DrawItem& item : planet.selection(v).draw) {
             trace.drawn.back().push_back(item.id);
             trace.morphs.push_back(item.morph);
         }
     }
-    trace.moves = planet.takeMoves();
+    trace.moves = planet.tools().takeMoves();
     return trace;
 }
 
@@ -71,15 +71,15 @@ void flyAbout(Planet& planet, int frames, bool changesTime, const Told& told) {
     PagingSettings settings = planet.pagingSettings();
     for (int frame = 0; frame < frames; ++frame) {
         const auto change = random() % 40;
-        if (change == 0) planet.dropAll();
-        if (change == 1) planet.retryFailed();
+        if (change == 0) planet.tools().dropAll();
+        if (change == 1) planet.tools().retryFailed();
         if (change == 2) settings.budgetBytes = bytesOf(70 + random() % 200);
         if (change == 3) settings.loaderThreads = 1 + static_cast<int>(random() % 4);
         if (change == 4) settings.badDisk.seed = static_cast<std::uint32_t>(random());
         if (change == 5) settings.paused = !settings.paused;
         if (change == 6 && changesTime)
             settings.time = settings.time == PagingTime::Clock ? PagingTime::Simulated : PagingTime::Clock;
-        if (settings.paused && change == 7) planet.loadOne();
+        if (settings.paused && change == 7) planet.tools().loadOne();
         if (change > 1 && change < 7) planet.setPaging(settings).value();
         told(frame, planet);
         const std::array<ViewInput, 2> views = {
@@ -114,7 +114,7 @@ PlanetSource slowSource() {
 
 std::vector<ChunkId> loadedIn(const Planet& planet) {
     std::vector<ChunkId> ids;
-    for (const PagingEvent& event : planet.pagingHistory()) {
+    for (const PagingEvent& event : planet.inspect().pagingHistory()) {
         if (event.outcome == PagingOutcome::Loaded) ids.push_back(event.parent);
     }
     return ids;
@@ -126,9 +126,9 @@ TEST(SimulatedPaging, IsTheSameEachTimeHoweverSlowTheMachine) {
     const std::vector<Trace> a = simulatedFlight(*first), b = simulatedFlight(*second);
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i], b[i]) << i;
-    EXPECT_GT(first->paging().loaded, 100u);
-    EXPECT_GT(first->paging().failed, 0u);
-    EXPECT_GT(first->paging().evicted, 0u);
+    EXPECT_GT(first->paging()[BlockKind::Heights].loaded, 100u);
+    EXPECT_GT(first->paging()[BlockKind::Heights].failed, 0u);
+    EXPECT_GT(first->paging()[BlockKind::Heights].evicted, 0u);
     EXPECT_EQ(first->paging().loadSeconds, second->paging().loadSeconds);
 }
 
@@ -146,9 +146,11 @@ TEST(SimulatedPaging, BandwidthDelaysABlockToTheVeryStep) {
     for (int frame = 1; frame <= 21; ++frame) {
         stepOnce(*planet, viewAt(10, 20));
         // Loads follow each other without a gap: 0.1 s, 0.2 s, 0.3 s.
-        EXPECT_EQ(planet->paging().loaded, static_cast<std::uint64_t>(frame * simulatedStepS / 0.1)) << frame;
+        EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded,
+                  static_cast<std::uint64_t>(frame * simulatedStepS / 0.1))
+            << frame;
     }
-    const PagingEvent& event = planet->pagingHistory().front();
+    const PagingEvent& event = planet->inspect().pagingHistory().front();
     EXPECT_DOUBLE_EQ(event.readS, 0.1);
     EXPECT_DOUBLE_EQ(event.waitedS, 7 * simulatedStepS);
 }
@@ -159,16 +161,16 @@ TEST(SimulatedPaging, LatencyDelaysABlockToTheVeryStep) {
         const BadDiskSettings disk{.latencyMs = 100, .seed = seed};
         const auto planet = openWith(simulated(disk));
         stepOnce(*planet, viewAt(10, 20));
-        ASSERT_EQ(planet->loadingNow().size(), 1u);
-        const LoadInProgress loading = planet->loadingNow()[0];
+        ASSERT_EQ(planet->inspect().loadingNow().size(), 1u);
+        const LoadInProgress loading = planet->inspect().loadingNow()[0];
         const double waitS = diskFault(disk, loading.parent, 0, loading.bytes).waitS;
         const int expected = static_cast<int>(std::ceil(waitS / simulatedStepS));
         EXPECT_GE(expected, 3);
         EXPECT_LE(expected, 10);
         for (int frame = 1; frame < expected; ++frame) {
             stepOnce(*planet, viewAt(10, 20));
-            ASSERT_EQ(planet->paging().loaded, 0u);
-            EXPECT_DOUBLE_EQ(planet->loadingNow()[0].seconds, frame * simulatedStepS);
+            ASSERT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
+            EXPECT_DOUBLE_EQ(planet->inspect().loadingNow()[0].seconds, frame * simulatedStepS);
         }
         stepOnce(*planet, viewAt(10, 20));
         EXPECT_THAT(loadedIn(*planet), testing::ElementsAre(loading.parent));
@@ -178,11 +180,11 @@ TEST(SimulatedPaging, LatencyDelaysABlockToTheVeryStep) {
 TEST(SimulatedPaging, TwoLoadersReadSideBySide) {
     const auto planet = openWith(simulated({.bandwidthMBs = 0.001}, 2));
     stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->loadingNow().size(), 2u);
+    EXPECT_EQ(planet->inspect().loadingNow().size(), 2u);
     for (int frame = 1; frame <= 6; ++frame) stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
     stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->paging().loaded, 2u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 2u);
     EXPECT_DOUBLE_EQ(planet->paging().loadSeconds, 0.2);
 }
 
@@ -190,10 +192,10 @@ TEST(SimulatedPaging, TheSeedSaysWhatFails) {
     const BadDiskSettings disk{.failureRate = 0.4, .seed = 5};
     const auto planet = openWith(simulated(disk));
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
-    EXPECT_GT(planet->paging().failed, 0u);
-    EXPECT_GT(planet->paging().loaded, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].failed, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].loaded, 0u);
     std::map<ChunkId, std::uint32_t> attempts;
-    for (const PagingEvent& event : planet->pagingHistory()) {
+    for (const PagingEvent& event : planet->inspect().pagingHistory()) {
         const bool fails = diskFault(disk, event.parent, attempts[event.parent]++, 100).fails;
         EXPECT_EQ(event.outcome, fails ? PagingOutcome::Failed : PagingOutcome::Loaded);
     }
@@ -218,10 +220,10 @@ TEST(SimulatedPaging, SettlesToWhatTheClockSettlesTo) {
     const auto planet = openWith(simulated({.latencyMs = 500}, 2));
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 1000));
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
-    EXPECT_GT(planet->seconds(), 2);  // of the simulation
+    EXPECT_GT(planet->lastStep().nowS, 2);  // of the simulation
     const auto slow = openWith(simulated({.latencyMs = 500}, 2));
     EXPECT_FALSE(slow->settle(viewAt(10, 20), fineSettings(), noUpload, 1));
-    EXPECT_LE(slow->seconds(), 1);
+    EXPECT_LE(slow->lastStep().nowS, 1);
 }
 
 TEST(SimulatedPaging, SettlingInShortStretchesGoesOnFromTheLast) {
@@ -241,10 +243,10 @@ TEST(SimulatedPaging, SwitchedOnWithAPauseNothingIsTaken) {
     stepOnce(*planet, viewAt(10, 20));
     gated.gate.waitForArrivals(1);
     EXPECT_FALSE(planet->setPaging(settings).value());
-    EXPECT_TRUE(planet->loadingNow().empty());
+    EXPECT_TRUE(planet->inspect().loadingNow().empty());
     gated.gate.open();
     for (int frame = 0; frame < 4; ++frame) stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
 }
 
 TEST(SimulatedPaging, PausesLetsOneThroughAndDropsAll) {
@@ -252,15 +254,15 @@ TEST(SimulatedPaging, PausesLetsOneThroughAndDropsAll) {
     settings.paused = true;
     const auto planet = openWith(settings);
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
-    EXPECT_EQ(planet->paging().loaded, 0u);
-    planet->loadOne();
-    EXPECT_EQ(planet->loadingNow().size(), 1u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
+    planet->tools().loadOne();
+    EXPECT_EQ(planet->inspect().loadingNow().size(), 1u);
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
-    EXPECT_EQ(planet->paging().loaded, 1u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 1u);
     settings.paused = false;
     EXPECT_FALSE(planet->setPaging(settings).value());
-    EXPECT_EQ(planet->loadingNow().size(), 1u);
-    planet->dropAll();
+    EXPECT_EQ(planet->inspect().loadingNow().size(), 1u);
+    planet->tools().dropAll();
     const std::uint64_t cancelled = planet->paging().cancelled;
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
     EXPECT_EQ(planet->paging().cancelled, cancelled + 1);  // what was being read, when it came
@@ -271,10 +273,10 @@ TEST(SimulatedPaging, ABadDiskThatChangesHoldsForReadsUnderWay) {
     const auto planet = openWith(simulated({.latencyMs = 10'000}));
     stepOnce(*planet, viewAt(10, 20));
     stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
     planet->setPaging(simulated({})).value();
     stepOnce(*planet, viewAt(10, 20));
-    EXPECT_GT(planet->paging().loaded, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].loaded, 0u);
 }
 
 TEST(SimulatedPaging, SwitchedOnWhatThreadsWereReadingIsReadAnew) {
@@ -283,18 +285,18 @@ TEST(SimulatedPaging, SwitchedOnWhatThreadsWereReadingIsReadAnew) {
     stepOnce(*planet, viewAt(10, 20));
     gated.gate.waitForArrivals(1);
     EXPECT_FALSE(planet->setPaging(simulated({.bandwidthMBs = 0.001})).value());
-    EXPECT_EQ(planet->loadingNow().size(), 1u);
+    EXPECT_EQ(planet->inspect().loadingNow().size(), 1u);
     gated.gate.open();
     for (int frame = 1; frame <= 7; ++frame) {
-        EXPECT_EQ(planet->paging().loaded, 0u);
+        EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
         stepOnce(*planet, viewAt(10, 20));
     }
-    EXPECT_EQ(planet->paging().loaded, 1u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 1u);
     // And back.
     EXPECT_FALSE(planet->setPaging({}).value());
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
 TEST(Planet, StartedAnewItIsAsIfJustOpened) {
@@ -302,9 +304,9 @@ TEST(Planet, StartedAnewItIsAsIfJustOpened) {
     simulatedFlight(*used);
     used->setPaging(troubled()).value();
     used->setExaggeration(1);
-    used->startAnew();
+    used->tools().startAnew();
     EXPECT_EQ(used->tree().residentChunks, 6u);
-    EXPECT_TRUE(used->pendingRequests(PagingType::PageIn).empty());
+    EXPECT_TRUE(used->inspect().pendingRequests(PagingType::PageIn).empty());
     EXPECT_EQ(simulatedFlight(*used), simulatedFlight(*fresh));
 }
 
@@ -313,11 +315,11 @@ TEST(Planet, StartedAnewWhilePausedNothingIsLetThrough) {
     settings.paused = true;
     const auto planet = openWith(settings);
     stepOnce(*planet, viewAt(10, 20));
-    for (int i = 0; i < 3; ++i) planet->loadOne();
-    planet->startAnew();
+    for (int i = 0; i < 3; ++i) planet->tools().loadOne();
+    planet->tools().startAnew();
     for (int frame = 0; frame < 200; ++frame) stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->paging().loaded, 0u);
-    EXPECT_TRUE(planet->loadingNow().empty());
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
+    EXPECT_TRUE(planet->inspect().loadingNow().empty());
 }
 
 TEST(Planet, AStepByTheClockGoesOnFromAStepOfAGivenLength) {
@@ -325,11 +327,11 @@ TEST(Planet, AStepByTheClockGoesOnFromAStepOfAGivenLength) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const auto since = std::chrono::steady_clock::now();
     stepOnce(*planet, viewAt(10, 20), 3);
-    EXPECT_EQ(planet->elapsedS(), 3);
+    EXPECT_EQ(planet->lastStep().elapsedS, 3);
     const ViewInput only{viewAt(10, 20), fineSettings()};
     planet->step(std::span(&only, 1), noUpload);
     const std::chrono::duration<double> atMost = std::chrono::steady_clock::now() - since;
-    EXPECT_LE(planet->elapsedS(), atMost.count());  // without what was before the given one
+    EXPECT_LE(planet->lastStep().elapsedS, atMost.count());  // without what was before the given one
 }
 
 TEST(Planet, StartedAnewWhatThreadsAreReadingComesToNothing) {
@@ -337,8 +339,8 @@ TEST(Planet, StartedAnewWhatThreadsAreReadingComesToNothing) {
     const auto planet = openWith({}, gated.source());
     stepOnce(*planet, viewAt(10, 20));
     gated.gate.waitForArrivals(1);
-    planet->startAnew();
-    EXPECT_TRUE(planet->loadingNow().empty());
+    planet->tools().startAnew();
+    EXPECT_TRUE(planet->inspect().loadingNow().empty());
     EXPECT_EQ(planet->paging().cancelled, planet->paging().requested);
     gated.gate.open();
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
@@ -357,7 +359,7 @@ TEST(RecordedPaging, RepeatsWhatTheClockDecided) {
         std::this_thread::sleep_for(std::chrono::microseconds(300));
         traces.push_back(traceOf(p));
     });
-    EXPECT_GT(live->paging().loaded, 50u);
+    EXPECT_GT(live->paging()[BlockKind::Heights].loaded, 50u);
     EXPECT_GT(live->paging().cancelled, 0u);
 
     settings.time = PagingTime::Recorded;
@@ -365,17 +367,17 @@ TEST(RecordedPaging, RepeatsWhatTheClockDecided) {
     std::mt19937 random(7);
     std::size_t at = 0;
     for (int frame = 0; frame < 500; ++frame) {
-        ASSERT_TRUE(replay->follow(traces[at].moves)) << frame;
+        ASSERT_TRUE(replay->tools().follow(traces[at].moves)) << frame;
         const auto change = random() % 40;
-        if (change == 0) replay->dropAll();
-        if (change == 1) replay->retryFailed();
+        if (change == 0) replay->tools().dropAll();
+        if (change == 1) replay->tools().retryFailed();
         if (change == 2) settings.budgetBytes = bytesOf(70 + random() % 200);
         if (change == 3) settings.loaderThreads = 1 + static_cast<int>(random() % 4);
         if (change == 4) settings.badDisk.seed = static_cast<std::uint32_t>(random());
         if (change == 5) settings.paused = !settings.paused;
         if (change > 1 && change < 6) replay->setPaging(settings).value();
         EXPECT_EQ(traceOf(*replay).drawn, traces[at].drawn) << frame;
-        ASSERT_TRUE(replay->follow(traces[++at].moves)) << frame;
+        ASSERT_TRUE(replay->tools().follow(traces[++at].moves)) << frame;
         const std::array<ViewInput, 2> views = {
             {{viewAt(15, frame * 0.4), morphing()}, {viewAt(-40, -frame * 0.3), fineSettings(), 0.5}}};
         replay->step(std::span(views).first(frame / 50 % 2 ? 2 : 1), noUpload, 0.001 * (1 + frame % 30));
@@ -393,13 +395,13 @@ TEST(RecordedPaging, SaysWhatItCannotFollow) {
     settings.time = PagingTime::Recorded;
     const auto planet = openWith(settings);
     stepOnce(*planet, viewAt(10, 20));
-    const ChunkId queued = planet->pendingRequests(PagingType::PageIn)[0].parent;
+    const ChunkId queued = planet->inspect().pendingRequests(PagingType::PageIn)[0].parent;
     const ChunkId other{Face::PosX, 3, 1, 1};
-    EXPECT_FALSE(planet->follow({.taken = {other}}));
-    EXPECT_FALSE(planet->follow({.arrived = {{queued}}}));
-    EXPECT_TRUE(planet->follow({.taken = {queued}, .arrived = {{queued, PagingOutcome::Failed}}}));
+    EXPECT_FALSE(planet->tools().follow({.taken = {other}}));
+    EXPECT_FALSE(planet->tools().follow({.arrived = {{queued}}}));
+    EXPECT_TRUE(planet->tools().follow({.taken = {queued}, .arrived = {{queued, PagingOutcome::Failed}}}));
     stepOnce(*planet, viewAt(10, 20));
-    EXPECT_EQ(planet->paging().failed, 1u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 1u);
     EXPECT_FALSE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));  // at once
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "planet/planet_tools.h"
 #include "tests/support/planet_fixture.h"
 #include "tests/support/random_view.h"
 
@@ -27,10 +28,12 @@ TEST(Planet, SettlesOnWhatAWholeTreeWouldDraw) {
         EXPECT_EQ(planet->selection().counters.waiting, 0u);
         EXPECT_LE(planet->selection().counters.worstEpsPx, 0.5 * (1 + 1e-6));
     }
-    EXPECT_GT(planet->paging().loaded, 50u);
-    EXPECT_EQ(planet->paging().bytesRead, planet->paging().loaded * 100);
-    EXPECT_EQ(planet->paging().residentChunks, 6 + 4 * planet->paging().loaded);
-    EXPECT_EQ(planet->paging().failed + planet->paging().evicted, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].loaded, 50u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].bytesRead,
+              planet->paging()[BlockKind::Heights].loaded * 100);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].resident,
+              6 + 4 * planet->paging()[BlockKind::Heights].loaded);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed + planet->paging()[BlockKind::Heights].evicted, 0u);
     EXPECT_TRUE(planet->takeProblems().empty());
 }
 
@@ -49,7 +52,7 @@ TEST(Planet, ForgottenSelectionsDoNotKeepChunksSplit) {
         ASSERT_TRUE(planet->settle(far, settings, noUpload, timeoutS));
     }
     const std::size_t resident = planet->tree().residentChunks;
-    planet->forgetSelections();
+    planet->tools().forgetSelections();
     EXPECT_FALSE(planet->settled());
     EXPECT_EQ(planet->tree().residentChunks, resident);
     ASSERT_TRUE(planet->settle(far, settings, noUpload, timeoutS));
@@ -60,7 +63,7 @@ TEST(Planet, EachResidentChunkIsUploadedToASlotOfItsOwn) {
     const auto planet = openFake(fakePyramid().source(), 120);
     std::map<std::uint32_t, std::vector<std::int16_t>> pool;
     const UploadChunk upload = [&](std::uint32_t slot, std::span<const std::int16_t> heights) {
-        ASSERT_LT(slot, planet->slotCapacity());
+        ASSERT_LT(slot, planet->paging()[BlockKind::Heights].capacity);
         pool[slot].assign(heights.begin(), heights.end());
     };
     std::mt19937 random(42);
@@ -80,7 +83,7 @@ TEST(Planet, EachResidentChunkIsUploadedToASlotOfItsOwn) {
         });
         EXPECT_EQ(again, slots);
     }
-    EXPECT_GT(planet->paging().evicted, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 0u);
 }
 
 // Steps until settled, calling afterStep after each.
@@ -124,7 +127,7 @@ TEST(Planet, DrawsTheParentUntilItsChildrenHaveCome) {
     }
     gated.gate.waitForArrivals(1);
     EXPECT_FALSE(planet->settled());
-    EXPECT_EQ(planet->paging().loaded, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
     gated.gate.open();
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
     EXPECT_EQ(planet->selection().counters.waiting, 0u);
@@ -143,8 +146,8 @@ TEST(Planet, AtLeastOneBlockIsUploadedAStep) {
     const auto planet = Planet::open(fakePyramid().source(), settings).value();
     std::uint64_t loaded = 0;
     stepUntilSettled(*planet, viewAt(10, 20), fineSettings(), [&] {
-        EXPECT_LE(planet->paging().loaded, loaded + 1);
-        loaded = planet->paging().loaded;
+        EXPECT_LE(planet->paging()[BlockKind::Heights].loaded, loaded + 1);
+        loaded = planet->paging()[BlockKind::Heights].loaded;
     });
     EXPECT_GT(loaded, 3u);
 }
@@ -157,12 +160,12 @@ TEST(Planet, RequestsAreCancelledWhenTheCameraTurnsAway) {
     planet->step(viewAt(0, 0, 2e5, -90), settings, noUpload);
     gated.gate.waitForArrivals(1);
     planet->step(viewAt(0, 0, 2e5, -90), settings, noUpload);
-    const auto pending = planet->pendingRequests(PagingType::PageIn);
+    const auto pending = planet->inspect().pendingRequests(PagingType::PageIn);
     ASSERT_GT(pending.size(), 1u);
     EXPECT_EQ(planet->paging().queued, pending.size());
     EXPECT_EQ(planet->paging().loading, 1u);
     planet->step(viewAt(0, 0, 2e5, 90), settings, noUpload);  // up, at the stars
-    EXPECT_TRUE(planet->pendingRequests(PagingType::PageIn).empty());
+    EXPECT_TRUE(planet->inspect().pendingRequests(PagingType::PageIn).empty());
     EXPECT_EQ(planet->paging().cancelled, pending.size());
     EXPECT_EQ(planet->paging().queued, 0u);
     gated.gate.open();
@@ -179,7 +182,7 @@ TEST(Planet, TheMostWantedIsPendingFirst) {
     planet->step(viewAt(0, 0, 3e5, -90), fineSettings(), noUpload);
     gated.gate.waitForArrivals(1);
     EXPECT_EQ(gated.asked[0], planet->selection().requests[0].parentId);
-    const auto pending = planet->pendingRequests(PagingType::PageIn);
+    const auto pending = planet->inspect().pendingRequests(PagingType::PageIn);
     for (std::size_t i = 0; i < pending.size(); ++i) {
         EXPECT_EQ(pending[i].parent, planet->selection().requests[i + 1].parentId);
         EXPECT_EQ(pending[i].priority, planet->selection().requests[i + 1].priority);
@@ -195,7 +198,8 @@ TEST(Planet, ABudgetBelowTheLeastSaysWhatTheLeastIs) {
     EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
     EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(bytesOf(70))));
     settings.budgetBytes = bytesOf(70);
-    EXPECT_EQ(Planet::open(fakePyramid().source(), settings).value()->slotCapacity(), 70u);
+    EXPECT_EQ(Planet::open(fakePyramid().source(), settings).value()->paging()[BlockKind::Heights].capacity,
+              70u);
 }
 
 TEST(Planet, TheNumberOfLoaderThreadsHasARange) {
@@ -207,7 +211,7 @@ TEST(Planet, TheNumberOfLoaderThreadsHasARange) {
 }
 
 TEST(Planet, HasNoMoreSlotsThanThePlanetHasChunks) {
-    EXPECT_EQ(openFake()->slotCapacity(), fakePyramid().chunks.size());
+    EXPECT_EQ(openFake()->paging()[BlockKind::Heights].capacity, fakePyramid().chunks.size());
 }
 
 TEST(Planet, TheLeastBudgetReachesTheFinestLevelAnywhere) {
@@ -230,14 +234,14 @@ TEST(Planet, ATinyBudgetSettlesCoarserAndSaysSo) {
     LodSettings settings;
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, noUpload, timeoutS));
-    EXPECT_GT(planet->paging().budgetWaits, 0u);
-    EXPECT_EQ(planet->paging().budgetWaits, planet->selection().counters.waiting);
-    EXPECT_EQ(planet->tree().residentChunks, planet->slotCapacity());
+    EXPECT_GT(planet->paging()[BlockKind::Heights].budgetWaits, 0u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].budgetWaits, planet->selection().counters.waiting);
+    EXPECT_EQ(planet->tree().residentChunks, planet->paging()[BlockKind::Heights].capacity);
     // Settled means at rest: what is resident is neither dropped nor read again.
     const PagingCounters before = planet->paging();
     for (int i = 0; i < 20; ++i) planet->step(viewAt(10, 20, 3e4, -90), settings, noUpload);
     EXPECT_EQ(planet->paging().requested, before.requested);
-    EXPECT_EQ(planet->paging().evicted, before.evicted);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].evicted, before[BlockKind::Heights].evicted);
 }
 
 TEST(Planet, ALongFlightNeverExceedsATinyBudget) {
@@ -270,8 +274,8 @@ TEST(Planet, ALongFlightNeverExceedsATinyBudget) {
             ASSERT_TRUE(planet->settle(viewAt(latitude, longitude), settings, noUpload, timeoutS));
         }
     }
-    EXPECT_GT(planet->paging().evicted, 200u);
-    EXPECT_EQ(planet->paging().failed, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 200u);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
 TEST(Planet, WhatWasDroppedIsLoadedAgain) {
@@ -282,7 +286,7 @@ TEST(Planet, WhatWasDroppedIsLoadedAgain) {
     const auto first = drawn(*planet);
     for (int i = 0; i < 6; ++i)
         ASSERT_TRUE(planet->settle(viewAt(-10, 70 + i * 45), settings, noUpload, timeoutS));
-    EXPECT_GT(planet->paging().evicted, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 0u);
     const bool gone = std::any_of(first.begin(), first.end(),
                                   [&](const ChunkId& id) { return findNode(planet->tree(), id) == noNode; });
     EXPECT_TRUE(gone);
@@ -298,7 +302,7 @@ TEST(Planet, TheLongestUnusedIsDroppedFirst) {
     std::vector<std::uint64_t> lastUsed;
     for (int i = 0; i < 12; ++i) {
         ASSERT_TRUE(planet->settle(viewAt(0, i * 50), settings, noUpload, timeoutS));
-        const auto pending = planet->pendingRequests(PagingType::PageOut);
+        const auto pending = planet->inspect().pendingRequests(PagingType::PageOut);
         for (std::size_t k = 1; k < pending.size(); ++k) {
             const auto frameOf = [&](const PagingRequest& request) {
                 const ChunkNode& above = planet->tree().nodes[findNode(planet->tree(), request.parent)];
@@ -312,7 +316,7 @@ TEST(Planet, TheLongestUnusedIsDroppedFirst) {
         EXPECT_EQ(6 + 4 * pending.size() + planet->selection().touched.size() - 6,
                   planet->tree().residentChunks);
     }
-    EXPECT_GT(planet->paging().evicted, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 0u);
 }
 
 TEST(Planet, WhatIsDrawnIsNotDroppedBeforeTheNextStep) {
@@ -333,7 +337,7 @@ TEST(Planet, WhatIsDrawnIsNotDroppedBeforeTheNextStep) {
             ASSERT_TRUE(planet->settle(view, settings, noUpload, timeoutS));
         }
     }
-    EXPECT_GT(planet->paging().evicted, 10u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 10u);
 }
 
 TEST(Planet, WhatWasUsedInTheLastFramesIsNotDropped) {
@@ -350,10 +354,11 @@ TEST(Planet, WhatWasUsedInTheLastFramesIsNotDropped) {
         for (const ChunkId& id : before) EXPECT_NE(findNode(planet->tree(), id), noNode);
         if (i % 10 == 0) {
             ASSERT_TRUE(planet->settle(view, settings, noUpload, timeoutS));
-            EXPECT_EQ(planet->paging().budgetWaits, 0u);  // else blocks in use might have to yield
+            EXPECT_EQ(planet->paging()[BlockKind::Heights].budgetWaits,
+                      0u);  // else blocks in use might have to yield
         }
     }
-    EXPECT_GT(planet->paging().evicted, 10u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 10u);
 }
 
 // At rest no block that waits for room is wanted much more than one that has it, whatever was in view before.
@@ -387,9 +392,9 @@ TEST(Planet, AShakingCameraReadsNothingTwice) {
     settings.tauPx = 1;
     ASSERT_TRUE(planet->settle(viewAt(10, 20), settings, noUpload, timeoutS));
     ASSERT_TRUE(planet->settle(viewAt(10, 45), settings, noUpload, timeoutS));
-    const std::uint64_t loaded = planet->paging().loaded;
+    const std::uint64_t loaded = planet->paging()[BlockKind::Heights].loaded;
     for (int i = 0; i < 100; ++i) planet->step(viewAt(10, i % 2 ? 20 : 45), settings, noUpload);
-    EXPECT_EQ(planet->paging().loaded, loaded);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, loaded);
     EXPECT_GT(planet->paging().cancelled, 0u);  // page-outs, taken back by the next frame
 }
 
@@ -403,8 +408,8 @@ TEST(Planet, ABlockThatFailsIsReportedOnceAndDrawnAsItsParent) {
     ASSERT_TRUE(planet->settle(view, settings, noUpload, timeoutS));
     const int failures = faulty.failures;
     EXPECT_GT(failures, 0);
-    EXPECT_EQ(planet->paging().failed, static_cast<std::uint64_t>(failures));
-    EXPECT_EQ(planet->selection().counters.waiting, planet->paging().failed);
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, static_cast<std::uint64_t>(failures));
+    EXPECT_EQ(planet->selection().counters.waiting, planet->paging()[BlockKind::Heights].failed);
     const auto problems = planet->takeProblems();
     EXPECT_EQ(problems.size(), static_cast<std::size_t>(failures));
     for (const std::string& problem : problems) EXPECT_THAT(problem, HasSubstr("the disk is bad"));
@@ -417,7 +422,7 @@ TEST(Planet, ABlockThatFailsIsReportedOnceAndDrawnAsItsParent) {
     EXPECT_EQ(faulty.failures, failures);
 
     faulty.broken = false;
-    planet->retryFailed();
+    planet->tools().retryFailed();
     ASSERT_TRUE(planet->settle(view, settings, noUpload, timeoutS));
     EXPECT_EQ(drawn(*planet), drawnOfWhole(view, settings));
 }
@@ -428,15 +433,15 @@ TEST(Planet, FailedBlocksGiveTheirSlotsBack) {
     std::mt19937 random(45);
     for (int i = 0; i < 40; ++i) {
         ASSERT_TRUE(planet->settle(randomView(random, 1e5), fineSettings(), noUpload, timeoutS));
-        planet->retryFailed();
+        planet->tools().retryFailed();
     }
     EXPECT_GT(faulty.failures, 7);
     faulty.broken = false;
-    planet->retryFailed();
+    planet->tools().retryFailed();
     LodSettings settings;
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, noUpload, timeoutS));
-    EXPECT_EQ(planet->tree().residentChunks, planet->slotCapacity());
+    EXPECT_EQ(planet->tree().residentChunks, planet->paging()[BlockKind::Heights].capacity);
 }
 
 TEST(Planet, ABlockThatIsNotWhatItShouldBeIsAFailure) {
@@ -448,7 +453,7 @@ TEST(Planet, ABlockThatIsNotWhatItShouldBeIsAFailure) {
     };
     const auto planet = openFake(std::move(source));
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
-    EXPECT_GT(planet->paging().failed, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].failed, 0u);
     EXPECT_EQ(planet->tree().residentChunks, 6u);
     EXPECT_THAT(planet->takeProblems()[0], HasSubstr("3 heights, not 289"));
 }
@@ -486,14 +491,15 @@ TEST(Planet, EachOfSeveralViewsSettlesOnWhatItWouldDrawAlone) {
             views.push_back({randomView(random, 1e5), lod, 1.0 + v});
         }
         ASSERT_TRUE(planet->settle(views, noUpload, timeoutS));
-        ASSERT_EQ(planet->viewCount(), views.size());
+        ASSERT_EQ(planet->views().size(), views.size());
         for (std::size_t v = 0; v < views.size(); ++v) {
             EXPECT_EQ(drawnBy(*planet, v), drawnOfWhole(views[v].lodView, views[v].lod));
-            EXPECT_EQ(planet->lodSettings(v).tauPx, views[v].lod.tauPx);
-            EXPECT_EQ(planet->lodView(v).eyeM, views[v].lodView.eyeM);
+            EXPECT_EQ(planet->views()[v].input.lod.tauPx, views[v].lod.tauPx);
+            EXPECT_EQ(planet->views()[v].input.lodView.eyeM, views[v].lodView.eyeM);
         }
     }
-    EXPECT_EQ(planet->paging().residentChunks, 6 + 4 * planet->paging().loaded);  // nothing twice
+    EXPECT_EQ(planet->paging()[BlockKind::Heights].resident,
+              6 + 4 * planet->paging()[BlockKind::Heights].loaded);  // nothing twice
 }
 
 // A paused planet with the roots' children resident, so that there is more to want.
@@ -520,7 +526,7 @@ TEST(Planet, RequestsOfAllViewsAreMergedAndKeepAPriorityForEach) {
     const auto planet = openPausedAtLevelOne();
     const auto views = overlappingViews();
     planet->step(views, noUpload);
-    const auto pending = planet->pendingRequests(PagingType::PageIn);
+    const auto pending = planet->inspect().pendingRequests(PagingType::PageIn);
     int ofBoth = 0;
     std::size_t wishes = 0;
     for (const PagingRequest& request : pending) {
@@ -548,26 +554,26 @@ TEST(Planet, AViewsPendingRequestsAreThoseItWantsByItsOwnPriorities) {
     const auto views = overlappingViews();
     planet->step(views, noUpload);
     for (std::size_t v = 0; v < views.size(); ++v) {
-        const auto pending = planet->pendingRequests(PagingType::PageIn, v);
+        const auto pending = planet->inspect().pendingRequests(PagingType::PageIn, v);
         const auto& own = planet->selection(v).requests;
         ASSERT_GT(own.size(), 2u);
         ASSERT_EQ(pending.size(), own.size());
         for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(pending[i].parent, own[i].parentId);
-        EXPECT_TRUE(planet->pendingRequests(PagingType::PageOut, v).empty());
+        EXPECT_TRUE(planet->inspect().pendingRequests(PagingType::PageOut, v).empty());
     }
-    EXPECT_LT(planet->pendingRequests(PagingType::PageIn, 0).size(),
-              planet->pendingRequests(PagingType::PageIn).size());
+    EXPECT_LT(planet->inspect().pendingRequests(PagingType::PageIn, 0).size(),
+              planet->inspect().pendingRequests(PagingType::PageIn).size());
 }
 
 TEST(Planet, AViewThatGoesAwayFreesItsWishes) {
     const auto planet = openPausedAtLevelOne();
     const auto views = overlappingViews();
     planet->step(views, noUpload);
-    const std::size_t ofBoth = planet->pendingRequests(PagingType::PageIn).size();
+    const std::size_t ofBoth = planet->inspect().pendingRequests(PagingType::PageIn).size();
     const std::uint64_t cancelled = planet->paging().cancelled;
     planet->step(std::span(views).first(1), noUpload);
-    const auto pending = planet->pendingRequests(PagingType::PageIn);
-    EXPECT_EQ(planet->viewCount(), 1u);
+    const auto pending = planet->inspect().pendingRequests(PagingType::PageIn);
+    EXPECT_EQ(planet->views().size(), 1u);
     EXPECT_EQ(pending.size(), planet->selection().requests.size());
     EXPECT_LT(pending.size(), ofBoth);
     for (std::size_t i = 0; i < pending.size(); ++i) {
@@ -590,14 +596,14 @@ TEST(Planet, WhatAnyViewUsesIsNotOutOfUse) {
             for (const VisitedNode& visited : planet->selection(v).touched) used.insert(visited.node);
             EXPECT_EQ(drawnBy(*planet, v), drawnOfWhole(views[v].lodView, settings));
         }
-        const auto outOfUse = planet->pendingRequests(PagingType::PageOut);
+        const auto outOfUse = planet->inspect().pendingRequests(PagingType::PageOut);
         EXPECT_EQ(used.size() + 4 * outOfUse.size(), planet->tree().residentChunks);
         for (const PagingRequest& request : outOfUse) {
             const NodeIndex parent = findNode(planet->tree(), request.parent);
             EXPECT_FALSE(used.contains(planet->tree().nodes[parent].firstChild));
         }
     }
-    EXPECT_GT(planet->paging().evicted, 0u);
+    EXPECT_GT(planet->paging()[BlockKind::Heights].evicted, 0u);
 }
 
 // At rest a tiny budget has gone to what any of the views wants most.

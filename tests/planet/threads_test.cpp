@@ -13,6 +13,7 @@
 
 #include "planet/bake/bake.h"
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "tests/support/held_tiles.h"
 #include "tests/support/random_view.h"
 #include "tests/support/sanitized.h"
@@ -73,15 +74,15 @@ public:
     }
 
     std::uint64_t opened() const { return opened_; }
-    std::uint64_t loaded() const { return loaded_ + planet_->paging().loaded; }
-    std::uint64_t dropped() const { return dropped_ + planet_->paging().evicted; }
+    std::uint64_t loaded() const { return loaded_ + planet_->paging()[BlockKind::Heights].loaded; }
+    std::uint64_t dropped() const { return dropped_ + planet_->paging()[BlockKind::Heights].evicted; }
     const Planet& planet() const { return *planet_; }
 
 private:
     void open() {
         if (planet_) {
-            loaded_ += planet_->paging().loaded;
-            dropped_ += planet_->paging().evicted;
+            loaded_ += planet_->paging()[BlockKind::Heights].loaded;
+            dropped_ += planet_->paging()[BlockKind::Heights].evicted;
         }
         auto opened = Planet::open(path_, settings_);
         ASSERT_TRUE(opened) << opened.error().message;
@@ -92,14 +93,14 @@ private:
 
     UploadChunk upload() {
         return [this](std::uint32_t slot, std::span<const std::int16_t> steps) {
-            ASSERT_LT(slot, planet_->slotCapacity());
+            ASSERT_LT(slot, planet_->paging()[BlockKind::Heights].capacity);
             heights_[slot].assign(steps.begin(), steps.end());
         };
     }
 
     ViewInput viewInput() {
         ViewInput input;
-        input.lodView = randomView(random_, planet_->shape().radiusM);
+        input.lodView = randomView(random_, planet_->tree().shape.radiusM);
         input.lod.tauPx = random_() % 3 == 0 ? 0.2 : 2;
         input.lod.seams = static_cast<SeamMode>(random_() % 3);
         input.lod.morph = random_() % 2 == 0;
@@ -137,25 +138,25 @@ private:
             case 8:
                 return change([&] { settings_.colourShare = random_() % 2 == 0 ? 0.1 : 0.2; });
             case 9:
-                return planet_->dropAll();
+                return planet_->tools().dropAll();
             case 10:
-                return planet_->startAnew();
+                return planet_->tools().startAnew();
             case 11:
                 return planet_->setExaggeration(0.5 + static_cast<double>(random_() % 3));
             case 12:
-                return planet_->retryFailed();
+                return planet_->tools().retryFailed();
             case 13:
-                return planet_->loadOne();
+                return planet_->tools().loadOne();
             case 14:
                 return look();
             case 15:
                 return settle();
             case 16:
-                return planet_->beginColoursAnew();
+                return planet_->beginTilesAnew(BlockKind::Colours);
             case 17:
-                return planet_->beginNormalsAnew();
+                return planet_->beginTilesAnew(BlockKind::Normals);
             case 18:
-                return planet_->keepMoves(random_() % 2 == 0);
+                return planet_->tools().keepMoves(random_() % 2 == 0);
             case 19:
                 return random_() % 4 == 0 ? open() : void();
             default:
@@ -184,11 +185,11 @@ private:
     // All that panels read.
     void look() {
         for (const PagingType type : {PagingType::PageIn, PagingType::PageOut})
-            static_cast<void>(planet_->pendingRequests(type));
-        static_cast<void>(planet_->loadingNow());
+            static_cast<void>(planet_->inspect().pendingRequests(type));
+        static_cast<void>(planet_->inspect().loadingNow());
         static_cast<void>(planet_->takeProblems());
-        static_cast<void>(planet_->takeMoves());
-        ASSERT_LE(planet_->pagingHistory().size(), 1000u);
+        static_cast<void>(planet_->tools().takeMoves());
+        ASSERT_LE(planet_->inspect().pagingHistory().size(), 1000u);
     }
 
     void settle() {
@@ -198,13 +199,14 @@ private:
 
     void followTiles() {
         const auto ignored = [](const TileData&) {};
-        colours_.follow(planet_->takeColourChanges(), ignored);
-        normals_.follow(planet_->takeNormalChanges(), ignored);
-        if (planet_->normalPaging().tileCapacity == 0) normals_.tiles.clear();
-        ASSERT_EQ(colours_.tiles.size(), planet_->colour() ? planet_->colourPaging().residentTiles : 0);
-        ASSERT_LE(colours_.tiles.size(), planet_->colourPaging().tileCapacity);
-        ASSERT_EQ(normals_.tiles.size(), planet_->normalTree().residentTiles);
-        ASSERT_LE(normals_.tiles.size(), planet_->normalPaging().tileCapacity);
+        colours_.follow(planet_->takeTileChanges(BlockKind::Colours), ignored);
+        normals_.follow(planet_->takeTileChanges(BlockKind::Normals), ignored);
+        if (planet_->paging()[BlockKind::Normals].capacity == 0) normals_.tiles.clear();
+        ASSERT_EQ(colours_.tiles.size(),
+                  planet_->colour() ? planet_->paging()[BlockKind::Colours].resident : 0);
+        ASSERT_LE(colours_.tiles.size(), planet_->paging()[BlockKind::Colours].capacity);
+        ASSERT_EQ(normals_.tiles.size(), planet_->tiles(BlockKind::Normals).residentTiles);
+        ASSERT_LE(normals_.tiles.size(), planet_->paging()[BlockKind::Normals].capacity);
     }
 
     void expectSound() {
@@ -213,11 +215,11 @@ private:
         std::set<std::uint32_t> slots;
         forEachNode(planet_->tree(), [&](NodeIndex, const ChunkNode& node) {
             ASSERT_TRUE(slots.insert(node.slot).second) << toString(node.id);
-            ASSERT_LT(node.slot, planet_->slotCapacity());
+            ASSERT_LT(node.slot, planet_->paging()[BlockKind::Heights].capacity);
             ASSERT_EQ(heights_.at(node.slot), *node.heights) << toString(node.id);
         });
         ASSERT_EQ(slots.size(), planet_->tree().residentChunks);
-        for (std::size_t v = 0; v < planet_->viewCount(); ++v) {
+        for (std::size_t v = 0; v < planet_->views().size(); ++v) {
             const Selection& selection = planet_->selection(v);
             expectCovered(selection, planet_->tree());
             for (const DrawItem& item : selection.draw) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "ui/shell/panels.h"
 
 namespace worldy::test {
@@ -25,7 +26,7 @@ public:
             const double share = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 1;
             pose_.altitudeM = 4e6 * (1 - share) + altitudeM * share;
             pose_.pitchDeg = -90 + 60 * share;
-            view_ = planet::viewFromPose(pose_, planet_->shape().radiusM, 1.05, 1280, 720);
+            view_ = planet::viewFromPose(pose_, planet_->tree().shape.radiusM, 1.05, 1280, 720);
             const auto upload = [](std::uint32_t, std::span<const std::int16_t>) {};
             if (frame + 1 == frames)
                 planet_->settle(view_, lod, upload, 60);
@@ -35,7 +36,7 @@ public:
             changes_.add(planet_->selection(), timeS_);
             stats_.selection = planet_->selection().counters;
             stats_.paging = planet_->paging();
-            stats_.stages = planet_->times();
+            stats_.stages = planet_->lastStep().times;
             stats_.frameMs = 16.7;
             stats_.drawCpuMs = 2 + frame % 3;
             stats_.panelsMs = 1;
@@ -78,9 +79,9 @@ public:
         held.gpu.textures = 31 << 20;
         held.objects = {41, 57, 9, 12, 2, 14, 0, 18};
         held.planets = 1;
-        held.chunks = planet_->paging().residentChunks;
-        held.chunkSlots = planet_->slotCapacity();
-        held.rememberedEnds = planet_->pagingHistory().size();
+        held.chunks = planet_->paging()[planet::BlockKind::Heights].resident;
+        held.chunkSlots = planet_->paging()[planet::BlockKind::Heights].capacity;
+        held.rememberedEnds = planet_->inspect().pagingHistory().size();
         held.frameSamples = history_.size();
         return held;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "tests/support/planet_fixture.h"
 
 namespace planet {
@@ -55,16 +56,16 @@ inline void expectHolds(const TileTree& tree, std::uint32_t tileCapacity, const 
 inline std::size_t followExactly(Planet& planet, Planet& other, BlockKind kind, int steps, double stepS,
                                  const std::function<ViewInput(int step)>& viewOf,
                                  const std::function<void(int step)>& compare) {
-    planet.keepMoves(true);
-    other.keepMoves(true);
+    planet.tools().keepMoves(true);
+    other.tools().keepMoves(true);
     std::size_t ofKind = 0;
     for (int i = 0; i < steps; ++i) {
         const ViewInput input = viewOf(i);
         planet.step({&input, 1}, noUpload, stepS);
-        const PagingMoves moves = planet.takeMoves();
-        EXPECT_TRUE(other.follow(moves)) << i;
+        const PagingMoves moves = planet.tools().takeMoves();
+        EXPECT_TRUE(other.tools().follow(moves)) << i;
         other.step({&input, 1}, noUpload, stepS);
-        const PagingMoves again = other.takeMoves();
+        const PagingMoves again = other.tools().takeMoves();
         EXPECT_EQ(again.requested, moves.requested) << i;
         EXPECT_EQ(again.arrived, moves.arrived) << i;
         compare(i);

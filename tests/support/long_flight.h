@@ -16,6 +16,7 @@
 
 #include "app/base/process_memory.h"
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "tests/support/sanitized.h"
 
 #ifdef __GLIBC__  // known once a header of its is there
@@ -101,13 +102,13 @@ public:
     static constexpr double soonS = 2;
 
     void look(const Planet& planet) {
-        const double nowS = planet.seconds();
-        const std::deque<PagingEvent>& history = planet.pagingHistory();
+        const double nowS = planet.lastStep().nowS;
+        const std::deque<PagingEvent>& history = planet.inspect().pagingHistory();
         longestHistory_ = std::max(longestHistory_, history.size());
         for (auto event = history.rbegin(); event != history.rend() && event->atS == nowS; ++event)
             note(*event);
         if (++looks_ % 30 != 0) return;
-        for (const PagingRequest& request : planet.pendingRequests(PagingType::PageIn))
+        for (const PagingRequest& request : planet.inspect().pendingRequests(PagingType::PageIn))
             waited(request.priority, nowS - request.askedAtS);
     }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planet/planet.h"
+#include "planet/planet_tools.h"
 #include "tests/support/fake_selection.h"
 #include "tests/support/gate.h"
 

@@ -46,7 +46,7 @@ planet::ChunkId chunkAround(const planet::ChunkTree& tree, planet::ChunkId squar
 }
 
 std::string widestChunkName(const EditorView& view) {
-    const planet::PlanetShape& shape = view.planet->shape();
+    const planet::PlanetShape& shape = view.planet->tree().shape;
     const int level = shape.faceCellsLog2 - shape.chunkCellsLog2;
     const std::uint32_t last = (1u << level) - 1;
     return fmt::format("x_neg/{}/{}/{}", level, last, last);

@@ -2,10 +2,6 @@
 
 namespace ui {
 
-std::uint64_t bytesReadOf(const FrameStats& stats) {
-    return stats.paging.bytesRead + stats.colourPaging.bytesRead + stats.normalPaging.bytesRead;
-}
-
 FrameStats smoothed(const FrameStats& before, const FrameStats& now) {
     constexpr double newest = 0.08;  // share of the newest frame: settles within half a second
     const auto mix = [](double old, double value) { return old + newest * (value - old); };

@@ -21,8 +21,6 @@ struct ClipmapStats {
 struct FrameStats {
     planet::SelectionCounters selection;
     planet::PagingCounters paging;
-    planet::TilePagingCounters colourPaging;  // of planets with colours
-    planet::TilePagingCounters normalPaging;  // of planets with normals
     planet::StageTimes stages;
     planet::gl::RenderCounters render;
     planet::gl::GpuMemory gpuMemory;  // of the renderer
@@ -36,9 +34,6 @@ struct FrameStats {
     double presentMs = 0;          // handing the picture to the monitor, waiting for it included
     double frameMs = 0;            // from this frame's start to the next one's
 };
-
-// Bytes read from the file since it was opened, for blocks of all kinds.
-std::uint64_t bytesReadOf(const FrameStats& stats);
 
 // Times with their flicker taken out; counts stay as they are.
 FrameStats smoothed(const FrameStats& before, const FrameStats& now);

@@ -166,7 +166,7 @@ std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const ErrorMeasurement* measured) {
     if (overlay.colourBy == ColourBy::None) return {};
     const planet::ChunkTree& tree = planet.tree();
-    const TintScale scale{overlay, tauPx, planet.seconds(), newestLoad(tree, selection), measured};
+    const TintScale scale{overlay, tauPx, planet.lastStep().nowS, newestLoad(tree, selection), measured};
     const std::uint8_t strength = byteOf(overlay.opacity);
     std::vector<planet::gl::ChunkTint> tints;
     tints.reserve(selection.draw.size());

@@ -30,14 +30,9 @@ const char* kindText(planet::BlockKind kind) {
     return kind == planet::BlockKind::Colours ? "colours" : "heights";
 }
 
-KindTotals totalsOf(const char* kind, const planet::PagingCounters& p) {
-    return {kind,         p.loaded, p.evicted, p.failed, p.bytesRead, p.loaded - p.evicted, p.residentChunks,
-            p.budgetWaits};
-}
-
-KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& p) {
-    return {kind,         p.loaded, p.evicted, p.failed, p.bytesRead, p.loaded - p.evicted, p.residentTiles,
-            p.budgetWaits};
+KindTotals totalsOf(const char* kind, const planet::BlockCounters& p) {
+    return {kind,       p.loaded,     p.evicted, p.failed, p.bytesRead, p.loaded - p.evicted,
+            p.resident, p.budgetWaits};
 }
 
 bool isBad(const planet::BadDiskSettings& disk) {

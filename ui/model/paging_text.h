@@ -30,8 +30,7 @@ struct KindTotals {
     std::size_t tiles;       // chunks or tiles, roots included
     std::uint32_t budgetWaits;
 };
-KindTotals totalsOf(const char* kind, const planet::PagingCounters& paging);
-KindTotals totalsOf(const char* kind, const planet::TilePagingCounters& paging);
+KindTotals totalsOf(const char* kind, const planet::BlockCounters& paging);
 
 // Whether the disk is made bad at all: a seed alone does nothing.
 bool isBad(const planet::BadDiskSettings& disk);

@@ -88,18 +88,18 @@ void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name
 void warningCells(const EditorView& view, Cells& cells) {
     const Palette& colours = palette();
     const planet::PagingCounters& paging = view.stats.paging;
-    if (paging.failedForGood > 0) {
-        cells.add(fmt::format("{} failed", paging.failedForGood),
+    if (paging.failedForGood() > 0) {
+        cells.add(fmt::format("{} failed", paging.failedForGood()),
                   "Blocks that could not be read: see the Failed tab of the Paging panel, and the Log panel.",
                   colours.bad);
     }
-    if (paging.awaitingRetry > 0) {
+    if (paging.awaitingRetry() > 0) {
         cells.add(
-            fmt::format("{} retrying", paging.awaitingRetry),
+            fmt::format("{} retrying", paging.awaitingRetry()),
             "Blocks that could not be read and will be retried: see the Failed tab of the Paging panel.",
             colours.warning);
     }
-    if (paging.budgetWaits > 0) {
+    if (paging[planet::BlockKind::Heights].budgetWaits > 0) {
         cells.add("budget full", "The chunks requested by this view exceed the budget. See the Paging panel.",
                   colours.warning);
     }

@@ -175,8 +175,9 @@ void addPagingBadges(const EditorView& view, const ViewSettings& settings,
                           palette().warning});
     }
     if (isBad(settings.paging.badDisk)) badges.push_back({"I/O fault injection", palette().warning});
-    if (paging.budgetWaits > 0)
-        badges.push_back({fmt::format("Budget full, {} waiting", paging.budgetWaits), palette().bad});
+    const std::uint32_t budgetWaits = paging[planet::BlockKind::Heights].budgetWaits;
+    if (budgetWaits > 0)
+        badges.push_back({fmt::format("Budget full, {} waiting", budgetWaits), palette().bad});
     if (!view.pagingPaused && waiting > 0)
         badges.push_back({fmt::format("Loading {}", waiting), palette().good});
 }
@@ -208,9 +209,9 @@ Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
     if (!planet) return {};
     // The levels of all views: an observer with its own LOD may draw finer chunks.
     std::uint32_t deepest = 0;
-    for (std::size_t view = 0; view < planet->viewCount(); ++view)
+    for (std::size_t view = 0; view < planet->views().size(); ++view)
         deepest = std::max(deepest, planet->selection(view).counters.deepestLevel);
-    return legendOf(overlay, planet->lodSettings().tauPx, deepest);
+    return legendOf(overlay, planet->views()[0].input.lod.tauPx, deepest);
 }
 
 // While comparing that of A, or of B where only its chunks are coloured.
@@ -314,7 +315,8 @@ void observerOverlay(const EditorView& view, const ViewSettings& settings, const
     const PlacedBadge name =
         placed({settings.camera.observerOwnLod ? "Observer, own LOD" : "Observer", palette().accent},
                viewport.x + marginPx(), viewport.y + marginPx());
-    const bool ownSelection = settings.camera.observerOwnLod && view.planet && view.planet->viewCount() > 1;
+    const bool ownSelection =
+        settings.camera.observerOwnLod && view.planet && view.planet->views().size() > 1;
     drawLabels(drawList, view.planet, settings.overlay,
                {observer, ownSelection ? std::size_t{1} : std::size_t{0}, viewport, {name.rect}});
     badge(drawList, {name.rect.x, name.rect.y}, name.badge.text.c_str(), name.badge.colour);

@@ -11,7 +11,7 @@ namespace planet::gl {
 struct ColourPoolConfig {
     ColourFormat format = ColourFormat::Bc1;
     int leafLevel = 0;
-    std::uint32_t tileCapacity = 0;  // TilePagingCounters::tileCapacity
+    std::uint32_t tileCapacity = 0;  // BlockCounters::tileCapacity
 
     bool operator==(const ColourPoolConfig&) const = default;
 };

@@ -8,7 +8,7 @@ namespace planet::gl {
 
 struct NormalPoolConfig {
     int leafLevel = 0;
-    std::uint32_t tileCapacity = 0;  // TilePagingCounters::tileCapacity
+    std::uint32_t tileCapacity = 0;  // BlockCounters::tileCapacity
     double quantumM = 1;             // of the shape as stored: the tiles' slopes are of true heights
 
     bool operator==(const NormalPoolConfig&) const = default;

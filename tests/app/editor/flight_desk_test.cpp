@@ -210,7 +210,7 @@ TEST_F(FlightDeskTest, ThePlanetGoesOnWhereItRefusesAReplaysSettings) {
     settings_ = before;
     ASSERT_TRUE(applyLiveSettings(*scene_, settings_));
     ASSERT_TRUE(settleScene(*scene_, viewAt(40), settings_, 60));
-    const std::size_t resident = scene_->planet->paging().residentChunks;
+    const std::size_t resident = scene_->planet->paging()[planet::BlockKind::Heights].resident;
     ASSERT_GT(resident, 6u);
 
     const EGLDisplay display = eglGetCurrentDisplay();
@@ -222,7 +222,7 @@ TEST_F(FlightDeskTest, ThePlanetGoesOnWhereItRefusesAReplaysSettings) {
         ASSERT_TRUE(eglMakeCurrent(display, surface, surface, context));
         EXPECT_FALSE(started);
         EXPECT_FALSE(desk_.replay);
-        EXPECT_EQ(scene_->planet->paging().residentChunks, resident);
+        EXPECT_EQ(scene_->planet->paging()[planet::BlockKind::Heights].resident, resident);
     }
     startReplayOf(file);
     EXPECT_TRUE(desk_.replay);

@@ -18,11 +18,11 @@ protected:
 
     // Everything that a view from a height asks for can be loaded, without a problem.
     void expectLoads(Scene& scene) {
-        const double radiusM = scene.planet->shape().radiusM;
+        const double radiusM = scene.planet->tree().shape.radiusM;
         const planet::View view = planet::viewFromPose({.altitudeM = 200'000}, radiusM, 1.0, 640, 480);
         EXPECT_TRUE(settleScene(scene, view, settings_, 60));
         EXPECT_TRUE(scene.planet->takeProblems().empty());
-        EXPECT_EQ(scene.planet->paging().failed, 0u);
+        EXPECT_EQ(scene.planet->paging()[planet::BlockKind::Heights].failed, 0u);
     }
 };
 
@@ -146,7 +146,7 @@ TEST_F(SessionTest, aBakeAtAnotherChunkSizeIsSwappedInAndTheOldOneKept) {
     ASSERT_TRUE(bakeViewOf(session).running);
     EXPECT_EQ(bakeViewOf(session).running->settings.chunkSize, 17);
     ASSERT_TRUE(advanceUntilQuiet(session));
-    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->shape()), 17);
+    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
     EXPECT_EQ(bakeViewOf(session).current.settings.chunkSize, 17);
     ui::DataView data = dataViewOf(session, {});
     EXPECT_TRUE(data.hasPreviousBake);
@@ -162,7 +162,7 @@ TEST_F(SessionTest, aBakeAtAnotherChunkSizeIsSwappedInAndTheOldOneKept) {
     showPreviousBake(session, true);
     dismissPreviousBake(session);
     EXPECT_FALSE(dataViewOf(session, {}).hasPreviousBake);
-    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->shape()), 17);
+    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
 }
 
 TEST_F(SessionTest, twoBakesAfterEachOtherKeepTheOneBeforeTheLast) {
@@ -174,8 +174,8 @@ TEST_F(SessionTest, twoBakesAfterEachOtherKeepTheOneBeforeTheLast) {
         ASSERT_TRUE(advanceUntilQuiet(session));
         showPreviousBake(session, true);
     }
-    EXPECT_EQ(planet::chunkSize(session.open->scene.planet->shape()), 65);
-    EXPECT_EQ(planet::chunkSize(session.previous->scene.planet->shape()), 17);
+    EXPECT_EQ(planet::chunkSize(session.open->scene.planet->tree().shape), 65);
+    EXPECT_EQ(planet::chunkSize(session.previous->scene.planet->tree().shape), 17);
 }
 
 TEST_F(SessionTest, aSecondBakeIsRefusedWhileOneRuns) {
@@ -218,7 +218,7 @@ TEST_F(SessionTest, aBakeMayBeginAgainWhileTheCancelledOneStillEnds) {
     startBake(session, requestFor(source, 17, faceSize), log_);
     ASSERT_TRUE(advanceUntilQuiet(session));
     EXPECT_EQ(bakeViewOf(session).lastProblem, "");
-    EXPECT_EQ(planet::faceCells(shownScene(session)->planet->shape()), faceSize - 1);
+    EXPECT_EQ(planet::faceCells(shownScene(session)->planet->tree().shape), faceSize - 1);
 }
 
 TEST_F(SessionTest, aFirstBakeThatIsCancelledCanBeBegunAgain) {
@@ -271,7 +271,7 @@ TEST_F(SessionTest, aBrokenFileDuringABakeLetsItGoOn) {
     startBake(session, requestFor(source, 17, 1025), log_);
     EXPECT_FALSE(openFile(session, "/nonexistent/moon.chk", settings_, log_));
     ASSERT_TRUE(advanceUntilQuiet(session));
-    EXPECT_EQ(planet::faceCells(shownScene(session)->planet->shape()), 1024);
+    EXPECT_EQ(planet::faceCells(shownScene(session)->planet->tree().shape), 1024);
 }
 
 TEST_F(SessionTest, openingASourceThatIsBeingBakedWaitsForThatBake) {

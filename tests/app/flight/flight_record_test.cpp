@@ -23,6 +23,7 @@
 #include "planet/bake/bake.h"
 #include "planet/base/little_endian.h"
 #include "planet/measure/lod_changes.h"
+#include "planet/planet_tools.h"
 #include "planet/source/height_source.h"
 #include "tests/support/temporary_folder.h"
 
@@ -88,21 +89,21 @@ protected:
             if (frame == 80) settings.surface.exaggeration = 2.5;
             if (frame == 90) settings.paging.budgetMB = 16;
             if (frame == 50) {
-                planet.dropAll();
+                planet.tools().dropAll();
                 recorder.called(planet, FlightCall::DropAll);
             }
             const bool paused = frame >= 70 && frame < 78;
             if (frame == 74) {
-                planet.loadOne();
+                planet.tools().loadOne();
                 recorder.called(planet, FlightCall::LoadOne);
             }
             if (frame == 100) {
-                planet.retryFailed();
+                planet.tools().retryFailed();
                 recorder.called(planet, FlightCall::RetryFailed);
             }
-            if (frame == 105 && !planet.failedBlocks().empty()) {
-                const planet::BlockId block = planet.failedBlocks().front().block;
-                planet.retryFailed(block);
+            if (frame == 105 && !planet.inspect().failedBlocks().empty()) {
+                const planet::BlockId block = planet.inspect().failedBlocks().front().block;
+                planet.tools().retryFailed(block);
                 recorder.called(planet, FlightCall::RetryBlock, block);
             }
             step(planet, recorder, settings, frame, frame > 110, paused);
@@ -229,7 +230,7 @@ TEST_F(FlightRecordTest, AFlightByTheClockReplaysExactlyAsRecorded) {
     // Something before the recording.
     planet->settle(viewAt(90), lodSettingsOf(settings), headless(*planet).upload, 60);
     const Recorder recorder = flyAbout(*planet, settings, 150);
-    EXPECT_GT(planet->paging().loaded, 10u);
+    EXPECT_GT(planet->paging()[planet::BlockKind::Heights].loaded, 10u);
     const FlightReplay replay =
         replayed(loadFlightRecord(written(recorder)).value(), ReplayPaging::AsRecorded);
     EXPECT_EQ(firstOf(replay), "none");
@@ -240,7 +241,7 @@ TEST_F(FlightRecordTest, AFlightByTheClockReplaysExactlyAsRecorded) {
 TEST_F(FlightRecordTest, AFlightBySimulatedTimeReplaysExactlyEitherWay) {
     const auto planet = openPlanet(troubled(true));
     const Recorder recorder = flyAbout(*planet, troubled(true), 150);
-    EXPECT_GT(planet->paging().failed, 0u);
+    EXPECT_GT(planet->paging()[planet::BlockKind::Heights].failed, 0u);
     const FlightRecord record = loadFlightRecord(written(recorder)).value();
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
@@ -258,7 +259,7 @@ TEST_F(FlightRecordTest, AFlightOverADamagedFileReplaysExactlyThoughTheFileIsMen
     stream.close();
     const auto planet = openPlanet(troubled(true));
     const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 120))).value();
-    EXPECT_GT(planet->paging().failedForGood, 0u);
+    EXPECT_GT(planet->paging().failedForGood(), 0u);
     std::size_t bad = 0, failed = 0, byName = 0;
     for (const FlightFrame& frame : record.frames) {
         for (const planet::PagingMoves::Arrival& arrival : frame.moves.arrived) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "planet/planet_tools.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/model/plot_scale.h"
@@ -174,7 +175,7 @@ TEST_F(PopsTest, WhatHasBeenDroppedIsSaid) {
     flyUpAndDown();
     pops_.shown = worst();
     pops_.side = worst().toLevel > worst().fromLevel ? ui::PopSide::After : ui::PopSide::Before;
-    planet_->dropAll();
+    planet_->tools().dropAll();
     EXPECT_FALSE(keptPicture(planet_->tree(), pops_));
     EXPECT_NE(pops_.problem.find("not resident"), std::string::npos);
     pops_.meter.clear();

@@ -193,7 +193,7 @@ TEST_F(Sweeping, ThatCannotBeFlownSaysWhichFile) {
 TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
     Session session = openSession(writeSource());
     ASSERT_TRUE(shownPlanet(session));
-    ASSERT_EQ(planet::chunkSize(shownScene(session)->planet->shape()), 33);
+    ASSERT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
     SweepDesk desk;
     ui::SweepRequest asked = request();
     asked.chunkSizes = {17, 33};
@@ -214,18 +214,18 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
 
     openSweptChunks(desk, 17, session, settings_, log_);
     EXPECT_FALSE(session.bake);
-    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->shape()), 17);
+    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
     EXPECT_TRUE(session.previous);
     EXPECT_TRUE(bakeViewOf(session).canBake);
     openSweptChunks(desk, 33, session, settings_, log_);
     EXPECT_FALSE(session.bake);
-    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->shape()), 33);
+    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
     // One that is gone is baked anew.
     std::filesystem::remove(usual->chunkFile);
     openSweptChunks(desk, 17, session, settings_, log_);
     EXPECT_TRUE(session.bake);
     ASSERT_TRUE(advanceUntilQuiet(session));
-    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->shape()), 17);
+    EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
 }
 
 TEST_F(Sweeping, AFileOfUnknownSourceIsSweptInItsOwnChunksAlone) {

@@ -13,6 +13,7 @@
 #include "app/measure/error_job.h"
 #include "app/measure/sweep_job.h"
 #include "planet/gl/device/render_target.h"
+#include "planet/planet_tools.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/random_view.h"
 
@@ -117,15 +118,16 @@ protected:
 
     void fly(Scene& scene) {
         static_cast<void>(applyLiveSettings(scene, settings_, chance(8)));
-        planet::View view = planet::randomView(random_, scene.planet->shape().radiusM);
+        planet::View view = planet::randomView(random_, scene.planet->tree().shape.radiusM);
         view.widthPx = widthPx;
         view.heightPx = heightPx;
         if (chance(3))
-            stepScene(scene, view, planet::randomView(random_, scene.planet->shape().radiusM), settings_);
+            stepScene(scene, view, planet::randomView(random_, scene.planet->tree().shape.radiusM),
+                      settings_);
         else
             stepScene(scene, view, settings_);
-        if (chance(20)) scene.planet->dropAll();
-        if (chance(20)) scene.planet->retryFailed();
+        if (chance(20)) scene.planet->tools().dropAll();
+        if (chance(20)) scene.planet->tools().retryFailed();
         if (lastScene_ != scene.identity) forgetErrors(errors_);
         lastScene_ = scene.identity;
         advanceErrorMeter(*scene.planet, frames_, static_cast<double>(frames_), errors_);
@@ -141,7 +143,7 @@ protected:
         ASSERT_LE(paging.residentBytesCpu + paging.residentBytesGpu, planet.pagingSettings().budgetBytes);
         std::set<std::uint32_t> slots;
         planet::forEachNode(planet.tree(), [&](planet::NodeIndex, const planet::ChunkNode& node) {
-            ASSERT_LT(node.slot, planet.slotCapacity());
+            ASSERT_LT(node.slot, planet.paging()[planet::BlockKind::Heights].capacity);
             ASSERT_TRUE(slots.insert(node.slot).second);
         });
         for (const planet::DrawItem& item : planet.selection().draw) {
@@ -250,7 +252,7 @@ TEST_F(SessionThreads, BakesSwapsJobsAndViewsAtRandomLeaveTheSessionSound) {
         startBake(session, requestFor(sources_[0], 33), log_);
         ASSERT_TRUE(advanceUntilQuiet(session));
         ASSERT_TRUE(session.open);
-        EXPECT_EQ(planet::chunkSize(session.open->scene.planet->shape()), 33);
+        EXPECT_EQ(planet::chunkSize(session.open->scene.planet->tree().shape), 33);
     }
     std::cout << steps << " frames, " << drawn_ << " drawn, " << swaps << " planets swapped in, " << replaced_
               << " files replaced and " << notReplaced_ << " not, " << compared_ << " comparisons, " << swept_

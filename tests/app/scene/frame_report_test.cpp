@@ -10,9 +10,9 @@ namespace {
 
 TEST(FrameReport, totalsOfBlocksAreGivenPerKind) {
     ui::FrameStats stats;
-    stats.paging = {.loaded = 1, .evicted = 2, .failed = 3, .bytesRead = 100};
-    stats.colourPaging = {.loaded = 4, .evicted = 5, .failed = 6, .bytesRead = 20};
-    stats.normalPaging = {.loaded = 7, .evicted = 8, .failed = 9, .bytesRead = 3};
+    stats.paging[planet::BlockKind::Heights] = {.loaded = 1, .evicted = 2, .failed = 3, .bytesRead = 100};
+    stats.paging[planet::BlockKind::Colours] = {.loaded = 4, .evicted = 5, .failed = 6, .bytesRead = 20};
+    stats.paging[planet::BlockKind::Normals] = {.loaded = 7, .evicted = 8, .failed = 9, .bytesRead = 3};
     const nlohmann::ordered_json report = statsJson(stats);
     using Json = nlohmann::ordered_json;
     EXPECT_EQ(report["loaded_blocks"], (Json{{"heights", 1}, {"colours", 4}, {"normals", 7}}));

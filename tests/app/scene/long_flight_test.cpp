@@ -95,10 +95,11 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
     {
         auto scene = openScene({.chunkFile = files_[0]}, settings_);
         ASSERT_TRUE(scene) << scene.error().message;
-        planet::test::RandomFlight flight(9, scene->planet->shape().radiusM);
+        planet::test::RandomFlight flight(9, scene->planet->tree().shape.radiusM);
         for (std::uint64_t frame = 0; frame < frames; ++frame, flight.step()) {
             // The same way twice: the programs made for the first serve the second.
-            if (frame == frames / 2) flight = planet::test::RandomFlight(9, scene->planet->shape().radiusM);
+            if (frame == frames / 2)
+                flight = planet::test::RandomFlight(9, scene->planet->tree().shape.radiusM);
             // In and out of the clipmap, whose memory comes and goes.
             const std::uint64_t phase = frame * phases / frames;
             const bool clipmap = phase % 2 == 0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planet/planet_tools.h"
 #include "tests/support/planet_fixture.h"
 
 namespace worldy {
@@ -13,7 +14,7 @@ std::pair<int, int> redAndAmber(const planet::Planet& planet, bool outlines) {
     settings.overlay.outlines = outlines;
     int red = 0, amber = 0;
     for (const planet::LineVertex& vertex :
-         overlayLines(planet.tree(), planet.selection(), planet.lodView(), settings)) {
+         overlayLines(planet.tree(), planet.selection(), planet.views()[0].input.lodView, settings)) {
         red += vertex.colour[1] < 100;
         amber += vertex.colour[1] >= 100;
     }
@@ -31,7 +32,7 @@ TEST(OverlayLines, OutlinesMarkWhatStaysCoarseBecauseItCouldNotBeRead) {
     input.lod = planet::fineSettings();
     input.lod.frustumCulling = input.lod.horizonCulling = false;
     for (int i = 0; i < 10; ++i) planet->step({&input, 1}, planet::noUpload, 0.1);
-    ASSERT_GT(planet->paging().awaitingRetry, 0u);
+    ASSERT_GT(planet->paging().awaitingRetry(), 0u);
     EXPECT_EQ(redAndAmber(*planet, false), std::pair(0, 0));
     EXPECT_EQ(redAndAmber(*planet, true).first, 0);
     const int waiting = redAndAmber(*planet, true).second;
@@ -39,7 +40,7 @@ TEST(OverlayLines, OutlinesMarkWhatStaysCoarseBecauseItCouldNotBeRead) {
     ASSERT_TRUE(planet->settle({&input, 1}, planet::noUpload, 100));
     EXPECT_EQ(redAndAmber(*planet, true), std::pair(waiting, 0));
     faulty.broken = false;
-    planet->retryFailed();
+    planet->tools().retryFailed();
     ASSERT_TRUE(planet->settle({&input, 1}, planet::noUpload, 100));
     EXPECT_EQ(redAndAmber(*planet, true), std::pair(0, 0));
 }

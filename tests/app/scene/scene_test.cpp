@@ -7,6 +7,7 @@
 
 #include "app/scene/offscreen.h"
 #include "planet/gl/device/render_target.h"
+#include "planet/planet_tools.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/synthetic_colours.h"
 #include "ui/model/overlay_colours.h"
@@ -137,10 +138,10 @@ TEST_F(SceneTest, aNewBudgetTakesEffectAndThePictureStays) {
     const planet::View view = viewAt(300'000);
     ASSERT_TRUE(settleScene(scene, view, settings_, 60));
     const std::vector<std::uint8_t> before = picture(scene, view);
-    const std::uint32_t slots = scene.planet->slotCapacity();
+    const std::uint32_t slots = scene.planet->paging()[planet::BlockKind::Heights].capacity;
     settings_.paging.budgetMB = 16;
     ASSERT_TRUE(applyLiveSettings(scene, settings_));
-    EXPECT_LT(scene.planet->slotCapacity(), slots);
+    EXPECT_LT(scene.planet->paging()[planet::BlockKind::Heights].capacity, slots);
     ASSERT_TRUE(settleScene(scene, view, settings_, 60));
     EXPECT_EQ(picture(scene, view), before);
 }
@@ -171,12 +172,12 @@ TEST_F(SceneTest, exaggerationChangesThePictureAndComesBack) {
     const planet::View view = viewAt(2000);
     ASSERT_TRUE(settleScene(scene, view, settings_, 60));
     const double heightM = groundBelow(scene, view.eyeM).heightM;
-    const double quantumM = scene.planet->shape().quantumM;
+    const double quantumM = scene.planet->tree().shape.quantumM;
     ASSERT_GT(heightM, 1);
     settings_.surface.exaggeration = 4;
     ASSERT_TRUE(applyLiveSettings(scene, settings_));
     ASSERT_TRUE(settleScene(scene, view, settings_, 60));
-    EXPECT_EQ(scene.planet->shape().quantumM, 4 * quantumM);
+    EXPECT_EQ(scene.planet->tree().shape.quantumM, 4 * quantumM);
     EXPECT_GT(groundBelow(scene, view.eyeM).heightM, 3.9 * heightM);
     settings_.surface.exaggeration = 1;
     ASSERT_TRUE(applyLiveSettings(scene, settings_));
@@ -189,10 +190,10 @@ TEST_F(SceneTest, anObserverHasASelectionOfItsOwn) {
     const planet::View near = viewAt(300'000);
     const planet::View far = viewAt(2e7, 120);
     stepScene(scene, near, far, settings_);
-    EXPECT_EQ(scene.planet->viewCount(), 2u);
-    EXPECT_EQ(scene.planet->lodView(1).eyeM, far.eyeM);
+    EXPECT_EQ(scene.planet->views().size(), 2u);
+    EXPECT_EQ(scene.planet->views()[1].input.lodView.eyeM, far.eyeM);
     stepScene(scene, near, settings_);
-    EXPECT_EQ(scene.planet->viewCount(), 1u);
+    EXPECT_EQ(scene.planet->views().size(), 1u);
 }
 
 TEST_F(SceneTest, anObserversPictureAddsNoTrianglesToThoseOfTheLodView) {
@@ -351,14 +352,14 @@ TEST_F(ClipmapScene, isRightAgainAfterThePoolOrItsTilesAreNew) {
     settings_.paging.budgetMB = 16;
     expectBothModesAlike(scene);
     settings_.paging.budgetMB = 24;
-    const auto tiles = scene.planet->colourPaging().tileCapacity;
+    const auto tiles = scene.planet->paging()[planet::BlockKind::Colours].capacity;
     settledPicture(scene, ui::ColourMode::Clipmap);
-    EXPECT_NE(scene.planet->colourPaging().tileCapacity, tiles);
+    EXPECT_NE(scene.planet->paging()[planet::BlockKind::Colours].capacity, tiles);
     const std::vector<std::uint8_t> before = settledPicture(scene, ui::ColourMode::Clipmap);
-    scene.planet->beginColoursAnew();
+    scene.planet->beginTilesAnew(planet::BlockKind::Colours);
     EXPECT_NE(picture(scene, view_), before);
     EXPECT_EQ(settledPicture(scene, ui::ColourMode::Clipmap), before);
-    scene.planet->dropAll();
+    scene.planet->tools().dropAll();
     EXPECT_EQ(settledPicture(scene, ui::ColourMode::Clipmap), before);
     expectBothModesAlike(scene);
 }

@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
                   .longitudeDeg = std::atof(argv[3]),
                   .altitudeM = std::atof(argv[4])};
     const double fovRad = 1.0;
-    const planet::View view = planet::viewFromPose(camera, (*planet)->shape().radiusM, fovRad, 1280, 720);
+    const planet::View view =
+        planet::viewFromPose(camera, (*planet)->tree().shape.radiusM, fovRad, 1280, 720);
     if (!(*planet)->settle(view, planet::LodSettings{}, planet::noUpload, 60))
         return std::fprintf(stderr, "%s: not loaded after 60 s\n", argv[1]), 1;
 
@@ -26,5 +27,6 @@ int main(int argc, char** argv) {
     for (const planet::DrawItem& item : selection.draw)
         std::printf("%-16s error %.3f px, %.0f km away, slot %u\n", planet::toString(item.id).c_str(),
                     item.epsPx, item.distanceM / 1000, item.slot);
-    std::printf("%zu chunks, %zu resident\n", selection.draw.size(), (*planet)->paging().residentChunks);
+    std::printf("%zu chunks, %zu resident\n", selection.draw.size(),
+                (*planet)->paging()[planet::BlockKind::Heights].resident);
 }

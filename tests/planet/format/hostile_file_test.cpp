@@ -137,7 +137,9 @@ TEST(HostileFile, RootsThatContradictThemselvesAreRefusedInTheFilesName) {
     file.addRoots({1, 1, 0, 5, children}, 7);
     auto chunks = opened(file.sealed());
     ASSERT_TRUE(chunks) << chunks.error().message;
-    const auto planet = Planet::open(*std::move(chunks), {});
+    auto source = planetSource(*std::move(chunks));
+    ASSERT_TRUE(source) << source.error().message;
+    const auto planet = Planet::open(*std::move(source), {});
     ASSERT_FALSE(planet);
     EXPECT_THAT(planet.error().message, HasSubstr("hostile.chk: chunk x_pos/0/0/0: heights"));
 }

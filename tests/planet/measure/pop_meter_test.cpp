@@ -497,8 +497,8 @@ TEST(PopMeter, APlanetsHeldLoadsAreLateUntilTheyCome) {
     const auto step = [&] {
         planet->step(views, noUpload, popFrameS);
         waited += planet->selection().counters.waiting > 0 ? 1 : 0;
-        meter.add(planet->tree(), planet->selection(), planet->lodView(), planet->lodSettings(),
-                  planet->seconds());
+        meter.add(planet->tree(), planet->selection(), planet->views()[0].input.lodView,
+                  planet->views()[0].input.lod, planet->lastStep().nowS);
     };
     for (int i = 0; i < 30; ++i) step();
     EXPECT_TRUE(meter.events().empty());

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "planet/planet_tools.h"
 #include "planet/select/drawn_surface.h"
 #include "planet/select/lod_select.h"
 #include "tests/support/fake_selection.h"
@@ -415,7 +416,7 @@ TEST(PlanetFade, SettlingEndsEveryFade) {
     EXPECT_TRUE(planet->settle(view, lod, noUpload, timeoutS));
     EXPECT_EQ(planet->selection().counters.fading, 0u);
     EXPECT_EQ(drawn(*planet), drawnOfWhole(view, lod));
-    EXPECT_TRUE(std::isfinite(planet->seconds()));
+    EXPECT_TRUE(std::isfinite(planet->lastStep().nowS));
 }
 
 TEST(PlanetFade, WhatASplitWaitsForIsInUse) {
@@ -440,7 +441,7 @@ TEST(PlanetFade, WhatASplitWaitsForIsInUse) {
         }
     }
     EXPECT_EQ(waiting, 3u * 24);
-    EXPECT_TRUE(planet->pendingRequests(PagingType::PageOut).empty());
+    EXPECT_TRUE(planet->inspect().pendingRequests(PagingType::PageOut).empty());
 }
 
 TEST(LodFade, ChildrenThatComeLateSlideInOverTheFade) {

@@ -43,14 +43,14 @@ struct Viewed {
     Viewed(const planet::Planet& planet, const planet::CameraPose& pose) {
         view.planet = &planet;
         view.camera.pose = pose;
-        view.renderView = planet::viewFromPose(pose, planet.shape().radiusM, 1, 640, 480);
+        view.renderView = planet::viewFromPose(pose, planet.tree().shape.radiusM, 1, 640, 480);
     }
 };
 
 TEST(CameraHeights, areOfThePointBelowTheCamera) {
     const auto planet = planet::openFake();
     const planet::CameraPose pose{
-        .latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 0.5 * planet->shape().radiusM};
+        .latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 0.5 * planet->tree().shape.radiusM};
     Viewed viewed(*planet, pose);
     ViewSettings settings;
     settings.surface.seaLevelM = 100;

@@ -30,18 +30,13 @@ TEST(PagingText, aTileOfColourSaysWhatShareOfItsTexelsItHas) {
 }
 
 TEST(PagingText, residentBlocksAreWhatWasLoadedAndNotEvicted) {
-    planet::TilePagingCounters tiles;
+    planet::BlockCounters tiles;
     tiles.loaded = 35;
     tiles.evicted = 30;
-    tiles.residentTiles = 26;
+    tiles.resident = 26;
     const KindTotals colours = totalsOf("Colours", tiles);
     EXPECT_EQ(colours.resident, 5u);
     EXPECT_EQ(colours.tiles, 26u);
-    planet::PagingCounters chunks;
-    chunks.loaded = 7;
-    chunks.evicted = 2;
-    chunks.residentChunks = 26;
-    EXPECT_EQ(totalsOf("Heights", chunks).resident, 5u);
 }
 
 TEST(PagingText, aFailedBlockSaysWhenItIsTriedAgain) {

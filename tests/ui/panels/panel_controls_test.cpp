@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "planet/planet_tools.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/kit/chunk_link.h"
@@ -17,8 +18,8 @@ class PanelControls : public testing::Test {
 protected:
     void openPlanet() {
         planet_ = planet::openFake();
-        const planet::View view = planet::viewFromPose({.altitudeM = planet_->shape().radiusM},
-                                                       planet_->shape().radiusM, 1.05, 640, 480);
+        const planet::View view = planet::viewFromPose({.altitudeM = planet_->tree().shape.radiusM},
+                                                       planet_->tree().shape.radiusM, 1.05, 640, 480);
         planet_->settle(
             view, {}, [](std::uint32_t, std::span<const std::int16_t>) {}, planet::timeoutS);
         view_.planet = planet_.get();
@@ -123,7 +124,7 @@ TEST_F(PanelControls, nothingIsBakedWithoutASourceNorWhileABakeRuns) {
 
 TEST_F(PanelControls, theOfferGoesWhenTheFileHasTheChunkSize) {
     openPlanet();
-    wantedChunkSize_ = planet::chunkSize(planet_->shape());
+    wantedChunkSize_ = planet::chunkSize(planet_->tree().shape);
     frame(PanelId::Lod);
     EXPECT_FALSE(window_.isShown("/Bake"));
 }
@@ -147,9 +148,9 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     fine.tauPx = 0.02;
     ASSERT_TRUE(planet_->settle(planet::viewAt(10, 20, 2e4), fine, planet::noUpload, planet::timeoutS));
     view_.planet = planet_.get();
-    view_.lodView = planet_->lodView();
+    view_.lodView = planet_->views()[0].input.lodView;
     stats_.paging = planet_->paging();
-    const std::vector<planet::FailedBlock> failed = planet_->failedBlocks();
+    const std::vector<planet::FailedBlock> failed = planet_->inspect().failedBlocks();
     ASSERT_GT(failed.size(), 2u);
     const Commands all = click(PanelId::Paging, "Retry failed");
     ASSERT_TRUE(only<RetryFailed>(all));
@@ -165,7 +166,7 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     EXPECT_EQ(only<RetryFailed>(one)->block, failed[1].block);
     // Without any, the list says so and asks for nothing.
     faulty.broken = false;
-    planet_->retryFailed();
+    planet_->tools().retryFailed();
     stats_.paging = planet_->paging();
     for (int i = 0; i < 12; ++i) {
         view_.timeS += 0.1;
@@ -346,7 +347,7 @@ protected:
         table_.points[1].figures = {12, 2000, 2500, 10, 4, 3, 3, 1.5, 0.9, 1.6, 0};
         table_.whole = true;
     }
-    int own() const { return planet::chunkSize(planet_->shape()); }
+    int own() const { return planet::chunkSize(planet_->tree().shape); }
     const std::vector<std::filesystem::path> flights_ = {"/flights/orbit_to_ground.toml"};
     SweepTable table_;
 };
@@ -386,7 +387,7 @@ TEST_F(SweepControls, otherChunkSizesNeedTheSource) {
     click(PanelId::Sweep, box);
     const Commands run = click(PanelId::Sweep, "/Run");
     ASSERT_TRUE(only<StartSweep>(run));
-    const bool fits = other - 1 <= planet::faceCells(planet_->shape());
+    const bool fits = other - 1 <= planet::faceCells(planet_->tree().shape);
     EXPECT_EQ(only<StartSweep>(run)->request.chunkSizes.size(), fits ? 2u : 1u);
 }
 

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include "planet/paging/normal_tile.h"
+#include "planet/planet_tools.h"
 #include "ui/kit/feature_knob.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/text.h"
@@ -16,7 +17,7 @@ namespace {
 double msATile(const planet::Planet& planet) {
     double seconds = 0;
     int blocks = 0;
-    for (const planet::PagingEvent& event : planet.pagingHistory()) {
+    for (const planet::PagingEvent& event : planet.inspect().pagingHistory()) {
         if (event.kind != planet::BlockKind::Normals || event.outcome != planet::PagingOutcome::Loaded)
             continue;
         seconds += event.readS;
@@ -26,16 +27,17 @@ double msATile(const planet::Planet& planet) {
 }
 
 void figures(const planet::Planet& planet) {
-    const planet::TileCounters& seen = planet.normalSelection().counters;
-    const planet::TilePagingCounters& paging = planet.normalPaging();
+    const planet::TileCounters& seen = planet.views()[0].normals.counters;
+    const planet::BlockCounters& paging = planet.paging()[planet::BlockKind::Normals];
     if (!beginValues("normals")) return;
-    valueRow("Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
+    valueRow("Tiles", fmt::format("{} of {}", paging.resident, paging.capacity),
              "Resident tiles and the number that fits into their share of the budget.");
     valueRow(
-        "Memory", bytesText(static_cast<double>(paging.tileCapacity * planet::normalTileBytes)),
+        "Memory", bytesText(static_cast<double>(paging.capacity * planet::normalTileBytes)),
         "GPU memory for that many tiles of 272 x 272 slopes, 4 bytes each. Nothing is stored in the file.");
     valueRow(
-        "Finest level", fmt::format("{} of {}", seen.deepestLevel, planet.normalLeafLevel()),
+        "Finest level",
+        fmt::format("{} of {}", seen.deepestLevel, planet::normalLeafLevel(planet.tree().storedShape)),
         "Finest level of the tiles in view, and of the heights; level l has 256 x 2^l cells along a face.");
     const double perTileMs = msATile(planet);
     valueRow("Time per tile", perTileMs > 0 ? millisecondsText(perTileMs) : "-",
@@ -47,10 +49,10 @@ void figures(const planet::Planet& planet) {
 
 // In place of the figures, where there are none.
 void whyNone(const EditorView& view) {
-    if (view.planet->normalLeafLevel() < 0) {
+    if (planet::normalLeafLevel(view.planet->tree().storedShape) < 0) {
         ImGui::TextDisabled("None: this planet's faces have fewer");
         ImGui::TextDisabled("than 256 cells; the mesh is enough.");
-    } else if (view.planet->normalsArePending()) {
+    } else if (view.planet->inspect().normalsArePending()) {
         ImGui::TextDisabled("Deriving the coarsest tiles;");
         ImGui::TextDisabled("mesh normals are drawn.");
     } else if (view.planet->pagingSettings().normals) {
@@ -81,7 +83,7 @@ void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& comma
     endGrey();
     endGrey();
     if (!view.planet) return;
-    if (view.planet->normalPaging().tileCapacity > 0)
+    if (view.planet->paging()[planet::BlockKind::Normals].capacity > 0)
         figures(*view.planet);
     else
         whyNone(view);

@@ -47,7 +47,7 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
         "Chunk id: face, level (0 is the whole face), and x and y from the face's south-west corner, each in "
         "[0, 2^level - 1]. Press Enter to select it.");
     if (entered) {
-        state.problem = chunkIdProblem(state.idText.data(), leafLevel(view.planet->shape()));
+        state.problem = chunkIdProblem(state.idText.data(), leafLevel(view.planet->tree().shape));
         if (state.problem.empty())
             commands.emplace_back(SelectChunk{planet::chunkIdFromString(state.idText.data())});
     }
@@ -116,7 +116,7 @@ std::string sizesText(std::initializer_list<double> sizesM) {
 }
 
 void placeRows(const EditorView& view, const ChunkExplanation& explanation, const ChunkNode* node) {
-    const planet::PlanetShape& shape = view.planet->shape();
+    const planet::PlanetShape& shape = view.planet->tree().shape;
     const ChunkId& id = explanation.id;
     if (!beginValues("place")) return;
     valueRow("Level", fmt::format("{} of {}", id.level, leafLevel(shape)),
@@ -200,7 +200,7 @@ void drawingRows(const EditorView& view, const ChunkExplanation& explanation, co
                  "Skirt depth towards the planet's centre.");
     }
     if (node) {
-        const double ageS = view.planet->seconds() - node->loadedAtS;
+        const double ageS = view.planet->lastStep().nowS - node->loadedAtS;
         valueRow("Loaded",
                  node->loadOrder == 0 ? std::string("with the planet")
                                       : fmt::format("{} ago, block {}", durationText(ageS), node->loadOrder),

@@ -136,7 +136,7 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
 }
 
 void chunkSizeKnob(const EditorView& view, Commands& commands) {
-    const int fileSize = planet::chunkSize(view.planet->shape());
+    const int fileSize = planet::chunkSize(view.planet->tree().shape);
     // What the user would like to have; 0 while that is what the file has.
     int* wanted = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wantedChunkSize"), 0);
     if (*wanted == fileSize) *wanted = 0;
@@ -213,7 +213,7 @@ void drawnValues(const EditorView& view, double tauPx) {
 void levelBars(const planet::Planet& planet) {
     std::array<int, planet::maxLevel + 1> chunks{};
     for (const planet::DrawItem& item : planet.selection().draw) ++chunks[item.id.level];
-    const double cells = planet::chunkCells(planet.shape());
+    const double cells = planet::chunkCells(planet.tree().shape);
     std::vector<Bar> bars;
     for (std::size_t level = 0; level < chunks.size(); ++level) {
         if (chunks[level] == 0) continue;

@@ -100,7 +100,7 @@ void errorHistogram(const planet::Planet& planet) {
         ImGui::TextDisabled("No chunks are drawn.");
         return;
     }
-    const double tauPx = planet.lodSettings().tauPx;
+    const double tauPx = planet.views()[0].input.lod.tauPx;
     const ErrorCounts errors = errorCounts(selection, tauPx);
     const std::array marks = {HistogramMark{0.5, fmt::format("{} {:.3g} px", tauSymbol(), tauPx)}};
     histogram("eps", errors.counts, "0 px", fmt::format("{:.3g} px and over", 2 * tauPx), marks, 4,

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "planet/planet_tools.h"
 #include "planet/select/screen_error.h"
 #include "ui/model/explanation_text.h"
 #include "ui/model/overlay_colours.h"
@@ -426,20 +427,20 @@ ChunkState missingChildrenState(const ChunkNode& node, std::span<const ChunkId> 
 
 std::vector<ChunkId> loadingParents(const planet::Planet& planet) {
     std::vector<ChunkId> parents;
-    for (const planet::LoadInProgress& load : planet.loadingNow()) parents.push_back(load.parent);
+    for (const planet::LoadInProgress& load : planet.inspect().loadingNow()) parents.push_back(load.parent);
     return parents;
 }
 
 NetData netDataOf(const planet::Planet& planet) {
-    const planet::View& lodView = planet.lodView();
+    const planet::View& lodView = planet.views()[0].input.lodView;
     return {.tree = planet.tree(),
             .visited = visitedStates(planet.tree(), planet.selection()),
             .loading = loadingParents(planet),
             .eyeM = lodView.eyeM,
             .screenScalePx = screenScalePx(lodView),
-            .tauPx = planet.lodSettings().tauPx,
-            .metric = planet.lodSettings().metric,
-            .nowS = planet.seconds()};
+            .tauPx = planet.views()[0].input.lod.tauPx,
+            .metric = planet.views()[0].input.lod.metric,
+            .nowS = planet.lastStep().nowS};
 }
 
 double epsPxOf(const NetData& data, const ChunkNode& node) {

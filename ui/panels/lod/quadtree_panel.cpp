@@ -47,8 +47,8 @@ Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, cons
                                  ColourBy::DeltaC, ColourBy::Age,   ColourBy::DeltaC};
     OverlaySettings asked = overlay;
     asked.colourBy = same[static_cast<std::size_t>(state.colourBy)];
-    Legend legend = legendOf(asked, view.planet->lodSettings().tauPx,
-                             static_cast<std::uint32_t>(leafLevel(view.planet->shape())));
+    Legend legend = legendOf(asked, view.planet->views()[0].input.lod.tauPx,
+                             static_cast<std::uint32_t>(leafLevel(view.planet->tree().shape)));
     if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // on delta_c's scale
     return legend;
 }
@@ -232,7 +232,7 @@ void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanel
     fillNetRects(data, placement, area, colouringOf(state, overlay), state.rects);
     drawRects(drawList, state.rects);
     faceNames(drawList, placement);
-    const double radiusM = view.planet->shape().radiusM;
+    const double radiusM = view.planet->tree().shape.radiusM;
     if (view.lodFrozen) drawCamera(drawList, placement, view.renderView, radiusM, palette().dim);
     drawCamera(drawList, placement, view.lodView, radiusM, {1, 1, 1, 1});
     if (view.focus.hovered)

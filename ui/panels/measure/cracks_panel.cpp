@@ -147,7 +147,8 @@ void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::d
               Commands& commands) {
     ImGui::TableNextColumn();
     const CrackMeasurement& measured = *view.cracks.measured;
-    inspectButton(measured.lodView, measured.view, finer, placeM, view.planet->shape().radiusM, commands);
+    inspectButton(measured.lodView, measured.view, finer, placeM, view.planet->tree().shape.radiusM,
+                  commands);
 }
 
 void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& commands) {

@@ -191,7 +191,7 @@ void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& c
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) commands.push_back(SelectChunk{chunk.id});
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         const planet::View& from = view.errors.last->lodView;
-        commands.push_back(inspectionOf(from, from, chunk.worstM, view.planet->shape().radiusM));
+        commands.push_back(inspectionOf(from, from, chunk.worstM, view.planet->tree().shape.radiusM));
     }
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(planet::toString(chunk.id).c_str());
@@ -237,7 +237,7 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
 
 void goToWorst(const ChunkError& chunk, const EditorView& view, Commands& commands) {
     const planet::View& from = view.errors.last->lodView;
-    inspectButton(from, from, chunk.id, chunk.worstM, view.planet->shape().radiusM, commands);
+    inspectButton(from, from, chunk.id, chunk.worstM, view.planet->tree().shape.radiusM, commands);
 }
 
 void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& commands) {

@@ -10,6 +10,7 @@
 
 #include "planet/base/percentile.h"
 #include "planet/paging/normal_tile.h"
+#include "planet/planet_tools.h"
 #include "planet/select/screen_error.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
@@ -82,9 +83,9 @@ void buttons(const EditorView& view, Commands& commands) {
                "show how the picture loads again."))
         commands.push_back(DropAll{});
     const planet::PagingCounters& p = view.stats.paging;
-    if (p.failedForGood + p.awaitingRetry == 0) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, p.failedForGood > 0 ? palette().bad : palette().warning);
-    const std::string label = fmt::format("Retry {} failed###retry", p.failedForGood + p.awaitingRetry);
+    if (p.failedForGood() + p.awaitingRetry() == 0) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, p.failedForGood() > 0 ? palette().bad : palette().warning);
+    const std::string label = fmt::format("Retry {} failed###retry", p.failedForGood() + p.awaitingRetry());
     const bool retry = ImGui::Button(label.c_str());
     noteItem("Retry failed");
     if (retry) commands.push_back(RetryFailed{});
@@ -95,7 +96,7 @@ void buttons(const EditorView& view, Commands& commands) {
 }
 
 bool hasNormals(const EditorView& view) {
-    return view.stats.normalPaging.tileCapacity > 0;
+    return view.stats.paging[planet::BlockKind::Normals].capacity > 0;
 }
 
 // Whether there is more than heights to tell apart.
@@ -108,17 +109,17 @@ std::size_t tileBytes(const planet::Planet& planet) {
 }
 
 void colourMemory(const EditorView& view) {
-    const planet::TilePagingCounters& p = view.stats.colourPaging;
+    const planet::BlockCounters& p = view.stats.paging[planet::BlockKind::Colours];
     const double bytes = static_cast<double>(tileBytes(*view.planet));
-    const double used = static_cast<double>(p.residentTiles) * bytes;
-    const double room = p.tileCapacity * bytes;
+    const double used = static_cast<double>(p.resident) * bytes;
+    const double room = p.capacity * bytes;
     usageBar(room > 0 ? used / room : 0, fmt::format("colours {} of {}", bytesText(used), bytesText(room)));
     const planet::PagingSettings& settings = view.planet->pagingSettings();
     tooltip(
         fmt::format(
             "Resident colour tiles and their share of the budget, all on the GPU: {} of {} tiles of {} each. "
             "The share, {:.2f}, is {}. It is limited to the number of tiles in the file and to {} tiles.",
-            p.residentTiles, p.tileCapacity, bytesText(bytes), settings.colourShare,
+            p.resident, p.capacity, bytesText(bytes), settings.colourShare,
             bytesText(settings.colourShare * static_cast<double>(settings.budgetBytes)),
             settings.maxColourTiles)
             .c_str());
@@ -130,14 +131,14 @@ void colourMemory(const EditorView& view) {
 }
 
 void normalMemory(const EditorView& view) {
-    const planet::TilePagingCounters& p = view.stats.normalPaging;
+    const planet::BlockCounters& p = view.stats.paging[planet::BlockKind::Normals];
     constexpr double bytes = planet::normalTileBytes;
-    const double used = static_cast<double>(p.residentTiles) * bytes;
-    const double room = p.tileCapacity * bytes;
+    const double used = static_cast<double>(p.resident) * bytes;
+    const double room = p.capacity * bytes;
     usageBar(used / room, fmt::format("normals {} of {}", bytesText(used), bytesText(room)));
     tooltip(fmt::format("Resident normal tiles and their share of the budget, all on the GPU: {} of {} tiles "
                         "of {} each. The Light panel sets the share.",
-                        p.residentTiles, p.tileCapacity, bytesText(bytes))
+                        p.resident, p.capacity, bytesText(bytes))
                 .c_str());
     if (p.budgetWaits > 0) {
         wrappedText(
@@ -158,12 +159,13 @@ void residentMemory(const EditorView& view) {
              fmt::format("{}{} of {}", hasKinds(view) ? "heights " : "", bytesText(used), bytesText(budget)));
     tooltip(fmt::format("Resident chunks and {}: {} chunks, {} on the CPU and {} on the GPU.",
                         hasKinds(view) ? "the budget minus the shares of colours and normals" : "the budget",
-                        countText(static_cast<double>(p.residentChunks)),
+                        countText(static_cast<double>(p[planet::BlockKind::Heights].resident)),
                         bytesText(static_cast<double>(p.residentBytesCpu)),
                         bytesText(static_cast<double>(p.residentBytesGpu)))
                 .c_str());
-    if (p.budgetWaits > 0) {
-        wrappedText(fmt::format("{} requested blocks do not fit into the budget.", countText(p.budgetWaits)),
+    if (p[planet::BlockKind::Heights].budgetWaits > 0) {
+        wrappedText(fmt::format("{} requested blocks do not fit into the budget.",
+                                countText(p[planet::BlockKind::Heights].budgetWaits)),
                     palette().warning);
     }
     if (hasColours) colourMemory(view);
@@ -181,8 +183,9 @@ std::string bytesCell(std::uint64_t value) {
 }
 
 void totalsByKind(const FrameStats& stats) {
-    const std::array kinds = {totalsOf("Heights", stats.paging), totalsOf("Colours", stats.colourPaging),
-                              totalsOf("Normals", stats.normalPaging)};
+    const std::array kinds = {totalsOf("Heights", stats.paging[planet::BlockKind::Heights]),
+                              totalsOf("Colours", stats.paging[planet::BlockKind::Colours]),
+                              totalsOf("Normals", stats.paging[planet::BlockKind::Normals])};
     constexpr std::array columns = {
         TableColumn{"Kind", 0.6f},
         TableColumn{"Loaded", 0.6f, "Blocks read and made resident."},
@@ -288,12 +291,12 @@ void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::
     std::vector<PagingRow>& queue = sample.queue;
     queue.clear();
     sample.hidden = 0;
-    sample.loads = planet.pendingRequests(planet::PagingType::PageIn).size();
-    sample.evictions = planet.pendingRequests(planet::PagingType::PageOut).size();
+    sample.loads = planet.inspect().pendingRequests(planet::PagingType::PageIn).size();
+    sample.evictions = planet.inspect().pendingRequests(planet::PagingType::PageOut).size();
     for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
-        const auto requests = shownView < 0
-                                  ? planet.pendingRequests(type)
-                                  : planet.pendingRequests(type, static_cast<std::size_t>(shownView));
+        const auto requests =
+            shownView < 0 ? planet.inspect().pendingRequests(type)
+                          : planet.inspect().pendingRequests(type, static_cast<std::size_t>(shownView));
         for (const planet::PagingRequest& request : requests) {
             if (sample.shownKind && request.kind != *sample.shownKind) {
                 ++sample.hidden;
@@ -315,7 +318,7 @@ bool isShown(planet::BlockKind kind, const std::optional<planet::BlockKind>& sho
 void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelState::Sample& sample) {
     std::vector<float> seconds;
     std::vector<float> positions;
-    for (const planet::PagingEvent& event : planet.pagingHistory()) {
+    for (const planet::PagingEvent& event : planet.inspect().pagingHistory()) {
         if (event.outcome != planet::PagingOutcome::Loaded) continue;
         if (!isShown(event.kind, sample.shownKind)) continue;
         const double s = ofReading ? event.readS : event.waitedS;
@@ -329,7 +332,7 @@ void sampleLatency(const planet::Planet& planet, bool ofReading, PagingPanelStat
 }
 
 void refresh(const EditorView& view, PagingPanelState& state) {
-    if (state.shownView >= static_cast<int>(view.planet->viewCount())) state.shownView = -1;
+    if (state.shownView >= static_cast<int>(view.planet->views().size())) state.shownView = -1;
     if (state.shownKind == planet::BlockKind::Colours && !view.planet->colour()) state.shownKind.reset();
     if (state.shownKind == planet::BlockKind::Normals && !hasNormals(view)) state.shownKind.reset();
     PagingPanelState::Sample& sample = state.sample;
@@ -346,7 +349,8 @@ void refresh(const EditorView& view, PagingPanelState& state) {
     sample.latencyOfReading = state.latencyOfReading;
     sample.failedShown = state.failedShown;
     sampleQueue(*view.planet, state.shownView, sample);
-    sample.failed = state.failedShown ? view.planet->failedBlocks() : std::vector<planet::FailedBlock>();
+    sample.failed =
+        state.failedShown ? view.planet->inspect().failedBlocks() : std::vector<planet::FailedBlock>();
     sortFailed(sample.failed);
     sampleLatency(*view.planet, state.latencyOfReading, sample);
 }
@@ -366,13 +370,13 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
     if (index == planet::noNode) return "parent evicted";
     const std::size_t v =
-        shownView >= 0 ? static_cast<std::size_t>(shownView) : wantingView(row.views, planet.viewCount());
+        shownView >= 0 ? static_cast<std::size_t>(shownView) : wantingView(row.views, planet.views().size());
     const planet::ChunkNode& node = planet.tree().nodes[index];
-    const planet::View& lodView = planet.lodView(v);
-    const planet::LodSettings& lod = planet.lodSettings(v);
+    const planet::View& lodView = planet.views()[v].input.lodView;
+    const planet::LodSettings& lod = planet.views()[v].input.lod;
     const double epsPx = planet::epsPxOf(node, lodView.eyeM, planet::screenScalePx(lodView), lod.metric);
     std::string text = pageInReason(epsPx, lod.tauPx, lod.hysteresis, epsSymbol(), tauSymbol());
-    if (planet.viewCount() > 1) text += fmt::format(", view {}", v + 1);
+    if (planet.views().size() > 1) text += fmt::format(", view {}", v + 1);
     return text;
 }
 
@@ -434,13 +438,13 @@ void queueFilter(const EditorView& view, PagingPanelState& state) {
         "Eviction candidates: unused blocks, least recently used first. They stay resident until their "
         "memory is needed. Tiles are not listed; they are evicted directly when memory is needed.");
     kindFilter(view, state);
-    if (view.planet->viewCount() < 2) return;
+    if (view.planet->views().size() < 2) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     int index = state.shownView + 1;
     const std::array<const char*, planet::maxViews + 1> names = {"all views", "view 1", "view 2", "view 3",
                                                                  "view 4"};
-    if (ImGui::Combo("##view", &index, names.data(), static_cast<int>(view.planet->viewCount()) + 1))
+    if (ImGui::Combo("##view", &index, names.data(), static_cast<int>(view.planet->views().size()) + 1))
         state.shownView = index - 1;
     tooltip("Shows the requests of one view; each view requests blocks with its own priorities.");
 }
@@ -459,12 +463,12 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
     if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No requests of this kind.";
     const planet::PagingCounters& p = view.stats.paging;
-    if (p.awaitingRetry > 0)
+    if (p.awaitingRetry() > 0)
         return "The queue is empty: missing blocks could not be read and will be retried.";
-    if (p.failedForGood > 0) return "The queue is empty: missing blocks could not be read.";
+    if (p.failedForGood() > 0) return "The queue is empty: missing blocks could not be read.";
     const bool waiting = view.stats.selection.waiting > 0 ||
-                         view.planet->colourSelection().counters.waiting > 0 ||
-                         view.planet->normalSelection().counters.waiting > 0;
+                         view.planet->views()[0].colours.counters.waiting > 0 ||
+                         view.planet->views()[0].normals.counters.waiting > 0;
     return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
 }
 
@@ -480,7 +484,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     const std::vector<TableColumn> shown = withKind(view, columns, 1);
     if (!beginWideTable("queue", shown)) return;
     const auto ageOf = [&](const PagingRow& row) {
-        return std::max(view.planet->seconds() - row.askedAtS, 0.0);
+        return std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
     };
     const auto key = [&](std::size_t at, std::size_t column) -> SortKey {
         const PagingRow& row = queue[at];
@@ -512,7 +516,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
 }
 
 void loadingTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
-    std::vector<planet::LoadInProgress> loading = view.planet->loadingNow();
+    std::vector<planet::LoadInProgress> loading = view.planet->inspect().loadingNow();
     const bool any = !loading.empty();
     std::erase_if(loading, [&](const auto& load) { return !isShown(load.kind, state.shownKind); });
     kindFilter(view, state, false);
@@ -610,12 +614,12 @@ void historyRow(const EditorView& view, const planet::PagingEvent& event, Comman
     cell(read ? latencyText(event.readS) : "");
     cell(read ? bytesText(event.bytes) : "");
     cell(fmt::format("{}x", event.timesAsked));
-    cell(fmt::format("{} ago", latencyText(std::max(view.planet->seconds() - event.atS, 0.0))));
+    cell(fmt::format("{} ago", latencyText(std::max(view.planet->lastStep().nowS - event.atS, 0.0))));
 }
 
 void historyTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
     historyFilter(view, state);
-    const std::deque<planet::PagingEvent>& history = view.planet->pagingHistory();
+    const std::deque<planet::PagingEvent>& history = view.planet->inspect().pagingHistory();
     std::vector<const planet::PagingEvent*> shown;
     shown.reserve(history.size());
     for (auto event = history.rbegin(); event != history.rend(); ++event)
@@ -691,17 +695,17 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     linePlot("queueLength", times, queue, "", 0, lines);
     constexpr double windowS = 0.5;
     const auto read = historyValues<double>(
-        view.history, [](const FrameStats& s) { return static_cast<double>(bytesReadOf(s)) / 1e6; });
+        view.history, [](const FrameStats& s) { return static_cast<double>(s.paging.bytesRead()) / 1e6; });
     std::vector<Series> rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
     if (view.planet->colour()) {
         const auto colours = historyValues<double>(view.history, [](const FrameStats& s) {
-            return static_cast<double>(s.colourPaging.bytesRead) / 1e6;
+            return static_cast<double>(s.paging[planet::BlockKind::Colours].bytesRead) / 1e6;
         });
         rate.push_back({"colours", seriesColour(3), growthPerS(times, colours, windowS)});
     }
     if (hasNormals(view)) {
         const auto normals = historyValues<double>(view.history, [](const FrameStats& s) {
-            return static_cast<double>(s.normalPaging.bytesRead) / 1e6;
+            return static_cast<double>(s.paging[planet::BlockKind::Normals].bytesRead) / 1e6;
         });
         rate.push_back({"normals", seriesColour(4), growthPerS(times, normals, windowS)});
     }
@@ -718,8 +722,8 @@ void pagingControls(const EditorView& view, ViewSettings& settings, Commands& co
 // Beside those that are read or to be read; its name says that there are any.
 void failedTab(const EditorView& view, PagingPanelState& state, Commands& commands) {
     const planet::PagingCounters& p = view.stats.paging;
-    const std::uint32_t failed = p.failedForGood + p.awaitingRetry;
-    const ImVec4 colour = p.failedForGood > 0 ? palette().bad : palette().warning;
+    const std::uint32_t failed = p.failedForGood() + p.awaitingRetry();
+    const ImVec4 colour = p.failedForGood() > 0 ? palette().bad : palette().warning;
     if (failed > 0) ImGui::PushStyleColor(ImGuiCol_Text, colour);
     const bool open = ImGui::BeginTabItem(fmt::format("Failed {}###failed", failed).c_str());
     if (failed > 0) ImGui::PopStyleColor();

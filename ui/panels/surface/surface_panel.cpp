@@ -109,10 +109,10 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     endGrey();
     const std::string& problem = view.stats.clipmap.problem;
     if (!problem.empty()) wrappedText(problem, palette().warning);
-    const planet::TileCounters& seen = view.planet->colourSelection().counters;
-    const planet::TilePagingCounters& paging = view.planet->colourPaging();
+    const planet::TileCounters& seen = view.planet->views()[0].colours.counters;
+    const planet::BlockCounters& paging = view.planet->paging()[planet::BlockKind::Colours];
     if (!beginValues("streamed")) return;
-    valueRow("Tiles", fmt::format("{} of {}", paging.residentTiles, paging.tileCapacity),
+    valueRow("Tiles", fmt::format("{} of {}", paging.resident, paging.capacity),
              "Resident tiles and the number that fits into the colour share of the budget (Paging panel).");
     valueRow("Finest level", fmt::format("{} of {}", seen.deepestLevel, view.planet->colour()->leafLevel),
              "Finest level of the tiles in view, and of the file.");

@@ -77,7 +77,7 @@ TauList tausControl(SweepPanelState& state) {
 
 // Why a size cannot be swept; empty: it can.
 std::string sizeProblem(const EditorView& view, int size) {
-    const planet::PlanetShape& shape = view.planet->shape();
+    const planet::PlanetShape& shape = view.planet->tree().shape;
     if (size == planet::chunkSize(shape)) return {};
     if (!view.bake.canBake)
         return "The source of this file is unknown or missing, so only its own chunk size can be swept. Open "
@@ -98,7 +98,7 @@ void beginBoxes(const char* label, const char* explanation) {
 }
 
 std::vector<int> chunksControl(const EditorView& view, SweepPanelState& state) {
-    const int own = planet::chunkSize(view.planet->shape());
+    const int own = planet::chunkSize(view.planet->tree().shape);
     if (!state.chunks) {
         state.chunks.emplace();
         for (std::size_t i = 0; i < planet::chunkSizes.size(); ++i)
@@ -335,7 +335,7 @@ void useButton(const SweepTable& table, const EditorView& view, const SweepPanel
                ViewSettings& settings, Commands& commands) {
     const SweepPoint* point = state.selected ? &table.points[*state.selected] : nullptr;
     const bool samePlanet = table.source == view.data.source;
-    const bool otherSize = point && point->chunkSize != planet::chunkSize(view.planet->shape());
+    const bool otherSize = point && point->chunkSize != planet::chunkSize(view.planet->tree().shape);
     beginGrey(
         !point || view.recording.replay.has_value(),
         point ? "Settings are locked during a replay; end it first." : "Select a point or a row first.");

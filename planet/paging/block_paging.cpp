@@ -1,0 +1,174 @@
+#include "planet/paging/block_paging.h"
+
+#include <cassert>
+#include <utility>
+
+namespace planet {
+
+void BlockPaging::renew(PagingQueue& queue, const std::vector<MergedRequest>& wanted,
+                        const PagingRun& run) const {
+    for (const MergedRequest& one : wanted) {
+        if (!queue.find({one.parentId, kind_})) continue;
+        queue.submit({.parent = one.parentId,
+                      .kind = kind_,
+                      .priority = one.priority,
+                      .renewedFrame = run.frame,
+                      .viewPriority = one.viewPriority});
+    }
+}
+
+void BlockPaging::request(PagingQueue& queue, const MergedRequests& requests, PagingRun& run) {
+    counters_.budgetWaits = 0;
+    failures_.beginStep();
+    beginRequests();
+    for (const MergedRequest& one : requests.wanted) {
+        if (!failures_.mayAsk(one.parentId, stateOf(one.parent), run.sinceAnewS)) continue;
+        if (!reserveRoom(queue, one, requests.splits, run)) {
+            ++counters_.budgetWaits;
+            continue;
+        }
+        changeState(stateOf(one.parent), ChildrenState::Requested);
+        if (failures_.isForGood(one.parentId)) {
+            --reserved_;
+            addStandIn(one.parent, run);
+            continue;
+        }
+        PagingRequest request{.parent = one.parentId,
+                              .kind = kind_,
+                              .priority = one.priority,
+                              .renewedFrame = run.frame,
+                              .askedAtS = run.nowS,
+                              .viewPriority = one.viewPriority,
+                              .ticket = run.nextTicket++};
+        describe(one.parent, request);
+        if (run.log.keepsMoves) run.log.moves.requested.push_back(request.block());
+        queue.submit(std::move(request));
+    }
+}
+
+// Free slots first, then those of a block that may be evicted, then those reserved for a page-in that is
+// wanted less.
+bool BlockPaging::reserveRoom(PagingQueue& queue, const MergedRequest& wanted,
+                              const std::vector<MergedRequest>& splits, PagingRun& run) {
+    if (free_.size() <= reserved_ && !makeRoom(queue, wanted, splits, run)) {
+        const PagingRequest* least = queue.worst(PagingType::PageIn, kind_);
+        if (!least || least->priority >= static_cast<double>(wanted.priority)) return false;
+        withdraw(*queue.cancel(least->block()), run);
+    }
+    ++reserved_;
+    return true;
+}
+
+void BlockPaging::withdraw(const PagingRequest& cancelled, PagingRun& run) {
+    const NodeIndex parent = find(cancelled.parent);
+    assert(parent != noNode && reserved_ > 0);
+    changeState(stateOf(parent), ChildrenState::Absent);
+    --reserved_;
+    run.log.ended(cancelled, PagingOutcome::Cancelled, run.nowS);
+}
+
+void BlockPaging::finish(FinishedLoad&& load, PagingRun& run, const UploadChunk& upload) {
+    counters_.bytesRead += load.bytes;
+    if (!isKept(load.request)) return run.log.arrived(load, PagingOutcome::Cancelled, run.nowS);
+    // Still resident: a node above a block that is being loaded is only dropped if the load is discarded.
+    const NodeIndex parent = find(load.request.parent);
+    assert(parent != noNode && stateOf(parent) == ChildrenState::Requested && reserved_ > 0);
+    --reserved_;
+    if (!load.block) return fail(parent, load, std::move(load.block.error()), run);
+    if (auto checked = check(parent, *load.block); !checked)
+        return fail(parent, load, std::move(checked.error()), run);
+    failures_.forget(load.request.parent);
+    addResident(parent, *std::move(load.block), run, upload);
+    ++counters_.loaded;
+    run.log.arrived(load, PagingOutcome::Loaded, run.nowS);
+}
+
+// A block that will be retried is not worth a line in a log yet.
+void BlockPaging::fail(NodeIndex parent, const FinishedLoad& load, Error error, PagingRun& run) {
+    ++counters_.failed;
+    const bool badData = error.kind == ErrorKind::BadInput;
+    const bool forGood = failures_.failed(load.request.parent, std::move(error), run.sinceAnewS, run.retry);
+    if (forGood && hasStandIn())
+        addStandIn(parent, run);
+    else
+        changeState(stateOf(parent), forGood ? ChildrenState::Failed : ChildrenState::AwaitingRetry);
+    if (forGood) run.log.report(failures_.messageOf(load.request.parent));
+    run.log.arrived(load, PagingOutcome::Failed, run.nowS, badData);
+}
+
+void BlockPaging::discardRequests(PagingQueue& queue, PagingRun& run) {
+    while (const PagingRequest* pending = queue.worst(PagingType::PageIn, kind_))
+        withdraw(*queue.cancel(pending->block()), run);
+    discardReads(run);
+}
+
+void BlockPaging::discardReads(const PagingRun& run) {
+    for (NodeIndex i = 0; i < nodeCount(); ++i) {
+        if (stateOf(i) == ChildrenState::Requested) changeState(stateOf(i), ChildrenState::Absent);
+    }
+    oldestTicketKept_ = run.nextTicket;
+    reserved_ = 0;
+}
+
+void BlockPaging::startAnew(PagingRun& run) {
+    failures_.clear();
+    reserved_ = 0;
+    if (isOn()) reset(run);
+    oldestTicketKept_ = run.nextTicket;
+    counters_.budgetWaits = 0;
+}
+
+void BlockPaging::retry(NodeIndex parent) {
+    dropStandIn(parent);
+    ChildrenState& state = stateOf(parent);
+    if (state == ChildrenState::Failed || state == ChildrenState::AwaitingRetry)
+        changeState(state, ChildrenState::Absent);
+}
+
+void BlockPaging::retryAll() {
+    failures_.clear();
+    for (NodeIndex i = 0; i < nodeCount(); ++i) retry(i);
+}
+
+void BlockPaging::retryOne(const ChunkId& parent) {
+    failures_.forget(parent);
+    if (!isOn()) return;
+    if (const NodeIndex node = find(parent); node != noNode) retry(node);
+}
+
+void BlockPaging::count() {
+    counters_.failedForGood = static_cast<std::uint32_t>(failures_.countForGood());
+    counters_.awaitingRetry = static_cast<std::uint32_t>(failures_.count() - failures_.countForGood());
+    counters_.resident = residentCount();
+    counters_.capacity = capacity_;
+}
+
+void BlockPaging::resetSlots(std::uint32_t capacity, std::uint32_t firstFree) {
+    capacity_ = capacity;
+    free_.clear();
+    for (std::uint32_t end = capacity; end > firstFree; end -= quadrantCount)
+        free_.push_back(end - quadrantCount);
+    assert(free_.size() >= reserved_);
+}
+
+std::uint32_t BlockPaging::takeSlots() {
+    assert(!free_.empty());
+    const std::uint32_t first = free_.back();
+    free_.pop_back();
+    return first;
+}
+
+void BlockPaging::recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const {
+    if (state != ChildrenState::Absent) return;
+    const ChildrenState known = failures_.stateAt(id, sinceAnewS);
+    // Blocks with a stand-in are requested again, so that they get it once there is room.
+    if (known == ChildrenState::AwaitingRetry || (known == ChildrenState::Failed && !hasStandIn()))
+        changeState(state, known);
+}
+
+void BlockPaging::noteEviction(const PagingRequest& request, bool wasLoaded, PagingRun& run) {
+    if (wasLoaded) ++counters_.evicted;
+    run.log.ended(request, PagingOutcome::Evicted, run.nowS);
+}
+
+}  // namespace planet

@@ -1,0 +1,265 @@
+#include "planet/paging/chunk_paging.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace planet {
+
+namespace {
+
+// A few per frame, since what yields is drawn coarser at once.
+constexpr std::size_t yieldsPerFrame = 8;
+
+constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any
+
+}  // namespace
+
+Error namingFile(const ChunkFile* file, Error error) {
+    if (file) error.message = fmt::format("{}: {}; bake it again", file->name(), error.message);
+    return error;
+}
+
+Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::size_t budgetBytes) {
+    const std::size_t bytes = chunkBytesCpu(shape) + chunkBytesGpu(shape);
+    const std::size_t wanted = faceCount + 4 * quadrantCount * static_cast<std::size_t>(leafLevel(shape));
+    const std::size_t least = std::min<std::uint64_t>(wanted, chunkCountOf(shape));
+    if (budgetBytes < least * bytes) {
+        return badInput(fmt::format("budget too small for this planet: {} bytes; expected at least {}",
+                                    budgetBytes, least * bytes));
+    }
+    constexpr std::uint64_t most = std::uint64_t{1} << 31;
+    const std::uint64_t slots = std::min({std::uint64_t{budgetBytes / bytes}, chunkCountOf(shape), most});
+    return static_cast<std::uint32_t>(slots - (slots - faceCount) % quadrantCount);
+}
+
+ChunkPaging::ChunkPaging(ChunkTree&& chunks, std::uint32_t capacity, std::shared_ptr<const ChunkFile> file)
+    : BlockPaging(BlockKind::Heights), tree(std::move(chunks)), file_(std::move(file)) {
+    resetSlots(capacity, faceCount);
+}
+
+void ChunkPaging::describe(NodeIndex parent, PagingRequest& request) const {
+    request.location = tree.nodes[parent].children;
+    request.parentHeights = tree.nodes[parent].heights;
+}
+
+Result<void> ChunkPaging::check(NodeIndex parent, const LoadedBlock& block) const {
+    auto checked = checkChildren(tree, parent, std::get<SiblingBlock>(block));
+    if (!checked) return tl::unexpected(namingFile(file_.get(), std::move(checked.error())));
+    return {};
+}
+
+void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
+                              const UploadChunk& upload) {
+    SiblingBlock& children = std::get<SiblingBlock>(block);
+    std::array<std::uint32_t, quadrantCount> slots{};
+    for (std::uint32_t slot = takeSlots(); std::uint32_t & of : slots) of = slot++;
+    for (std::size_t q = 0; q < quadrantCount; ++q) upload(slots[q], children[q].heights);
+    const NodeIndex first = addChildren(tree, parent, std::move(children), slots);
+    ++blocksLoaded_;
+    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
+        ChunkNode& node = tree.nodes[child];
+        // As if used by the frame that asked for it, in case this one no longer does.
+        node.lastUsedFrame = run.frame - 1;
+        node.loadedAtS = run.nowS;
+        node.loadOrder = blocksLoaded_;
+        recallFailure(node.id, node.childrenState, run.sinceAnewS);
+    }
+    watched_.push_back(first);
+}
+
+void ChunkPaging::use(PagingQueue& queue, NodeIndex index, PagingRun& run) {
+    ChunkNode& node = tree.nodes[index];
+    if (node.lastUsedFrame == run.frame) return;  // by a view before
+    ++usedChunks_;
+    const bool wasOutOfUse = std::exchange(node.lastUsedFrame, run.frame) + 1 < run.frame;
+    if (node.parent == noNode || quadrantOf(node.id) != 0) return;
+    watched_.push_back(index);
+    if (!wasOutOfUse) return;
+    // Wanted after all: the two requests cancel each other.
+    const ChunkId parentId = parentOf(node.id);
+    if (const PagingRequest* pageOut = queue.find(parentId)) {
+        run.log.ended(*pageOut, PagingOutcome::Cancelled, run.nowS);
+        queue.submit({.parent = parentId, .type = PagingType::PageIn, .renewedFrame = run.frame});
+    }
+}
+
+void ChunkPaging::markUsed(PagingQueue& queue, std::span<const Selection* const> views, PagingRun& run) {
+    const std::vector<NodeIndex> before = std::exchange(watched_, {});
+    usedChunks_ = 0;
+    for (const Selection* view : views) {
+        for (const VisitedNode& visited : view->touched) use(queue, visited.node, run);
+        // The children that will be drawn once a fade lets them.
+        for (const DrawItem& item : view->draw) {
+            for (NodeIndex q = 0; item.splitWaits && q < quadrantCount; ++q)
+                use(queue, tree.nodes[item.node].firstChild + q, run);
+        }
+    }
+    for (const NodeIndex index : before) {
+        const ChunkNode& node = tree.nodes[index];
+        if (node.lastUsedFrame == run.frame) continue;
+        const double priority = node.id.level / 32.0 - static_cast<double>(node.lastUsedFrame);
+        queue.submit({.parent = parentOf(node.id),
+                      .type = PagingType::PageOut,
+                      .priority = priority,
+                      .renewedFrame = run.frame,
+                      .askedAtS = run.nowS});
+    }
+}
+
+// The block that is out of use longest.
+bool ChunkPaging::makeRoom(PagingQueue& queue, const MergedRequest&, const std::vector<MergedRequest>&,
+                           PagingRun& run) {
+    while (const PagingRequest* oldest = queue.best(PagingType::PageOut)) {
+        const NodeIndex parent = findNode(tree, oldest->parent);
+        const NodeIndex first = tree.nodes[parent].firstChild;
+        if (tree.nodes[first].lastUsedFrame + framesKept >= run.frame) return false;
+        if (isBottom(tree, first)) {
+            evict(queue, parent, run);
+            return true;
+        }
+        queue.popBest(PagingType::PageOut);
+        watched_.push_back(first);
+    }
+    return false;
+}
+
+// Also ends the page-out that may be pending. Leaves what is watched as it is.
+void ChunkPaging::evict(PagingQueue& queue, NodeIndex parent, PagingRun& run) {
+    PagingRequest request{.parent = tree.nodes[parent].id, .type = PagingType::PageOut, .askedAtS = run.nowS};
+    if (auto pending = queue.pop(request.parent)) request = std::move(*pending);
+    assert(request.type == PagingType::PageOut);
+    freeSlots(tree.nodes[tree.nodes[parent].firstChild].slot);
+    removeChildren(tree, parent);
+    noteEviction(request, true, run);
+}
+
+// A block that several views split is worth what it is worth to the one that wants it most.
+void ChunkPaging::chooseYielding(const MergedRequests& requests) {
+    std::vector<MergedRequest> least = requests.splits;
+    std::erase_if(least, [&](const MergedRequest& split) {
+        return !isBottom(tree, tree.nodes[split.parent].firstChild);
+    });
+    std::sort(least.begin(), least.end(), [](const MergedRequest& a, const MergedRequest& b) {
+        return a.priority != b.priority ? a.priority < b.priority : a.parentId < b.parentId;
+    });
+    for (const MergedRequest& one : requests.wanted) {
+        if (tree.nodes[one.parent].childrenState != ChildrenState::Absent) continue;
+        const std::size_t next = yielding_.size();
+        if (next == std::min(least.size(), yieldsPerFrame)) return;
+        if (one.priority <= yieldFactor * least[next].priority) return;
+        yielding_.push_back(least[next].parentId);
+    }
+}
+
+void ChunkPaging::dropYielding(PagingQueue& queue, PagingRun& run) {
+    for (const ChunkId& parentId : yielding_) evict(queue, findNode(tree, parentId), run);
+    cancelYielding();
+}
+
+void ChunkPaging::cancelYielding() {
+    yielding_.clear();
+    forgetGone();
+}
+
+bool ChunkPaging::roomIsComing() const {
+    return counters().budgetWaits > 0 && (tree.residentChunks > usedChunks_ || isYielding());
+}
+
+// A freed node has no parent, and only roots have none else, which are never watched.
+void ChunkPaging::forgetGone() {
+    std::erase_if(watched_, [&](NodeIndex index) { return tree.nodes[index].parent == noNode; });
+}
+
+bool ChunkPaging::isOver(std::size_t blocks) const {
+    return (tree.residentChunks - faceCount) / quadrantCount + reserved() > blocks;
+}
+
+// Drops blocks last used before a frame until there are few enough or no more such blocks: least recently
+// used first, of those the deepest. In rounds, since dropping a block can free the one above it.
+void ChunkPaging::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore,
+                                 PagingRun& run) {
+    if (!isOver(blocks)) return;
+    struct Candidate {
+        NodeIndex parent;
+        std::uint64_t lastUsedFrame;
+        std::uint8_t level;
+    };
+    std::vector<Candidate> candidates;
+    forEachNode(tree, [&](NodeIndex index, const ChunkNode& node) {
+        if (node.childrenState != ChildrenState::Resident) return;
+        const std::uint64_t lastUsedFrame = tree.nodes[node.firstChild].lastUsedFrame;
+        if (lastUsedFrame < usedBefore) candidates.push_back({index, lastUsedFrame, node.id.level});
+    });
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.lastUsedFrame != b.lastUsedFrame ? a.lastUsedFrame < b.lastUsedFrame : a.level > b.level;
+    });
+    bool dropped = true;
+    while (dropped) {
+        dropped = false;
+        for (const Candidate& candidate : candidates) {
+            if (!isOver(blocks)) return;
+            const ChunkNode& node = tree.nodes[candidate.parent];
+            if (node.childrenState != ChildrenState::Resident || !isBottom(tree, node.firstChild)) continue;
+            evict(queue, candidate.parent, run);
+            dropped = true;
+        }
+    }
+}
+
+// Blocks that no view uses go first, then the requests that are wanted least, then the least recently used
+// blocks. Where even those are held up by reads of the blocks below them, those reads are discarded.
+void ChunkPaging::resize(PagingQueue& queue, std::uint32_t capacity, PagingRun& run) {
+    const std::size_t blocks = (capacity - faceCount) / quadrantCount;
+    evictLeastUsed(queue, blocks, run.frame, run);
+    while (isOver(blocks)) {
+        const PagingRequest* least = queue.worst(PagingType::PageIn, BlockKind::Heights);
+        if (!least) break;
+        withdraw(*queue.cancel(least->block()), run);
+    }
+    evictLeastUsed(queue, blocks, noFrame, run);
+    if (isOver(blocks)) {
+        discardReads(run);
+        evictLeastUsed(queue, blocks, noFrame, run);
+        assert(!isOver(blocks));
+    }
+    renumber(capacity);
+}
+
+// The lowest slots, in the order of the tree.
+void ChunkPaging::renumber(std::uint32_t capacity) {
+    std::uint32_t next = faceCount;
+    forEachNode(tree, [&](NodeIndex, const ChunkNode& node) {
+        if (node.childrenState != ChildrenState::Resident) return;
+        for (NodeIndex q = 0; q < quadrantCount; ++q) tree.nodes[node.firstChild + q].slot = next++;
+    });
+    resetSlots(capacity, next);
+}
+
+void ChunkPaging::dropAll(PagingQueue& queue, PagingRun& run) {
+    discardReads(run);
+    evictLeastUsed(queue, 0, noFrame, run);
+}
+
+void ChunkPaging::reset(PagingRun&) {
+    counters().evicted += (tree.residentChunks - faceCount) / quadrantCount;
+    tree.nodes.resize(faceCount);
+    tree.freeGroups.clear();
+    tree.residentChunks = faceCount;
+    for (ChunkNode& root : tree.nodes) {
+        if (root.childrenState != ChildrenState::None && root.childrenState != ChildrenState::Absent)
+            changeState(root.childrenState, ChildrenState::Absent);
+        root.firstChild = noNode;
+        root.lastUsedFrame = 0;
+    }
+    resetSlots(capacity(), faceCount);
+    watched_.clear();
+    yielding_.clear();
+    usedChunks_ = 0;
+}
+
+}  // namespace planet
