@@ -1,4 +1,5 @@
-// The facade of the runtime: an open chunk file, its resident tree and its loader threads, stepped once a frame.
+// The facade of the runtime: an open chunk file, its resident tree and its loader threads, stepped once per
+// frame.
 //
 //     auto planet = Planet::open("earth.chk", {}).value();
 //     for (;;) {
@@ -6,8 +7,8 @@
 //         renderer.draw(view, planet->selection().draw, renderSettings);
 //     }
 //
-// Make all calls from one thread; the loader threads are the planet's own. planet_tools.h has what an editor, a
-// test or a recording needs beyond this.
+// Make all calls from one thread; the loader threads are the planet's own. planet_tools.h has what an editor,
+// a test or a recording needs beyond this.
 #pragma once
 
 #include <cstddef>

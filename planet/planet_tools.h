@@ -1,6 +1,6 @@
-// What an editor, a test or a recording does with a Planet beyond drawing it: it looks into the paging, repeats
-// it, and records and replays it. Both classes are handles, valid as long as the planet; use them from the
-// thread that steps it.
+// What an editor, a test or a recording does with a Planet beyond drawing it: it looks into the paging,
+// repeats it, and records and replays it. Both classes are handles, valid as long as the planet; use them
+// from the thread that steps it.
 #pragma once
 
 #include <cstddef>

@@ -132,7 +132,7 @@ std::vector<std::uint32_t> gridIndices(std::size_t chunks, std::uint32_t cells) 
 
 Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const ui::ViewSettings& settings) {
     const planet::Selection& selection = scene.planet->selection();
-    const Result<std::vector<glm::vec3>> positions = scene.renderer.readVertexPositions(
+    const Result<std::vector<glm::vec3>> positions = scene.renderer.chunks().readVertexPositions(
         view, selection.draw, renderSettingsOf(settings, view, scene.planet->tree()));
     if (!positions) return tl::unexpected(positions.error());
     Result<planet::gl::Program> program =
@@ -149,7 +149,7 @@ Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const 
                     planet::gl::makeBuffer(),
                     planet::gl::makeBuffer(),
                     static_cast<GLsizei>(indices.size()),
-                    scene.renderer.capabilities().reversedZ};
+                    scene.renderer.chunks().capabilities().reversedZ};
     glBindVertexArray(mesh.array.name());
     glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.name());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(positions->size() * sizeof(glm::vec3)),
@@ -277,7 +277,7 @@ BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOption
     drawFrame(*dynamic, view);
     const Result<StaticMesh> mesh = makeStaticMesh(dynamic->scene, view, settings);
     if (!mesh) return tl::unexpected(mesh.error());
-    const planet::gl::Projection projection = dynamic->scene.renderer.projection();
+    const planet::gl::Projection projection = dynamic->scene.renderer.chunks().projection();
     const std::array<std::function<void()>, 2> frames = {[&] { drawFrame(*dynamic, view); },
                                                          [&] { drawStatic(*mesh, view, projection); }};
     for (const auto& frame : frames) frame();

@@ -12,7 +12,7 @@ namespace {
 constexpr double everyS = 1;
 
 void add(const Scene& scene, ui::Allocations& held) {
-    held.gpu += scene.renderer.gpuMemory();
+    held.gpu += scene.renderer.chunks().gpuMemory();
     const planet::Planet& planet = *scene.planet;
     ++held.planets;
     held.chunks += planet.paging()[planet::BlockKind::Heights].resident;

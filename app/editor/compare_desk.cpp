@@ -296,7 +296,7 @@ void drawCompared(CompareDesk& desk, Viewport& viewport, const ui::ViewSettings&
     viewport.main.instead = &*desk.mixed;
     viewport.main.mix = mix;
     desk.difference.reset();
-    if (!counting || desk.other->planet.scene.renderer.counters().standIn) return;
+    if (!counting || desk.other->planet.scene.renderer.chunks().counters().standIn) return;
     const planet::gl::PictureDifference counted =
         desk.comparer->count(pictureA, pictureB, a.widthPx(), a.heightPx());
     desk.difference = {counted.pixels,

@@ -117,8 +117,8 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
     view.light.costs = editor.costs.costs;
     view.light.measured = editor.costs.meter ? editor.costs.meter->share() : 1;
     if (scene) view.light.turnedDown = scene->turnedDown;
-    view.light.software = scene && scene->renderer.capabilities().software;
-    if (scene) view.light.air = scene->renderer.airFigures();
+    view.light.software = scene && scene->renderer.chunks().capabilities().software;
+    if (scene) view.light.air = scene->renderer.chunks().airFigures();
     view.allocations = editor.allocations;
     view.undoName = editor.undo.undoName();
     view.redoName = editor.undo.redoName();

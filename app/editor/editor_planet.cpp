@@ -247,7 +247,8 @@ void probe(const Scene& scene, Editor& editor) {
     if (!isShown(editor, ui::PanelId::Probe)) return;
     const PlanetPicture& picture = editor.viewport.main;
     const planet::Planet& planet = *scene.planet;
-    const ProbeInput input{planet.tree(), planet.selection(), picture.view, scene.renderer.projection(),
+    const ProbeInput input{planet.tree(), planet.selection(), picture.view,
+                           scene.renderer.chunks().projection(),
                            editor.settings.view.seams.mode == planet::SeamMode::Stitched};
     editor.probe.overGround = false;
     if (picture.shown() && picture.pointer.over) {
@@ -263,7 +264,7 @@ void probe(const Scene& scene, Editor& editor) {
 
 // While nothing else is drawn for measuring.
 void watchCosts(Scene& scene, const Editor& editor, Log& log) {
-    if (scene.renderer.capabilities().software || editor.costs.meter) return;
+    if (scene.renderer.chunks().capabilities().software || editor.costs.meter) return;
     const planet::gl::RenderCounters& drawn = scene.drawn;
     const double gpuMs = drawn.chunksMs + drawn.skyMs + drawn.shadowsMs;
     if (ui::watchPicture(scene.turnedDown, editor.settings.view.surface, gpuMs, editor.timeS))

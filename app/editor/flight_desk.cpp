@@ -249,7 +249,7 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
     }
     if (!running.seek && running.controls.playing) running.playedS += seconds * running.controls.speed;
     const ReplayedPlanet replayed{
-        *scene.planet, uploadInto(scene),
+        *scene.planet, scene.renderer.upload(),
         [&](const ui::ViewSettings& settings, bool pagingPaused, planet::PagingTime time) {
             watcher.changed(settings, pagingPaused);
             return applyLiveSettings(scene, settings, pagingPaused, time);

@@ -48,7 +48,7 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     // As stored; the planet's own shape has the exaggeration counted in.
     const planet::PlanetShape shape = scene.planet->file().info().shape;
     OpenPlanet open{data, requestOf(shape), false, false, std::move(scene)};
-    open.scene.renderer.setAirInBackground(true);
+    open.scene.renderer.chunks().setAirInBackground(true);
     open.baked.source =
         data.source != data.chunkFile ? data.source : sourceOf(open.scene.planet->file().info());
     open.sourceIsThere = planet::heightSourceExists(open.baked.source);
@@ -75,7 +75,7 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::V
     const planet::ChunkFile& file = open.scene.planet->file();
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
               ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
-    log->debug("Depth buffer: {}", open.scene.renderer.capabilities().reversedZ
+    log->debug("Depth buffer: {}", open.scene.renderer.chunks().capabilities().reversedZ
                                        ? "float, reversed Z"
                                        : "non-reversed, near plane follows the ground");
     return open;
@@ -404,13 +404,24 @@ void requestEstimate(Session& session, const ui::BakeRequest& request) {
     if (session.estimate.job) session.estimate.job->cancel();
 }
 
-const OpenPlanet* shownPlanet(const Session& session) {
+namespace {
+
+// The open planet that is shown; as const as the session.
+template <class AnySession>
+auto* shownIn(AnySession& session) {
     if (session.showsPrevious && session.previous) return &*session.previous;
     return session.open ? &*session.open : nullptr;
 }
 
+}  // namespace
+
+const OpenPlanet* shownPlanet(const Session& session) {
+    return shownIn(session);
+}
+
 Scene* shownScene(Session& session) {
-    return const_cast<Scene*>(shownScene(std::as_const(session)));
+    auto* open = shownIn(session);
+    return open ? &open->scene : nullptr;
 }
 
 const Scene* shownScene(const Session& session) {
@@ -466,7 +477,7 @@ void reloadChangedShaders(Session& session, const Log& log) {
     const fs::file_time_type newest = newestIn(session.shaderFolder);
     if (newest == session.shadersChanged) return;
     session.shadersChanged = newest;
-    const Result<void> reloaded = session.open->scene.renderer.reloadShaders();
+    const Result<void> reloaded = session.open->scene.renderer.chunks().reloadShaders();
     if (reloaded)
         log->info("Shaders of {} reloaded", session.shaderFolder.string());
     else

@@ -74,7 +74,7 @@ void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const
         drawScene(scene, content.view, settings, content.selection, content.tints, viewport.shaderWait);
     planet::gl::DebugLines* lines = linesOf(viewport, log);
     if (lines && !settings.overlay.cube) {
-        const planet::gl::Projection& projection = scene.renderer.projection();
+        const planet::gl::Projection& projection = scene.renderer.chunks().projection();
         if (!content.hiddenLines.empty()) {
             lines->draw(content.view, projection, content.hiddenLines, 1.5f, planet::gl::LineDepth::Hidden);
         }

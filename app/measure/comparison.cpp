@@ -83,7 +83,7 @@ Result<MeasuredMoments> measureMoments(const ComparedSide& side, const Compariso
         *offscreen, plan.path, side.settings, momentsOf(plan), FigureSet::CostAndError, heights,
         [&](int) { return goOn(static_cast<double>(done) / plan.moments); }, measureMoment);
     if (!flown) return tl::unexpected(flown.error());
-    MeasuredMoments measured{figuresOf(*flown), offscreen->scene.renderer.capabilities().software};
+    MeasuredMoments measured{figuresOf(*flown), offscreen->scene.renderer.chunks().capabilities().software};
     measured.figures.crackPx = cracks;
     measured.figures.leakingPx = leaking;
     return measured;

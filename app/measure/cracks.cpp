@@ -58,7 +58,7 @@ struct Trial {
 
     Result<int> leaks() {
         const planet::DrawnGround ground = groundOf(scene, items, false);
-        if (Result<void> found = planet::gl::findLeaks(scene.renderer, view, ground, map); !found)
+        if (Result<void> found = planet::gl::findLeaks(scene.renderer.chunks(), view, ground, map); !found)
             return tl::unexpected(found.error());
         return map.leaking;
     }
@@ -90,8 +90,8 @@ Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& vie
     made.levelPairs = selection.seams.size();
     const planet::DrawnGround ground =
         groundOf(scene, selection.draw, made.seams == planet::SeamMode::Stitched);
-    Result<planet::gl::CrackMap> map = planet::gl::measureCracks(scene.renderer, view, ground, made.pairs,
-                                                                 planet::gl::innerShellDepthM(tree));
+    Result<planet::gl::CrackMap> map = planet::gl::measureCracks(
+        scene.renderer.chunks(), view, ground, made.pairs, planet::gl::innerShellDepthM(tree));
     if (!map) return tl::unexpected(map.error());
     made.map = std::move(*map);
     made.spots = planet::crackSpots(made.map.pixels, made.map.widthPx, made.map.heightPx);
@@ -112,7 +112,7 @@ Result<ui::SmallestSkirts> smallestSkirts(Scene& scene, const planet::View& view
     Trial trial{scene, view, selection.draw, {}};
     const double shellM = planet::gl::innerShellDepthM(scene.planet->tree());
     Result<planet::gl::CrackMap> map = planet::gl::findCracks(
-        scene.renderer, view, groundOf(scene, trial.items, false), measured.pairs, shellM);
+        scene.renderer.chunks(), view, groundOf(scene, trial.items, false), measured.pairs, shellM);
     if (!map) return tl::unexpected(map.error());
     trial.map = std::move(*map);
     const Result<double> depthM = smallestWithoutLeak([&](double depth) { return trial.leaksOfDepth(depth); },

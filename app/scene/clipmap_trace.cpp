@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "planet/sphere/cube_sphere.h"
 #include "planet/surface/colour_clipmap.h"
@@ -102,26 +103,17 @@ void remember(const planet::gl::ColourClipmapState& state, double nowS, ClipmapT
 
 }  // namespace
 
-void moveClipmap(planet::gl::ChunkRenderer& renderer, std::optional<int> sizePx, const glm::dvec3& eyeM,
-                 int finestLevel, double nowS, ClipmapTrace& trace) {
-    const auto note = [&](const planet::Result<void>& done) {
-        trace.problem = done ? std::string() : done.error().message;
-    };
-    if (trace.sizePx != sizePx) {
-        trace.sizePx = sizePx;
-        trace.filled.clear();
-        note(renderer.setColourClipmap(sizePx));
-    }
-    if (!renderer.colourClipmap()) return;
-    const planet::Result<void> moved = renderer.moveColourClipmap(eyeM, finestLevel);
-    note(moved);
-    if (moved) remember(*renderer.colourClipmap(), nowS, trace);
+void traceClipmap(const planet::gl::ChunkRenderer& renderer, double nowS, ClipmapTrace& trace) {
+    const planet::gl::ColourClipmapState* state = renderer.colourClipmap();
+    const std::optional<int> sizePx = state ? std::optional(state->layout.sizePx) : std::nullopt;
+    if (std::exchange(trace.sizePx, sizePx) != sizePx) trace.filled.clear();
+    if (state) remember(*state, nowS, trace);
 }
 
-ui::ClipmapStats clipmapStatsOf(const planet::gl::ChunkRenderer& renderer, const ClipmapTrace& trace) {
+ui::ClipmapStats clipmapStatsOf(const planet::gl::PlanetRenderer& renderer, const ClipmapTrace& trace) {
     ui::ClipmapStats stats;
-    stats.problem = trace.problem;
-    const planet::gl::ColourClipmapState* state = renderer.colourClipmap();
+    stats.problem = renderer.clipmapProblem();
+    const planet::gl::ColourClipmapState* state = renderer.chunks().colourClipmap();
     if (!state) return stats;
     stats.windows = static_cast<int>(state->windows.size());
     stats.wholeLevel = state->layout.wholeLevel;

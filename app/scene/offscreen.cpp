@@ -23,7 +23,7 @@ planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, c
         offscreen.lines.emplace(std::move(*made));
     }
     // As wide as in the window.
-    offscreen.lines->draw(view, offscreen.scene.renderer.projection(), lines, 1.5f,
+    offscreen.lines->draw(view, offscreen.scene.renderer.chunks().projection(), lines, 1.5f,
                           planet::gl::LineDepth::Hidden);
     return {};
 }
@@ -64,7 +64,7 @@ planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::Vie
     if (!context) return tl::unexpected(context.error());
     auto scene = openScene(config, settings);
     if (!scene) return tl::unexpected(scene.error());
-    const int most = std::max(scene->renderer.capabilities().samples, 1);
+    const int most = std::max(scene->renderer.chunks().capabilities().samples, 1);
     auto target = planet::gl::RenderTarget::create(size.widthPx, size.heightPx, std::min(samples, most));
     if (!target) return tl::unexpected(target.error());
     return Offscreen{std::move(*context), std::move(*target), std::move(*scene)};

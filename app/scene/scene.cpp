@@ -10,23 +10,14 @@
 #include <utility>
 
 #include "app/base/stopwatch.h"
-#include "app/scene/clipmap_trace.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/layer_file.h"
-#include "planet/paging/normal_tile.h"
-#include "planet/select/shadow_cascades.h"
 #include "planet/sphere/cube_sphere.h"
 #include "ui/model/sun_overhead.h"
 
 namespace worldy {
 
 namespace {
-
-planet::UploadChunk uploadInto(planet::gl::ChunkRenderer& renderer) {
-    return [&renderer](std::uint32_t slot, std::span<const std::int16_t> heights) {
-        renderer.upload(slot, heights);
-    };
-}
 
 // Low enough in the east for relief to show, high enough for most of what is in view to be lit.
 glm::dvec3 morningSun(const glm::dvec3& eyeM) {
@@ -45,15 +36,16 @@ double rampTopM(const planet::ChunkTree& tree) {
 
 // The renderer's pool follows the planet's slots. Where it cannot, the planet goes back to the slots it had.
 planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before) {
-    planet::Result<void> fitted =
-        scene.renderer.setSlotCapacity(scene.planet->paging()[planet::BlockKind::Heights].capacity);
-    if (!fitted) static_cast<void>(scene.planet->setPaging(before));
-    scene.planet->uploadAll(uploadInto(scene.renderer));
+    planet::Result<void> fitted = scene.renderer.fitHeights(*scene.planet);
+    if (!fitted) {
+        static_cast<void>(scene.planet->setPaging(before));
+        static_cast<void>(scene.renderer.fitHeights(*scene.planet));  // the pool has that size
+    }
     return fitted;
 }
 
 bool drawsByCpu(const Scene& scene) {
-    return scene.renderer.capabilities().software;
+    return scene.renderer.chunks().capabilities().software;
 }
 
 planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wanted) {
@@ -87,81 +79,10 @@ planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers) {
 
 // Only where layers are drawn: most of the time it is nothing to do.
 void fitLayers(Scene& scene, const ui::LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
-    const bool software = scene.renderer.capabilities().software;
+    const bool software = scene.renderer.chunks().capabilities().software;
     if (!planet::gl::isUsed(layers.use, software)) return;
-    fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer, scene.layers);
+    fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer.chunks(), scene.layers);
     drawing.pictures = picturesOf(layers.set, scene.layers);
-}
-
-// The pool of tiles does what the planet's paging has done since the last picture.
-void followColours(Scene& scene) {
-    const std::optional<planet::ColourPyramid>& colour = scene.planet->colour();
-    if (!colour) return;
-    const planet::gl::ColourPoolConfig wanted{colour->format, colour->leafLevel,
-                                              scene.planet->paging()[planet::BlockKind::Colours].capacity};
-    if (scene.colourPool != wanted) {
-        const planet::Result<void> made = scene.renderer.setColours(wanted);
-        if (!made) {
-            scene.problems.push_back(
-                fmt::format("The file's colours cannot be drawn, using an image or the ramp instead: {}",
-                            made.error().message));
-            static_cast<void>(scene.renderer.setColours(std::nullopt));
-        }
-        scene.colourPool = wanted;
-        scene.clipmap.sizePx.reset();  // it went with the pool
-        scene.drawsColours = made.has_value();
-    }
-    const std::vector<planet::TileChange> changes = scene.planet->takeTileChanges(planet::BlockKind::Colours);
-    if (scene.drawsColours) scene.renderer.followColours(changes);
-}
-
-// And that of normals. Where the planet has none the pool is given back.
-void followNormals(Scene& scene) {
-    const planet::Planet& planet = *scene.planet;
-    std::optional<planet::gl::NormalPoolConfig> wanted;
-    if (planet.paging()[planet::BlockKind::Normals].capacity > 0)
-        wanted = {planet::normalLeafLevel(planet.tree().storedShape),
-                  planet.paging()[planet::BlockKind::Normals].capacity, planet.tree().storedShape.quantumM};
-    if (scene.normalPool != wanted) {
-        const planet::Result<void> made = scene.renderer.setNormals(wanted);
-        if (!made) {
-            scene.problems.push_back(fmt::format(
-                "Fine normals cannot be drawn, using mesh normals instead: {}", made.error().message));
-            static_cast<void>(scene.renderer.setNormals(std::nullopt));
-        }
-        scene.normalPool = wanted;
-        scene.drawsNormals = made && wanted;
-    }
-    const std::vector<planet::TileChange> changes = scene.planet->takeTileChanges(planet::BlockKind::Normals);
-    if (scene.drawsNormals) scene.renderer.followNormals(changes);
-}
-
-// Of the view that the level of detail is chosen for: shadows freeze with it.
-std::vector<planet::DrawItem> shadowCastersOf(const Scene& scene, const ui::ViewSettings& settings,
-                                              const planet::gl::RenderSettings& render,
-                                              std::span<const planet::DrawItem> items) {
-    // From far off nothing drawn is within their reach, and the walk would see every resident chunk.
-    const double reachM = render.light.shadows.reachM;
-    const bool mayBeSeen = std::any_of(items.begin(), items.end(), [&](const planet::DrawItem& item) {
-        return static_cast<double>(item.distanceM) < reachM;
-    });
-    if (!mayBeSeen || !scene.renderer.drawsShadows(render)) return {};
-    return planet::shadowCasters(scene.planet->tree(), scene.planet->views()[0].input.lodView,
-                                 lodSettingsOf(settings), reachM);
-}
-
-// The clipmap stands around the lod view, whose tiles it is filled from, whoever looks at it.
-void followClipmap(Scene& scene, const ui::ViewSettings& settings) {
-    const bool wanted = scene.drawsColours && settings.surface.colourMode == ui::ColourMode::Clipmap &&
-                        colourSettingsOf(settings).enabled;
-    int finestLevel = 0;
-    for (std::size_t view = 0; view < scene.planet->views().size(); ++view) {
-        const planet::TileCounters& seen = scene.planet->views()[view].colours.counters;
-        finestLevel = std::max(finestLevel, static_cast<int>(seen.deepestLevel));
-    }
-    moveClipmap(scene.renderer, wanted ? std::optional(settings.surface.clipmapSizePx) : std::nullopt,
-                scene.planet->views()[0].input.lodView.eyeM, finestLevel, scene.planet->lastStep().nowS,
-                scene.clipmap);
 }
 
 ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
@@ -169,20 +90,18 @@ ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
     return settings;
 }
 
-// Of tiles that there is no memory to draw from, none are wanted.
 planet::ViewInput viewInputOf(const Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
                               double priorityFactor = 1) {
     planet::ViewInput input{view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
                             normalSettingsOf(settings)};
-    if (scene.colourPool && !scene.drawsColours) input.colours.enabled = false;
-    if (scene.normalPool && !scene.drawsNormals) input.normals.enabled = false;
+    scene.renderer.limit(input);
     return input;
 }
 
 void beginFrame(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
     const planet::gl::RenderSettings render = renderSettingsOf(settings, lodView, scene.planet->tree());
     scene.seaSurfaceM =
-        scene.renderer.drawsSeaSurface(render) ? std::optional(render.seaLevelM) : std::nullopt;
+        scene.renderer.chunks().drawsSeaSurface(render) ? std::optional(render.seaLevelM) : std::nullopt;
     scene.clipmap.filledTexels = 0;
     scene.drawCpuMs = 0;
     scene.drawn = {};
@@ -194,16 +113,14 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
     auto planet = planet::Planet::open(config.chunkFile, pagingSettingsOf(settings));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(settings.surface.exaggeration);
-    auto renderer = planet::gl::ChunkRenderer::create(
-        {(*planet)->tree().shape, (*planet)->paging()[planet::BlockKind::Heights].capacity,
-         config.shaderFolder, config.programs});
+    auto renderer = planet::gl::PlanetRenderer::create(**planet, {config.shaderFolder, config.programs});
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
     scene.identity = std::make_shared<const int>(0);
     scene.exaggeration = settings.surface.exaggeration;
     if (config.colour) {
-        const planet::Result<void> made =
-            scene.renderer.setColourImage(config.colour->rgb, config.colour->width, config.colour->height);
+        const planet::Result<void> made = scene.renderer.chunks().setColourImage(
+            config.colour->rgb, config.colour->width, config.colour->height);
         if (!made)
             scene.problems.push_back(fmt::format(
                 "The colour image cannot be drawn, using the height ramp instead: {}", made.error().message));
@@ -275,6 +192,7 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     render.imageOpacity = surface.imageOpacity;
     render.streamed = surface.streamed;
     render.texelsPerPixel = surface.texelsPerPixel;
+    if (surface.colourMode == ui::ColourMode::Clipmap) render.clipmapPx = surface.clipmapSizePx;
     render.rampTopM = rampTopM(tree);
     // Users name true heights; the renderer's are as drawn.
     render.ramp = surface.ramp;
@@ -304,13 +222,9 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& ask
     if (scene.exaggeration != settings.surface.exaggeration) {
         scene.exaggeration = settings.surface.exaggeration;
         scene.planet->setExaggeration(settings.surface.exaggeration);
-        scene.renderer.setShape(scene.planet->tree().shape);
+        scene.renderer.fitShape(*scene.planet);
     }
     return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time, drawsByCpu(scene)));
-}
-
-planet::UploadChunk uploadInto(Scene& scene) {
-    return uploadInto(scene.renderer);
 }
 
 namespace {
@@ -318,10 +232,7 @@ namespace {
 void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet::ViewInput> views,
           std::optional<double> elapsedS) {
     beginFrame(scene, views.front().lodView, settings);
-    if (elapsedS)
-        scene.planet->step(views, uploadInto(scene.renderer), *elapsedS);
-    else
-        scene.planet->step(views, uploadInto(scene.renderer));
+    scene.planet->step(views, scene.renderer.upload(), elapsedS);
 }
 
 }  // namespace
@@ -357,13 +268,10 @@ void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSetti
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
-    followColours(scene);
-    followNormals(scene);
-    followClipmap(scene, settings);
-    scene.renderer.draw(renderView, items, render, tints, shadowCastersOf(scene, settings, render, items),
-                        wait);
+    scene.renderer.draw(*scene.planet, renderView, render, {.items = items, .tints = tints, .wait = wait});
+    traceClipmap(scene.renderer.chunks(), scene.planet->lastStep().nowS, scene.clipmap);
     scene.drawCpuMs += watch.elapsedMs();
-    const planet::gl::RenderCounters& counters = scene.renderer.counters();
+    const planet::gl::RenderCounters& counters = scene.renderer.chunks().counters();
     scene.drawn.chunks += counters.chunks;
     scene.drawn.groundTriangles += counters.groundTriangles;
     scene.drawn.skirtTriangles += counters.skirtTriangles;
@@ -387,18 +295,16 @@ bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettin
     const ui::ViewSettings settings = afforded(scene, asked);
     beginFrame(scene, lodView, settings);
     const planet::ViewInput only = viewInputOf(scene, lodView, settings);
-    return scene.planet->settle(std::span(&only, 1), uploadInto(scene.renderer), timeoutS);
+    return scene.planet->settle(std::span(&only, 1), scene.renderer.upload(), timeoutS);
 }
 
 ui::FrameStats statsOf(const Scene& scene) {
     ui::FrameStats stats;
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
-    stats.paging[planet::BlockKind::Colours] = scene.planet->paging()[planet::BlockKind::Colours];
-    stats.paging[planet::BlockKind::Normals] = scene.planet->paging()[planet::BlockKind::Normals];
     stats.stages = scene.planet->lastStep().times;
     stats.render = scene.drawn;
-    stats.gpuMemory = scene.renderer.gpuMemory();
+    stats.gpuMemory = scene.renderer.chunks().gpuMemory();
     stats.drawCpuMs = scene.drawCpuMs;
     stats.clipmap = clipmapStatsOf(scene.renderer, scene.clipmap);
     return stats;
@@ -409,8 +315,8 @@ planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
     const planet::ChunkTree& tree = scene.planet->tree();
     planet::Lines lines = overlayLines(tree, selection, renderView, settings);
     if (settings.overlay.clipmap)
-        appendClipmapLines(scene.renderer, scene.clipmap, tree, renderView, scene.planet->lastStep().nowS,
-                           lines);
+        appendClipmapLines(scene.renderer.chunks(), scene.clipmap, tree, renderView,
+                           scene.planet->lastStep().nowS, lines);
     return lines;
 }
 

@@ -11,8 +11,8 @@
 #include "app/data/layer_pictures.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/clipmap_trace.h"
-#include "planet/gl/draw/chunk_renderer.h"
 #include "planet/gl/draw/debug_shapes.h"
+#include "planet/gl/draw/planet_renderer.h"
 #include "planet/planet.h"
 #include "ui/model/costly_parts.h"
 #include "ui/model/frame_stats.h"
@@ -22,19 +22,13 @@ namespace worldy {
 
 struct Scene {
     std::unique_ptr<planet::Planet> planet;
-    planet::gl::ChunkRenderer renderer;
+    planet::gl::PlanetRenderer renderer;
     bool hasColourImage = false;
     // Sums over all drawScene calls since the last stepScene: an observer beside draws a second picture.
     double drawCpuMs = 0;
     planet::gl::RenderCounters drawn{};
     double exaggeration = 1;  // last asked for
-    // Of the file's own colours: the pool that was last asked for, and whether it could be made.
-    std::optional<planet::gl::ColourPoolConfig> colourPool{};
-    bool drawsColours = false;
-    ClipmapTrace clipmap{};  // over those tiles
-    // The same of tiles of normals.
-    std::optional<planet::gl::NormalPoolConfig> normalPool{};
-    bool drawsNormals = false;
+    ClipmapTrace clipmap{};
     // What setPaging has refused; told once, and not tried again until it changes.
     std::optional<planet::PagingSettings> refusedPaging{};
     std::vector<std::string> problems{};  // not yet told
@@ -86,9 +80,6 @@ void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings
 // view wants.
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
                const ui::ViewSettings& settings, std::optional<double> elapsedS = std::nullopt);
-
-// Makes chunks drawable, for stepping the planet itself. The scene must outlive it.
-planet::UploadChunk uploadInto(Scene& scene);
 
 // Draws a selection of the last step, with a tint for each of its items or none, into what is bound.
 void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,

@@ -3,8 +3,8 @@
 // and virtual. Internal to the library; one thread.
 //
 // Slots of the kind's pool come in fours, one four for each block. Each page-in that is queued or being read
-// has a four reserved for it, but no particular one: free_.size() >= reserved_. So a block that arrives always
-// finds room.
+// has a four reserved for it, but no particular one: free_.size() >= reserved_. So a block that arrives
+// always finds room.
 #pragma once
 
 #include <array>

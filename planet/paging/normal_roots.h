@@ -1,6 +1,6 @@
-// Derives the normal tiles of the six whole faces, without which no tile of normals can be shown. They are not
-// in the file: deriving one reads all heights of its level. Internal to the library; one thread, except that
-// the tiles themselves are derived by a thread of its own, one after the other, where that is allowed.
+// Derives the normal tiles of the six whole faces, without which no tile of normals can be shown. They are
+// not in the file: deriving one reads all heights of its level. Internal to the library; one thread, except
+// that follow() derives the tiles on a thread of its own, one after the other.
 #pragma once
 
 #include <chrono>
@@ -38,8 +38,8 @@ public:
     // Whether normals begin as soon as their roots are derived.
     bool arePending(const TilePaging& normals) const { return normals.capacity() != capacity_; }
 
-    // Other settings: so many slots, and bytes of heights kept to derive tiles from. problem: why there are no
-    // normals, reported when it changes.
+    // Other settings: so many slots, and bytes of heights kept to derive tiles from. problem: why there are
+    // no normals, reported when it changes.
     void set(std::uint32_t capacity, std::size_t heightBytes, const std::string& problem, PagingLog& log);
     // Goes on with what is pending, without waiting. True if normals have begun.
     bool follow(TilePaging& normals, PagingRun& run);

@@ -1,5 +1,5 @@
-// The record of what paging did: how requests ended, problems for a log, and the moves that a recording keeps.
-// Internal to the library; one thread.
+// The record of what paging did: how requests ended, problems for a log, and the moves that a recording
+// keeps. Internal to the library; one thread.
 #pragma once
 
 #include <cstdint>

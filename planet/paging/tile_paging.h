@@ -1,7 +1,7 @@
 // The paging of tiles of colours or of normals. Internal to the library; one thread.
 //
-// A tile that is dropped is no longer drawn in the very step that drops it, since the renderer looks its tiles
-// up in every frame. So blocks are dropped at once where others are wanted, without page-outs.
+// A tile that is dropped is no longer drawn in the very step that drops it, since the renderer looks its
+// tiles up in every frame. So blocks are dropped at once where others are wanted, without page-outs.
 #pragma once
 
 #include <array>

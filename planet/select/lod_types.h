@@ -23,17 +23,17 @@ struct LodSettings {
     double tauPx = 2;  // tolerance, pixels, > 0; larger: fewer triangles, more visible error
     // A split chunk stays split until eps <= tau (1 - hysteresis); [0, 0.9]; larger: fewer flips, more
     // triangles.
-    double hysteresis = 0;
+    double hysteresis = 0.1;
     int maxLevel = planet::maxLevel;  // chunks of this level are not split; [0, maxLevel]
     bool frustumCulling = true;       // off: chunks beside and behind the view are drawn and loaded too
     bool horizonCulling = true;       // off: chunks on the planet's far side are drawn and loaded too
-    bool morph = false;               // off: chunks pop when their level changes
+    bool morph = true;                // off: chunks pop when their level changes
     // Share of tau over which a chunk slides onto its parent's surface, (0, 4]; larger: slower, and more of
     // the picture is coarser than it could be.
     double morphRange = 0.3;
     // With morph: seconds that a chunk takes to slide all the way where its level changes at once: children
     // that come late, a new tau, a fast camera. [0, 10]; 0: at once, with a pop.
-    double fadeS = 0;
+    double fadeS = 0.25;
     SeamMode seams = SeamMode::Skirts;
     SkirtDepth skirtDepth = SkirtDepth::Automatic;
     double skirtDepthM = 1000;  // of Fixed, metres, >= 0; less than the gaps: cracks show

@@ -23,8 +23,8 @@
 namespace planet {
 
 struct TileSettings {
-    // On: tiles are asked for, and what Planet::takeColourChanges() or takeNormalChanges() tells is to be
-    // taken. Off: none below the roots.
+    // On: tiles are requested, and the changes of Planet::takeTileChanges() are to be taken. Off: none below
+    // the roots.
     bool enabled = false;
     // Larger: sharper, and four times the tiles for twice as many; [0.1, 4].
     double texelsPerPixel = 1;

@@ -1,6 +1,6 @@
 # Installs the package into an empty folder, builds the embedding program against it, and runs it on a small bake.
 # Given: BUILD_FOLDER, SOURCE_FOLDER (this one), WORLDY (the binary), SANITIZE, COMPILER, GENERATOR (of CMake), DATA (an
-# elevation image).
+# elevation image), COLOUR (a colour image).
 file(REMOVE_RECURSE ${BUILD_FOLDER}/embed)
 file(MAKE_DIRECTORY ${BUILD_FOLDER}/embed)
 
@@ -20,14 +20,20 @@ run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --component planet --prefix ${BUI
 run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${BUILD_FOLDER}/embed/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_PREFIX_PATH=${BUILD_FOLDER}/embed/installed -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${BUILD_FOLDER}/embed/build)
-run(${WORLDY} bake ${DATA} --face-size 257 -o ${BUILD_FOLDER}/embed/earth.chk)
+run(${WORLDY} bake ${DATA} --colour ${COLOUR} --face-size 513 -o ${BUILD_FOLDER}/embed/earth.chk)
 # Under the address sanitizer what the window system's drivers never free is not ours to mend.
 run(${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
-    ${BUILD_FOLDER}/embed/build/embed ${BUILD_FOLDER}/embed/earth.chk 30)
+    ${BUILD_FOLDER}/embed/build/embed ${BUILD_FOLDER}/embed/earth.chk 60)
 message("${output}")
-if(NOT output MATCHES "([1-9][0-9]*) chunks, ([1-9][0-9]*) triangles")
+if(NOT output MATCHES "[1-9][0-9]* chunks, [1-9][0-9]* triangles")
   message(FATAL_ERROR "the embedding program drew nothing")
 endif()
+# More than the six whole faces, so they were streamed.
+foreach(kind IN ITEMS chunks "colour tiles" "normal tiles")
+  if(NOT output MATCHES "([7-9]|[1-9][0-9]+) resident ${kind}")
+    message(FATAL_ERROR "the embedding program streamed no ${kind}")
+  endif()
+endforeach()
 
 # The runtime needs no display, and no library of images, of tasks or of drawing.
 run(${BUILD_FOLDER}/embed/build/runtime ${BUILD_FOLDER}/embed/earth.chk)

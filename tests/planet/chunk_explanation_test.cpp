@@ -11,6 +11,7 @@
 #include "planet/select/screen_error.h"
 #include "tests/support/fake_pyramid.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -21,7 +22,7 @@ constexpr double smallRadiusM = 1e5;
 struct Scene {
     ChunkTree tree;
     View view = viewFromPose({}, smallRadiusM, 1, 1280, 720);
-    LodSettings lod;
+    LodSettings lod = suddenLod();
     Selection selection;
     std::vector<PagingRequest> pageIns;
 
@@ -298,7 +299,7 @@ TEST(ChunkExplanation, AgreesWithTheSelection) {
     Scene scene(4);
     for (int i = 0; i < 40; ++i) {
         scene.view = randomView(random, smallRadiusM);
-        scene.lod = {};
+        scene.lod = suddenLod();
         scene.lod.tauPx = 1 + i % 9;
         scene.lod.hysteresis = i % 2 ? 0.4 : 0.0;
         scene.select();

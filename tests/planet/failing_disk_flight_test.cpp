@@ -18,6 +18,7 @@
 #include "tests/support/sanitized.h"
 #include "tests/support/synthetic_colours.h"
 #include "tests/support/synthetic_source.h"
+#include "tests/support/sudden_lod.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planet {
@@ -75,7 +76,8 @@ protected:
         pose.pitchDeg = -50;
         ViewInput input;
         input.lodView = viewFromPose(pose, 6'371'000, 1.0, 640, 480);
-        input.lod = {.tauPx = 1.5, .frustumCulling = false, .horizonCulling = false};
+        input.lod = suddenLod(1.5);
+        input.lod.frustumCulling = input.lod.horizonCulling = false;
         input.colours = {.enabled = true, .texelsPerPixel = 0.5};
         return input;
     }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "planet/bake/bake.h"
+#include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_colours.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
@@ -56,7 +57,7 @@ protected:
 };
 
 ViewInput inputOf(const View& view, double tauPx, double priorityFactor = 1) {
-    ViewInput input{view, {.tauPx = tauPx}, priorityFactor};
+    ViewInput input{view, suddenLod(tauPx), priorityFactor};
     input.colours = {.enabled = true, .texelsPerPixel = 2};
     input.normals = input.colours;
     return input;

@@ -21,6 +21,7 @@
 #include "planet/source/height_source.h"
 #include "tests/support/chunk_blocks.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/sudden_lod.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planet {
@@ -76,7 +77,7 @@ ViewInput diveView(std::size_t place, int frame) {
         .longitudeDeg = glm::degrees(flownPlaces[place].longitudeRad),
         .altitudeM = altitudesM[static_cast<std::size_t>(std::min(frame * 3 / framesADive, 2))],
         .pitchDeg = -70};
-    ViewInput view{viewFromPose(pose, 6'371'000, 1.1, 1280, 720), {}};
+    ViewInput view{viewFromPose(pose, 6'371'000, 1.1, 1280, 720), suddenLod()};
     view.lod.tauPx = 2;
     // Nothing is cut off, so that the whole planet must be covered.
     view.lod.frustumCulling = view.lod.horizonCulling = false;

@@ -5,6 +5,7 @@
 
 #include "planet/chunk_explanation.h"
 #include "tests/support/fake_pyramid.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -14,7 +15,7 @@ TEST(PlanetExplain, FollowsAChunkFromTheQueueToTheScreen) {
     paging.paused = true;
     auto planet = Planet::open(fakePyramid().source(), paging).value();
     const View view = viewFromPose({}, 1e5, 1, 1280, 720);
-    LodSettings lod;
+    LodSettings lod = suddenLod();
     lod.tauPx = 1e-3;
     lod.maxLevel = 1;
     lod.frustumCulling = lod.horizonCulling = false;

@@ -5,6 +5,7 @@
 
 #include "planet/bake/bake.h"
 #include "planet/planet.h"
+#include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 
@@ -39,7 +40,7 @@ protected:
 TEST_F(PlanetFile, settlesWithEveryDrawnChunkWithinTheTolerance) {
     const auto planet = Planet::open(path_, PagingSettings{});
     ASSERT_TRUE(planet) << planet.error().message;
-    const LodSettings settings{.tauPx = 0.5};
+    const LodSettings settings = suddenLod(0.5);
     ASSERT_TRUE((*planet)->settle(overHills(), settings, ignoreUpload, 60));
     EXPECT_GT((*planet)->selection().draw.size(), 20u);
     EXPECT_GT((*planet)->selection().counters.deepestLevel, 2u);
@@ -52,7 +53,8 @@ TEST_F(PlanetFile, settlesWithEveryDrawnChunkWithinTheTolerance) {
 TEST_F(PlanetFile, everyBlockOfABakeLoadsWhenAllIsWanted) {
     const auto planet = Planet::open(path_, PagingSettings{});
     ASSERT_TRUE(planet);
-    const LodSettings all{.tauPx = 1e-9, .frustumCulling = false, .horizonCulling = false};
+    LodSettings all = suddenLod(1e-9);
+    all.frustumCulling = all.horizonCulling = false;
     ASSERT_TRUE((*planet)->settle(overHills(), all, ignoreUpload, 120));
     EXPECT_EQ((*planet)->selection().draw.size(), 6u << (2 * leafLevel((*planet)->tree().shape)));
     EXPECT_EQ((*planet)->paging()[BlockKind::Heights].failed, 0u);
@@ -70,7 +72,8 @@ TEST_F(PlanetFile, damagedBlockIsReportedAndDrawnAsItsParent) {
 
     const auto planet = Planet::open(path_, PagingSettings{});
     ASSERT_TRUE(planet);
-    const LodSettings all{.tauPx = 1e-9, .frustumCulling = false, .horizonCulling = false};
+    LodSettings all = suddenLod(1e-9);
+    all.frustumCulling = all.horizonCulling = false;
     ASSERT_TRUE((*planet)->settle(overHills(), all, ignoreUpload, 120));
     EXPECT_EQ((*planet)->paging()[BlockKind::Heights].failed, 1u);
     const std::vector<std::string> problems = (*planet)->takeProblems();
@@ -88,7 +91,7 @@ TEST_F(PlanetFile, fileTruncatedWhileOpenGoesOnWithWhatIsResident) {
     const auto planet = Planet::open(path_, PagingSettings{.retry = {.delayS = 0.001}});
     ASSERT_TRUE(planet);
     std::filesystem::resize_file(path_, chunkFileHeaderBytes);
-    ASSERT_TRUE((*planet)->settle(overHills(), LodSettings{.tauPx = 3}, ignoreUpload, 60));
+    ASSERT_TRUE((*planet)->settle(overHills(), suddenLod(3), ignoreUpload, 60));
     EXPECT_GT((*planet)->paging()[BlockKind::Heights].failed, 0u);
     for (const DrawItem& item : (*planet)->selection().draw) EXPECT_EQ(item.id.level, 0);
     EXPECT_NE((*planet)->takeProblems().at(0).find("truncated"), std::string::npos);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/support/planet_fixture.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -56,7 +57,7 @@ void expectWhole(const Planet& planet, const RendererSlots& pool) {
 }
 
 LodSettings pixelSettings() {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1;
     return settings;
 }
@@ -84,7 +85,7 @@ PagingSettings budgetOf(std::size_t chunks, int loaderThreads = 1) {
 TEST(Planet, AGrownBudgetTakesWhatHadNoRoom) {
     const auto planet = openFake(fakePyramid().source(), 70);
     RendererSlots pool;
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
     EXPECT_GT(planet->paging()[BlockKind::Heights].budgetWaits, 0u);
@@ -121,7 +122,7 @@ TEST(Planet, AShrunkBudgetDropsWhatIsOutOfUseFirst) {
 TEST(Planet, AShrunkBudgetDropsEvenWhatIsDrawn) {
     const auto planet = openFake(fakePyramid().source(), 1000);
     RendererSlots pool;
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
     EXPECT_GT(planet->tree().residentChunks, 100u);
@@ -133,7 +134,7 @@ TEST(Planet, AShrunkBudgetDropsEvenWhatIsDrawn) {
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
     EXPECT_GT(planet->paging()[BlockKind::Heights].budgetWaits, 0u);
     EXPECT_EQ(planet->tree().residentChunks, 70u);
-    expectSettlesAsFresh(*planet, viewAt(40, 100), LodSettings{.tauPx = 4}, pool);
+    expectSettlesAsFresh(*planet, viewAt(40, 100), suddenLod(4), pool);
 }
 
 TEST(Planet, ABudgetMayShrinkWhileBlocksAreBeingRead) {
@@ -167,7 +168,7 @@ TEST(Planet, ABudgetMayShrinkBelowWhatIsBeingRead) {
     gated.gate.open();
     const auto planet = openFake(gated.source(), 1000, 40);
     RendererSlots pool;
-    LodSettings whole;
+    LodSettings whole = suddenLod();
     whole.frustumCulling = whole.horizonCulling = false;
     whole.tauPx = 1e-3;
     whole.maxLevel = 2;
@@ -193,14 +194,14 @@ TEST(Planet, ABudgetMayShrinkBelowWhatIsBeingRead) {
     });
     EXPECT_EQ(thrownAway, 40);
     EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
-    expectSettlesAsFresh(*planet, viewAt(40, 100), LodSettings{.tauPx = 4}, pool);
+    expectSettlesAsFresh(*planet, viewAt(40, 100), suddenLod(4), pool);
 }
 
 TEST(Planet, ABudgetMayChangeInEveryStep) {
     const auto planet = openFake(fakePyramid().source(), 100, 3);
     RendererSlots pool;
     std::mt19937 random(53);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.3;
     for (int i = 0; i < 800; ++i) {
         planet->step(viewAt(15, i * 0.7), settings, pool.upload());
@@ -300,7 +301,7 @@ TEST(Planet, DropAllThrowsAwayWhatIsBeingReadDeepInTheTree) {
     const auto planet = openFake(gated.source(), 1000, 2);
     RendererSlots pool;
     const View view = viewAt(10, 20, 3e4, -90);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.01;
     settings.maxLevel = 2;
     ASSERT_TRUE(planet->settle(view, settings, pool.upload(), timeoutS));
@@ -438,7 +439,7 @@ TEST(Planet, HistoryTellsHowEachRequestEnded) {
 
 TEST(Planet, HistoryKeepsTheLastThousand) {
     const auto planet = openFake();
-    LodSettings all;
+    LodSettings all = suddenLod();
     all.frustumCulling = all.horizonCulling = false;
     all.tauPx = 1e-3;
     while (planet->paging()[BlockKind::Heights].loaded + planet->paging()[BlockKind::Heights].evicted <
@@ -509,7 +510,7 @@ TEST(Planet, ChunksKnowWhenAndInWhatOrderTheyCame) {
 
 TEST(Planet, ExaggerationChangesWhatIsDrawnAndNoSlot) {
     const auto planet = openFake();
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 4;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 2e5, -90), settings, noUpload, timeoutS));
     std::map<ChunkId, std::uint32_t> slots;

@@ -10,6 +10,7 @@
 #include "tests/support/held_tiles.h"
 #include "tests/support/made_chunks.h"
 #include "tests/support/planet_fixture.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -41,7 +42,7 @@ PagingSettings roomForNormalTiles(std::uint32_t tiles) {
 }
 
 ViewInput litFinely(const View& view, double texelsPerPixel = 1) {
-    LodSettings coarse;
+    LodSettings coarse = suddenLod();
     coarse.tauPx = 200;
     return {.lodView = view, .lod = coarse, .normals = {.enabled = true, .texelsPerPixel = texelsPerPixel}};
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/support/planet_fixture.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -204,7 +205,7 @@ TEST(SimulatedPaging, TheSeedSaysWhatFails) {
 TEST(SimulatedPaging, TheSeedsOrderIsKept) {
     const BadDiskSettings disk{.bandwidthMBs = 0.001, .shuffledOrder = true, .seed = 9};
     const auto planet = openWith(simulated(disk));
-    LodSettings all;
+    LodSettings all = suddenLod();
     all.frustumCulling = all.horizonCulling = false;
     all.tauPx = 1e-3;
     all.maxLevel = 1;

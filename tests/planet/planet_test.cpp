@@ -11,6 +11,7 @@
 #include "planet/planet_tools.h"
 #include "tests/support/planet_fixture.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -220,7 +221,7 @@ TEST(Planet, TheLeastBudgetReachesTheFinestLevelAnywhere) {
     for (const auto& [latitude, longitude] : {std::pair{11.0, 23.0}, {0.0, 0.0}, {35.2644, 45.0}}) {
         View view = viewAt(latitude, longitude, 1e4, -90);
         view.horizontalFovRad = 1e-4;
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 1e-3;
         ASSERT_TRUE(planet->settle(view, settings, noUpload, timeoutS));
         EXPECT_EQ(planet->selection().counters.deepestLevel, 4u);
@@ -231,7 +232,7 @@ TEST(Planet, TheLeastBudgetReachesTheFinestLevelAnywhere) {
 
 TEST(Planet, ATinyBudgetSettlesCoarserAndSaysSo) {
     const auto planet = openFake(fakePyramid().source(), 70);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, noUpload, timeoutS));
     EXPECT_GT(planet->paging()[BlockKind::Heights].budgetWaits, 0u);
@@ -256,7 +257,7 @@ TEST(Planet, ALongFlightNeverExceedsATinyBudget) {
         latitude = std::clamp(latitude + turn(random), -80.0, 80.0);
         longitude += turn(random);
         if (i % 500 == 0) longitude += 150;
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 0.3 + i % 3;
         planet->step(viewAt(latitude, longitude, 3000 + i % 7 * 3000), settings,
                      [&](std::uint32_t slot, auto) { ASSERT_LT(slot, budget); });
@@ -280,7 +281,7 @@ TEST(Planet, ALongFlightNeverExceedsATinyBudget) {
 
 TEST(Planet, WhatWasDroppedIsLoadedAgain) {
     const auto planet = openFake(fakePyramid().source(), 90);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1;
     ASSERT_TRUE(planet->settle(viewAt(10, 20), settings, noUpload, timeoutS));
     const auto first = drawn(*planet);
@@ -297,7 +298,7 @@ TEST(Planet, WhatWasDroppedIsLoadedAgain) {
 
 TEST(Planet, TheLongestUnusedIsDroppedFirst) {
     const auto planet = openFake(fakePyramid().source(), 90);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1;
     std::vector<std::uint64_t> lastUsed;
     for (int i = 0; i < 12; ++i) {
@@ -321,7 +322,7 @@ TEST(Planet, TheLongestUnusedIsDroppedFirst) {
 
 TEST(Planet, WhatIsDrawnIsNotDroppedBeforeTheNextStep) {
     const auto planet = openFake(fakePyramid().source(), 70);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.5;
     for (int i = 0; i < 1500; ++i) {
         const View view = viewAt(20, i / 40 * 9.0, 5000 + i % 3);
@@ -342,7 +343,7 @@ TEST(Planet, WhatIsDrawnIsNotDroppedBeforeTheNextStep) {
 
 TEST(Planet, WhatWasUsedInTheLastFramesIsNotDropped) {
     const auto planet = openFake(fakePyramid().source(), 90);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1;
     for (int i = 0; i < 300; ++i) {
         const View view = viewAt(10, i * 7.0);
@@ -365,7 +366,7 @@ TEST(Planet, WhatWasUsedInTheLastFramesIsNotDropped) {
 TEST(Planet, ATinyBudgetGoesToTheLargestErrors) {
     const auto planet = openFake(fakePyramid().source(), 110);
     std::mt19937 random(46);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.1;
     int waiting = 0;
     for (int i = 0; i < 60; ++i) {
@@ -388,7 +389,7 @@ TEST(Planet, ATinyBudgetGoesToTheLargestErrors) {
 
 TEST(Planet, AShakingCameraReadsNothingTwice) {
     const auto planet = openFake(fakePyramid().source(), 90);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1;
     ASSERT_TRUE(planet->settle(viewAt(10, 20), settings, noUpload, timeoutS));
     ASSERT_TRUE(planet->settle(viewAt(10, 45), settings, noUpload, timeoutS));
@@ -438,7 +439,7 @@ TEST(Planet, FailedBlocksGiveTheirSlotsBack) {
     EXPECT_GT(faulty.failures, 7);
     faulty.broken = false;
     planet->tools().retryFailed();
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.01;
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, noUpload, timeoutS));
     EXPECT_EQ(planet->tree().residentChunks, planet->paging()[BlockKind::Heights].capacity);
@@ -505,7 +506,7 @@ TEST(Planet, EachOfSeveralViewsSettlesOnWhatItWouldDrawAlone) {
 // A paused planet with the roots' children resident, so that there is more to want.
 std::unique_ptr<Planet> openPausedAtLevelOne() {
     auto planet = openFake();
-    LodSettings coarse;
+    LodSettings coarse = suddenLod();
     coarse.maxLevel = 1;
     coarse.frustumCulling = coarse.horizonCulling = false;
     coarse.tauPx = 1e-3;
@@ -585,7 +586,7 @@ TEST(Planet, AViewThatGoesAwayFreesItsWishes) {
 
 TEST(Planet, WhatAnyViewUsesIsNotOutOfUse) {
     const auto planet = openFake(fakePyramid().source(), 200);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1;
     for (int i = 0; i < 10; ++i) {
         const std::array<ViewInput, 2> views = {ViewInput{viewAt(10, 20), settings},
@@ -610,7 +611,7 @@ TEST(Planet, WhatAnyViewUsesIsNotOutOfUse) {
 TEST(Planet, ViewsShareATinyBudgetByTheirLargestPriorities) {
     const auto planet = openFake(fakePyramid().source(), 110);
     std::mt19937 random(52);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.1;
     int waiting = 0;
     for (int i = 0; i < 40; ++i) {

@@ -8,6 +8,7 @@
 
 #include "planet/planet.h"
 #include "planet/planet_tools.h"
+#include "tests/support/sudden_lod.h"
 #include "ui/shell/panels.h"
 
 namespace worldy::test {
@@ -18,7 +19,7 @@ public:
 
     // Flies towards the ground over some frames, a sixtieth of a second each.
     void fly(const ui::ViewSettings& settings, int frames) {
-        planet::LodSettings lod;
+        planet::LodSettings lod = planet::suddenLod();
         lod.tauPx = settings.lod.tauPx;
         lod.hysteresis = settings.lod.hysteresis;
         lod.morph = settings.lod.morph;

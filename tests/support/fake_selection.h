@@ -8,6 +8,7 @@
 
 #include "planet/select/lod_select.h"
 #include "tests/support/fake_pyramid.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 
@@ -28,7 +29,7 @@ inline ChunkTree patchyTree(std::mt19937& random, int wholeToLevel, unsigned one
 }
 
 inline LodSettings withoutCulling(double tauPx) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = tauPx;
     settings.frustumCulling = settings.horizonCulling = false;
     return settings;

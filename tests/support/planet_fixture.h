@@ -12,6 +12,7 @@
 #include "planet/planet_tools.h"
 #include "tests/support/fake_selection.h"
 #include "tests/support/gate.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 
@@ -42,7 +43,7 @@ inline View viewAt(double latitudeDeg, double longitudeDeg, double altitudeM = 8
 }
 
 inline LodSettings fineSettings() {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.5;
     return settings;
 }

@@ -35,7 +35,7 @@ enum class ShaderWait : std::uint8_t { UntilReady, Never };
 
 struct RendererConfig {
     PlanetShape shape;
-    std::uint32_t slotCapacity = 0;      // Planet::slotCapacity()
+    std::uint32_t slotCapacity = 0;      // PagingCounters: the capacity of heights
     std::filesystem::path shaderFolder;  // read instead of the shaders built in; empty: built in
     // Shared with other renderers, so that none waits for what another one has compiled; the folder is theirs
     // then. None: the renderer's own.
@@ -59,7 +59,7 @@ public:
     Result<void> setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
     // A pool for the planet's own colours, which then take the image's place; none: the image again. Follow
-    // with all of Planet::takeColourChanges() since beginColoursAnew() or the planet's opening. On an Error
+    // with all of Planet::takeTileChanges() since beginTilesAnew() or the planet's opening. On an Error
     // what there was stays.
     Result<void> setColours(const std::optional<ColourPoolConfig>& config);
     void followColours(std::span<const TileChange> changes);
@@ -75,7 +75,7 @@ public:
     Result<void> moveColourClipmap(const glm::dvec3& eyeM, int finestLevel);
     const ColourClipmapState* colourClipmap() const;  // null where there is none
     // The same for tiles of normals, which are drawn as LightDrawing::normals says: follow with all of
-    // Planet::takeNormalChanges().
+    // Planet::takeTileChanges().
     Result<void> setNormals(const std::optional<NormalPoolConfig>& config);
     void followNormals(std::span<const TileChange> changes);
 

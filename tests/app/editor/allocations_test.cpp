@@ -108,7 +108,7 @@ TEST_F(Counting, WhatASessionHoldsIsCountedByKind) {
     EXPECT_GT(first.openFiles, 3u);
     EXPECT_GE(first.threads, 2u);
     EXPECT_GT(first.residentBytes, 1u << 20);
-    EXPECT_EQ(first.gpu.total(), session.open->scene.renderer.gpuMemory().total());
+    EXPECT_EQ(first.gpu.total(), session.open->scene.renderer.chunks().gpuMemory().total());
     EXPECT_GT(first.objects.programs, 0u);
     EXPECT_GT(first.objects.textures, 0u);
     EXPECT_EQ(first.jobs, 0u);

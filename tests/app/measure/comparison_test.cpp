@@ -101,7 +101,7 @@ TEST_F(ComparisonTest, anAutomaticSeaIsTakenAsItIsDrawn) {
     ComparisonPlan plan = planFor(bakeHills());
     const auto offscreen = openOffscreen({.chunkFile = plan.sides[0].chunkFile}, {}, plan.size, 1);
     ASSERT_TRUE(offscreen);
-    const bool software = offscreen->scene.renderer.capabilities().software;
+    const bool software = offscreen->scene.renderer.chunks().capabilities().software;
     for (ComparedSide& side : plan.sides) {
         side.settings.lod.morph = false;
         side.settings.surface.seaLevelM = 9000;

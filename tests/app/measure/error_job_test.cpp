@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "planet/bake/bake.h"
+#include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/model/overlay_colours.h"
@@ -42,7 +43,7 @@ protected:
 
     tests::TemporaryFolder folder_;
     std::unique_ptr<planet::Planet> planet_;
-    planet::LodSettings lod_;
+    planet::LodSettings lod_ = planet::suddenLod();
     planet::View view_;
     ErrorMeter meter_;
 };

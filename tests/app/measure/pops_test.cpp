@@ -10,6 +10,7 @@
 #include "planet/planet_tools.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
+#include "tests/support/sudden_lod.h"
 #include "ui/model/plot_scale.h"
 #include "ui/shell/panels.h"
 
@@ -26,7 +27,7 @@ protected:
     // Frames that are settled, one second apart.
     void settle(double altitudeM) {
         const planet::View view = planet::viewAt(30, 20, altitudeM);
-        planet::LodSettings settings;
+        planet::LodSettings settings = planet::suddenLod();
         settings.tauPx = 0.5;
         planet_->settle(view, settings, planet::noUpload, planet::timeoutS);
         pops_.meter.add(planet_->tree(), planet_->selection(), view, settings, timeS_ += 1);

@@ -122,8 +122,10 @@ protected:
         EXPECT_THAT(takeProblems(*scene), testing::IsEmpty());
         // Nor is anything read that cannot be drawn.
         settleScene(*scene, view_, settings_, 60);
-        EXPECT_EQ(scene->planet->views()[0].colours.splits.empty(), !scene->drawsColours);
-        EXPECT_EQ(scene->planet->views()[0].normals.splits.empty(), !scene->drawsNormals);
+        EXPECT_EQ(scene->planet->views()[0].colours.splits.empty(),
+                  !scene->renderer.drawsTiles(planet::BlockKind::Colours));
+        EXPECT_EQ(scene->planet->views()[0].normals.splits.empty(),
+                  !scene->renderer.drawsTiles(planet::BlockKind::Normals));
         return drawn;
     }
 

@@ -111,7 +111,7 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
             const bool endsPhase = (frame + 1) * phases / frames > phase;
             if (frame % drawnEvery != 0 && !endsPhase) continue;
             draw(*scene, flight.view(widthPx, heightPx));
-            const std::size_t gpuBytes = scene->renderer.gpuMemory().total();
+            const std::size_t gpuBytes = scene->renderer.chunks().gpuMemory().total();
             mostGpuBytes = std::max(mostGpuBytes, gpuBytes);
             // Both ways of drawing colours have been seen by then.
             const bool early = phase < phases / 2;
@@ -120,8 +120,8 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
             lower(early ? holdingEarly : holdingLate);
             if (clipmap) (early ? objectsEarly : objectsLate) = countObjects();
         }
-        EXPECT_TRUE(scene->drawsColours);
-        EXPECT_TRUE(scene->drawsNormals);
+        EXPECT_TRUE(scene->renderer.drawsTiles(planet::BlockKind::Colours));
+        EXPECT_TRUE(scene->renderer.drawsTiles(planet::BlockKind::Normals));
     }
     const ObjectCounts after = countObjects();
     const Holding atEnd;
@@ -183,11 +183,11 @@ TEST_F(LongFlightDrawn, SwappedFilesLeaveNothingBehind) {
         lower(i <= 8 ? warmHolding : laterHolding);
         if (i == 4 || i == 8) {
             warm = countObjects();
-            warmGpuBytes = scene.renderer.gpuMemory().total();
+            warmGpuBytes = scene.renderer.chunks().gpuMemory().total();
         }
         if (i <= 8) continue;
         EXPECT_EQ(countsText(countObjects()), countsText(warm)) << i;
-        EXPECT_EQ(scene.renderer.gpuMemory().total(), warmGpuBytes) << i;
+        EXPECT_EQ(scene.renderer.chunks().gpuMemory().total(), warmGpuBytes) << i;
     }
     std::cout << swaps << " files swapped in: " << countsText(warm) << "; resident bytes "
               << warmHolding->residentBytes << " then " << laterHolding->residentBytes << ", heap "

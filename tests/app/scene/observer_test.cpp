@@ -7,6 +7,7 @@
 
 #include "app/data/bake_job.h"
 #include "tests/support/fake_pyramid.h"
+#include "tests/support/sudden_lod.h"
 
 namespace worldy {
 namespace {
@@ -65,7 +66,7 @@ protected:
         view_ = planet::viewFromPose({.altitudeM = 2e4, .pitchDeg = -60}, 1e5, 1.0, 800, 600);
         nothing_.showFrustum = false;
         nothing_.showHorizon = false;
-        planet::LodSettings lod;
+        planet::LodSettings lod = planet::suddenLod();
         lod.tauPx = 2;
         planet_->settle(
             view_, lod, [](std::uint32_t, std::span<const std::int16_t>) {}, 60);

@@ -36,6 +36,11 @@ protected:
     }
 };
 
+// So that a program that embeds the library sees what the editor shows.
+TEST_F(SceneTest, TheLibrarysDefaultsAreTheEditors) {
+    EXPECT_EQ(lodSettingsOf(ui::ViewSettings()), planet::LodSettings());
+}
+
 TEST_F(SceneTest, everyKnobOfSelectionReachesTheLibrary) {
     settings_.lod = {.tauPx = 3,
                      .hysteresis = 0.2,
@@ -317,9 +322,9 @@ protected:
     }
     void expectBothModesAlike(Scene& scene) {
         const std::vector<std::uint8_t> tiles = settledPicture(scene, ui::ColourMode::Tiles);
-        EXPECT_EQ(scene.renderer.gpuMemory().colourClipmap, 0u);
+        EXPECT_EQ(scene.renderer.chunks().gpuMemory().colourClipmap, 0u);
         const std::vector<std::uint8_t> clipmap = settledPicture(scene, ui::ColourMode::Clipmap);
-        EXPECT_GT(scene.renderer.gpuMemory().colourClipmap, 0u);
+        EXPECT_GT(scene.renderer.chunks().gpuMemory().colourClipmap, 0u);
         int furthest = 0;
         for (std::size_t i = 0; i < tiles.size(); ++i)
             furthest = std::max(furthest, std::abs(int{tiles[i]} - int{clipmap[i]}));
@@ -335,14 +340,14 @@ TEST_F(ClipmapScene, switchesLiveAndGivesItsMemoryBack) {
     expectBothModesAlike(scene);
     EXPECT_GT(statsOf(scene).clipmap.filledTexels, 6 * 256 * 256);
     EXPECT_EQ(statsOf(scene).clipmap.windows, 1);
-    const std::size_t bytes = scene.renderer.gpuMemory().colourClipmap;
+    const std::size_t bytes = scene.renderer.chunks().gpuMemory().colourClipmap;
     settings_.surface.clipmapSizePx = 512;
     settledPicture(scene, ui::ColourMode::Clipmap);
-    EXPECT_GT(scene.renderer.gpuMemory().colourClipmap, bytes);
+    EXPECT_GT(scene.renderer.chunks().gpuMemory().colourClipmap, bytes);
     EXPECT_EQ(statsOf(scene).clipmap.windows, 0);  // all levels are kept whole
     settings_.surface.streamed = false;
     settledPicture(scene, ui::ColourMode::Clipmap);
-    EXPECT_EQ(scene.renderer.gpuMemory().colourClipmap, 0u);
+    EXPECT_EQ(scene.renderer.chunks().gpuMemory().colourClipmap, 0u);
     settings_.surface.streamed = true;
     expectBothModesAlike(scene);
 }

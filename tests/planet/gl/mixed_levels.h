@@ -13,6 +13,7 @@
 #include "tests/planet/gl/gl_test.h"
 #include "tests/support/fake_pyramid.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet::gl {
 
@@ -109,7 +110,7 @@ public:
 
 private:
     void findSeams() {
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 0.01;
         settings.frustumCulling = settings.horizonCulling = false;
         const View view = viewFromPose({}, tree_.shape.radiusM, 1, 100, 100);

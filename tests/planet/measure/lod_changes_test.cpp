@@ -8,6 +8,7 @@
 
 #include "tests/support/fake_selection.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -196,7 +197,7 @@ TEST(LodChanges, OfRealSelectionsEachChangeIsFound) {
     for (int i = 0; i < 120; ++i) {
         View view = randomView(random, 1e5);
         LodChanges changes;
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         std::set<ChunkId> drawn;
         std::set<ChunkId> splits;
         for (int frame = 0; frame < 4; ++frame) {

@@ -13,6 +13,7 @@
 #include "planet/select/screen_error.h"
 #include "planet/sphere/cube_sphere.h"
 #include "tests/support/planet_fixture.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -271,7 +272,7 @@ TEST(PopMeter, AnEdgeBesideASwitchCountsToIt) {
 // Causes.
 
 LodSettings tauOf(double tauPx) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = tauPx;
     return settings;
 }

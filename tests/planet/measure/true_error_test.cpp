@@ -13,6 +13,7 @@
 #include "planet/select/drawn_surface.h"
 #include "tests/support/fake_selection.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -116,7 +117,7 @@ TEST(TrueError, isWhatTheDefinitionSaysOfEverySample) {
     std::size_t compared = 0;
     bool screenDiffers = false;
     for (int i = 0; i < 12; ++i) {
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 3;
         settings.morph = i % 2 == 0;
         settings.morphRange = 1;
@@ -137,7 +138,7 @@ TEST(TrueError, isWhatTheDefinitionSaysOfEverySample) {
 }
 
 TEST(TrueError, ofAHalfMorphedChunkIsWhatTheDefinitionSays) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.maxLevel = 3;
     settings.tauPx = 1e-3;
     DrawnSnapshot snapshot = drawnFrom(wholeTree(), levelView(), settings);
@@ -156,7 +157,7 @@ TEST(TrueError, ofAHalfMorphedChunkIsWhatTheDefinitionSays) {
 
 // A vertex of a drawn chunk is raised: by so much it must be off there, and only there.
 TEST(TrueError, findsAMovedVertexOnItsChunkAndItsSize) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.maxLevel = 3;
     settings.tauPx = 1e-3;
     DrawnSnapshot snapshot = drawnFrom(wholeTree(), levelView(), settings);
@@ -191,7 +192,7 @@ TEST(TrueError, findsAMovedVertexOnItsChunkAndItsSize) {
 // One level above the leaves delta_c is just the largest error, so half of it is too little wherever that is
 // seen from the side and from afar.
 TEST(TrueError, findsADeltaThatIsHalfOfWhatItShouldBe) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.maxLevel = 3;
     settings.tauPx = 1e-3;
     const DrawnSnapshot clean = drawnFrom(wholeTree(), levelView(), settings);
@@ -220,7 +221,7 @@ TEST(TrueError, findsADeltaThatIsHalfOfWhatItShouldBe) {
 }
 
 TEST(TrueError, ofLeavesAloneIsNothing) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 1e-6;
     const DrawnSnapshot snapshot = drawnFrom(wholeTree(), levelView(), settings);
     const TrueErrorReport report = measured(snapshot);
@@ -276,7 +277,7 @@ double worstShare(const ChunkTree& tree, ErrorMetric metric, SeamMode seams, boo
     int inexact = 0;
     int seamEdges = 0;
     for (int i = 0; i < 50; ++i) {
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.metric = metric;
         settings.tauPx = i % 2 == 0 ? 4 : 20;
         settings.morph = morph;
@@ -316,7 +317,7 @@ TEST(TrueError, ofACleanPlanetStaysUnderTheTightPrediction) {
 }
 
 TEST(TrueError, isTheSameByOneThreadAndByMany) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 20;
     const DrawnSnapshot snapshot = drawnFrom(wholeTree(), levelView(), settings);
     const TrueErrorReport many = measured(snapshot);
@@ -325,7 +326,7 @@ TEST(TrueError, isTheSameByOneThreadAndByMany) {
 }
 
 TEST(TrueError, countsExaggerationIn) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.maxLevel = 2;
     settings.tauPx = 1e-3;
     ChunkTree tree = wholeTree();
@@ -343,7 +344,7 @@ TEST(TrueError, saysWhatCouldNotBeRead) {
         return Result<SiblingBlock>(
             badInput("a.chk: the block of chunk " + toString(parent) + " is damaged"));
     });
-    const auto report = measureTrueError(drawnFrom(coarseTree(), levelView(), LodSettings()), heights);
+    const auto report = measureTrueError(drawnFrom(coarseTree(), levelView(), suddenLod()), heights);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().kind, ErrorKind::BadInput);
     EXPECT_NE(report.error().message.find("a.chk: the block of chunk"), std::string::npos);
@@ -351,7 +352,7 @@ TEST(TrueError, saysWhatCouldNotBeRead) {
 
 TEST(TrueError, canBeCancelled) {
     FinestHeights heights(pyramidLoader());
-    const auto report = measureTrueError(drawnFrom(coarseTree(), levelView(), LodSettings()), heights,
+    const auto report = measureTrueError(drawnFrom(coarseTree(), levelView(), suddenLod()), heights,
                                          [](std::uint64_t, std::uint64_t) { return false; });
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().kind, ErrorKind::Cancelled);
@@ -399,7 +400,7 @@ TEST(FinestHeights, ofResidentLeavesNeedNoReading) {
             ++loads;
             return fakePyramid().load(parent, location, parentHeights);
         });
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 50;
     const auto whole = measureTrueError(drawnFrom(wholeTree(), levelView(), settings), heights);
     ASSERT_TRUE(whole);

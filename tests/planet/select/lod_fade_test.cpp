@@ -15,6 +15,7 @@
 #include "tests/support/fake_selection.h"
 #include "tests/support/planet_fixture.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -25,7 +26,7 @@ constexpr float fadeStep = static_cast<float>(fadeFrameS / usualFadeS);
 constexpr float rounding = 2e-6f;
 
 LodSettings fading(double tauPx) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = tauPx;
     settings.morph = true;
     settings.fadeS = usualFadeS;
@@ -392,7 +393,7 @@ std::unique_ptr<Planet> settledOnTwoLevels(const View& view, LodSettings& lod) {
 
 TEST(PlanetFade, GoesByTheTimeThatAStepIsGiven) {
     const View view = viewAt(10, 20);
-    LodSettings lod;
+    LodSettings lod = suddenLod();
     const auto planet = settledOnTwoLevels(view, lod);
     lod.maxLevel = 2;
     const ViewInput input{view, lod};
@@ -406,7 +407,7 @@ TEST(PlanetFade, GoesByTheTimeThatAStepIsGiven) {
 
 TEST(PlanetFade, SettlingEndsEveryFade) {
     const View view = viewAt(10, 20);
-    LodSettings lod;
+    LodSettings lod = suddenLod();
     const auto planet = settledOnTwoLevels(view, lod);
     lod.maxLevel = 4;
     lod.tauPx = 0.5;
@@ -421,7 +422,7 @@ TEST(PlanetFade, SettlingEndsEveryFade) {
 
 TEST(PlanetFade, WhatASplitWaitsForIsInUse) {
     const View view = viewAt(10, 20);
-    LodSettings lod;
+    LodSettings lod = suddenLod();
     const auto planet = settledOnTwoLevels(view, lod);
     lod.maxLevel = 0;
     EXPECT_TRUE(planet->settle(view, lod, noUpload, timeoutS));
@@ -576,7 +577,7 @@ TEST(LodFade, ANewMetricIsSelectedByAndDeepensNoSkirtNeedlessly) {
     std::mt19937 random(43);
     for (int i = 0; i < 50; ++i) {
         const View view = randomView(random, 1e5);
-        LodSettings additive;
+        LodSettings additive = suddenLod();
         additive.tauPx = 5;
         LodSettings tight = additive;
         tight.metric = ErrorMetric::Tight;

@@ -17,6 +17,7 @@
 
 #include "tests/support/fake_selection.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 namespace {
@@ -59,7 +60,7 @@ TEST(LodSelect, CullingTakesChunksAwayAndChangesNoOther) {
     std::mt19937 random(12);
     for (int i = 0; i < 200; ++i) {
         const View view = randomView(random, 1e5);
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 4;
         const Selection culled = select(wholeTree(), view, settings);
         const auto all = drawnIds(select(wholeTree(), view, withoutCulling(4)));
@@ -93,7 +94,7 @@ TEST(LodSelect, CulledChunksHoldNoVertexThatCanBeSeen) {
     constexpr int views = 2500;
     for (int i = 0; i < views; ++i) {
         const View view = randomView(random, pyramid.shape.radiusM);
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 0.5 + i % 7 * 4;
         const auto drawn = drawnIds(select(wholeTree(), view, settings));
         const Frustum frustum = frustumOf(view);
@@ -119,10 +120,10 @@ TEST(LodSelect, EachCullingCullsOnItsOwn) {
     pose.altitudeM = 5000;
     pose.pitchDeg = -5;
     const View view = viewFromPose(pose, 1e5, 1, 1280, 720);
-    LodSettings both;
-    LodSettings frustumOnly;
+    LodSettings both = suddenLod();
+    LodSettings frustumOnly = suddenLod();
     frustumOnly.horizonCulling = false;
-    LodSettings horizonOnly;
+    LodSettings horizonOnly = suddenLod();
     horizonOnly.frustumCulling = false;
     const Selection none = select(wholeTree(), view, withoutCulling(2));
     const Selection byFrustum = select(wholeTree(), view, frustumOnly);
@@ -142,7 +143,7 @@ TEST(LodSelect, EachCullingCullsOnItsOwn) {
 TEST(LodSelect, ChunksAreWithinToleranceWhereEverythingIsResident) {
     std::mt19937 random(14);
     for (int i = 0; i < 300; ++i) {
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 0.25 * (1 + i % 40);
         const View view = randomView(random, 1e5);
         const Selection selection = select(wholeTree(), view, settings);
@@ -229,7 +230,7 @@ TEST(LodSelect, TheSameInputGivesTheSameAnswer) {
     for (int i = 0; i < 50; ++i) {
         const ChunkTree tree = patchyTree(random, 0, 4);
         const View view = randomView(random, 1e5);
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 3;
         settings.morph = i % 2;
         settings.seams = i % 3 ? SeamMode::Skirts : SeamMode::Stitched;
@@ -294,7 +295,7 @@ TEST(LodSelect, AnEyeInsideABoxGivesNumbersThatEnd) {
 TEST(LodSelect, WhatIsTouchedIsAllThatTheViewNeeds) {
     std::mt19937 random(20);
     for (int i = 0; i < 100; ++i) {
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 3;
         const Selection selection = select(wholeTree(), randomView(random, 1e5), settings);
         std::set<NodeIndex> touched;
@@ -476,7 +477,7 @@ TEST(LodSelect, SkirtsCoverTheErrorsOnBothSidesOfEveryEdge) {
 }
 
 TEST(LodSelect, ASkirtFactorOfZeroMeansNoSkirts) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.skirtFactor = 0;
     const Selection selection = select(wholeTree(), viewFromPose({}, 1e5, 1, 1280, 720), settings);
     ASSERT_FALSE(selection.draw.empty());
@@ -485,7 +486,7 @@ TEST(LodSelect, ASkirtFactorOfZeroMeansNoSkirts) {
 
 TEST(LodSelect, SkirtsAreAsDeepAsTheSettingsSay) {
     const View view = viewFromPose({}, 1e5, 1, 1280, 720);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.skirtDepth = SkirtDepth::Fixed;
     settings.skirtDepthM = 123.5;
     settings.skirtFactor = 0;
@@ -823,7 +824,7 @@ TEST(LodSelect, StitchedSeamsAreNoWiderThanCanBeStitched) {
 TEST(LodSelect, StitchingChangesNothingWhereSeamsAreNarrow) {
     std::mt19937 random(36);
     for (int i = 0; i < 50; ++i) {
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 3;
         const View view = randomView(random, 1e5);
         const Selection skirts = select(wholeTree(), view, settings);
@@ -843,7 +844,7 @@ TEST(LodSelect, SelectsThousandsOfChunks) {
     pose.altitudeM = 300000;
     pose.pitchDeg = -90;
     const View view = viewFromPose(pose, 1e5, 1.2, 1920, 1080);
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = 0.001;
     for (const double fadeS : {0.0, 0.25}) {
         settings.morph = fadeS > 0;

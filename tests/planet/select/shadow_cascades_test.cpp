@@ -10,6 +10,7 @@
 
 #include "tests/support/fake_selection.h"
 #include "tests/support/random_view.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet {
 
@@ -88,7 +89,7 @@ TEST(ShadowCasters, AreWhatTheViewLeavesOutWithinReach) {
     for (int i = 0; i < 100; ++i) {
         const View view = randomView(random, 1e5);
         const double reachM = 3e4 * (1 + i % 20);
-        LodSettings settings;
+        LodSettings settings = suddenLod();
         settings.tauPx = 4;
         const auto drawn = drawnIds(select(wholeTree(), view, settings));
         std::set<ChunkId> casters;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/support/fake_pyramid.h"
+#include "tests/support/sudden_lod.h"
 
 namespace ui {
 namespace {
@@ -27,7 +28,7 @@ std::unique_ptr<planet::Planet> settledPlanet() {
     view.up = {0, 0, 1};
     view.back = {1, 0, 0};
     const planet::UploadChunk upload = [](std::uint32_t, std::span<const std::int16_t>) {};
-    EXPECT_TRUE((*opened)->settle(view, {.tauPx = 1}, upload, 20));
+    EXPECT_TRUE((*opened)->settle(view, planet::suddenLod(1), upload, 20));
     return std::move(*opened);
 }
 

@@ -5,12 +5,13 @@
 
 #include "planet/select/drawn_surface.h"
 #include "tests/planet/gl/mixed_levels.h"
+#include "tests/support/sudden_lod.h"
 
 namespace planet::gl {
 namespace {
 
 LodSettings seamSettings(SeamMode seams, bool morph, double tauPx = 2) {
-    LodSettings settings;
+    LodSettings settings = suddenLod();
     settings.tauPx = tauPx;
     settings.seams = seams;
     settings.morph = morph;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/support/fake_pyramid.h"
+#include "tests/support/sudden_lod.h"
 #include "ui/model/overlay_colours.h"
 
 namespace ui {
@@ -364,7 +365,7 @@ TEST(QuadtreeNet, TheTreeListNamesChildrenThatAreMissing) {
     Fixture fixture;
     fixture.tree = planet::residentTree(planet::fakePyramid(), 0);
     fixture.tree.nodes[0].childrenState = planet::ChildrenState::Failed;
-    selectChunks(fixture.tree, fixture.view, {}, fixture.selection);
+    selectChunks(fixture.tree, fixture.view, planet::suddenLod(), fixture.selection);
     const auto rows = treeRows(fixture.data(), {fixture.tree.nodes[0].id});
     ASSERT_EQ(rows.size(), 10u);
     EXPECT_EQ(rows[1].id, (ChunkId{Face::PosX, 1, 0, 0}));
