@@ -1,6 +1,6 @@
 // Opening a planet from a chunk file: all that the run time needs of the file itself.
+#include "planet/paging/normal_roots.h"
 #include "planet/planet.h"
-#include "planet/planet_state.h"
 
 namespace planet {
 

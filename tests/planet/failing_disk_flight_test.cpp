@@ -16,9 +16,9 @@
 #include "planet/planet_tools.h"
 #include "tests/support/faulty_files.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_colours.h"
 #include "tests/support/synthetic_source.h"
-#include "tests/support/sudden_lod.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planet {
