@@ -300,7 +300,9 @@ std::vector<TileChange> Planet::takeTileChanges(BlockKind kind) {
 
 void Planet::beginTilesAnew(BlockKind kind) {
     TilePaging& tiles = state_->tilesOf(kind);
-    if (tiles.isOn()) state_->resizeTiles(tiles, tiles.capacity());
+    if (!tiles.isOn()) return;
+    state_->resizeTiles(tiles, tiles.capacity());
+    state_->count();
 }
 
 std::vector<std::string> Planet::takeProblems() {

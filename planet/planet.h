@@ -67,10 +67,10 @@ public:
 
     // Applies new settings at once, without waiting for reads: starts or stops loaders, and drops blocks down
     // to a smaller budget, those out of use first. Where the paging's time changes, reads in progress are
-    // requeued. Where normals are turned on in simulated or recorded time, the normals of whole faces are
-    // derived at once, which reads. Returns true if the capacity of heights has changed: then every slot has
-    // moved, the selections are made again, and the renderer needs a pool of that size and uploadAll. The
-    // Error says what is wrong, as open's does; then nothing has changed.
+    // requeued. Where normals are turned on in simulated or recorded time, or while moves are kept, the
+    // normals of whole faces are derived at once, which reads. Returns true if the capacity of heights has
+    // changed: then every slot has moved, the selections are made again, and the renderer needs a pool of
+    // that size and uploadAll. The Error says what is wrong, as open's does; then nothing has changed.
     Result<bool> setPaging(const PagingSettings& settings);
     const PagingSettings& pagingSettings() const;
 
@@ -89,7 +89,8 @@ public:
     // The same: drops all tiles but the roots, and loads them again: for a new renderer.
     void beginTilesAnew(BlockKind kind);
 
-    // Messages of blocks that have failed for good since the last call, for a log; the first 1000.
+    // Returns the problems since the last call, for a log: blocks that have failed for good, colours or
+    // normals that there is no room for, roots that could not be read. The first 1000.
     std::vector<std::string> takeProblems();
 
     const ChunkFile& file() const;  // only of a planet that was opened from one

@@ -1,6 +1,6 @@
 // The paging of one kind of blocks: which blocks are resident, which are requested, and which make room.
-// Heights (chunk_paging.h), colours and normals (tile_paging.h) share what is here; what differs is private
-// and virtual. Internal to the library; one thread.
+// Heights (chunk_paging.h), colours and normals (tile_paging.h) share what is here; what differs is virtual.
+// Internal to the library; one thread.
 //
 // Slots of the kind's pool come in fours, one four for each block. Each page-in that is queued or being read
 // has a four reserved for it, but no particular one: free_.size() >= reserved_. So a block that arrives
@@ -41,7 +41,7 @@ struct MergedRequests {
 struct PagingRun {
     std::uint64_t frame = 0;       // of the current step; the first is 1
     double nowS = 0;               // seconds since the planet was opened, as of the current step
-    double sinceAnewS = 0;         // seconds since Planet::startAnew(); retries are timed by it
+    double sinceAnewS = 0;         // seconds since PlanetTools::startAnew(); retries are timed by it
     std::uint64_t nextTicket = 1;  // of page-ins
     RetryRules retry{};
     PagingLog log{};
@@ -74,9 +74,10 @@ public:
 
     // Withdraws the page-ins of this kind; results of reads in progress will be discarded.
     void discardRequests(PagingQueue& queue, PagingRun& run);
-    // Evicts every block and discards all requests; none of this kind is queued.
+    // Evicts every block and discards all reads. To be called with no request of this kind queued.
     virtual void dropAll(PagingQueue& queue, PagingRun& run) = 0;
-    // Begins again as if just opened; no request is queued or being read. Failures are forgotten.
+    // Resets to the state just after opening and forgets failures. To be called with no request queued and no
+    // read in progress.
     void startAnew(PagingRun& run);
 
     // Lets blocks that failed be requested again: all, or one.
@@ -96,7 +97,7 @@ protected:
     std::size_t reserved() const { return reserved_; }
     // Discards requests that are no longer queued: they are being read, or finished.
     void discardReads(const PagingRun& run);
-    // The state that a node just made resident has, given what is known of its children's failures.
+    // Sets the state of a node that has just become resident, given the known failures of its children.
     void recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const;
     void forgetRetryTime() { failures_.beginStep(); }
     void noteEviction(const PagingRequest& request, bool wasLoaded, PagingRun& run);

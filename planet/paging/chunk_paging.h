@@ -1,8 +1,8 @@
 // The paging of heights: the resident chunks, their page-outs, and the blocks that yield when the budget is
 // full. Internal to the library; one thread.
 //
-// A chunk that is dropped may be in this step's draw lists, so blocks are dropped only before the selection
-// (dropYielding) or where they are out of use.
+// A chunk that is dropped may be in this step's draw lists, so during a step blocks in use are dropped only
+// before the selection (dropYielding). After resize and dropAll the views must be selected again.
 #pragma once
 
 #include <cstddef>

@@ -30,22 +30,24 @@ class NormalRoots {
 public:
     // deriver: null where the planet has no tiles of normals.
     explicit NormalRoots(std::unique_ptr<NormalDeriver> deriver) : deriver_(std::move(deriver)) {}
+    NormalRoots(const NormalRoots&) = delete;
+    NormalRoots& operator=(const NormalRoots&) = delete;
 
     NormalDeriver* deriver() const { return deriver_.get(); }
-    // Slots that normals get once their roots are derived; 0: none.
+    // The slots that normals get once their roots are derived; 0 if they are off.
     std::uint32_t capacity() const { return capacity_; }
     const std::string& problem() const { return problem_; }
     // Whether normals begin as soon as their roots are derived.
     bool arePending(const TilePaging& normals) const { return normals.capacity() != capacity_; }
 
-    // Other settings: so many slots, and bytes of heights kept to derive tiles from. problem: why there are
-    // no normals, reported when it changes.
+    // Sets the number of slots, and the bytes of heights that are kept to derive tiles from. problem: why
+    // there are no normals; it is reported when it changes.
     void set(std::uint32_t capacity, std::size_t heightBytes, const std::string& problem, PagingLog& log);
-    // Goes on with what is pending, without waiting. True if normals have begun.
+    // Continues deriving without waiting. Returns true if normals have begun.
     bool follow(TilePaging& normals, PagingRun& run);
     // Derives what is missing and begins normals, or ends them where there are no slots for them.
     void finish(TilePaging& normals, PagingRun& run);
-    // Derives the roots that are missing. True if any is now there.
+    // Derives the roots that are missing. Returns true if it derived any.
     bool deriveMissing(TilePaging& normals, PagingLog& log);
     // Waits for the root that is being derived.
     void waitUntil(std::chrono::steady_clock::time_point until) const;

@@ -23,13 +23,14 @@ public:
     // Of colours: a block that has failed for good is resident as a checker pattern of this format. Blocks of
     // normals that fail stay away.
     std::optional<ColourFormat> checkers;
-    // Kept, so that they can be shown again. One without texels could not be had.
+    // The tiles of whole faces, kept so that they can be shown again. One without texels could not be read
+    // or derived.
     std::array<TileData, faceCount> roots;
-    TileTree tree;                    // empty where there is no room for any
+    TileTree tree;                    // empty if the kind is off
     std::vector<TileChange> changes;  // for Planet::takeTileChanges()
 
-    // Evicts every block and begins with the roots alone, in a pool of so many slots; with nothing where the
-    // capacity is 0. No request is pending. Failures are kept.
+    // Evicts every block and begins with the roots alone, in a pool of so many slots; with nothing if the
+    // capacity is 0. Keeps failures. To be called with no request pending.
     void begin(std::uint32_t capacity, double sinceAnewS);
 
     // Marks what views have looked at in a frame.

@@ -91,12 +91,13 @@ void PlanetRenderer::followNormals(Planet& planet) {
 
 // The clipmap stands around the first view, whose tiles it is filled from, whichever view is drawn. A size
 // that cannot be had is tried again only when it changes.
-void PlanetRenderer::followClipmap(const Planet& planet, std::optional<int> wantedPx) {
+void PlanetRenderer::followClipmap(const Planet& planet, const RenderSettings& settings) {
+    const bool isSeen = drawsColours_ && settings.streamed && settings.surface == SurfaceColour::Image &&
+                        settings.imageOpacity > 0 && !settings.cube;
+    const std::optional<int> wantedPx = isSeen ? settings.clipmapPx : std::nullopt;
     const auto note = [this](const Result<void>& done) {
         clipmapProblem_ = done ? std::string() : done.error().message;
     };
-    const PlanetView& first = planet.views()[0];
-    if (!drawsColours_ || !first.input.colours.enabled) wantedPx.reset();
     if (clipmapPx_ != wantedPx) {
         clipmapPx_ = wantedPx;
         note(chunks_.setColourClipmap(wantedPx));
@@ -105,7 +106,7 @@ void PlanetRenderer::followClipmap(const Planet& planet, std::optional<int> want
     int finestLevel = 0;
     for (const PlanetView& view : planet.views())
         finestLevel = std::max(finestLevel, static_cast<int>(view.colours.counters.deepestLevel));
-    note(chunks_.moveColourClipmap(first.input.lodView.eyeM, finestLevel));
+    note(chunks_.moveColourClipmap(planet.views()[0].input.lodView.eyeM, finestLevel));
 }
 
 // Those of the view that the level of detail is chosen for: shadows freeze with it.
@@ -126,7 +127,7 @@ void PlanetRenderer::draw(Planet& planet, const View& view, const RenderSettings
     fitShape(planet);
     followColours(planet);
     followNormals(planet);
-    followClipmap(planet, settings.clipmapPx);
+    followClipmap(planet, settings);
     const std::span<const DrawItem> items =
         drawing.items.value_or(std::span<const DrawItem>(planet.selection(drawing.selection).draw));
     chunks_.draw(view, items, settings, drawing.tints, shadowCasters(planet, settings, items), drawing.wait);

@@ -62,8 +62,8 @@ public:
     void limit(ViewInput& view) const;
 
     // Takes the planet's changes since the last draw, and draws a view of it into the bound framebuffer, as
-    // ChunkRenderer::draw does. Colours and normals are drawn where the planet has them and the views of the
-    // last step enable them.
+    // ChunkRenderer::draw does. The settings decide whether colours and normals are drawn; the views of the
+    // last step decide which tiles of them are loaded, the whole faces at least.
     void draw(Planet& planet, const View& view, const RenderSettings& settings,
               const PlanetDrawing& drawing = {});
 
@@ -71,9 +71,9 @@ public:
     bool drawsTiles(BlockKind kind) const {
         return kind == BlockKind::Colours ? drawsColours_ : drawsNormals_;
     }
-    // What could not be drawn as asked since the last call, each once.
+    // Returns the reasons why something was not drawn as asked since the last call, each once.
     std::vector<std::string> takeProblems();
-    // Why there is no clipmap though RenderSettings::clipmapPx asks for one; empty if nothing is wrong.
+    // The reason why the last draw had no clipmap though RenderSettings::clipmapPx asked for one; else empty.
     const std::string& clipmapProblem() const { return clipmapProblem_; }
 
     // The renderer of chunks, for colour images, layers, counters and measurements.
@@ -84,7 +84,7 @@ private:
     PlanetRenderer(ChunkRenderer&& chunks, const Planet& planet);
     void followColours(Planet& planet);
     void followNormals(Planet& planet);
-    void followClipmap(const Planet& planet, std::optional<int> wantedPx);
+    void followClipmap(const Planet& planet, const RenderSettings& settings);
     std::vector<DrawItem> shadowCasters(const Planet& planet, const RenderSettings& settings,
                                         std::span<const DrawItem> items) const;
 

@@ -40,8 +40,9 @@ struct RenderSettings {
     bool streamed = true;
     // The same for streamed colours as TileSettings::texelsPerPixel; larger: sharper, and may shimmer.
     double texelsPerPixel = 1;
-    // Draws streamed colours from a clipmap with windows of this many texels per side: a power of two,
-    // [smallestClipmapPx, largestClipmapPx] (planet/surface/colour_clipmap.h). Nothing: from the tiles.
+    // PlanetRenderer draws streamed colours from a clipmap with windows of this many texels per side: a power
+    // of two, [smallestClipmapPx, largestClipmapPx] (planet/surface/colour_clipmap.h). Unset: from the tiles.
+    // ChunkRenderer ignores it (setColourClipmap).
     std::optional<int> clipmapPx{};
     double rampTopM = 6000;  // the height ramp's highest band, metres, > 0; the sea is darkest as far below 0
     // Replace the built-in ramp if there are any; lowest first, at most maxRampStops. The built-in sea keeps
