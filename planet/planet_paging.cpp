@@ -1,4 +1,4 @@
-// What a Planet's step does with the blocks of all kinds, and the changes between steps.
+// The paging stage of a Planet's step, and the changes between steps.
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -117,7 +117,7 @@ MergedRequests PlanetState::mergeFor(BlockKind kind) const {
     MergedRequests merged;
     merged.wanted = mergeRequests(
         views, [&](const PlanetView& view) -> auto& { return requestsIn(view, kind); });
-    // Those of heights only where the budget is full: there are many.
+    // Splits of heights are merged only if the budget is full, since there are many.
     if (kind != BlockKind::Heights) merged.splits = mergeSplits(views, kind);
     return merged;
 }
@@ -203,7 +203,7 @@ void PlanetState::beginNormals(std::uint32_t capacity, std::size_t heightBytes, 
     if (pager) resizeTiles(normals, 0);
     normalRoots.set(capacity, heightBytes, problem, run.log);
     if (!normalRoots.deriver()) return;
-    // Where each step must be the same on any machine, they are derived at once.
+    // Derived at once if each step must be the same on any machine.
     if (pager && settings.time == PagingTime::Clock && !run.log.keepsMoves) {
         if (normalRoots.follow(normals, run)) selectAgain();
     } else {

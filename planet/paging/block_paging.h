@@ -37,7 +37,7 @@ struct MergedRequests {
     std::vector<MergedRequest> splits;  // resident blocks that a view uses
 };
 
-// What the paging of all kinds shares.
+// The state that the paging of all kinds shares.
 struct PagingRun {
     std::uint64_t frame = 0;       // of the current step; the first is 1
     double nowS = 0;               // seconds since the planet was opened, as of the current step
@@ -117,7 +117,7 @@ private:
     virtual void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
                              const UploadChunk& upload) = 0;
     virtual void beginRequests() {}  // request() begins
-    // What is shown in place of a block that has failed for good: of heights and normals nothing.
+    // A stand-in is shown in place of a block that has failed for good. Heights and normals have none.
     virtual bool hasStandIn() const { return false; }
     virtual void addStandIn(NodeIndex, PagingRun&) {}
     virtual void dropStandIn(NodeIndex) {}

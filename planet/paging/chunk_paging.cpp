@@ -63,7 +63,7 @@ void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& 
     ++blocksLoaded_;
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
         ChunkNode& node = tree.nodes[child];
-        // As if used by the frame that asked for it, in case this one no longer does.
+        // Counts as used by the frame that requested it, in case this frame no longer uses it.
         node.lastUsedFrame = run.frame - 1;
         node.loadedAtS = run.nowS;
         node.loadOrder = blocksLoaded_;
@@ -111,7 +111,7 @@ void ChunkPaging::markUsed(PagingQueue& queue, std::span<const Selection* const>
     }
 }
 
-// The block that is out of use longest.
+// Evicts the least recently used block.
 bool ChunkPaging::makeRoom(PagingQueue& queue, const MergedRequest&, const std::vector<MergedRequest>&,
                            PagingRun& run) {
     while (const PagingRequest* oldest = queue.best(PagingType::PageOut)) {
@@ -128,7 +128,7 @@ bool ChunkPaging::makeRoom(PagingQueue& queue, const MergedRequest&, const std::
     return false;
 }
 
-// Also ends the page-out that may be pending. Leaves what is watched as it is.
+// Also ends the page-out that may be pending. Does not change watched_.
 void ChunkPaging::evict(PagingQueue& queue, NodeIndex parent, PagingRun& run) {
     PagingRequest request{.parent = tree.nodes[parent].id, .type = PagingType::PageOut, .askedAtS = run.nowS};
     if (auto pending = queue.pop(request.parent)) request = std::move(*pending);
@@ -230,7 +230,7 @@ void ChunkPaging::resize(PagingQueue& queue, std::uint32_t capacity, PagingRun& 
     renumber(capacity);
 }
 
-// The lowest slots, in the order of the tree.
+// Gives resident chunks the lowest slots, in the order of the tree.
 void ChunkPaging::renumber(std::uint32_t capacity) {
     std::uint32_t next = faceCount;
     forEachNode(tree, [&](NodeIndex, const ChunkNode& node) {

@@ -35,9 +35,9 @@ public:
     void markUsed(PagingQueue& queue, std::span<const Selection* const> views, PagingRun& run);
     // Whether blocks that are wanted have to wait, and no block is out of use.
     bool lacksRoom() const { return counters().budgetWaits > 0 && tree.residentChunks <= usedChunks_; }
-    // Where it lacks room: chooses blocks that the next step drops, since others are wanted yieldFactor times
-    // as much. This evens out the errors of views that the budget cannot pay for; without it, what came first
-    // would stay fine and what came closer since would stay coarse.
+    // Chooses blocks that the next step drops, since others are wanted yieldFactor times as much. Call it if
+    // room is lacking. This evens out the errors of views that the budget cannot pay for: without it, chunks
+    // that came first would stay fine, and those that the camera has approached since would stay coarse.
     void chooseYielding(const MergedRequests& requests);
     bool isYielding() const { return !yielding_.empty(); }
     void dropYielding(PagingQueue& queue, PagingRun& run);

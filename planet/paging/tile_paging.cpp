@@ -43,7 +43,7 @@ void TilePaging::dropAll(PagingQueue&, PagingRun& run) {
     begin(capacity(), run.sinceAnewS);
 }
 
-// The least recently used block, or else one that is in use but wanted far less.
+// Evicts the least recently used block, or else one that is in use but wanted far less.
 bool TilePaging::makeRoom(PagingQueue&, const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
                           PagingRun& run) {
     return evictUnused(run) || evictLessWanted(wanted, splits, run);
@@ -112,7 +112,7 @@ void TilePaging::addTilesUnder(NodeIndex parent, TileBlock&& tiles, const Paging
     const std::uint32_t slot = takeSlots();
     const NodeIndex first = addTiles(tree, parent, tiles, slot);
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
-        // As if used by the frame that asked for it, in case this one no longer does.
+        // Counts as used by the frame that requested it, in case this frame no longer uses it.
         tree.nodes[child].lastUsedFrame = run.frame - 1;
         recallFailure(tree.nodes[child].id, tree.nodes[child].childrenState, run.sinceAnewS);
     }

@@ -20,8 +20,8 @@ public:
     explicit TilePaging(BlockKind kind) : BlockPaging(kind) {}
 
     int leafLevel = -1;  // of the pyramid; -1: the planet has none
-    // Of colours: a block that has failed for good is resident as a checker pattern of this format. Blocks of
-    // normals that fail stay away.
+    // Set for colours: a block that has failed for good is resident as a checker pattern of this format.
+    // Blocks of normals that fail have no stand-in.
     std::optional<ColourFormat> checkers;
     // The tiles of whole faces, kept so that they can be shown again. One without texels could not be read
     // or derived.

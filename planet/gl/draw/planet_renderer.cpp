@@ -69,7 +69,7 @@ void PlanetRenderer::followColours(Planet& planet) {
     if (drawsColours_) chunks_.followColours(changes);
 }
 
-// Where the planet has no normals the pool is given back.
+// Frees the pool if the planet has no normals.
 void PlanetRenderer::followNormals(Planet& planet) {
     const std::uint32_t capacity = planet.paging()[BlockKind::Normals].capacity;
     const PlanetShape& stored = planet.tree().storedShape;
@@ -109,7 +109,7 @@ void PlanetRenderer::followClipmap(const Planet& planet, const RenderSettings& s
     note(chunks_.moveColourClipmap(planet.views()[0].input.lodView.eyeM, finestLevel));
 }
 
-// Those of the view that the level of detail is chosen for: shadows freeze with it.
+// Returns the casters for the view that the level of detail is chosen for, so that shadows freeze with it.
 std::vector<DrawItem> PlanetRenderer::shadowCasters(const Planet& planet, const RenderSettings& settings,
                                                     std::span<const DrawItem> items) const {
     // From far off nothing drawn is within their reach, and the walk would see every resident chunk.

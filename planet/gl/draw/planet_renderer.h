@@ -32,7 +32,7 @@ struct PlanetRendererConfig {
     std::shared_ptr<ChunkPrograms> programs{};  // the same
 };
 
-// What is drawn besides the view and the settings.
+// The options of a draw besides its view and its settings.
 struct PlanetDrawing {
     std::size_t selection = 0;  // of the last step: the view whose chunks are drawn
     // Chunks to draw instead of that selection; their slots must hold them.
