@@ -1,5 +1,5 @@
-// What an editor, a test or a recording does with a Planet beyond drawing it: it looks into the paging,
-// repeats it, and records and replays it. Both classes are handles, valid as long as the planet; use them
+// Tools for editors, tests and recordings of a Planet: they inspect the paging, repeat it, and record and
+// replay it. Both classes are handles, valid as long as the planet; use them
 // from the thread that steps it.
 #pragma once
 
@@ -23,7 +23,7 @@ public:
     // The pending requests of a type, most urgent first: a copy, for display. Page-outs are the blocks out of
     // use, least recently used first; they stay resident until their room is needed.
     std::vector<PagingRequest> pendingRequests(PagingType type) const;
-    // Those that a view wants, by its own priorities. No view wants a page-out.
+    // The pending requests of one view, by its own priorities. No view requests a page-out.
     std::vector<PagingRequest> pendingRequests(PagingType type, std::size_t view) const;
     std::vector<LoadInProgress> loadingNow() const;
     // How the last 1000 requests ended, oldest first.

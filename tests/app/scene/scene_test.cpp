@@ -36,7 +36,7 @@ protected:
     }
 };
 
-// So that a program that embeds the library sees what the editor shows.
+// A program that embeds the library then sees what the editor shows.
 TEST_F(SceneTest, TheLibrarysDefaultsAreTheEditors) {
     EXPECT_EQ(lodSettingsOf(ui::ViewSettings()), planet::LodSettings());
 }

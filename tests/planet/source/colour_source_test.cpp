@@ -160,7 +160,7 @@ TEST(ColourSource, FacesThatDifferVisiblyAlongTheirEdgesGetANotice) {
                                      "their shared edge, the top row of [xy]_(pos|neg) and the .* of z_pos: "
                                      ".*4 of 12 edges differ so and will show a seam.*"));
     EXPECT_THAT(notice, Not(HasSubstr(" m ")));
-    // The channel with the most seams is told of, and what is brighter than white is white.
+    // The notice is that of the channel with the most seams. Values above 1 count as 1.
     writeColourFaces<float>(folder / "blue", ".exr", size, [](Face face, int column, int row, int channel) {
         if (channel == 0) return face == Face::PosX && column == 0 ? 1.0 : 0.0;
         if (channel == 1) return face == Face::PosX ? 3.0 : 2.0;
@@ -179,7 +179,7 @@ TEST(ColourSource, FacesThatAgreeOrDifferLittleGetNoNotice) {
     EXPECT_EQ(noticeOf(folder / "same"), "");
     writeColourFaces<std::uint8_t>(folder / "lossy", ".jpg", size, same);
     EXPECT_EQ(noticeOf(folder / "lossy"), "");
-    // As a lossy picture may differ: all samples a little, and less than a tenth of an edge by much.
+    // A lossy picture differs like this: all samples a little, and less than a tenth of an edge by much.
     writeColourFaces<std::uint8_t>(
         folder / "near", ".png", size, [&](Face face, int column, int row, int channel) {
             if (face == Face::PosY && column == 0 && row < 6) return 255 - same(face, column, row, channel);
