@@ -6,9 +6,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "planet/format/chunk_file.h"
 #include "planet/format/chunk_file_format.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/support/grey_faces.h"
 
 namespace worldy {
 namespace {
@@ -45,16 +47,6 @@ Shares sharesOf(const std::filesystem::path& file) {
         shares.magenta += magenta ? 1.0 / static_cast<double>(count) : 0;
     }
     return shares;
-}
-
-// Six faces, each of one grey of its own.
-void writeGreyFaces(const TemporaryFolder& folder) {
-    int grey = 0;
-    for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
-        std::ofstream stream(folder.path() / (std::string("grey_") + face + ".pgm"), std::ios::binary);
-        stream << "P5\n9 9\n255\n" << std::string(9 * 9, static_cast<char>(grey));
-        grey += 51;
-    }
 }
 
 TEST(ColourFaces, ThatDifferAlongTheirEdgesGiveAWarningOfTheBake) {

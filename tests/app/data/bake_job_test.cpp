@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "planet/format/chunk_file.h"
+#include "tests/support/grey_faces.h"
 #include "tests/support/temporary_folder.h"
 
 namespace worldy {
@@ -63,16 +64,6 @@ void writeColourImage(const fs::path& file) {
     std::ofstream stream(file, std::ios::binary);
     stream << "P6\n16 8\n255\n";
     for (int i = 0; i < 16 * 8 * 3; ++i) stream.put(static_cast<char>(i % 200));
-}
-
-// Six faces, each of one grey of its own.
-void writeGreyFaces(const TemporaryFolder& folder) {
-    int grey = 0;
-    for (const char* face : {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg"}) {
-        std::ofstream stream(folder.path() / (std::string("grey_") + face + ".pgm"), std::ios::binary);
-        stream << "P5\n9 9\n255\n" << std::string(9 * 9, static_cast<char>(grey));
-        grey += 51;
-    }
 }
 
 TEST(BakeJob, ReportsFacesOfColoursThatDifferAlongTheirEdges) {
