@@ -82,9 +82,7 @@ float tableWidth(std::span<const TableColumn> columns) {
 }
 
 std::string widestText(std::span<const std::string> texts) {
-    const auto width = [](const std::string& text) {
-        return ImGui::CalcTextSize(inFont(text.c_str()).c_str()).x;
-    };
+    const auto width = [](const std::string& text) { return ImGui::CalcTextSize(inFont(text).c_str()).x; };
     const auto widest =
         std::max_element(texts.begin(), texts.end(),
                          [&](const std::string& a, const std::string& b) { return width(a) < width(b); });

@@ -158,8 +158,7 @@ void valueRows(const char* id, std::span<const ValueRow> rows) {
 
 float valuesWidth(std::span<const ValueRow> rows, const char* widestValue) {
     float name = 0;
-    for (const ValueRow& row : rows)
-        name = std::max(name, ImGui::CalcTextSize(inFont(row.name.c_str()).c_str()).x);
+    for (const ValueRow& row : rows) name = std::max(name, ImGui::CalcTextSize(inFont(row.name).c_str()).x);
     // A value that takes more than its share of the width is wrapped.
     const float value = ImGui::CalcTextSize(widestValue).x;
     return std::max(name + value + 2 * ImGui::GetStyle().CellPadding.x, value / valueShare) + 1;
