@@ -10,10 +10,10 @@ namespace worldy {
 
 namespace {
 
-ui::LogLevel levelOf(spdlog::level::level_enum level) {
-    if (level >= spdlog::level::err) return ui::LogLevel::Error;
-    if (level == spdlog::level::warn) return ui::LogLevel::Warning;
-    return level == spdlog::level::info ? ui::LogLevel::Info : ui::LogLevel::Debug;
+LogLevel levelOf(spdlog::level::level_enum level) {
+    if (level >= spdlog::level::err) return LogLevel::Error;
+    if (level == spdlog::level::warn) return LogLevel::Warning;
+    return level == spdlog::level::info ? LogLevel::Info : LogLevel::Debug;
 }
 
 std::string clockText(spdlog::log_clock::time_point time) {
@@ -27,7 +27,7 @@ std::string clockText(spdlog::log_clock::time_point time) {
 
 class Log::Sink : public spdlog::sinks::base_sink<std::mutex> {
 public:
-    std::vector<ui::LogLine> takeLines() {
+    std::vector<LogLine> takeLines() {
         const std::lock_guard lock(mutex_);
         return std::exchange(lines_, {});
     }
@@ -40,7 +40,7 @@ private:
     }
     void flush_() override {}
 
-    std::vector<ui::LogLine> lines_;
+    std::vector<LogLine> lines_;
 };
 
 Log::Log() : sink_(std::make_shared<Sink>()) {
@@ -51,8 +51,8 @@ Log::Log() : sink_(std::make_shared<Sink>()) {
     terminal->set_level(spdlog::level::info);
 }
 
-void Log::moveNewLines(std::deque<ui::LogLine>& lines) {
-    for (ui::LogLine& line : sink_->takeLines()) lines.push_back(std::move(line));
+void Log::moveNewLines(std::deque<LogLine>& lines) {
+    for (LogLine& line : sink_->takeLines()) lines.push_back(std::move(line));
     while (lines.size() > keptLines) lines.pop_front();
 }
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "ui/model/log_lines.h"
+#include "app/base/log_lines.h"
 
 namespace worldy {
 
@@ -21,7 +21,7 @@ public:
     spdlog::logger* operator->() const { return logger_.get(); }
 
     // Appends what was logged since the last call, and forgets the oldest lines beyond keptLines.
-    void moveNewLines(std::deque<ui::LogLine>& lines);
+    void moveNewLines(std::deque<LogLine>& lines);
 
     static constexpr std::size_t keptLines = 2000;
 

@@ -8,6 +8,7 @@
 #include "app/base/exit_code.h"
 #include "app/base/message.h"
 #include "app/base/places.h"
+#include "app/base/text.h"
 #include "app/cli/shot_command.h"
 #include "app/data/bake_progress.h"
 #include "app/editor/editor.h"
@@ -15,7 +16,6 @@
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "planet/source/height_source.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -77,7 +77,7 @@ Result<void> checkDataSet(const DataSet& set) {
 }
 
 int runWindow(Window& window, const AppOptions& options, DataSet data, const OpenSettings& open, Log& log) {
-    window.setTitle(fmt::format("{} - Worldy", ui::sourceName(data.source)));
+    window.setTitle(fmt::format("{} - Worldy", sourceName(data.source)));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data), options.shaderFolder, log);
     session.shaderWorker = window.makeShaderWorker();

@@ -11,10 +11,12 @@
 #include <numeric>
 #include <tuple>
 
+#include "app/base/glossary.h"
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
 #include "app/base/report.h"
 #include "app/base/stopwatch.h"
+#include "app/base/text.h"
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"
 #include "app/measure/audit_views.h"
@@ -24,8 +26,6 @@
 #include "planet/base/percentile.h"
 #include "planet/planet.h"
 #include "planet/planet_tools.h"
-#include "ui/model/glossary.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -117,10 +117,10 @@ Place groundPlaceOf(const glm::dvec3& pointM) {
 
 Json jsonOf(const ChunkError& chunk) {
     Json json = {{"chunk", planet::toString(chunk.id)},
-                 {ui::terms::epsPx.key, chunk.epsPx},
-                 {ui::terms::drawnBoundPx.key, chunk.drawnBoundPx},
-                 {ui::terms::measuredPx.key, chunk.facingPx},
-                 {ui::terms::screenPx.key, chunk.screenPx},
+                 {terms::epsPx.key, chunk.epsPx},
+                 {terms::drawnBoundPx.key, chunk.drawnBoundPx},
+                 {terms::measuredPx.key, chunk.facingPx},
+                 {terms::screenPx.key, chunk.screenPx},
                  {"error_m", chunk.errorM},
                  {"mean_px", chunk.meanPx},
                  {"samples", chunk.samples},
@@ -152,10 +152,10 @@ Json jsonOf(const AuditedView& view) {
     const TrueErrorReport& report = view.report;
     Json json = {{"camera", poseJson(view.pose)},
                  {"settled", view.settled},
-                 {ui::terms::drawnChunks.key, report.chunks.size()},
-                 {ui::terms::groundTriangles.key, view.groundTriangles},
-                 {ui::terms::skirtTriangles.key, view.skirtTriangles},
-                 {ui::terms::triangles.key, view.groundTriangles + view.skirtTriangles}};
+                 {terms::drawnChunks.key, report.chunks.size()},
+                 {terms::groundTriangles.key, view.groundTriangles},
+                 {terms::skirtTriangles.key, view.skirtTriangles},
+                 {terms::triangles.key, view.groundTriangles + view.skirtTriangles}};
     addFigures(report, json);
     json["chunk"] = Json::array();
     for (const ChunkError& chunk : report.chunks) json["chunk"].push_back(jsonOf(chunk));
@@ -203,7 +203,7 @@ std::string columnText(double px) {
 void printRow(const std::string& name, std::size_t chunks, std::uint64_t triangles,
               const TrueErrorReport& report) {
     fmt::print("{:>5}{:>8}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>8.1f}{:>12}\n", name, chunks,
-               ui::countText(static_cast<double>(triangles)), columnText(report.worstEpsPx),
+               countText(static_cast<double>(triangles)), columnText(report.worstEpsPx),
                columnText(report.worstDrawnBoundPx), columnText(report.worstFacingPx),
                columnText(report.p99FacingPx), columnText(report.worstScreenPx), 100 * report.meanSlack,
                report.violations);
@@ -220,8 +220,7 @@ void printWorst(const Audit& audit, int count) {
         const Place place = groundPlaceOf(chunk.worstM);
         fmt::print("{:>5}  {:24}{:>11}{:>11}{:>11}{:>10.2f} m  {}{}\n", one.view + 1,
                    planet::toString(chunk.id), columnText(chunk.drawnBoundPx), columnText(chunk.facingPx),
-                   columnText(chunk.screenPx), chunk.errorM,
-                   ui::placeText(place.latitudeDeg, place.longitudeDeg),
+                   columnText(chunk.screenPx), chunk.errorM, placeText(place.latitudeDeg, place.longitudeDeg),
                    planet::isViolation(chunk) ? "  VIOLATION" : "");
     }
 }
@@ -290,8 +289,8 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
     const auto samples = static_cast<double>(samplesOf(audit));
     fmt::print(
         "\n{} samples compared in {}, {:.1f} ns each; {} blocks read beyond those that were resident\n",
-        ui::countText(samples), ui::durationText(audit.measuringS),
-        1e9 * audit.measuringS / std::max(samples, 1.0), audit.blocksRead);
+        countText(samples), durationText(audit.measuringS), 1e9 * audit.measuringS / std::max(samples, 1.0),
+        audit.blocksRead);
 }
 
 Json auditJson(const AuditOptions& options, const Audit& audit) {

@@ -10,9 +10,9 @@
 #include "app/base/report.h"
 #include "app/flight/flight_path.h"
 #include "app/settings/camera_text.h"
+#include "app/settings/view_settings.h"
 #include "planet/measure/true_error.h"
 #include "planet/select/lod_select.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -25,7 +25,7 @@ struct AuditOptions {
     ReportTo report;                            // every chunk of every view
     int worst = 20;                             // chunks that are listed, the worst over all views; >= 0
     PictureSize size;
-    ui::ViewSettings view;
+    ViewSettings view;
 };
 
 struct AuditedView {

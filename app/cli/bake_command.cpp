@@ -7,11 +7,11 @@
 
 #include "app/base/message.h"
 #include "app/base/report.h"
+#include "app/base/text.h"
 #include "app/data/bake_progress.h"
 #include "app/data/worlds.h"
 #include "planet/source/colour_source.h"
 #include "planet/source/terrain.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -54,15 +54,15 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
                planet::chunkSize(report.shape), planet::faceCells(report.shape) + 1,
                planet::faceCells(report.shape) + 1);
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
-               ui::bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
-               ui::durationText(report.seconds));
+               bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
+               durationText(report.seconds));
     if (report.colourTiles > 0) {
         fmt::print("{} colour tiles, {}\n", report.colourTiles,
-                   ui::bytesText(static_cast<double>(report.colourBytes)));
+                   bytesText(static_cast<double>(report.colourBytes)));
     }
     fmt::print("max root error: delta_c {}, tight {}\n",
-               ui::distanceText(static_cast<double>(report.largestDeltaCM)),
-               ui::distanceText(static_cast<double>(report.largestDeltaTightM)));
+               distanceText(static_cast<double>(report.largestDeltaCM)),
+               distanceText(static_cast<double>(report.largestDeltaTightM)));
 }
 
 void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {
@@ -81,7 +81,7 @@ void printField(const planet::TerrainField& field, const planet::TerrainSettings
 // The worlds, and the kinds of made terrain with their settings.
 void printPresets() {
     fmt::print("Presets: worldy bake preset:NAME -o OUT.chk\n");
-    for (const ui::World& world : worlds()) {
+    for (const World& world : worlds()) {
         const planet::BakeSettings& settings = world.request.settings;
         fmt::print("  {:<16} {}\n{:19}{}, radius {} km{}\n", world.name, world.about, "",
                    world.request.source.string(), settings.radiusM / 1000,

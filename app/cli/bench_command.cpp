@@ -19,8 +19,8 @@
 #include "app/base/report.h"
 #include "app/cli/bench_parts.h"
 #include "app/data/bake_progress.h"
+#include "app/data/own_colour.h"
 #include "planet/gl/device/offscreen_context.h"
-#include "ui/model/own_colour.h"
 
 namespace worldy {
 
@@ -190,9 +190,8 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
          [&, largest] { return benchFileSize(largest(), folder); }},
         {"colours", "Load of colours against a plain loop",
          [&] {
-             return benchColours(
-                 ui::ownColourImage(options.source.empty() ? earthElevation() : options.source), options,
-                 folder);
+             return benchColours(ownColourImage(options.source.empty() ? earthElevation() : options.source),
+                                 options, folder);
          }},
     };
 }

@@ -26,8 +26,8 @@ constexpr double everyLeafPx = 1e-9;  // a tolerance that nothing but a leaf kee
 constexpr planet::CameraPose benchPose{
     .latitudeDeg = 26, .longitudeDeg = 87, .altitudeM = 120'000, .headingDeg = 0, .pitchDeg = -25};
 
-ui::ViewSettings benchSettings(double tauPx, int budgetMB) {
-    ui::ViewSettings settings;
+ViewSettings benchSettings(double tauPx, int budgetMB) {
+    ViewSettings settings;
     settings.lod.tauPx = tauPx;
     settings.lod.hysteresis = 0;
     settings.paging.budgetMB = budgetMB;
@@ -41,10 +41,10 @@ ui::ViewSettings benchSettings(double tauPx, int budgetMB) {
     return settings;
 }
 
-ui::ViewSettings everyLeaf(const planet::PlanetShape& shape) {
+ViewSettings everyLeaf(const planet::PlanetShape& shape) {
     const auto bytes =
         planet::chunkCountOf(shape) * (planet::chunkBytesCpu(shape) + planet::chunkBytesGpu(shape));
-    ui::ViewSettings settings = benchSettings(1, static_cast<int>(bytes >> 20) + 64);
+    ViewSettings settings = benchSettings(1, static_cast<int>(bytes >> 20) + 64);
     settings.lod.morph = false;
     settings.lod.frustumCulling = false;
     settings.lod.horizonCulling = false;
@@ -64,11 +64,11 @@ double residentMiB(const Scene& scene) {
 // A planet drawn at one setting.
 struct Contender {
     std::string name;
-    ui::ViewSettings settings;
+    ViewSettings settings;
     Scene scene;
 };
 
-Result<Contender> openContender(std::string name, const ui::ViewSettings& settings, const BenchPlanet& planet,
+Result<Contender> openContender(std::string name, const ViewSettings& settings, const BenchPlanet& planet,
                                 const planet::View& view) {
     Result<Scene> scene = openScene({.chunkFile = planet.chunkFile}, settings);
     if (!scene) return tl::unexpected(scene.error());
@@ -130,7 +130,7 @@ std::vector<std::uint32_t> gridIndices(std::size_t chunks, std::uint32_t cells) 
     return indices;
 }
 
-Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const ui::ViewSettings& settings) {
+Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const ViewSettings& settings) {
     const planet::Selection& selection = scene.planet->selection();
     const Result<std::vector<glm::vec3>> positions = scene.renderer.chunks().readVertexPositions(
         view, selection.draw, renderSettingsOf(settings, view, scene.planet->tree()));
@@ -235,7 +235,7 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
     const planet::View view = benchView(shape, options.size);
 
     std::vector<Contender> contenders;
-    const auto add = [&](std::string name, const ui::ViewSettings& settings) -> Result<void> {
+    const auto add = [&](std::string name, const ViewSettings& settings) -> Result<void> {
         Result<Contender> opened = openContender(std::move(name), settings, planet, view);
         if (!opened) return tl::unexpected(opened.error());
         contenders.push_back(std::move(*opened));
@@ -268,7 +268,7 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
 BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOptions& options) {
     Result<Drawing> drawing = openDrawing(options.size);
     if (!drawing) return tl::unexpected(drawing.error());
-    const ui::ViewSettings settings = benchSettings(options.tausPx.front(), 512);
+    const ViewSettings settings = benchSettings(options.tausPx.front(), 512);
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
     const planet::View view = benchView(file->info().shape, options.size);

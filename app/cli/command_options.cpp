@@ -7,8 +7,8 @@
 #include <bit>
 #include <charconv>
 
+#include "app/measure/sweep_points.h"
 #include "app/settings/view_options.h"
-#include "ui/model/sweep_points.h"
 
 namespace worldy {
 
@@ -245,14 +245,14 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
         command
             .add_option("--tau", texts.view.tauPx,
                         "Screen-space error threshold tau, pixels (from the settings)")
-            ->check(number(ui::smallestTauPx, ui::largestTauPx));
+            ->check(number(smallestTauPx, largestTauPx));
     }
     if (takesAny(takes::taus)) {
         command
             .add_option("--tau", texts.tausPx,
                         fmt::format("Screen-space error thresholds tau, pixels ({})", spec.defaultTaus))
             ->delimiter(',')
-            ->check(number(ui::smallestTauPx, ui::largestTauPx));
+            ->check(number(smallestTauPx, largestTauPx));
     }
     if (takesAny(takes::set)) {
         command

@@ -9,10 +9,10 @@
 
 #include "app/base/interrupt.h"
 #include "app/base/report.h"
+#include "app/base/text.h"
 #include "app/flight/flight_path_file.h"
 #include "app/measure/comparison.h"
 #include "app/settings/settings_text.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -24,37 +24,37 @@ using planet::Result;
 constexpr double pictureGain = 8;
 
 // Of what is flown: what is left out of that makes no difference.
-std::vector<ui::SettingDifference> differencesOf(const ComparisonPlan& plan) {
+std::vector<SettingDifference> differencesOf(const ComparisonPlan& plan) {
     Settings a, b;
     a.view = flownSide(plan, 0).settings;
     b.view = flownSide(plan, 1).settings;
     return differences(a, b);
 }
 
-void printTable(const ComparisonPlan& plan, std::span<const ui::SettingDifference> different,
+void printTable(const ComparisonPlan& plan, std::span<const SettingDifference> different,
                 const ComparedPair& pair) {
     fmt::print("{}: {} frames\n", plan.path.name, plan.moments);
     if (plan.sides[0].chunkFile != plan.sides[1].chunkFile) {
         fmt::print("A is {}, B is {}\n", plan.sides[0].chunkFile.string(), plan.sides[1].chunkFile.string());
     }
     if (different.empty()) fmt::print("equal settings\n");
-    for (const ui::SettingDifference& one : different) {
-        const auto [a, b] = ui::shortNumberTexts(one.here, one.there);
+    for (const SettingDifference& one : different) {
+        const auto [a, b] = shortNumberTexts(one.here, one.there);
         fmt::print("{}: A {}, B {}\n", one.setting, a, b);
     }
     fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "", "A", "B", "B to A");
-    for (const ui::CompareRow& row : ui::compareRows()) {
+    for (const CompareRow& row : compareRows()) {
         if (!row.flight) continue;
         const std::optional<double>& a = pair[0].*row.value;
         const std::optional<double>& b = pair[1].*row.value;
-        fmt::print("{:<18}{:>14}{:>14}{:>14}\n", row.name, ui::figureText(row, a), ui::figureText(row, b),
-                   ui::changeText(row, a, b));
+        fmt::print("{:<18}{:>14}{:>14}{:>14}\n", row.name, figureText(row, a), figureText(row, b),
+                   changeText(row, a, b));
     }
 }
 
-Json jsonOf(const ComparedSide& side, const ui::ComparedFigures& figures) {
+Json jsonOf(const ComparedSide& side, const ComparedFigures& figures) {
     Json json = {{"file", side.chunkFile.string()}};
-    for (const ui::CompareRow& row : ui::compareRows()) {
+    for (const CompareRow& row : compareRows()) {
         if (!row.flight) continue;
         const std::optional<double>& value = figures.*row.value;
         if (value && row.whole)
@@ -65,14 +65,14 @@ Json jsonOf(const ComparedSide& side, const ui::ComparedFigures& figures) {
     return json;
 }
 
-Json reportOf(const ComparisonPlan& plan, std::span<const ui::SettingDifference> different,
+Json reportOf(const ComparisonPlan& plan, std::span<const SettingDifference> different,
               const ComparedPair& pair, const std::optional<ComparedPictures>& pictures) {
     Json report = {{"flight", plan.path.name},           {"frames", plan.moments},
                    {"width_px", plan.size.widthPx},      {"height_px", plan.size.heightPx},
                    {"pops_step_s", plan.popStepS},       {"a", jsonOf(plan.sides[0], pair[0])},
                    {"b", jsonOf(plan.sides[1], pair[1])}};
     report["settings"] = Json::array();
-    for (const ui::SettingDifference& one : different)
+    for (const SettingDifference& one : different)
         report["settings"].push_back({{"setting", one.setting}, {"a", one.here}, {"b", one.there}});
     if (pictures) {
         report["most_different"] = {{"time_s", pictures->timeS},
@@ -115,7 +115,7 @@ Result<void> runCompare(const CompareOptions& options) {
     const auto goOn = [&](double) { return !watch.interrupted(); };
     const Result<ComparedPair> pair = compareOverFlight(*plan, goOn);
     if (!pair) return tl::unexpected(pair.error());
-    const std::vector<ui::SettingDifference> different = differencesOf(*plan);
+    const std::vector<SettingDifference> different = differencesOf(*plan);
     if (!options.report.json) printTable(*plan, different, *pair);
     std::optional<ComparedPictures> pictures;
     if (!options.pictures.empty()) {

@@ -8,7 +8,7 @@
 #include "app/base/report.h"
 #include "app/flight/flight_path.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -18,7 +18,7 @@ struct CompareOptions {
     std::filesystem::path flight;   // .toml, or a recorded .flight
     FlightSampling sampling;
     PictureSize size;
-    std::array<ui::ViewSettings, 2> settings;  // A and B
+    std::array<ViewSettings, 2> settings;  // A and B
     ReportTo report;
     std::filesystem::path pictures;  // a folder; empty: none
 };

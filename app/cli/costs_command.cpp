@@ -16,21 +16,21 @@ namespace {
 
 using planet::Result;
 
-nlohmann::ordered_json reportOf(const std::vector<ui::PartCost>& costs, const SettledView& at,
+nlohmann::ordered_json reportOf(const std::vector<PartCost>& costs, const SettledView& at,
                                 const CostsOptions& options) {
     nlohmann::ordered_json report = {
         {"file", options.file.string()},      {"width_px", options.size.widthPx},
         {"height_px", options.size.heightPx}, {"rounds", options.rounds},
         {"camera", poseJson(at.pose)},        {"parts", nlohmann::ordered_json::array()}};
-    for (const ui::PartCost& cost : costs)
+    for (const PartCost& cost : costs)
         report["parts"].push_back(
             {{"part", cost.part}, {"without_ms", cost.withoutMs}, {"with_ms", cost.withMs}});
     return report;
 }
 
-void print(const std::vector<ui::PartCost>& costs) {
+void print(const std::vector<PartCost>& costs) {
     fmt::print("{:<20} {:>11} {:>9} {:>9} {:>7}\n", "part", "without, ms", "with, ms", "more, ms", "ratio");
-    for (const ui::PartCost& cost : costs)
+    for (const PartCost& cost : costs)
         fmt::print("{:<20} {:>11.2f} {:>9.2f} {:>9.2f} {:>7.2f}\n", cost.part, cost.withoutMs, cost.withMs,
                    cost.withMs - cost.withoutMs, cost.withMs / cost.withoutMs);
 }
@@ -42,7 +42,7 @@ Result<void> runCosts(const CostsOptions& options) {
     if (!colour) return tl::unexpected(colour.error());
     const SceneConfig config{options.file, {}, *colour ? &**colour : nullptr};
     // All that any part wants is loaded beforehand.
-    const ui::ViewSettings all = partsOf(options.view, {}).back().settings;
+    const ViewSettings all = partsOf(options.view, {}).back().settings;
     Result<Offscreen> offscreen = openOffscreen(config, all, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
     const double radiusM = offscreen->scene.planet->tree().shape.radiusM;
@@ -53,7 +53,7 @@ Result<void> runCosts(const CostsOptions& options) {
     if (!meter) return tl::unexpected(meter.error());
     while (meter->step(offscreen->scene)) {
     }
-    const std::vector<ui::PartCost> costs = meter->costs();
+    const std::vector<PartCost> costs = meter->costs();
     if (!options.report.json) print(costs);
     return writeReport(options.report, reportOf(costs, at, options));
 }

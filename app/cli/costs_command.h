@@ -6,7 +6,7 @@
 
 #include "app/base/report.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -18,7 +18,7 @@ struct CostsOptions {
     PictureSize size;
     int rounds = 5;
     ReportTo report;
-    ui::ViewSettings view;
+    ViewSettings view;
 };
 
 // Prints a table, and writes it as JSON where told.

@@ -49,8 +49,8 @@ struct MeasuredView {
 
 struct Measured {
     std::vector<MeasuredView> views;
-    ui::SmallestSkirts smallest;  // where asked for
-    Picture marked;               // where asked for
+    SmallestSkirts smallest;  // where asked for
+    Picture marked;           // where asked for
 };
 
 // Infinity is no number in JSON.
@@ -83,7 +83,7 @@ Json jsonOf(const ReportedSpot& reported) {
     return entry;
 }
 
-std::vector<ReportedSpot> reportedSpots(const ui::CrackMeasurement& measured) {
+std::vector<ReportedSpot> reportedSpots(const CrackMeasurement& measured) {
     std::vector<ReportedSpot> reported;
     for (const planet::CrackSpot& spot : measured.spots) {
         ReportedSpot one{spot, std::nullopt, std::nullopt};
@@ -97,7 +97,7 @@ std::vector<ReportedSpot> reportedSpots(const ui::CrackMeasurement& measured) {
 }
 
 // The worst picture so far, marked.
-Result<void> keepPicture(Offscreen& offscreen, const MeasuredView& view, const ui::CrackMeasurement& measured,
+Result<void> keepPicture(Offscreen& offscreen, const MeasuredView& view, const CrackMeasurement& measured,
                          const CracksOptions& options, Measured& all) {
     const auto badness = [](const MeasuredView& v) { return std::make_tuple(v.leaking, v.cracks); };
     const bool worse = std::all_of(all.views.begin(), all.views.end(),
@@ -116,7 +116,7 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
     // Neither hysteresis nor what is resident may carry over from the view before.
     offscreen.scene.planet->tools().startAnew();
     view.at = settleAt(offscreen, pose, options.view);
-    const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
+    const Result<CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
     if (!measured) return tl::unexpected(measured.error());
     view.seams = measured->levelPairs;
     view.gaps = measured->gaps;
@@ -126,7 +126,7 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
     view.requiredDepthM = measured->required.depthM;
     view.requiredFactor = measured->required.factor;
     if (options.findDepth) {
-        const Result<ui::SmallestSkirts> smallest =
+        const Result<SmallestSkirts> smallest =
             smallestSkirts(offscreen.scene, view.at.view, *measured, all.smallest);
         if (!smallest) return tl::unexpected(smallest.error());
         all.smallest = *smallest;
@@ -141,7 +141,7 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
 // What the flight leaves open with skirts as found, measured anew: first one depth for all, then the factor.
 Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const Measured& all,
                       planet::SkirtDepth kind) {
-    ui::ViewSettings settings = options.view;
+    ViewSettings settings = options.view;
     settings.seams.mode = planet::SeamMode::Skirts;
     settings.seams.depth = kind;
     settings.seams.skirtDepthM = all.smallest.depthM;
@@ -150,7 +150,7 @@ Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const 
     for (const MeasuredView& view : all.views) {
         offscreen.scene.planet->tools().startAnew();
         const SettledView at = settleAt(offscreen, view.at.pose, settings);
-        const Result<ui::CrackMeasurement> measured = measureCracks(offscreen.scene, at.view, settings);
+        const Result<CrackMeasurement> measured = measureCracks(offscreen.scene, at.view, settings);
         if (!measured) return tl::unexpected(measured.error());
         leaking += measured->map.leaking;
     }
@@ -204,7 +204,7 @@ Json reportOf(const CracksOptions& options, const Measured& all, const std::opti
                    {"spots", totals.spots},
                    {"worst_gap_m", totals.worstGapM},
                    {"worst_gap_px", totals.worstGapPx},
-                   {"cracks_by_rounding", *ui::roundingNote(totals.cracks, totals.worstGapM) != '\0'},
+                   {"cracks_by_rounding", *roundingNote(totals.cracks, totals.worstGapM) != '\0'},
                    {"depth_by_gaps_m", totals.requiredDepthM},
                    {"factor_by_gaps", numberOrNull(totals.requiredFactor)}};
     if (options.findDepth) {
@@ -244,7 +244,7 @@ void printTable(const Measured& all) {
     const Totals totals = totalsOf(all.views);
     fmt::print("{:>16}{:14.3f}{:14.3f}{:12}{:14}{:10}\n", "all views", totals.worstGapM, totals.worstGapPx,
                totals.cracks, totals.leaking, totals.spots);
-    const std::string note = ui::roundingNote(totals.cracks, totals.worstGapM);
+    const std::string note = roundingNote(totals.cracks, totals.worstGapM);
     if (!note.empty()) fmt::print("{}\n", note);
 }
 

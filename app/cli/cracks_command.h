@@ -8,7 +8,7 @@
 #include "app/base/report.h"
 #include "app/flight/flight_path.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -24,7 +24,7 @@ struct CracksOptions {
     bool findDepth = false;
     int worst = 20;  // clusters and gaps that are printed, of each so many, >= 0; the report holds all
     PictureSize size;
-    ui::ViewSettings view;
+    ViewSettings view;
 };
 
 // Each view is measured once everything for it is loaded. True: nothing leaks.

@@ -13,11 +13,11 @@
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
 #include "app/base/report.h"
+#include "app/base/text.h"
 #include "app/data/worlds.h"
 #include "planet/bake/colour_report.h"
 #include "planet/bake/file_report.h"
 #include "planet/format/chunk_file.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -49,7 +49,7 @@ void printColour(const planet::ColourPyramid& colour, const ColourLevels& levels
     fmt::print("{:>5}{:>10}{:>12}\n", "level", "tiles", "size");
     for (const planet::ColourLevelReport& level : levels) {
         fmt::print("{:>5}{:>10}{:>12}\n", level.level, level.tiles,
-                   ui::bytesText(static_cast<double>(level.bytes)));
+                   bytesText(static_cast<double>(level.bytes)));
     }
 }
 
@@ -96,15 +96,15 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
     fmt::print("  finest samples   {}, {} of the source without data\n", report.finestSamples,
                info.missingSamples);
     fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
-               ui::bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
+               bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
     fmt::print("{:>29}{:>14}{:>56}{:>14}\n", "", "delta_c, m:", "", "tight, m:");
     fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size",
                "smallest", "median", "99th perc.", "largest", "mean", "mean", "largest");
     for (const planet::LevelReport& level : report.levels) {
         fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n",
-                   level.level, level.chunks, ui::bytesText(static_cast<double>(level.bytes)),
-                   level.minDeltaM, level.medianDeltaM, level.p99DeltaM, level.maxDeltaM, level.meanDeltaM,
-                   level.meanTightM, level.maxTightM);
+                   level.level, level.chunks, bytesText(static_cast<double>(level.bytes)), level.minDeltaM,
+                   level.medianDeltaM, level.p99DeltaM, level.maxDeltaM, level.meanDeltaM, level.meanTightM,
+                   level.maxTightM);
     }
 }
 
@@ -185,7 +185,7 @@ Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& rep
 
 void printProbe(const FileCommandOptions& options, const planet::ProbeReport& report) {
     fmt::print("{}: {} lies at {:.3f} m, on {} at u {:.6f}, v {:.6f}\n\n", options.file.string(),
-               ui::placeText(options.latitudeDeg, options.longitudeDeg), report.heightM,
+               placeText(options.latitudeDeg, options.longitudeDeg), report.heightM,
                planet::faceName(report.place.face), report.place.u, report.place.v);
     fmt::print("{:24}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "chunk", "delta_c, m", "tight, m", "height, m",
                "lowest, m", "highest, m");

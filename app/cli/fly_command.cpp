@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/base/glossary.h"
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
 #include "app/base/report.h"
@@ -17,7 +18,6 @@
 #include "app/scene/frame_report.h"
 #include "app/scene/offscreen.h"
 #include "planet/base/percentile.h"
-#include "ui/model/glossary.h"
 
 namespace worldy {
 
@@ -32,25 +32,25 @@ struct FlownFrame {
     double timeS = 0;
     planet::CameraPose pose;
     bool lifted = false;
-    ui::FrameStats stats;
+    FrameStats stats;
 };
 
 // What the summary tells of, by its name in the JSON.
 struct Quantity {
     const char* name;
-    double (*of)(const ui::FrameStats&);
+    double (*of)(const FrameStats&);
 };
-using Stats = ui::FrameStats;
+using Stats = FrameStats;
 constexpr std::array<Quantity, 24> quantities = {{
     {"visited", [](const Stats& s) { return double{1} * s.selection.visited; }},
     {"culled",
      [](const Stats& s) { return double{1} * (s.selection.culledFrustum + s.selection.culledHorizon); }},
-    {ui::terms::drawnChunks.key, [](const Stats& s) { return double{1} * s.selection.drawn; }},
-    {ui::terms::groundTriangles.key,
+    {terms::drawnChunks.key, [](const Stats& s) { return double{1} * s.selection.drawn; }},
+    {terms::groundTriangles.key,
      [](const Stats& s) { return static_cast<double>(s.selection.groundTriangles); }},
-    {ui::terms::skirtTriangles.key,
+    {terms::skirtTriangles.key,
      [](const Stats& s) { return static_cast<double>(s.selection.skirtTriangles); }},
-    {ui::terms::triangles.key, [](const Stats& s) { return static_cast<double>(s.selection.triangles()); }},
+    {terms::triangles.key, [](const Stats& s) { return static_cast<double>(s.selection.triangles()); }},
     {"waiting", [](const Stats& s) { return double{1} * s.selection.waiting; }},
     {"worst_eps_px", [](const Stats& s) { return static_cast<double>(s.selection.worstEpsPx); }},
     {"worst_drawn_bound_px",
@@ -93,7 +93,7 @@ Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity)
 
 // elapsedS: of the flight, since the frame before.
 Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS, double elapsedS,
-                            const ui::ViewSettings& settings) {
+                            const ViewSettings& settings) {
     Scene& scene = offscreen.scene;
     const double radiusM = scene.planet->tree().shape.radiusM;
     const Camera wanted = cameraFromPose(poseAt(path, timeS), radiusM);

@@ -6,7 +6,7 @@
 #include "app/base/report.h"
 #include "app/flight/flight_path.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -17,7 +17,7 @@ struct FlyOptions {
     ReportTo report;
     std::filesystem::path shaderFolder;
     PictureSize size;
-    ui::ViewSettings view;
+    ViewSettings view;
 };
 
 planet::Result<void> flyPath(const FlyOptions& options);

@@ -7,7 +7,7 @@
 #include "app/base/report.h"
 #include "app/flight/flight_path.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -18,7 +18,7 @@ struct PopsOptions {
     int worst = 20;  // switches that are printed, >= 0; the report holds all
     FlightSampling sampling;
     PictureSize size;
-    ui::ViewSettings view;
+    ViewSettings view;
 };
 
 planet::Result<void> runPops(const PopsOptions& options);

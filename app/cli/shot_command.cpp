@@ -7,12 +7,12 @@
 #include "app/base/message.h"
 #include "app/base/picture.h"
 #include "app/base/report.h"
+#include "app/base/text.h"
 #include "app/scene/frame_report.h"
 #include "app/scene/offscreen.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -36,7 +36,7 @@ Result<void> writeShot(const Picture& picture, const planet::CameraPose& pose, c
 
 void printReport(const Offscreen& offscreen, const SettledView& view, const ShotOptions& options) {
     const planet::Selection& selection = offscreen.scene.planet->selection();
-    const ui::FrameStats stats = statsOf(offscreen.scene);
+    const FrameStats stats = statsOf(offscreen.scene);
     if (options.json) {
         nlohmann::ordered_json report = {
             {"output", options.output.string()},     {"width_px", options.size.widthPx},
@@ -53,9 +53,8 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
     }
     fmt::print("{}: {} chunks, {} triangles, max ε {:.2f} px, max drawn bound {:.2f} px, {} read\n",
                options.output.string(), stats.selection.drawn,
-               ui::countText(static_cast<double>(stats.selection.triangles())), stats.selection.worstEpsPx,
-               stats.selection.worstDrawnBoundPx,
-               ui::bytesText(static_cast<double>(stats.paging.bytesRead())));
+               countText(static_cast<double>(stats.selection.triangles())), stats.selection.worstEpsPx,
+               stats.selection.worstDrawnBoundPx, bytesText(static_cast<double>(stats.paging.bytesRead())));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/settings/camera_text.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -20,7 +20,7 @@ struct ShotOptions {
     PictureSize size;
     int samples = 4;  // of the multisampling, [1, 16]
     bool json = false;
-    ui::ViewSettings view;
+    ViewSettings view;
 };
 
 // A .png keeps the settings and the camera as a screenshot does. Labels on chunks and the observer are the

@@ -114,7 +114,7 @@ Result<void> checkTableFile(const SweepOptions& options) {
 
 struct Swept {
     std::vector<SweepPoint> points;
-    std::vector<ui::SweepSuggestion> suggestions;  // in place of the points where a tau was looked for
+    std::vector<SweepSuggestion> suggestions;  // in place of the points where a tau was looked for
 };
 
 Result<void> write(const SweepOptions& options, Swept swept, const std::string& flight) {
@@ -135,7 +135,7 @@ Result<void> write(const SweepOptions& options, Swept swept, const std::string& 
     return writePicture(*plot, options.plotOutput);
 }
 
-void print(const ui::SweepSuggestion& suggestion) {
+void print(const SweepSuggestion& suggestion) {
     const TauGoal& goal = suggestion.goal;
     const TauSuggestion& found = suggestion.found;
     fmt::print("{}: tau {:.3g} px, {} {:.6g}, {} {:g}{}\n",
@@ -177,7 +177,7 @@ Result<void> runSweep(const SweepOptions& options) {
         swept.points.push_back(point);
         if (!options.report.json) print(point);
     };
-    watcher.suggested = [&](const ui::SweepSuggestion& suggestion) {
+    watcher.suggested = [&](const SweepSuggestion& suggestion) {
         swept.suggestions.push_back(suggestion);
         if (!options.report.json) print(suggestion);
     };

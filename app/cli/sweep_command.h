@@ -28,7 +28,7 @@ struct SweepOptions {
     ReportTo report;                   // as JSON, or as CSV where the file's name ends in .csv
     std::filesystem::path plotOutput;  // .png
     PictureSize size;
-    ui::ViewSettings view;  // all but tau and metric
+    ViewSettings view;  // all but tau and metric
 };
 
 planet::Result<void> runSweep(const SweepOptions& options);

@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // The textures of its layers, and the set's file.
-void addLayerFiles(CommandFiles& files, const ui::ViewSettings& view) {
-    const ui::LayerSettings& layers = view.surface.layers;
+void addLayerFiles(CommandFiles& files, const ViewSettings& view) {
+    const LayerSettings& layers = view.surface.layers;
     const fs::path folder = layerFolderOf(layers.file);
     files.inputs.emplace_back(layers.file);
     for (const planet::TextureLayer& layer : layers.set.layers) {
@@ -93,7 +93,7 @@ CommandFiles filesOf(const CompareOptions& options) {
     addChunkFile(files, options.file);
     addChunkFile(files, options.fileOfB);
     files.inputs.push_back(options.flight);
-    for (const ui::ViewSettings& view : options.settings) addLayerFiles(files, view);
+    for (const ViewSettings& view : options.settings) addLayerFiles(files, view);
     files.outputs = {{options.report.file, OutputKind::Json}};
     if (options.pictures.empty()) return files;
     for (const char* name : {"side_by_side.png", "difference.png"})

@@ -8,7 +8,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
-#include "ui/model/text.h"
+#include "app/base/text.h"
 
 namespace worldy {
 
@@ -16,9 +16,9 @@ namespace {
 
 std::string progressText(const planet::BakeProgress& progress, double share) {
     return fmt::format("{:3.0f} %  {} of {} samples  {} samples/s  {} left", 100 * share,
-                       ui::countText(static_cast<double>(progress.samplesDone)),
-                       ui::countText(static_cast<double>(progress.samplesTotal)),
-                       ui::countText(progress.samplesPerS), ui::durationText(progress.remainingS));
+                       countText(static_cast<double>(progress.samplesDone)),
+                       countText(static_cast<double>(progress.samplesTotal)), countText(progress.samplesPerS),
+                       durationText(progress.remainingS));
 }
 
 }  // namespace

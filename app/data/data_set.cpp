@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "app/base/places.h"
+#include "app/data/own_colour.h"
 #include "app/data/worlds.h"
 #include "planet/format/chunk_file.h"
 #include "planet/source/height_source.h"
 #include "planet/source/terrain.h"
-#include "ui/model/own_colour.h"
 
 namespace worldy {
 
@@ -91,13 +91,13 @@ bool opensWhole(const fs::path& chunkFile) {
 
 // A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
 fs::path colourImageOf(const fs::path& chunkFile) {
-    const fs::path beside = ui::colourImageBeside(chunkFile);
+    const fs::path beside = colourImageBeside(chunkFile);
     if (!beside.empty()) return beside;
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
     if (!file) return {};
-    if (file->info().source == ourEarth) return ui::colourImageBeside(earthElevation());
+    if (file->info().source == ourEarth) return colourImageBeside(earthElevation());
     const fs::path source = sourceOf(file->info());
-    return source.empty() ? fs::path() : ui::ownColourImage(source);
+    return source.empty() ? fs::path() : ownColourImage(source);
 }
 
 fs::path sourceOf(const planet::ChunkFileInfo& info) {
@@ -143,7 +143,7 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
     }
     DataSet set{.source = source->source,
                 .chunkFile = {},
-                .colourImage = ui::ownColourImage(source->source),
+                .colourImage = ownColourImage(source->source),
                 .settings = source->settings};
     set.bakedColour = colour.value_or(set.colourImage);
     set.chunkFile = cachedBakeOf(set.source, set.settings, sourceSettings, set.bakedColour);

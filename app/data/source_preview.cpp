@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <utility>
@@ -70,7 +71,7 @@ struct Relief {
     }
 };
 
-Result<Relief> readRelief(const planet::HeightSource& source, const ui::PreviewRequest& request,
+Result<Relief> readRelief(const planet::HeightSource& source, const PreviewRequest& request,
                           const std::function<bool()>& goOn) {
     const planet::SampleTile whole = tileOfPreview(request);
     Relief relief;
@@ -126,7 +127,7 @@ std::vector<std::uint8_t> shaded(const Relief& relief) {
 
 }  // namespace
 
-planet::SampleTile tileOfPreview(const ui::PreviewRequest& request) {
+planet::SampleTile tileOfPreview(const PreviewRequest& request) {
     const int zoom = std::clamp(request.zoomLog2, 0, 14);
     const int cells = previewSidePx << zoom;
     const auto first = [&](double middle) {
@@ -136,7 +137,7 @@ planet::SampleTile tileOfPreview(const ui::PreviewRequest& request) {
     return {request.face, cells, first(request.u), first(request.v), samplesASide, samplesASide};
 }
 
-Result<PreviewPicture> drawPreview(const planet::HeightSource& source, const ui::PreviewRequest& request,
+Result<PreviewPicture> drawPreview(const planet::HeightSource& source, const PreviewRequest& request,
                                    const std::function<bool()>& goOn) {
     const Stopwatch watch;
     const Result<Relief> relief = readRelief(source, request, goOn);
@@ -146,7 +147,7 @@ Result<PreviewPicture> drawPreview(const planet::HeightSource& source, const ui:
     return picture;
 }
 
-PreviewJob::PreviewJob(ui::PreviewRequest request)
+PreviewJob::PreviewJob(PreviewRequest request)
     : thread_([this, request = std::move(request)] {
           const auto goOn = [this] { return !cancelled_.load(); };
           Result<PreviewPicture> result = planet::openHeightSource(request.source, request.sourceSettings)
@@ -167,7 +168,7 @@ std::optional<Result<PreviewPicture>> PreviewJob::takeResult() {
     return std::exchange(result_, std::nullopt);
 }
 
-void requestPreview(PreviewDesk& desk, const ui::PreviewRequest& request) {
+void requestPreview(PreviewDesk& desk, const PreviewRequest& request) {
     desk.next = request;
     if (desk.job) desk.job->cancel();
 }
@@ -195,19 +196,6 @@ void advancePreview(PreviewDesk& desk) {
         }
     }
     if (desk.next) desk.job = std::make_unique<PreviewJob>(*std::exchange(desk.next, std::nullopt));
-}
-
-ui::SourcePreview previewViewOf(const PreviewDesk& desk) {
-    ui::SourcePreview view;
-    view.working = desk.job || desk.next;
-    view.problem = desk.problem;
-    if (!desk.shown) return view;
-    view.texture = reinterpret_cast<void*>(static_cast<std::intptr_t>(desk.texture.name()));
-    view.shown = desk.shown->request;
-    view.lowM = desk.shown->lowM;
-    view.highM = desk.shown->highM;
-    view.seconds = desk.shown->seconds;
-    return view;
 }
 
 }  // namespace worldy

@@ -11,17 +11,17 @@
 #include <thread>
 #include <vector>
 
+#include "app/data/bake_request.h"
 #include "planet/base/result.h"
 #include "planet/gl/device/gl_objects.h"
 #include "planet/source/height_source.h"
-#include "ui/model/editor_view.h"
 
 namespace worldy {
 
 inline constexpr int previewSidePx = 256;
 
 struct PreviewPicture {
-    ui::PreviewRequest request;
+    PreviewRequest request;
     std::vector<std::uint8_t> rgba;  // previewSidePx^2, top row first
     double lowM = 0;                 // of the heights in it
     double highM = 0;
@@ -29,18 +29,17 @@ struct PreviewPicture {
 };
 
 // The samples that a preview shows: one more a side than it has pixels, of the grid that its zoom makes.
-planet::SampleTile tileOfPreview(const ui::PreviewRequest& request);
+planet::SampleTile tileOfPreview(const PreviewRequest& request);
 
 // Relief lit from the upper left, slopes exaggerated until they show, coloured by height; blue below 0 m.
 // goOn is asked every few rows; false ends it with an Error of kind Cancelled. Any thread.
-planet::Result<PreviewPicture> drawPreview(const planet::HeightSource& source,
-                                           const ui::PreviewRequest& request,
+planet::Result<PreviewPicture> drawPreview(const planet::HeightSource& source, const PreviewRequest& request,
                                            const std::function<bool()>& goOn = {});
 
 // Opens the source and draws it. All calls from one thread.
 class PreviewJob {
 public:
-    explicit PreviewJob(ui::PreviewRequest request);
+    explicit PreviewJob(PreviewRequest request);
     ~PreviewJob();  // cancels, and waits for its end
     PreviewJob(const PreviewJob&) = delete;
     PreviewJob& operator=(const PreviewJob&) = delete;
@@ -60,14 +59,13 @@ private:
 // thread of the GL context.
 struct PreviewDesk {
     std::unique_ptr<PreviewJob> job;
-    std::optional<ui::PreviewRequest> next;
+    std::optional<PreviewRequest> next;
     std::optional<PreviewPicture> shown;  // without its pixels, which are the texture's
     planet::gl::Texture texture;
     std::string problem;
 };
-void requestPreview(PreviewDesk& desk, const ui::PreviewRequest& request);
+void requestPreview(PreviewDesk& desk, const PreviewRequest& request);
 // At a frame's start. Leaves no texture bound to the active unit.
 void advancePreview(PreviewDesk& desk);
-ui::SourcePreview previewViewOf(const PreviewDesk& desk);
 
 }  // namespace worldy

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "app/base/places.h"
+#include "app/data/own_colour.h"
 #include "planet/source/terrain.h"
-#include "ui/model/own_colour.h"
 
 namespace worldy {
 
@@ -16,19 +16,19 @@ namespace {
 
 constexpr std::string_view prefix = "preset:";
 
-ui::World world(const char* name, const char* title, const char* about, std::string source, double radiusM,
-                std::optional<int> faceSize) {
-    ui::World made{name, title, about, {}};
+World world(const char* name, const char* title, const char* about, std::string source, double radiusM,
+            std::optional<int> faceSize) {
+    World made{name, title, about, {}};
     made.request.source = std::move(source);
     made.request.settings.radiusM = radiusM;
     made.request.settings.faceSize = faceSize;
-    made.request.colour = ui::ownColourImage(made.request.source);
+    made.request.colour = ownColourImage(made.request.source);
     return made;
 }
 
 }  // namespace
 
-std::vector<ui::World> worlds() {
+std::vector<World> worlds() {
     const double earthRadiusM = planet::BakeSettings{}.radiusM;
     const std::string earth = earthElevation().string();
     // The grid is twice as fine as the image's own samples, so from step to step it shows half their relief.
@@ -51,10 +51,10 @@ bool isWorldName(const std::filesystem::path& path) {
     return path.string().starts_with(prefix);
 }
 
-planet::Result<ui::World> worldNamed(const std::filesystem::path& name) {
+planet::Result<World> worldNamed(const std::filesystem::path& name) {
     const std::string wanted = name.string().substr(std::min(prefix.size(), name.string().size()));
     std::vector<std::string> names;
-    for (ui::World& world : worlds()) {
+    for (World& world : worlds()) {
         if (world.name == wanted) return std::move(world);
         names.push_back(world.name);
     }
@@ -65,7 +65,7 @@ planet::Result<ui::World> worldNamed(const std::filesystem::path& name) {
 planet::Result<NamedSource> sourceNamed(const std::filesystem::path& named,
                                         const planet::BakeSettings& settings) {
     if (!isWorldName(named)) return NamedSource{named, settings};
-    const planet::Result<ui::World> world = worldNamed(named);
+    const planet::Result<World> world = worldNamed(named);
     if (!world) return tl::unexpected(world.error());
     NamedSource found{world->request.source, settings};
     if (settings.radiusM == planet::BakeSettings{}.radiusM)

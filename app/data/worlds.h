@@ -5,18 +5,26 @@
 #include <string>
 #include <vector>
 
+#include "app/data/bake_request.h"
 #include "planet/base/result.h"
-#include "ui/model/editor_view.h"
 
 namespace worldy {
 
+// Describes a source that comes with Worldy.
+struct World {
+    std::string name;   // "earth-amplified"
+    std::string title;  // "Earth amplified"
+    std::string about;
+    BakeRequest request;  // source, radius, face size and colours
+};
+
 // The Earth, the Earth with detail, a moon, a ridged world; each with its radius and a face size.
-std::vector<ui::World> worlds();
+std::vector<World> worlds();
 
 // Whether it is meant as one of them: "preset:NAME".
 bool isWorldName(const std::filesystem::path& path);
 // The Error names the nearest.
-planet::Result<ui::World> worldNamed(const std::filesystem::path& name);
+planet::Result<World> worldNamed(const std::filesystem::path& name);
 
 // What is baked where a source and settings are named: a world's source, and its radius and face size in
 // place of the usual ones; others as they are.

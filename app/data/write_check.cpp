@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "app/data/data_set.h"
+#include "app/data/own_colour.h"
 #include "app/data/worlds.h"
 #include "app/settings/layer_file.h"
 #include "app/settings/screenshot.h"
@@ -20,7 +21,6 @@
 #include "planet/format/chunk_file_format.h"
 #include "planet/source/geo_tags.h"
 #include "planet/source/height_source.h"
-#include "ui/model/own_colour.h"
 
 namespace worldy {
 
@@ -190,7 +190,7 @@ void addSource(CommandFiles& files, const fs::path& source) {
     const Result<NamedSource> named = sourceNamed(source, {});
     const fs::path path = named ? named->source : source;
     for (const fs::path& file : planet::heightSourceFiles(path).files) files.inputs.push_back(file);
-    files.inputs.push_back(ui::ownColourImage(path));
+    files.inputs.push_back(ownColourImage(path));
 }
 
 void addChunkFile(CommandFiles& files, const fs::path& chunkFile) {

@@ -56,8 +56,7 @@ ui::Allocations countAllocations(const Session& session, const Editor& editor) {
 }
 
 void watchAllocations(const Session& session, Editor& editor) {
-    const bool lookedAt =
-        editor.settings.workspace.panels[static_cast<std::size_t>(ui::PanelId::Frame)].shown;
+    const bool lookedAt = editor.settings.workspace.panels[static_cast<std::size_t>(PanelId::Frame)].shown;
     ui::AllocationsView& view = editor.allocations;
     if (!view.now && shownScene(session)) {
         view.now = view.mark = countAllocations(session, editor);

@@ -129,7 +129,7 @@ void followFrame(CameraRig& rig, const Surroundings& around, double seconds) {
 }
 
 // The flight that the settings name, loaded where it is not yet.
-planet::Result<void> joinFlight(CameraRig& rig, ui::CameraSettings& settings) {
+planet::Result<void> joinFlight(CameraRig& rig, CameraSettings& settings) {
     if (!rig.flight || rig.flight->file != settings.flight) {
         planet::Result<FlightPath> path = loadFlightPath(settings.flight);
         if (!path) return tl::unexpected(path.error());
@@ -140,14 +140,14 @@ planet::Result<void> joinFlight(CameraRig& rig, ui::CameraSettings& settings) {
     return {};
 }
 
-planet::Result<void> changeMode(CameraRig& rig, ui::CameraSettings& settings) {
+planet::Result<void> changeMode(CameraRig& rig, CameraSettings& settings) {
     const bool otherFlight =
-        settings.mode == ui::CameraMode::FollowFlight && rig.flight && rig.flight->file != settings.flight;
+        settings.mode == CameraMode::FollowFlight && rig.flight && rig.flight->file != settings.flight;
     if (settings.mode == rig.mode && !otherFlight) return {};
     rig.pivotM.reset();
     planet::Result<void> joined;
-    if (settings.mode == ui::CameraMode::FollowFlight) joined = joinFlight(rig, settings);
-    if (!joined) settings.mode = ui::CameraMode::Fly;
+    if (settings.mode == CameraMode::FollowFlight) joined = joinFlight(rig, settings);
+    if (!joined) settings.mode = CameraMode::Fly;
     rig.mode = settings.mode;
     return joined;
 }
@@ -214,38 +214,38 @@ Camera blend(const Camera& from, const Camera& to, double share) {
 
 planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, const planet::View& view,
                                 const PointerInput& pointer, const HeldKeys& keys, double seconds,
-                                ui::CameraSettings& settings) {
-    if (rig.mode == ui::CameraMode::FollowFlight && settings.mode == rig.mode && touched(pointer, keys))
-        settings.mode = ui::CameraMode::Fly;
+                                CameraSettings& settings) {
+    if (rig.mode == CameraMode::FollowFlight && settings.mode == rig.mode && touched(pointer, keys))
+        settings.mode = CameraMode::Fly;
     const planet::Result<void> changed = changeMode(rig, settings);
     switch (rig.mode) {
-        case ui::CameraMode::Fly:
+        case CameraMode::Fly:
             flyFrame(rig, around, view, pointer, keys, seconds);
             break;
-        case ui::CameraMode::Orbit:
+        case CameraMode::Orbit:
             orbitFrame(rig, around, view, pointer, keys, seconds);
             break;
-        case ui::CameraMode::FollowFlight:
+        case CameraMode::FollowFlight:
             followFrame(rig, around, seconds);
             break;
     }
     return changed;
 }
 
-void placeRig(CameraRig& rig, const Camera& camera, ui::CameraSettings& settings) {
+void placeRig(CameraRig& rig, const Camera& camera, CameraSettings& settings) {
     rig.camera = camera;
     rig.jumped = true;
     rig.pivotM.reset();
-    if (settings.mode == ui::CameraMode::FollowFlight) settings.mode = ui::CameraMode::Fly;
+    if (settings.mode == CameraMode::FollowFlight) settings.mode = CameraMode::Fly;
 }
 
-planet::Result<void> startFlight(CameraRig& rig, const fs::path& file, ui::CameraSettings& settings) {
+planet::Result<void> startFlight(CameraRig& rig, const fs::path& file, CameraSettings& settings) {
     planet::Result<FlightPath> path = loadFlightPath(file);
     if (!path) return tl::unexpected(path.error());
     rig.flight = FollowedFlight{file, std::move(*path), 0, false, rig.camera, 0};
-    rig.mode = ui::CameraMode::FollowFlight;
+    rig.mode = CameraMode::FollowFlight;
     rig.pivotM.reset();
-    settings.mode = ui::CameraMode::FollowFlight;
+    settings.mode = CameraMode::FollowFlight;
     settings.flight = file.string();
     return {};
 }
@@ -286,7 +286,7 @@ ui::CameraView cameraViewOf(const CameraRig& rig, const Ground& ground,
     view.speedFactor = rig.speedFactor;
     view.bookmarks = bookmarks;
     view.flights = flights;
-    if (rig.flight && rig.mode == ui::CameraMode::FollowFlight) {
+    if (rig.flight && rig.mode == CameraMode::FollowFlight) {
         const FollowedFlight& flight = *rig.flight;
         view.flight = ui::FlightView{flight.path.name, flight.timeS, durationS(flight.path), flight.paused};
     }

@@ -35,8 +35,8 @@ struct FollowedFlight {
 
 struct CameraRig {
     Camera camera;
-    double speedFactor = 1;                     // [minSpeedFactor, maxSpeedFactor]
-    ui::CameraMode mode = ui::CameraMode::Fly;  // of the last frame
+    double speedFactor = 1;              // [minSpeedFactor, maxSpeedFactor]
+    CameraMode mode = CameraMode::Fly;   // of the last frame
     std::optional<glm::dvec3> pivotM{};  // of Orbit: on the ground; none: what is in the middle next frame
     std::optional<FollowedFlight> flight{};  // also while another mode has left it
     // Whether it was put elsewhere at once since takeJump(), or is on its way to a flight.
@@ -47,16 +47,15 @@ struct CameraRig {
 // settings say Fly. The Error names a flight that cannot be read; the settings say Fly then too.
 planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, const planet::View& view,
                                 const PointerInput& pointer, const HeldKeys& keys, double seconds,
-                                ui::CameraSettings& settings);
+                                CameraSettings& settings);
 
 // Puts the camera somewhere at once. Leaves a flight; an orbit goes on about what is then in the middle.
-void placeRig(CameraRig& rig, const Camera& camera, ui::CameraSettings& settings);
+void placeRig(CameraRig& rig, const Camera& camera, CameraSettings& settings);
 
 bool takeJump(CameraRig& rig);
 
 // Follows a flight from its beginning.
-planet::Result<void> startFlight(CameraRig& rig, const std::filesystem::path& file,
-                                 ui::CameraSettings& settings);
+planet::Result<void> startFlight(CameraRig& rig, const std::filesystem::path& file, CameraSettings& settings);
 void moveFlight(CameraRig& rig, double timeS);  // kept within the flight
 void pauseFlight(CameraRig& rig, bool paused);
 

@@ -29,7 +29,7 @@ ui::Message openingFailed(const std::filesystem::path& file, const planet::Error
             fmt::format("The open planet is kept. Fix the file or open another: a "
                         "chunk file (.chk), an elevation image, a cube face, settings (.toml), a recorded "
                         "flight ({}) or one of Worldy's own screenshots (.png).",
-                        ui::recordedFlightEnding),
+                        recordedFlightEnding),
             true};
 }
 
@@ -316,7 +316,7 @@ void CommandHandler::operator()(const ui::StartRecording& command) const {
 
 void CommandHandler::operator()(const ui::SwapCompare&) const {
     if (!maySet()) return;
-    const ui::ViewSettings settings = swapCompared(editor.compare, session, editor.settings.view, log);
+    const ViewSettings settings = swapCompared(editor.compare, session, editor.settings.view, log);
     editor.undo.add(editor.settings.view, settings, "swap of A and B");
     editor.settings.view = settings;
     editor.stepOneFrame = true;
@@ -363,7 +363,7 @@ void CommandHandler::operator()(const ui::RemoveBookmark& command) const {
 
 void CommandHandler::openPreset(const std::filesystem::path& file) const {
     if (!maySet()) return;
-    const Result<ui::ViewSettings> loaded = loadViewSettings(file, editor.settings.view);
+    const Result<ViewSettings> loaded = loadViewSettings(file, editor.settings.view);
     if (!loaded) return cannotOpen(file, loaded.error());
     editor.undo.add(editor.settings.view, *loaded, "settings of " + file.filename().string());
     editor.settings.view = *loaded;
@@ -404,7 +404,7 @@ void CommandHandler::operator()(const ui::OpenFile& command) const {
 
 void CommandHandler::operator()(const ui::LoadPreset& command) const {
     if (!maySet()) return;
-    const Result<ui::ViewSettings> loaded = editor.presets.load(command.name, editor.settings.view);
+    const Result<ViewSettings> loaded = editor.presets.load(command.name, editor.settings.view);
     if (!loaded) return tellError(editor, log, {"The preset cannot be loaded", loaded.error().message, ""});
     editor.undo.add(editor.settings.view, *loaded, "preset " + command.name);
     editor.settings.view = *loaded;
@@ -412,7 +412,7 @@ void CommandHandler::operator()(const ui::LoadPreset& command) const {
 
 void CommandHandler::operator()(const ui::LoadLayerSet& command) const {
     if (!maySet()) return;
-    ui::ViewSettings loaded = editor.settings.view;
+    ViewSettings loaded = editor.settings.view;
     if (!succeeded(loadInto(editor.layers, command.file, loaded.surface.layers),
                    "The layer set cannot be loaded"))
         return;
@@ -422,7 +422,7 @@ void CommandHandler::operator()(const ui::LoadLayerSet& command) const {
 
 void CommandHandler::operator()(const ui::SaveLayerSet& command) const {
     if (!maySet()) return;
-    ui::ViewSettings saved = editor.settings.view;
+    ViewSettings saved = editor.settings.view;
     if (!succeeded(saveAs(editor.layers, command.name, saved.surface.layers), "The layer set was not saved"))
         return;
     confirm(fmt::format("Layer set {} saved", command.name));

@@ -7,10 +7,10 @@
 
 #include "app/flight/flight_path_file.h"
 #include "app/measure/cracks.h"
+#include "app/scene/overlay_colours.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/settings_text.h"
 #include "planet/measure/true_error.h"
-#include "ui/model/overlay_colours.h"
 
 namespace worldy {
 
@@ -19,15 +19,15 @@ namespace {
 using planet::Result;
 
 // Settings that are one for both.
-ui::ViewSettings withSharedOf(ui::ViewSettings settings, const ui::ViewSettings& a) {
+ViewSettings withSharedOf(ViewSettings settings, const ViewSettings& a) {
     settings.camera = a.camera;
     settings.cracks = a.cracks;
     settings.compare = a.compare;
     return settings;
 }
 
-Result<ui::ViewSettings> settingsFor(const ui::StartCompare& wanted, const PresetShelf& presets,
-                                     const ui::ViewSettings& settings) {
+Result<ViewSettings> settingsFor(const ui::StartCompare& wanted, const PresetShelf& presets,
+                                 const ViewSettings& settings) {
     if (wanted.with == ui::StartCompare::With::Preset) return presets.load(wanted.preset, settings);
     return settings;
 }
@@ -47,7 +47,7 @@ std::string originOf(const ui::StartCompare& wanted) {
 }
 
 Result<OpenPlanet> openFor(const ui::StartCompare& wanted, const Session& session,
-                           const ui::ViewSettings& settings) {
+                           const ViewSettings& settings) {
     if (wanted.with == ui::StartCompare::With::File) return openBeside(session, wanted.file, settings);
     if (wanted.with == ui::StartCompare::With::PreviousBake) {
         if (!session.previous) return planet::badInput("There is no previous bake; bake again to create one");
@@ -77,15 +77,15 @@ void keepPops(const Scene& scene, const CompareFrame& now, planet::PopMeter& pop
              {.cameraJumped = now.cameraJumped, .seaM = scene.seaSurfaceM});
 }
 
-planet::gl::PictureMix mixOf(const ui::CompareKnobs& knobs, int widthPx) {
+planet::gl::PictureMix mixOf(const CompareKnobs& knobs, int widthPx) {
     switch (knobs.mode) {
-        case ui::CompareMode::SideBySide:
+        case CompareMode::SideBySide:
             return planet::gl::sideBySideMix(widthPx);
-        case ui::CompareMode::Wipe:
+        case CompareMode::Wipe:
             return planet::gl::wipeMix(widthPx, knobs.wipe);
-        case ui::CompareMode::Difference:
+        case CompareMode::Difference:
             return planet::gl::differenceMix(knobs.gain);
-        case ui::CompareMode::Flip:
+        case CompareMode::Flip:
             return planet::gl::onlyMix(widthPx, knobs.showB);
     }
     return {};
@@ -108,14 +108,14 @@ Result<void> prepareMixing(CompareDesk& desk, const planet::gl::RenderTarget& li
     return {};
 }
 
-void drawB(CompareDesk& desk, Viewport& viewport, const ui::ChunkFocus& focus, const Log& log) {
+void drawB(CompareDesk& desk, Viewport& viewport, const ChunkFocus& focus, const Log& log) {
     ComparedOther& b = *desk.other;
     const planet::Planet& planet = *b.planet.scene.planet;
     const planet::Selection& drawn = planet.selection();
     PictureContent content;
     content.view = viewport.main.view;
     const ErrorMeter& errors = desk.meters[1].errors;
-    const std::vector<planet::gl::ChunkTint> tints = ui::chunkTints(
+    const std::vector<planet::gl::ChunkTint> tints = chunkTints(
         planet, drawn, b.settings.overlay, b.settings.lod.tauPx, errors.last ? &*errors.last : nullptr);
     content.tints = tints;
     content.hiddenLines = linesOver(b.planet.scene, drawn, content.view, b.settings);
@@ -137,8 +137,8 @@ void advanceFlight(CompareDesk& desk) {
         desk.flownProblem = result->error().message;
 }
 
-ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters& meters) {
-    ui::ComparedFigures figures;
+ComparedFigures figuresOf(const FrameStats& stats, const ComparedMeters& meters) {
+    ComparedFigures figures;
     figures.groundTriangles = static_cast<double>(stats.selection.groundTriangles);
     figures.skirtTriangles = static_cast<double>(stats.selection.skirtTriangles);
     figures.triangles = static_cast<double>(stats.selection.triangles());
@@ -169,8 +169,8 @@ ui::ComparedFigures figuresOf(const ui::FrameStats& stats, const ComparedMeters&
     return figures;
 }
 
-void findDifferences(CompareDesk& desk, const ui::ViewSettings& settings) {
-    std::pair<ui::ViewSettings, ui::ViewSettings> of{settings, desk.other->settings};
+void findDifferences(CompareDesk& desk, const ViewSettings& settings) {
+    std::pair<ViewSettings, ViewSettings> of{settings, desk.other->settings};
     if (desk.differentOf == of) return;
     Settings a, b;
     a.view = of.first;
@@ -181,7 +181,7 @@ void findDifferences(CompareDesk& desk, const ui::ViewSettings& settings) {
 
 std::string sidesText(const CompareDesk& desk) {
     std::string a, b;
-    for (const ui::SettingDifference& one : desk.different) {
+    for (const SettingDifference& one : desk.different) {
         a += fmt::format("{}{} {}", a.empty() ? "" : ", ", one.label, one.here);
         b += fmt::format("{}{} {}", b.empty() ? "" : ", ", one.label, one.there);
     }
@@ -192,11 +192,11 @@ std::string sidesText(const CompareDesk& desk) {
 }  // namespace
 
 Result<void> startCompare(CompareDesk& desk, const Session& session, const PresetShelf& presets,
-                          const ui::ViewSettings& settings, const ui::StartCompare& wanted) {
+                          const ViewSettings& settings, const ui::StartCompare& wanted) {
     const OpenPlanet* a = shownPlanet(session);
     if (!a) return {};
     const auto opened = [&]() -> Result<ComparedOther> {
-        Result<ui::ViewSettings> settingsOfB = settingsFor(wanted, presets, settings);
+        Result<ViewSettings> settingsOfB = settingsFor(wanted, presets, settings);
         if (!settingsOfB) return tl::unexpected(settingsOfB.error());
         Result<OpenPlanet> planet = openFor(wanted, session, *settingsOfB);
         if (!planet) return tl::unexpected(planet.error());
@@ -233,10 +233,9 @@ void forgetPopsOfA(CompareDesk& desk) {
     desk.meters[0].pops.clear();
 }
 
-ui::ViewSettings swapCompared(CompareDesk& desk, Session& session, const ui::ViewSettings& settings,
-                              const Log& log) {
+ViewSettings swapCompared(CompareDesk& desk, Session& session, const ViewSettings& settings, const Log& log) {
     if (!desk.other || !shownScene(session)) return settings;
-    ui::ViewSettings settingsOfA = std::exchange(desk.other->settings, settings);
+    ViewSettings settingsOfA = std::exchange(desk.other->settings, settings);
     if (shownPlanet(session)->data.chunkFile != desk.other->planet.data.chunkFile)
         exchangeShown(session, desk.other->planet, log);
     desk.other->origin = "what was A";
@@ -274,13 +273,13 @@ void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log) {
     advanceErrorMeter(*b.planet, now.frame, now.timeS, desk.meters[1].errors);
 }
 
-void drawCompared(CompareDesk& desk, Viewport& viewport, const ui::ViewSettings& settings,
-                  const ui::ChunkFocus& focus, bool counting, const Log& log) {
+void drawCompared(CompareDesk& desk, Viewport& viewport, const ViewSettings& settings,
+                  const ChunkFocus& focus, bool counting, const Log& log) {
     viewport.main.instead = nullptr;
     viewport.main.mix = {};
     if (!desk.other || !viewport.main.shown() || !viewport.main.target) return;
     drawB(desk, viewport, focus, log);
-    desk.other->stats = ui::smoothed(desk.other->stats, statsOf(desk.other->planet.scene));
+    desk.other->stats = smoothed(desk.other->stats, statsOf(desk.other->planet.scene));
     if (!desk.picture.target) return;
     const planet::gl::RenderTarget& a = *viewport.main.target;
     if (const Result<void> ready = prepareMixing(desk, a); !ready) {
@@ -304,13 +303,12 @@ void drawCompared(CompareDesk& desk, Viewport& viewport, const ui::ViewSettings&
                        counted.largestSteps};
 }
 
-Result<void> measureCompared(CompareDesk& desk, Scene& a, const ui::ViewSettings& settings,
+Result<void> measureCompared(CompareDesk& desk, Scene& a, const ViewSettings& settings,
                              const planet::View& view) {
     if (!desk.other) return {};
-    Result<ui::CrackMeasurement> cracksOfA = measureCracks(a, view, settings);
+    Result<CrackMeasurement> cracksOfA = measureCracks(a, view, settings);
     if (!cracksOfA) return tl::unexpected(cracksOfA.error());
-    Result<ui::CrackMeasurement> cracksOfB =
-        measureCracks(desk.other->planet.scene, view, desk.other->settings);
+    Result<CrackMeasurement> cracksOfB = measureCracks(desk.other->planet.scene, view, desk.other->settings);
     if (!cracksOfB) return tl::unexpected(cracksOfB.error());
     desk.meters[0].cracks = std::move(*cracksOfA);
     desk.meters[1].cracks = std::move(*cracksOfB);
@@ -322,7 +320,7 @@ Result<void> measureCompared(CompareDesk& desk, Scene& a, const ui::ViewSettings
     return {};
 }
 
-Result<void> compareFlight(CompareDesk& desk, const Session& session, const ui::ViewSettings& settings,
+Result<void> compareFlight(CompareDesk& desk, const Session& session, const ViewSettings& settings,
                            const planet::View& view, const ui::CompareOverFlight& wanted) {
     const OpenPlanet* a = shownPlanet(session);
     if (!a || !desk.other || desk.job) return {};
@@ -345,8 +343,8 @@ Result<void> compareFlight(CompareDesk& desk, const Session& session, const ui::
     return {};
 }
 
-ui::CompareView compareViewOf(CompareDesk& desk, const Session& session, const ui::ViewSettings& settings,
-                              const ui::FrameStats& statsOfA, const planet::View& view) {
+ui::CompareView compareViewOf(CompareDesk& desk, const Session& session, const ViewSettings& settings,
+                              const FrameStats& statsOfA, const planet::View& view) {
     ui::CompareView shown;
     shown.problem = desk.problem;
     shown.flight.running = desk.job != nullptr;

@@ -27,25 +27,25 @@ struct ComparedMeters {
     planet::PopMeter pops;  // since comparing began
     std::uint64_t bytesReadBefore = 0;
     ErrorMeter errors;  // of the view last measured
-    std::optional<ui::CrackMeasurement> cracks;
+    std::optional<CrackMeasurement> cracks;
 };
 
 struct ComparedOther {
     OpenPlanet planet;
-    ui::ViewSettings settings;  // camera, cracks and compare are A's
-    std::string origin;         // "settings kept", "preset popping"
-    ui::FrameStats stats;       // smoothed
+    ViewSettings settings;  // camera, cracks and compare are A's
+    std::string origin;     // "settings kept", "preset popping"
+    FrameStats stats;       // smoothed
 };
 
 // What was measured last was measured of.
 struct MeasuredOf {
     planet::View view;
-    ui::ViewSettings settings;
-    ui::ViewSettings settingsOfB;
+    ViewSettings settings;
+    ViewSettings settingsOfB;
 };
 
 // Returns the settings that a compared picture is drawn with: without the fill light.
-inline ui::ViewSettings comparedSettings(ui::ViewSettings settings) {
+inline ViewSettings comparedSettings(ViewSettings settings) {
     settings.surface.light.fill = 0;
     return settings;
 }
@@ -59,8 +59,8 @@ struct CompareDesk {
     // Asked for; done with the next frame, since what is shown in this one still uses B's picture.
     bool ending = false;
 
-    std::vector<ui::SettingDifference> different{};
-    std::optional<std::pair<ui::ViewSettings, ui::ViewSettings>> differentOf{};
+    std::vector<SettingDifference> different{};
+    std::optional<std::pair<ViewSettings, ViewSettings>> differentOf{};
 
     PlanetPicture picture{};  // B's
     std::optional<planet::gl::PictureComparer> comparer{};
@@ -75,21 +75,20 @@ struct CompareDesk {
 
 // On an Error, which is also the desk's problem, what was compared before stays.
 planet::Result<void> startCompare(CompareDesk& desk, const Session& session, const PresetShelf& presets,
-                                  const ui::ViewSettings& settings, const ui::StartCompare& wanted);
+                                  const ViewSettings& settings, const ui::StartCompare& wanted);
 // Gives back B's planet, its memory and its files. A flight that is measured goes on.
 void stopCompare(CompareDesk& desk);
 // A's planet has begun anew or gone to another frame of a replay: what it does then is no change of level.
 void forgetPopsOfA(CompareDesk& desk);
 // A gets B's settings, but for those of the camera and of the comparison, and its planet; and the other way
 // round. Returns A's.
-ui::ViewSettings swapCompared(CompareDesk& desk, Session& session, const ui::ViewSettings& settings,
-                              const Log& log);
+ViewSettings swapCompared(CompareDesk& desk, Session& session, const ViewSettings& settings, const Log& log);
 
 // One frame of B, after A has chosen its chunks. Ends comparing where A's planet has become one of another
 // radius.
 struct CompareFrame {
     const Scene& a;
-    const ui::ViewSettings& settings;
+    const ViewSettings& settings;
     const planet::View& lodView;
     const planet::View& view;
     double timeS = 0;
@@ -102,21 +101,20 @@ void stepCompared(CompareDesk& desk, const CompareFrame& now, const Log& log);
 
 // Draws B as A's picture was just drawn, and what is shown of both into the main picture. counting: also
 // counts the pixels that differ.
-void drawCompared(CompareDesk& desk, Viewport& viewport, const ui::ViewSettings& settings,
-                  const ui::ChunkFocus& focus, bool counting, const Log& log);
+void drawCompared(CompareDesk& desk, Viewport& viewport, const ViewSettings& settings,
+                  const ChunkFocus& focus, bool counting, const Log& log);
 
 // True error, in the background, and cracks of this view, of both.
-planet::Result<void> measureCompared(CompareDesk& desk, Scene& a, const ui::ViewSettings& settings,
+planet::Result<void> measureCompared(CompareDesk& desk, Scene& a, const ViewSettings& settings,
                                      const planet::View& view);
 
 // The Error names the flight's file and what is wrong with it.
-planet::Result<void> compareFlight(CompareDesk& desk, const Session& session,
-                                   const ui::ViewSettings& settings, const planet::View& view,
-                                   const ui::CompareOverFlight& wanted);
+planet::Result<void> compareFlight(CompareDesk& desk, const Session& session, const ViewSettings& settings,
+                                   const planet::View& view, const ui::CompareOverFlight& wanted);
 
 // statsOfA: smoothed. Holds until the desk changes.
-ui::CompareView compareViewOf(CompareDesk& desk, const Session& session, const ui::ViewSettings& settings,
-                              const ui::FrameStats& statsOfA, const planet::View& view);
+ui::CompareView compareViewOf(CompareDesk& desk, const Session& session, const ViewSettings& settings,
+                              const FrameStats& statsOfA, const planet::View& view);
 
 std::size_t gpuBytes(const CompareDesk& desk);
 

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double historyS = 10;
 
-void remember(const ui::FrameStats& stats, Editor& editor) {
-    editor.stats = ui::smoothed(editor.stats, stats);
+void remember(const FrameStats& stats, Editor& editor) {
+    editor.stats = smoothed(editor.stats, stats);
     editor.history.push_back({editor.timeS, stats});
     while (editor.history.front().timeS < editor.timeS - historyS) editor.history.pop_front();
 }
@@ -78,13 +78,13 @@ void runFrame(Window& window, Session& session, Editor& editor, Log& log, double
     }
     advanceSweep(editor.sweep, log);
     reloadChangedShaders(session, log);
-    ui::FrameStats stats;
+    FrameStats stats;
     if (Scene* scene = shownScene(session))
         stats = runPlanet(*scene, pixelRatio, editor, log, secondsSinceLast, commands);
 
     const Stopwatch panelWatch;
     log.moveNewLines(editor.logLines);
-    const ui::ViewSettings before = editor.settings.view;
+    const ViewSettings before = editor.settings.view;
     const ui::EditorView view = gatherView(session, editor);
     drawPanels(session, view, layout, pixelRatio, editor, commands);
     obeyShortcuts(window.pressedKeys(),

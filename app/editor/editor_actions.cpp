@@ -20,7 +20,7 @@ void inspect(Editor& editor, const Camera& camera, const planet::View& lodView) 
     if (!editor.beforeInspection)
         editor.beforeInspection = BeforeInspection{editor.rig->camera, editor.lodView, editor.lodFrozen,
                                                    desk.replay && desk.replay->controls.playing};
-    editor.pops.side = ui::PopSide::Live;
+    editor.pops.side = PopSide::Live;
     placeRig(*editor.rig, camera, editor.settings.view.camera);
     if (desk.replay) {
         desk.replay->controls.playing = false;
@@ -35,7 +35,7 @@ void inspect(Editor& editor, const Camera& camera, const planet::View& lodView) 
 void endInspection(Editor& editor) {
     const std::optional<BeforeInspection> before = std::exchange(editor.beforeInspection, std::nullopt);
     if (!before) return;
-    editor.pops.side = ui::PopSide::Live;
+    editor.pops.side = PopSide::Live;
     if (editor.rig) placeRig(*editor.rig, before->camera, editor.settings.view.camera);
     if (editor.desk.replay) {
         editor.desk.replay->controls.playing = before->replayPlaying;
@@ -49,7 +49,7 @@ void endInspection(Editor& editor) {
 void freezeLod(Editor& editor, bool frozen) {
     editor.lodFrozen = frozen;
     editor.beforeInspection.reset();  // the user takes over from here
-    if (!frozen) editor.pops.side = ui::PopSide::Live;
+    if (!frozen) editor.pops.side = PopSide::Live;
 }
 
 void confirm(Editor& editor, const Log& log, const std::string& text) {

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 
+#include "app/base/text.h"
+#include "app/editor/instrument_views.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 #include "ui/shell/bake_window.h"
 #include "ui/shell/compare_overlay.h"
 #include "ui/shell/status_bar.h"
@@ -19,7 +20,7 @@ namespace {
 
 // wiped: null, or what its divider changes.
 void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
-                   ui::CompareKnobs* wiped = nullptr) {
+                   CompareKnobs* wiped = nullptr) {
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
@@ -41,8 +42,8 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
 
 void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor, ui::Commands& commands) {
     Viewport& viewport = editor.viewport;
-    ui::CompareKnobs& compare = editor.settings.view.compare;
-    const bool wiping = view.compare.on && compare.mode == ui::CompareMode::Wipe;
+    CompareKnobs& compare = editor.settings.view.compare;
+    const bool wiping = view.compare.on && compare.mode == CompareMode::Wipe;
     pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
     if (viewport.main.shown()) {
         if (view.planet) ui::viewportOverlay(view, editor.settings.view, viewport.main.rect);
@@ -60,7 +61,7 @@ void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& edito
 
 ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorView& view) {
     ui::BakeWindowInput input;
-    input.source = ui::sourceName(session.data.source);
+    input.source = sourceName(session.data.source);
     input.progress = view.bake.progress;
     input.stopping = view.bake.stopping;
     if (!view.bake.running) input.problem = view.data.problem;
@@ -127,14 +128,14 @@ ui::EditorView gatherView(Session& session, Editor& editor) {
 
 void drawPanels(const Session& session, const ui::EditorView& view, const ui::Layout& layout,
                 float pixelRatio, Editor& editor, ui::Commands& commands) {
-    ui::Workspace& workspace = editor.settings.workspace;
-    ui::ViewSettings& settings = editor.settings.view;
+    Workspace& workspace = editor.settings.workspace;
+    ViewSettings& settings = editor.settings.view;
     ui::menuBar(view, editor.menu, workspace, settings, commands);
     if (view.planet)
         viewportWindows(view, pixelRatio, editor, commands);
     else
         emptyViewport(session, view, layout.viewport, editor, commands);
-    for (const ui::Dock dock : {ui::Dock::Left, ui::Dock::Right, ui::Dock::Bottom}) {
+    for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom}) {
         ui::drawDock(dock, layout, view, editor.panels, workspace, settings, commands);
     }
     ui::statusBar(view, settings, layout.statusBar);

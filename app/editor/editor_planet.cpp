@@ -11,10 +11,10 @@
 #include "app/editor/editor_actions.h"
 #include "app/measure/probe.h"
 #include "app/scene/observer.h"
+#include "app/scene/overlay_colours.h"
 #include "app/scene/overlay_lines.h"
 #include "planet/measure/pick.h"
 #include "planet/planet_tools.h"
-#include "ui/model/overlay_colours.h"
 
 namespace worldy {
 
@@ -140,7 +140,7 @@ void record(planet::Planet& planet, Editor& editor, const Log& log) {
 }
 
 // Settings that choose and load come from the recording alone; the others may be changed meanwhile.
-void holdRecordedSettings(const ui::ViewSettings& recorded, ui::ViewSettings& settings) {
+void holdRecordedSettings(const ViewSettings& recorded, ViewSettings& settings) {
     settings.lod = recorded.lod;
     settings.seams = recorded.seams;
     settings.paging = recorded.paging;
@@ -164,9 +164,9 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
                 isCameraJump(std::exchange(fromM, toM), toM, scene.planet->tree().shape.radiusM, passedS);
             measurePops(scene, replayed.view(), replayed.timeS(), editor.cameraJumped, editor.pops);
         },
-        [&](const ui::ViewSettings& recorded, bool pagingPaused) {
-            const ui::CameraSettings camera = editor.settings.view.camera;
-            const ui::CompareKnobs compare = editor.settings.view.compare;
+        [&](const ViewSettings& recorded, bool pagingPaused) {
+            const CameraSettings camera = editor.settings.view.camera;
+            const CompareKnobs compare = editor.settings.view.compare;
             editor.settings.view = recorded;
             editor.settings.view.camera = camera;
             editor.settings.view.compare = compare;
@@ -180,7 +180,7 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
     // Between frames the camera may stand where a pop was gone back to.
     if (replayed.next() == frameBefore) return;
     editor.beforeInspection.reset();  // played on, the replay moves the camera again
-    editor.pops.side = ui::PopSide::Live;
+    editor.pops.side = PopSide::Live;
     editor.lodView = replayed.view();
     editor.rig->camera = {editor.lodView.eyeM, editor.lodView.right, editor.lodView.back};
 }
@@ -197,14 +197,14 @@ void giveSettings(Scene& scene, Editor& editor, const Log& log) {
 }
 
 std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
-                                           const ui::ViewSettings& settings, const ErrorMeter& errors) {
-    return ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                          errors.last ? &*errors.last : nullptr);
+                                           const ViewSettings& settings, const ErrorMeter& errors) {
+    return chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
+                      errors.last ? &*errors.last : nullptr);
 }
 
 void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
     Viewport& viewport = editor.viewport;
-    const ui::ViewSettings settings =
+    const ViewSettings settings =
         editor.compare.other ? comparedSettings(editor.settings.view) : editor.settings.view;
     PictureContent content;
     content.view = mainView(editor, pixelRatio);
@@ -223,7 +223,7 @@ void drawMainPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& 
 void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const Log& log) {
     Viewport& viewport = editor.viewport;
     if (!viewport.observer.shown()) return;
-    const ui::ViewSettings& settings = editor.settings.view;
+    const ViewSettings& settings = editor.settings.view;
     PictureContent content;
     content.view = observerView(editor, pixelRatio);
     content.selection = observerSelection(scene, editor);
@@ -238,13 +238,13 @@ void drawObserverPicture(Scene& scene, float pixelRatio, Editor& editor, const L
     drawPicture(viewport, viewport.observer, scene, settings, content, log);
 }
 
-bool isShown(const Editor& editor, ui::PanelId panel) {
+bool isShown(const Editor& editor, PanelId panel) {
     return editor.settings.workspace.panels[static_cast<std::size_t>(panel)].shown;
 }
 
 // Follows the pointer in the main picture, and stays where it was last over the ground.
 void probe(const Scene& scene, Editor& editor) {
-    if (!isShown(editor, ui::PanelId::Probe)) return;
+    if (!isShown(editor, PanelId::Probe)) return;
     const PlanetPicture& picture = editor.viewport.main;
     const planet::Planet& planet = *scene.planet;
     const ProbeInput input{planet.tree(), planet.selection(), picture.view,
@@ -267,7 +267,7 @@ void watchCosts(Scene& scene, const Editor& editor, Log& log) {
     if (scene.renderer.chunks().capabilities().software || editor.costs.meter) return;
     const planet::gl::RenderCounters& drawn = scene.drawn;
     const double gpuMs = drawn.chunksMs + drawn.skyMs + drawn.shadowsMs;
-    if (ui::watchPicture(scene.turnedDown, editor.settings.view.surface, gpuMs, editor.timeS))
+    if (watchPicture(scene.turnedDown, editor.settings.view.surface, gpuMs, editor.timeS))
         log->info("A frame took {:.0f} ms on the GPU; a feature was turned off. The Light panel shows which.",
                   gpuMs);
 }
@@ -281,7 +281,7 @@ void measureCosts(Scene& scene, CostInstrument& instrument) {
 
 // What the layers make of the ground under the pointer.
 void readLayers(const Scene& scene, Editor& editor) {
-    if (!isShown(editor, ui::PanelId::Surface)) return;
+    if (!isShown(editor, PanelId::Surface)) return;
     const PlanetPicture& picture = editor.viewport.main;
     editor.layers.overGround = false;
     if (!picture.shown() || !picture.pointer.over) return;
@@ -306,8 +306,8 @@ void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selectio
 
 }  // namespace
 
-ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
-                         ui::Commands& commands) {
+FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
+                     ui::Commands& commands) {
     meetPlanet(scene, editor, log);
     // A frame that is paused steps nothing, but draws.
     scene.drawCpuMs = 0;
@@ -333,12 +333,12 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
                  log);
     const Stopwatch watch;
     drawMainPicture(scene, pixelRatio, editor, log);
-    const bool counting = editor.settings.view.compare.mode == ui::CompareMode::Difference ||
-                          isShown(editor, ui::PanelId::Compare);
+    const bool counting =
+        editor.settings.view.compare.mode == CompareMode::Difference || isShown(editor, PanelId::Compare);
     drawCompared(editor.compare, editor.viewport, editor.settings.view, editor.focus,
                  counting && !scene.drawn.standIn, log);
     drawObserverPicture(scene, pixelRatio, editor, log);
-    const ui::CrackKnobs& cracks = editor.settings.view.cracks;
+    const CrackKnobs& cracks = editor.settings.view.cracks;
     const auto every = static_cast<std::uint64_t>(cracks.everyFrames);
     if (cracks.live && editor.frames % every == 0) commands.emplace_back(ui::MeasureCracks{});
     measureCosts(scene, editor.costs);
@@ -346,7 +346,7 @@ ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& lo
     readLayers(scene, editor);
     pick(editor.viewport.main, scene, 0, commands);
     pick(editor.viewport.observer, scene, observerSelection(scene, editor), commands);
-    ui::FrameStats stats = statsOf(scene);
+    FrameStats stats = statsOf(scene);
     watchCosts(scene, editor, log);
     stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
     stats.targetBytes = gpuBytes(editor.viewport) + gpuBytes(editor.compare);

@@ -3,14 +3,14 @@
 
 #include "app/base/log.h"
 #include "app/editor/editor_state.h"
+#include "app/scene/frame_stats.h"
 #include "app/scene/scene.h"
 #include "ui/model/commands.h"
-#include "ui/model/frame_stats.h"
 
 namespace worldy {
 
 // Returns what it counted and timed. Appends what the pointer does to chunks.
-ui::FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
-                         ui::Commands& commands);
+FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, double seconds,
+                     ui::Commands& commands);
 
 }  // namespace worldy

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/base/log_lines.h"
 #include "app/editor/bookmarks.h"
 #include "app/editor/camera_rig.h"
 #include "app/editor/compare_desk.h"
@@ -21,10 +22,9 @@
 #include "app/measure/error_job.h"
 #include "app/measure/pops.h"
 #include "app/measure/surface_costs.h"
+#include "app/scene/frame_stats.h"
 #include "app/settings/settings.h"
 #include "ui/model/editor_view.h"
-#include "ui/model/frame_stats.h"
-#include "ui/model/log_lines.h"
 #include "ui/shell/menu_bar.h"
 #include "ui/shell/message_box.h"
 #include "ui/shell/open_dialog.h"
@@ -46,7 +46,7 @@ struct Editor {
 
     std::optional<CameraRig> rig;       // once a planet is open
     std::optional<CameraRig> observer;  // once it was looked through
-    ui::CameraSettings observerControls;
+    CameraSettings observerControls;
     planet::View lodView;       // follows the camera but while frozen
     bool cameraJumped = false;  // in the last frame, for what measures pops
     bool lodFrozen = false;
@@ -55,18 +55,18 @@ struct Editor {
     bool stepOneFrame = false;
     bool pagingPaused = false;
     Viewport viewport;
-    ui::ChunkFocus focus;
+    ChunkFocus focus;
     std::shared_ptr<const int> lastScene;  // of the frame before, to see that another took its place
     double lastRadiusM = 0;
 
     double timeS = 0;  // since the window opened
-    ui::FrameStats stats;
+    FrameStats stats;
     ui::AllocationsView allocations;
     std::deque<ui::FrameSample> history;
     planet::LodChanges changes;
     Pops pops;
     ui::ProbeView probe;
-    std::deque<ui::LogLine> logLines;
+    std::deque<LogLine> logLines;
     CrackInstrument cracks;
     CostInstrument costs;
 

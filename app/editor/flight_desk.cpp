@@ -36,7 +36,7 @@ std::string freeName(const FlightDesk& desk) {
 std::string freeNameLike(const fs::path& folder, const std::string& name) {
     const auto isFree = [&](const std::string& one) {
         std::error_code status;
-        return !fs::exists(fs::symlink_status(folder / (one + ui::recordedFlightEnding), status));
+        return !fs::exists(fs::symlink_status(folder / (one + recordedFlightEnding), status));
     };
     if (isFree(name)) return name;
     const std::size_t space = name.rfind(' ');
@@ -56,7 +56,7 @@ Result<fs::path> writeUnderFreeName(const fs::path& folder, Recorder& recorder) 
     constexpr int mostTries = 10;
     for (int tries = 1;; ++tries) {
         recorder.rename(freeNameLike(folder, recorder.name()));
-        fs::path file = folder / (recorder.name() + ui::recordedFlightEnding);
+        fs::path file = folder / (recorder.name() + recordedFlightEnding);
         const Result<void> written = recorder.write(file, IfThere::Fail);
         if (written) return file;
         std::error_code status;
@@ -74,7 +74,7 @@ ReplayPaging pagingOf(const ui::ReplayControls& controls) {
 
 // Gives the planet the recording's first settings, and lets the replay begin.
 Result<void> rewind(RunningReplay& running, Scene& scene) {
-    ui::ViewSettings settings;
+    ViewSettings settings;
     for (const CalledInFlight& called : running.replay.record().frames[0].calls)
         static_cast<void>(applyFlightSettings(called.settings, settings));
     // What was refused before is refused again rather than passed over, and then the planet stays as it is.
@@ -250,7 +250,7 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
     if (!running.seek && running.controls.playing) running.playedS += seconds * running.controls.speed;
     const ReplayedPlanet replayed{
         *scene.planet, scene.renderer.upload(),
-        [&](const ui::ViewSettings& settings, bool pagingPaused, planet::PagingTime time) {
+        [&](const ViewSettings& settings, bool pagingPaused, planet::PagingTime time) {
             watcher.changed(settings, pagingPaused);
             return applyLiveSettings(scene, settings, pagingPaused, time);
         }};
@@ -277,7 +277,7 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
     return {};
 }
 
-ui::RecordingView recordingViewOf(const FlightDesk& desk, const ui::ViewSettings& settings) {
+ui::RecordingView recordingViewOf(const FlightDesk& desk, const ViewSettings& settings) {
     ui::RecordingView view;
     view.flights = desk.flights;
     view.saved = desk.saved;

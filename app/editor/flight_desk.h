@@ -20,7 +20,7 @@ namespace worldy {
 
 // What a replay takes the place of, and gives back at its end.
 struct BeforeReplay {
-    ui::ViewSettings settings;
+    ViewSettings settings;
     Camera camera;
     bool pagingPaused = false;
     planet::View lodView{};
@@ -77,13 +77,13 @@ BeforeReplay stopReplay(FlightDesk& desk, Scene* scene);
 // Called as each replayed frame has been made, and when settings of the recording have come.
 struct ReplayWatcher {
     std::function<void(const planet::Selection&)> stepped;
-    std::function<void(const ui::ViewSettings&, bool pagingPaused)> changed;
+    std::function<void(const ViewSettings&, bool pagingPaused)> changed;
 };
 // Makes the frames that are due so many seconds later, but no more than fit into a frame of the window;
 // seconds 0: those of a jump alone. A replay that is too slow goes on slower, it leaves out nothing.
 planet::Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
                                    const ReplayWatcher& watcher);
 
-ui::RecordingView recordingViewOf(const FlightDesk& desk, const ui::ViewSettings& settings);
+ui::RecordingView recordingViewOf(const FlightDesk& desk, const ViewSettings& settings);
 
 }  // namespace worldy

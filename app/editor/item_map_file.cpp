@@ -10,7 +10,7 @@
 
 namespace worldy {
 
-std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats,
+std::vector<Counter> countersOf(const Session& session, const Editor& editor, const FrameStats& stats,
                                 std::size_t queuedInput) {
     const planet::PagingCounters& paging = stats.paging;
     const planet::SelectionCounters& selection = stats.selection;
@@ -20,7 +20,7 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     };
     add("frame", editor.frames);
     add("queued_input", queuedInput);
-    const ui::FrameStats* const b = editor.compare.other ? &editor.compare.other->stats : nullptr;
+    const FrameStats* const b = editor.compare.other ? &editor.compare.other->stats : nullptr;
     add("stand_in", stats.render.standIn || (b && b->render.standIn) ? 1 : 0);
     add("drawn", selection.drawn);
     add("triangles", stats.selection.triangles());

@@ -23,7 +23,7 @@ struct Counter {
 
 // After a frame: the number of frames so far, what this one counted, the selection and the camera, and the
 // events of keys and buttons that wait for the next frames.
-std::vector<Counter> countersOf(const Session& session, const Editor& editor, const ui::FrameStats& stats,
+std::vector<Counter> countersOf(const Session& session, const Editor& editor, const FrameStats& stats,
                                 std::size_t queuedInput);
 
 // A script may read it at any time, so it is renamed into place.

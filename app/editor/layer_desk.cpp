@@ -56,7 +56,7 @@ LayerDesk openLayerDesk(const LayerFolders& folders) {
     return desk;
 }
 
-Result<void> loadInto(LayerDesk& desk, const fs::path& file, ui::LayerSettings& layers) {
+Result<void> loadInto(LayerDesk& desk, const fs::path& file, LayerSettings& layers) {
     Result<planet::LayerSet> set = loadLayerSet(file);
     if (!set) return told(desk, tl::unexpected(set.error()));
     layers.set = std::move(*set);
@@ -64,7 +64,7 @@ Result<void> loadInto(LayerDesk& desk, const fs::path& file, ui::LayerSettings& 
     return told(desk, {});
 }
 
-Result<void> saveAs(LayerDesk& desk, std::string_view name, ui::LayerSettings& layers) {
+Result<void> saveAs(LayerDesk& desk, std::string_view name, LayerSettings& layers) {
     if (Result<void> good = checkPresetName(name); !good) return told(desk, std::move(good));
     const auto same = std::find_if(desk.sets.begin(), desk.sets.end(), [&](const ui::LayerSetFile& set) {
         return set.shipped && set.name == name;
@@ -88,7 +88,7 @@ Result<void> saveAs(LayerDesk& desk, std::string_view name, ui::LayerSettings& l
 }
 
 ui::LayerReadout layerReadout(const planet::ChunkTree& tree, const planet::SurfaceHit& hit,
-                              const ui::SurfaceSettings& surface) {
+                              const SurfaceSettings& surface) {
     ui::LayerReadout readout;
     readout.place = planet::layerPlace(tree.shape, hit.id, *tree.nodes[hit.node].heights, hit.positionM,
                                        surface.seaLevelM, tree.exaggeration);
@@ -96,7 +96,7 @@ ui::LayerReadout layerReadout(const planet::ChunkTree& tree, const planet::Surfa
     return readout;
 }
 
-ui::LayersView layersViewOf(const LayerDesk& desk, const Scene* scene, const ui::LayerSettings& layers) {
+ui::LayersView layersViewOf(const LayerDesk& desk, const Scene* scene, const LayerSettings& layers) {
     ui::LayersView view;
     view.sets = desk.sets;
     view.setProblem = desk.setProblem;

@@ -88,7 +88,7 @@ void PresetShelf::readFolder(const fs::path& folder, bool shipped) {
     }
 }
 
-std::span<const ui::PresetView> PresetShelf::views(const ui::ViewSettings& now) {
+std::span<const ui::PresetView> PresetShelf::views(const ViewSettings& now) {
     if (viewsOf_ == now) return views_;
     viewsOf_ = now;
     views_.clear();
@@ -118,15 +118,15 @@ Result<const PresetShelf::Preset*> PresetShelf::existing(std::string_view name) 
                                         folders_.own.string(), folders_.shipped.string()));
 }
 
-Result<ui::ViewSettings> PresetShelf::load(std::string_view name, const ui::ViewSettings& now) const {
+Result<ViewSettings> PresetShelf::load(std::string_view name, const ViewSettings& now) const {
     // Resetting works without the data folder too.
-    if (name == defaultPreset && !find(name)) return ui::ViewSettings{};
+    if (name == defaultPreset && !find(name)) return ViewSettings{};
     return existing(name).and_then([&](const Preset* preset) {
         return preset->part.map([&](const ViewPart& part) { return applied(part, now); });
     });
 }
 
-Result<void> PresetShelf::save(std::string_view name, const ui::ViewSettings& settings) {
+Result<void> PresetShelf::save(std::string_view name, const ViewSettings& settings) {
     if (Result<void> good = checkPresetName(name); !good) return good;
     const Preset* present = find(name);
     if (present && present->shipped)

@@ -37,13 +37,13 @@ public:
 
     // For the panel: shipped ones first, then by name; files that cannot be read with their problem.
     // Differences are those from the settings as they are, and cost nothing while these stay the same.
-    std::span<const ui::PresetView> views(const ui::ViewSettings& now);
+    std::span<const ui::PresetView> views(const ViewSettings& now);
 
     // What a preset makes of the settings as they are: it changes only what it holds.
-    planet::Result<ui::ViewSettings> load(std::string_view name, const ui::ViewSettings& now) const;
+    planet::Result<ViewSettings> load(std::string_view name, const ViewSettings& now) const;
 
     // All view settings, over one of the user's own of that name, but not over a shipped one.
-    planet::Result<void> save(std::string_view name, const ui::ViewSettings& settings);
+    planet::Result<void> save(std::string_view name, const ViewSettings& settings);
     planet::Result<void> remove(std::string_view name);
 
 private:
@@ -60,7 +60,7 @@ private:
     PresetFolders folders_;
     std::vector<Preset> presets_;
     std::vector<ui::PresetView> views_;
-    std::optional<ui::ViewSettings> viewsOf_;  // the settings that views_ were made for
+    std::optional<ViewSettings> viewsOf_;  // the settings that views_ were made for
 };
 
 }  // namespace worldy

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/base/text.h"
+#include "app/editor/instrument_views.h"
 #include "planet/source/terrain.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
@@ -17,8 +18,8 @@ using planet::Result;
 using planet::gl::ChunkPrograms;
 
 // What a file tells of its bake. Its compression level is not in it, nor is its source's path.
-ui::BakeRequest requestOf(const planet::PlanetShape& shape) {
-    ui::BakeRequest request;
+BakeRequest requestOf(const planet::PlanetShape& shape) {
+    BakeRequest request;
     request.settings.faceSize = planet::faceCells(shape) + 1;
     request.settings.chunkSize = planet::chunkSize(shape);
     request.settings.radiusM = shape.radiusM;
@@ -27,7 +28,7 @@ ui::BakeRequest requestOf(const planet::PlanetShape& shape) {
 }
 
 // Its own tiles of colour.
-void addColours(const planet::ChunkFileInfo& info, const DataSet& data, ui::BakeRequest& request) {
+void addColours(const planet::ChunkFileInfo& info, const DataSet& data, BakeRequest& request) {
     if (!info.colour) return;
     request.settings.colour.format = info.colour->format;
     request.settings.colour.faceSize = (planet::colourTileCells << info.colour->leafLevel) + 1;
@@ -56,7 +57,7 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     return open;
 }
 
-Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::ViewSettings& settings,
+Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ViewSettings& settings,
                               const Log& log) {
     if (!session.programs) {
         Result<ChunkPrograms> programs = ChunkPrograms::build(session.shaderFolder, session.shaderWorker);
@@ -74,7 +75,7 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ui::V
     OpenPlanet open = openedAs(data, std::move(*scene));
     const planet::ChunkFile& file = open.scene.planet->file();
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
-              ui::bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
+              bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
     log->debug("Depth buffer: {}", open.scene.renderer.chunks().capabilities().reversedZ
                                        ? "float, reversed Z"
                                        : "non-reversed, near plane follows the ground");
@@ -134,7 +135,7 @@ void failBake(Session& session, const SessionBake& bake, const planet::Error& er
     if (bake.needed) session.problem = error;
 }
 
-void finishBake(Session& session, const ui::ViewSettings& settings, const Log& log) {
+void finishBake(Session& session, const ViewSettings& settings, const Log& log) {
     if (!session.bake || !session.bake->job) return;
     const std::optional<Result<planet::BakeReport>> result = session.bake->job->takeResult();
     if (!result) return;
@@ -142,8 +143,8 @@ void finishBake(Session& session, const ui::ViewSettings& settings, const Log& l
     session.bake.reset();
     if (!*result) return failBake(session, bake, result->error(), log);
     const planet::BakeReport& report = **result;
-    log->info("Baked: {} samples in {}, {}", ui::countText(static_cast<double>(report.samples)),
-              ui::durationText(report.seconds), ui::bytesText(static_cast<double>(report.fileBytes)));
+    log->info("Baked: {} samples in {}, {}", countText(static_cast<double>(report.samples)),
+              durationText(report.seconds), bytesText(static_cast<double>(report.fileBytes)));
     session.bakeReport = report;
     const std::string colourProblem = bake.job->colourProblem();
     if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);
@@ -173,7 +174,7 @@ void advanceEstimate(SessionEstimate& estimate) {
         }
     }
     if (!estimate.next) return;
-    const ui::BakeRequest request = *std::exchange(estimate.next, std::nullopt);
+    const BakeRequest request = *std::exchange(estimate.next, std::nullopt);
     estimate.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings,
                                                  request.colour);
 }
@@ -200,7 +201,7 @@ std::string summaryOf(const OpenPlanet& open) {
     const planet::ChunkFile& file = open.scene.planet->file();
     return fmt::format("{} vertices, {} samples, {}", planet::chunkSize(file.info().shape),
                        planet::faceCells(file.info().shape) + 1,
-                       ui::bytesText(static_cast<double>(file.sizeBytes())));
+                       bytesText(static_cast<double>(file.sizeBytes())));
 }
 
 planet::Error missingSource(const fs::path& source) {
@@ -220,7 +221,7 @@ planet::Error missingColour(const fs::path& image) {
 }
 
 // What a request would make, and whether all that it is made of is there.
-Result<DataSet> dataSetOf(const ui::BakeRequest& request) {
+Result<DataSet> dataSetOf(const BakeRequest& request) {
     if (!planet::heightSourceExists(request.source)) return tl::unexpected(missingSource(request.source));
     if (!request.colour.empty() && !planet::heightSourceExists(request.colour))
         return tl::unexpected(missingColour(request.colour));
@@ -243,7 +244,7 @@ Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log)
     return session;
 }
 
-bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& settings, const Log& log) {
+bool openFile(Session& session, const fs::path& file, const ViewSettings& settings, const Log& log) {
     const Result<DataSet> data = findDataSet(file, {});
     if (!data) {
         fail(session, data.error(), log);
@@ -276,7 +277,7 @@ bool openFile(Session& session, const fs::path& file, const ui::ViewSettings& se
     return true;
 }
 
-void startBake(Session& session, const ui::BakeRequest& request, const Log& log) {
+void startBake(Session& session, const BakeRequest& request, const Log& log) {
     if (session.bake && !session.bake->stopping()) {
         log->warn("A bake is already running; cancel it or wait until it ends");
         return;
@@ -300,7 +301,7 @@ void startBake(Session& session, const ui::BakeRequest& request, const Log& log)
 }
 
 void startBake(Session& session, const Log& log) {
-    ui::BakeRequest request;
+    BakeRequest request;
     request.source = session.data.source;
     request.settings = session.data.settings;
     request.colour = session.data.bakedColour;
@@ -308,8 +309,8 @@ void startBake(Session& session, const Log& log) {
     if (session.bake) session.bake->colourMayFail = true;
 }
 
-void openBake(Session& session, const ui::BakeRequest& request, const fs::path& chunkFile,
-              const ui::ViewSettings& settings, const Log& log) {
+void openBake(Session& session, const BakeRequest& request, const fs::path& chunkFile,
+              const ViewSettings& settings, const Log& log) {
     if (session.bake && !session.bake->stopping()) {
         log->warn("A bake is running; cancel it or wait until it ends");
         return;
@@ -338,7 +339,7 @@ void cancelBake(Session& session) {
     session.bake.reset();
 }
 
-void advanceSession(Session& session, const ui::ViewSettings& settings, const Log& log) {
+void advanceSession(Session& session, const ViewSettings& settings, const Log& log) {
     finishBake(session, settings, log);
     launchWaitingBake(session);
     advanceEstimate(session.estimate);
@@ -363,7 +364,7 @@ void dismissPreviousBake(Session& session) {
     session.previous.reset();
 }
 
-Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const ui::ViewSettings& settings) {
+Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const ViewSettings& settings) {
     if (data.needsBake) {
         return planet::badInput(
             fmt::format("{}: is not baked yet; open it once in the window", data.source.string()));
@@ -381,8 +382,7 @@ Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const
     return openedAs(data, std::move(*scene));
 }
 
-Result<OpenPlanet> openBeside(const Session& session, const fs::path& file,
-                              const ui::ViewSettings& settings) {
+Result<OpenPlanet> openBeside(const Session& session, const fs::path& file, const ViewSettings& settings) {
     const Result<DataSet> data = findDataSet(file, {});
     if (!data) return tl::unexpected(data.error());
     return openBeside(session, *data, settings);
@@ -397,7 +397,7 @@ void exchangeShown(Session& session, OpenPlanet& other, const Log& log) {
     session.colourFile = shown.colourImage;
 }
 
-void requestEstimate(Session& session, const ui::BakeRequest& request) {
+void requestEstimate(Session& session, const BakeRequest& request) {
     session.estimate.next = request;
     session.estimate.result.reset();
     session.estimate.problem.clear();
@@ -460,7 +460,7 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     ui::DataView view;
     const OpenPlanet* open = shownPlanet(session);
     const DataSet& data = open ? open->data : session.data;
-    view.name = ui::sourceName(data.source);
+    view.name = sourceName(data.source);
     view.source = data.source;
     view.chunkFile = data.chunkFile;
     view.hasColourImage = open && open->scene.hasColourImage;

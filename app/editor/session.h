@@ -25,7 +25,7 @@ namespace worldy {
 // A planet that can be drawn, and what is known of how it was made.
 struct OpenPlanet {
     DataSet data;
-    ui::BakeRequest baked;          // as far as it is known
+    BakeRequest baked;              // as far as it is known
     bool compressionKnown = false;  // only of what was baked here
     bool sourceIsThere = false;     // when it was opened
     Scene scene;
@@ -33,7 +33,7 @@ struct OpenPlanet {
 
 // A bake on its way.
 struct SessionBake {
-    ui::BakeRequest request;
+    BakeRequest request;
     DataSet data;                  // what to open once it is done
     bool forComparison = false;    // the planet that it replaces is kept
     bool needed = false;           // without it there is nothing to show
@@ -45,7 +45,7 @@ struct SessionBake {
 
 struct SessionEstimate {
     std::unique_ptr<EstimateJob> job;
-    std::optional<ui::BakeRequest> next;  // asked about while another one ran
+    std::optional<BakeRequest> next;  // asked about while another one ran
     std::optional<planet::BakeEstimate> result;
     std::string problem;
 };
@@ -71,7 +71,7 @@ struct Session {
     std::optional<planet::BakeReport> bakeReport;  // of the last bake
     SessionEstimate estimate;
     PreviewDesk preview;
-    std::vector<ui::World> worlds = worldy::worlds();
+    std::vector<World> worlds = worldy::worlds();
 };
 
 // Bakes in the background where the data set needs it; advanceSession opens it.
@@ -80,24 +80,24 @@ Session startSession(DataSet data, const std::filesystem::path& shaderFolder, co
 // A chunk file or a source in place of what is shown, which stays until the new one is open. A source without
 // a bake is baked in the background first. A bake that runs is cancelled. False if it cannot be opened; the
 // reason is in the log and in Session::problem, and nothing has changed.
-bool openFile(Session& session, const std::filesystem::path& file, const ui::ViewSettings& settings,
+bool openFile(Session& session, const std::filesystem::path& file, const ViewSettings& settings,
               const Log& log);
 
 // Bakes into the cache; the planet flies on, and becomes the previous one when the bake is done. Refused,
 // with a line in the log, while another bake runs or where the source is not there.
-void startBake(Session& session, const ui::BakeRequest& request, const Log& log);
+void startBake(Session& session, const BakeRequest& request, const Log& log);
 // The bake that the data set needs, again: for a window with nothing to show.
 void startBake(Session& session, const Log& log);
 void cancelBake(Session& session);
 
 // Shows a bake of a request that lies in a file, at once; the planet becomes the previous one. Where the file
 // is not there any more, it is baked anew if its source is known.
-void openBake(Session& session, const ui::BakeRequest& request, const std::filesystem::path& chunkFile,
-              const ui::ViewSettings& settings, const Log& log);
+void openBake(Session& session, const BakeRequest& request, const std::filesystem::path& chunkFile,
+              const ViewSettings& settings, const Log& log);
 
 // At a frame's start: opens what has been baked, starts what waits, and passes the planets' problems to the
 // log.
-void advanceSession(Session& session, const ui::ViewSettings& settings, const Log& log);
+void advanceSession(Session& session, const ViewSettings& settings, const Log& log);
 
 void showPreviousBake(Session& session, bool shown);
 void dismissPreviousBake(Session& session);
@@ -105,14 +105,14 @@ void dismissPreviousBake(Session& session);
 // A second planet beside the one that is shown, from a chunk file or from what one is baked from. Nothing of
 // the session changes. The Error says what cannot be opened, and of a source that it has to be baked first.
 planet::Result<OpenPlanet> openBeside(const Session& session, const std::filesystem::path& file,
-                                      const ui::ViewSettings& settings);
+                                      const ViewSettings& settings);
 planet::Result<OpenPlanet> openBeside(const Session& session, const DataSet& data,
-                                      const ui::ViewSettings& settings);
+                                      const ViewSettings& settings);
 // Exchanges it for the one that is shown; only while one is.
 void exchangeShown(Session& session, OpenPlanet& other, const Log& log);
 
 // Replaces what was asked before. What is estimated is in bakeViewOf.
-void requestEstimate(Session& session, const ui::BakeRequest& request);
+void requestEstimate(Session& session, const BakeRequest& request);
 
 // The planet that is to be drawn, the previous bake's where that is shown: null while there is nothing.
 const OpenPlanet* shownPlanet(const Session& session);

@@ -39,7 +39,7 @@ void zoomText(const Targets& targets, double factor) {
 void toggleAllPanels(const Targets& targets) {
     auto& panels = targets.workspace.panels;
     const bool anyShown = std::any_of(panels.begin(), panels.end(), [](const auto& p) { return p.shown; });
-    const auto first = ui::firstPlaces();
+    const auto first = firstPlaces();
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i].shown = !anyShown && first[i].shown;
 }
 
@@ -57,9 +57,9 @@ void leave(const Targets& targets) {
 // From A's picture to B's and back, whatever the two were shown as.
 void flipCompared(const Targets& targets) {
     if (!targets.view.compare.on) return;
-    ui::CompareKnobs& compare = targets.settings.compare;
-    compare.showB = compare.mode != ui::CompareMode::Flip || !compare.showB;
-    compare.mode = ui::CompareMode::Flip;
+    CompareKnobs& compare = targets.settings.compare;
+    compare.showB = compare.mode != CompareMode::Flip || !compare.showB;
+    compare.mode = CompareMode::Flip;
 }
 
 constexpr std::array shortcuts = {
@@ -95,11 +95,11 @@ constexpr std::array shortcuts = {
 
 // GLFW's code of a panel's "Ctrl+X" or "Ctrl+Shift+X" is the letter or digit itself.
 void togglePanel(const KeyPress& press, bool shifted, const Targets& targets) {
-    for (const ui::PanelInfo& info : ui::panelInfos) {
+    for (const PanelInfo& info : panelInfos) {
         const std::string_view shortcut = info.shortcut;
         if (press.key != shortcut.back() || shifted != shortcut.starts_with("Ctrl+Shift+")) continue;
         bool& shown = targets.workspace.panels[static_cast<std::size_t>(info.id)].shown;
-        const ui::Dock dock = targets.workspace.panels[static_cast<std::size_t>(info.id)].dock;
+        const Dock dock = targets.workspace.panels[static_cast<std::size_t>(info.id)].dock;
         const bool inFront = targets.workspace.inFront[static_cast<std::size_t>(dock)] == info.id;
         // What hides behind another tab comes to the front first.
         if (shown && inFront)

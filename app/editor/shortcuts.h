@@ -15,8 +15,8 @@ namespace worldy {
 // What a key may change at once; the rest it asks for by commands.
 struct ShortcutTargets {
     const ui::EditorView& view;
-    ui::ViewSettings& settings;
-    ui::Workspace& workspace;
+    ViewSettings& settings;
+    Workspace& workspace;
     ui::MenuState& menu;
     ui::Commands& commands;
 };

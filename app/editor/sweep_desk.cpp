@@ -59,14 +59,14 @@ void takeWhatCame(SweepDesk& desk) {
         desk.table->points.insert(desk.table->points.end(), points.begin(), points.end());
         return;
     }
-    const std::vector<ui::SweepSuggestion> found = desk.job->takeSuggestions();
+    const std::vector<SweepSuggestion> found = desk.job->takeSuggestions();
     desk.suggestions.insert(desk.suggestions.end(), found.begin(), found.end());
 }
 
 }  // namespace
 
-Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const ui::SweepRequest& request,
-                              const ui::ViewSettings& settings) {
+Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const SweepRequest& request,
+                              const ViewSettings& settings) {
     SweepPlan plan{.source = open.baked.source,
                    .sourceSettings = open.baked.sourceSettings,
                    .files = {},
@@ -87,8 +87,8 @@ Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const ui::SweepRequest& re
     return plan;
 }
 
-void startSweep(SweepDesk& desk, const OpenPlanet* open, const ui::SweepRequest& request,
-                const ui::ViewSettings& settings, const Log& log) {
+void startSweep(SweepDesk& desk, const OpenPlanet* open, const SweepRequest& request,
+                const ViewSettings& settings, const Log& log) {
     if (!open || desk.job) return;
     desk.problem.clear();
     // Before anything is baked for it.
@@ -104,11 +104,11 @@ void startSweep(SweepDesk& desk, const OpenPlanet* open, const ui::SweepRequest&
     if (desk.suggesting) {
         desk.suggestions.clear();
     } else {
-        desk.table = ui::SweepTable{.request = request,
-                                    .flight = path->name,
-                                    .source = open->data.source,
-                                    .points = {},
-                                    .whole = false};
+        desk.table = SweepTable{.request = request,
+                                .flight = path->name,
+                                .source = open->data.source,
+                                .points = {},
+                                .whole = false};
         desk.files = plan->files;
         desk.bakeSource = plan->source;
         desk.sourceSettings = plan->sourceSettings;
@@ -138,12 +138,12 @@ void advanceSweep(SweepDesk& desk, const Log& log) {
     log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}", desk.problem);
 }
 
-void openSweptChunks(const SweepDesk& desk, int chunkSize, Session& session, const ui::ViewSettings& settings,
+void openSweptChunks(const SweepDesk& desk, int chunkSize, Session& session, const ViewSettings& settings,
                      const Log& log) {
     const auto file = std::find_if(desk.files.begin(), desk.files.end(),
                                    [&](const SweptFile& swept) { return swept.chunkSize == chunkSize; });
     if (file == desk.files.end()) return;
-    ui::BakeRequest request;
+    BakeRequest request;
     request.source = desk.bakeSource;
     request.sourceSettings = desk.sourceSettings;
     request.settings = file->bake;

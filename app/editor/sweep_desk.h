@@ -21,26 +21,26 @@ struct SweepDesk {
     std::vector<SweptFile> files{};   // of the table
     planet::HeightSourceSettings sourceSettings{};
     std::filesystem::path bakeSource{};  // of the files; empty where it is not known
-    std::optional<ui::SweepTable> table{};
-    std::vector<ui::SweepSuggestion> suggestions{};
+    std::optional<SweepTable> table{};
+    std::vector<SweepSuggestion> suggestions{};
     std::string problem{};
 };
 
 // What is asked of the planet that is shown, with the settings as they are but for what has no part in it:
 // overlays, the bad disk and simulated reads. Chunk sizes other than the planet's are bakes in the cache,
 // with the settings of its own. The Error says where there can be none since the source is not known.
-planet::Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const ui::SweepRequest& request,
-                                      const ui::ViewSettings& settings);
+planet::Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const SweepRequest& request,
+                                      const ViewSettings& settings);
 
 // open: null where no planet is. What cannot be begun is told in the log and by the panel.
-void startSweep(SweepDesk& desk, const OpenPlanet* open, const ui::SweepRequest& request,
-                const ui::ViewSettings& settings, const Log& log);
+void startSweep(SweepDesk& desk, const OpenPlanet* open, const SweepRequest& request,
+                const ViewSettings& settings, const Log& log);
 void cancelSweep(SweepDesk& desk);
 // Once a frame: takes what has come.
 void advanceSweep(SweepDesk& desk, const Log& log);
 
 // Shows the chunks of a size that was swept, without a bake where they are still there.
-void openSweptChunks(const SweepDesk& desk, int chunkSize, Session& session, const ui::ViewSettings& settings,
+void openSweptChunks(const SweepDesk& desk, int chunkSize, Session& session, const ViewSettings& settings,
                      const Log& log);
 
 // A table that is whole: as CSV and JSON, and as a plot beside them under the same new name, in a folder that

@@ -8,15 +8,14 @@
 #include <string_view>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/settings/settings_text.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 
 namespace {
 
-std::vector<ui::SettingDifference> differencesOf(const ui::ViewSettings& before,
-                                                 const ui::ViewSettings& after) {
+std::vector<SettingDifference> differencesOf(const ViewSettings& before, const ViewSettings& after) {
     Settings here, there;
     here.view = before;
     there.view = after;
@@ -39,10 +38,10 @@ constexpr std::array<UnitEnding, 7> unitEndings = {{
 }};
 
 std::string clockOf(const std::string& hour) {
-    return ui::clockText(std::strtod(hour.c_str(), nullptr));
+    return clockText(std::strtod(hour.c_str(), nullptr));
 }
 
-std::string nameOf(const ui::SettingDifference& difference) {
+std::string nameOf(const SettingDifference& difference) {
     std::string_view key = difference.setting;
     key.remove_prefix(key.find('.') + 1);
     std::string_view unit;
@@ -59,25 +58,24 @@ std::string nameOf(const ui::SettingDifference& difference) {
     if (difference.here.size() > 24 || difference.there.size() > 24) return words;
     if (difference.setting == "surface.sun_hour")
         return fmt::format("{} {} -> {}", words, clockOf(difference.here), clockOf(difference.there));
-    const auto [here, there] = ui::shortNumberTexts(difference.here, difference.there);
+    const auto [here, there] = shortNumberTexts(difference.here, difference.there);
     return fmt::format("{} {} -> {}{}", words, here, there, unit);
 }
 
-std::string nameOf(const std::vector<ui::SettingDifference>& found) {
+std::string nameOf(const std::vector<SettingDifference>& found) {
     return found.size() == 1 ? nameOf(found.front()) : fmt::format("{} settings", found.size());
 }
 
 }  // namespace
 
-std::string changeName(const ui::ViewSettings& before, const ui::ViewSettings& after) {
+std::string changeName(const ViewSettings& before, const ViewSettings& after) {
     return nameOf(differencesOf(before, after));
 }
 
-void UndoHistory::record(const ui::ViewSettings& before, const ui::ViewSettings& after, bool held,
-                         double timeS) {
+void UndoHistory::record(const ViewSettings& before, const ViewSettings& after, bool held, double timeS) {
     if (before != after) {
         std::vector<std::string> settings;
-        for (const ui::SettingDifference& difference : differencesOf(before, after))
+        for (const SettingDifference& difference : differencesOf(before, after))
             settings.push_back(difference.setting);
         const bool inTime = !held && timeS - lastChangeS_ <= undoMergeS;
         const bool grows =
@@ -96,7 +94,7 @@ void UndoHistory::record(const ui::ViewSettings& before, const ui::ViewSettings&
     if (held_ ? !held : timeS - lastChangeS_ > undoMergeS) close();
 }
 
-void UndoHistory::add(const ui::ViewSettings& before, const ui::ViewSettings& after, std::string name) {
+void UndoHistory::add(const ViewSettings& before, const ViewSettings& after, std::string name) {
     close();
     if (before == after) return;
     push({before, after, std::move(name), {}});
@@ -117,7 +115,7 @@ void UndoHistory::close() {
     open_ = held_ = false;
 }
 
-std::optional<ui::ViewSettings> UndoHistory::undo() {
+std::optional<ViewSettings> UndoHistory::undo() {
     close();
     if (done_.empty()) return std::nullopt;
     undone_.push_back(std::move(done_.back()));
@@ -125,7 +123,7 @@ std::optional<ui::ViewSettings> UndoHistory::undo() {
     return undone_.back().before;
 }
 
-std::optional<ui::ViewSettings> UndoHistory::redo() {
+std::optional<ViewSettings> UndoHistory::redo() {
     close();
     if (undone_.empty()) return std::nullopt;
     done_.push_back(std::move(undone_.back()));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
@@ -20,14 +20,14 @@ public:
     // control is being held, as a slider is while it is dragged. All changes while it is held are one step;
     // those that end where they began are none. A new step clears what could be redone. timeS: any clock
     // that does not run backwards.
-    void record(const ui::ViewSettings& before, const ui::ViewSettings& after, bool held, double timeS);
+    void record(const ViewSettings& before, const ViewSettings& after, bool held, double timeS);
 
     // A change that is a step of its own with a name of its own: "preset popping".
-    void add(const ui::ViewSettings& before, const ui::ViewSettings& after, std::string name);
+    void add(const ViewSettings& before, const ViewSettings& after, std::string name);
 
     // The settings to go back or forward to; none where there are none.
-    std::optional<ui::ViewSettings> undo();
-    std::optional<ui::ViewSettings> redo();
+    std::optional<ViewSettings> undo();
+    std::optional<ViewSettings> redo();
 
     // What they would take back or do again: "tau 2 -> 3 px"; empty where nothing.
     std::string undoName() const;
@@ -35,8 +35,8 @@ public:
 
 private:
     struct Step {
-        ui::ViewSettings before;
-        ui::ViewSettings after;
+        ViewSettings before;
+        ViewSettings after;
         std::string name;
         std::vector<std::string> settings;  // that it changes, "lod.tau_px"
     };
@@ -51,6 +51,6 @@ private:
 };
 
 // "tau 2 -> 3 px", "outlines on", "4 settings".
-std::string changeName(const ui::ViewSettings& before, const ui::ViewSettings& after);
+std::string changeName(const ViewSettings& before, const ViewSettings& after);
 
 }  // namespace worldy

@@ -37,16 +37,16 @@ planet::gl::DebugLines* linesOf(Viewport& viewport, const Log& log) {
 
 }  // namespace
 
-void layOut(Viewport& viewport, const ui::Rect& rect, ui::ObserverMode observer) {
+void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer) {
     viewport.main.rect = viewport.observer.rect = {};
     switch (observer) {
-        case ui::ObserverMode::Off:
+        case ObserverMode::Off:
             viewport.main.rect = rect;
             return;
-        case ui::ObserverMode::Alone:
+        case ObserverMode::Alone:
             viewport.observer.rect = rect;
             return;
-        case ui::ObserverMode::Split: {
+        case ObserverMode::Split: {
             const float half = std::floor(rect.width / 2);
             viewport.main.rect = {rect.x, rect.y, half - 1, rect.height};
             viewport.observer.rect = {rect.x + half + 1, rect.y, rect.width - half - 1, rect.height};
@@ -62,7 +62,7 @@ PixelSize pixelSizeOf(const ui::Rect& rect, float pixelRatio) {
     return {pixels(rect.width), pixels(rect.height)};
 }
 
-void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const ui::ViewSettings& settings,
+void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const ViewSettings& settings,
                  const PictureContent& content, const Log& log) {
     picture.view = content.view;
     if (!fitTarget(picture, content.view, log)) return;

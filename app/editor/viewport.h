@@ -46,7 +46,7 @@ struct Viewport {
     planet::gl::ShaderWait shaderWait = planet::gl::ShaderWait::Never;
 };
 
-void layOut(Viewport& viewport, const ui::Rect& rect, ui::ObserverMode observer);
+void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer);
 
 // Also of a picture that is not shown: the lod view goes on while the observer is alone.
 PixelSize pixelSizeOf(const ui::Rect& rect, float pixelRatio);
@@ -67,7 +67,7 @@ struct PictureContent {
 };
 
 // Draws into the picture's target. What fails is told in the log, and the picture stays as it was.
-void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const ui::ViewSettings& settings,
+void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const ViewSettings& settings,
                  const PictureContent& content, const Log& log);
 
 std::size_t gpuBytes(const Viewport& viewport);

@@ -211,7 +211,7 @@ void Window::startImGui(const WindowConfig& config) {
     setTheme(config.theme, config.scale);
 }
 
-void Window::setTheme(ui::Theme theme, double scale) {
+void Window::setTheme(Theme theme, double scale) {
     const float wanted = contentScale() * static_cast<float>(scale);
     if (theme == theme_ && wanted == appliedScale_) return;
     const bool first = appliedScale_ == 0;  // the first frame makes the font's texture itself

@@ -22,7 +22,7 @@ struct WindowConfig {
     int widthPx = 1600;
     int heightPx = 1000;
     std::filesystem::path imguiFile;  // where ImGui keeps its layout
-    ui::Theme theme = ui::Theme::Dark;
+    Theme theme = Theme::Dark;
     double scale = 1;  // of the monitor's own, [0.5, 3]
 };
 
@@ -64,7 +64,7 @@ public:
     const std::vector<std::filesystem::path>& droppedFiles() const;
 
     // Between two frames: fonts and colours, where they or the monitor's scale have changed.
-    void setTheme(ui::Theme theme, double scale);
+    void setTheme(Theme theme, double scale);
     void setClipboard(const std::string& text) const;
 
     // A thread that compiles shaders for this window's context; null where the driver has no second context
@@ -92,7 +92,7 @@ private:
     std::unique_ptr<Glfw> glfw_;
     std::string imguiFile_;
     bool imguiStarted_ = false;
-    ui::Theme theme_ = ui::Theme::Dark;
+    Theme theme_ = Theme::Dark;
     float appliedScale_ = 0;  // contentScale times the user's
     std::optional<planet::gl::GpuTimer> panelsTimer_;
     double presentMs_ = 0;

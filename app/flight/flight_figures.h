@@ -1,32 +1,29 @@
-// What a setting costs, and how true what it shows is, over a flight: settled at some moments of it, evenly
-// spread, so that the figures are those of the setting and not of the disk.
+// Figures of one flight at one setting.
 #pragma once
 
-#include <functional>
-
-#include "app/flight/flight_path.h"
-#include "app/scene/offscreen.h"
-#include "planet/paging/finest_heights.h"
-#include "ui/model/sweep_points.h"
+#include <cstdint>
 
 namespace worldy {
 
-using ui::FlightFigures;
+// Holds the cost of a setting and its error, over the sample frames of a flight.
+struct FlightFigures {
+    int frames = 0;
+    double meanGroundTriangles = 0;
+    double meanSkirtTriangles = 0;
+    double meanTriangles = 0;  // sum of ground and skirt triangles
+    double mostTriangles = 0;
+    double meanChunks = 0;
+    double mostResidentMiB = 0;    // resident chunks, CPU and GPU together
+    double medianFrameMs = 0;      // selecting and drawing, including the GPU
+    double worstEpsPx = 0;         // predicted error of a chunk's own surface
+    double worstDrawnBoundPx = 0;  // bound of what is drawn, morph included
+    double worstMeasuredPx = 0;    // true error, as if the view faced it (planet/measure/true_error.h)
+    double p99MeasuredPx = 0;      // over all chunks of all frames
+    double worstScreenPx = 0;      // in the projected image
+    std::uint64_t violations = 0;  // chunks whose true error is over the drawn bound
+    std::uint64_t bytesRead = 0;   // from the chunk file, starting with the six root chunks
 
-// Which figures are wanted: the true error reads all of the finest data in view.
-enum class FigureSet : std::uint8_t { Cost, CostAndError };
-
-// Asked before each frame, and several times a second while it is settled and measured, then from any thread,
-// with its number from 0; false ends with an Error of kind Cancelled.
-using KeepFlying = std::function<bool(int frame)>;
-
-// Looks at each moment once its figures are there. An Error ends the flight.
-using AtMoment = std::function<planet::Result<void>(Offscreen& offscreen, const SettledView& at)>;
-
-// The Error names the file and what of it could not be read.
-planet::Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path,
-                                            const ui::ViewSettings& settings, const FlightFrames& frames,
-                                            FigureSet wanted, planet::FinestHeights& heights,
-                                            const KeepFlying& goOn, const AtMoment& atMoment = {});
+    bool operator==(const FlightFigures&) const = default;
+};
 
 }  // namespace worldy

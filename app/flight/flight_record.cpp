@@ -20,7 +20,6 @@
 #include "planet/base/atomic_file.h"
 #include "planet/base/little_endian.h"
 #include "planet/format/chunk_file_format.h"
-#include "ui/model/recording_view.h"
 
 namespace worldy {
 
@@ -346,10 +345,10 @@ std::vector<FlownView> readViews(Reader& in) {
 // What a frame is checked against.
 struct FlightSoFar {
     std::vector<std::set<ChunkId>> drawn;  // by view
-    ui::ViewSettings settings;
+    ViewSettings settings;
     double seconds = 0;
     std::size_t calls = 0;  // and their settings
-    std::size_t settingsACall = flightSettings(ui::ViewSettings{}).size();
+    std::size_t settingsACall = flightSettings(ViewSettings{}).size();
 };
 
 CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
@@ -535,7 +534,7 @@ bool isFlightField(const Field& field) {
 
 }  // namespace
 
-std::vector<std::string> flightSettings(const ui::ViewSettings& now) {
+std::vector<std::string> flightSettings(const ViewSettings& now) {
     Settings settings;
     settings.view = now;
     std::vector<std::string> assignments;
@@ -545,7 +544,7 @@ std::vector<std::string> flightSettings(const ui::ViewSettings& now) {
     return assignments;
 }
 
-std::vector<std::string> flightSettings(const ui::ViewSettings& before, const ui::ViewSettings& now) {
+std::vector<std::string> flightSettings(const ViewSettings& before, const ViewSettings& now) {
     if (before == now) return {};
     const std::vector<std::string> then = flightSettings(before);
     std::vector<std::string> changed = flightSettings(now);
@@ -554,7 +553,7 @@ std::vector<std::string> flightSettings(const ui::ViewSettings& before, const ui
     return changed;
 }
 
-Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ui::ViewSettings& settings) {
+Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ViewSettings& settings) {
     Settings all;
     all.view = settings;
     for (const std::string& assignment : assignments) {
@@ -678,7 +677,7 @@ Result<FlightRecord> flightRecordFromBytes(std::span<const std::byte> bytes, con
 }
 
 bool isFlightRecord(const fs::path& file) {
-    return file.extension() == ui::recordedFlightEnding;
+    return file.extension() == recordedFlightEnding;
 }
 
 }  // namespace worldy

@@ -19,10 +19,13 @@
 #include <string>
 #include <vector>
 
+#include "app/settings/view_settings.h"
 #include "planet/planet.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
+
+// The file extension of recorded flights.
+inline constexpr const char* recordedFlightEnding = ".flight";
 
 inline constexpr std::uint32_t flightRecordVersion = 1;
 // A recording ends by itself at either.
@@ -81,11 +84,10 @@ struct FlightRecord {
 
 // Settings of the view as assignments: all of them, or those in which `now` differs. Left out is how the
 // camera moves, which the recording itself says.
-std::vector<std::string> flightSettings(const ui::ViewSettings& now);
-std::vector<std::string> flightSettings(const ui::ViewSettings& before, const ui::ViewSettings& now);
+std::vector<std::string> flightSettings(const ViewSettings& now);
+std::vector<std::string> flightSettings(const ViewSettings& before, const ViewSettings& now);
 // The Error names the assignment.
-planet::Result<void> applyFlightSettings(const std::vector<std::string>& assignments,
-                                         ui::ViewSettings& settings);
+planet::Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ViewSettings& settings);
 
 // What becomes of a file that is there already.
 enum class IfThere : std::uint8_t { Replace, Fail };

@@ -45,9 +45,9 @@ Blocks blocksOf(const std::vector<PagingMoves::Arrival>& arrivals) {
 
 // Before the first frame's settings, which are all that there were then. What was recorded before there were
 // retries knows of none: there were none.
-ui::ViewSettings settingsBefore(const FlightRecord& record) {
+ViewSettings settingsBefore(const FlightRecord& record) {
     constexpr std::string_view assignment = "paging.retries=";
-    ui::ViewSettings settings;
+    ViewSettings settings;
     const auto namesRetries = [&](const CalledInFlight& called) {
         return std::any_of(called.settings.begin(), called.settings.end(),
                            [&](const std::string& one) { return one.starts_with(assignment); });
@@ -61,7 +61,7 @@ ui::ViewSettings settingsBefore(const FlightRecord& record) {
 
 ReplayedPlanet headless(planet::Planet& planet) {
     return {planet, [](std::uint32_t, std::span<const std::int16_t>) {},
-            [&planet](const ui::ViewSettings& settings, bool paused, planet::PagingTime time) {
+            [&planet](const ViewSettings& settings, bool paused, planet::PagingTime time) {
                 planet.setExaggeration(settings.surface.exaggeration);
                 return planet.setPaging(pagingSettingsOf(settings, paused, time)).map([](bool) {});
             }};
@@ -69,7 +69,7 @@ ReplayedPlanet headless(planet::Planet& planet) {
 
 Result<FlightReplay> FlightReplay::create(std::shared_ptr<const FlightRecord> record, ReplayPaging paging,
                                           std::vector<std::string> assignments) {
-    ui::ViewSettings settings;
+    ViewSettings settings;
     if (const Result<void> good = applyFlightSettings(assignments, settings); !good)
         return tl::unexpected(good.error());
     return FlightReplay(std::move(record), paging, std::move(assignments));
@@ -84,7 +84,7 @@ planet::PagingTime FlightReplay::time() const {
 }
 
 planet::PagingSettings FlightReplay::pagingAtStart() const {
-    ui::ViewSettings settings = settingsBefore(*record_);
+    ViewSettings settings = settingsBefore(*record_);
     bool paused = false;
     for (const CalledInFlight& called : record_->frames[0].calls) {
         if (called.call != FlightCall::Settings) continue;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/flight/flight_record.h"
+#include "app/settings/view_settings.h"
 #include "planet/planet.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -23,7 +23,7 @@ struct ReplayedPlanet {
     planet::Planet& planet;
     planet::UploadChunk upload;
     // Gives the planet its settings, and draws by them.
-    std::function<planet::Result<void>(const ui::ViewSettings&, bool pagingPaused, planet::PagingTime)> apply;
+    std::function<planet::Result<void>(const ViewSettings&, bool pagingPaused, planet::PagingTime)> apply;
 };
 // Without anything to draw with.
 ReplayedPlanet headless(planet::Planet& planet);
@@ -52,7 +52,7 @@ public:
     std::size_t next() const { return next_; }  // the frame that step() makes; frames done
     bool atEnd() const { return next_ == record_->frames.size(); }
     double timeS() const { return timeS_; }  // of the frame done last
-    const ui::ViewSettings& settings() const { return settings_; }
+    const ViewSettings& settings() const { return settings_; }
     // Of the frame done last, or of the first where none is.
     const planet::View& view() const;
 
@@ -79,7 +79,7 @@ private:
     std::shared_ptr<const FlightRecord> record_;
     ReplayPaging paging_;
     std::vector<std::string> assignments_;
-    ui::ViewSettings settings_;
+    ViewSettings settings_;
     std::size_t next_ = 0;
     double timeS_ = 0;
     std::vector<std::vector<planet::ChunkId>> drawn_;  // as recorded, by view, ascending

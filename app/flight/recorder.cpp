@@ -22,7 +22,7 @@ Ids without(const Ids& from, const Ids& what) {
 }
 
 // As set, but for what the planet has of paging.
-ui::ViewSettings heldSettings(const planet::Planet& planet, ui::ViewSettings settings) {
+ViewSettings heldSettings(const planet::Planet& planet, ViewSettings settings) {
     const planet::PagingSettings held = planet.pagingSettings();
     settings.paging.budgetMB = static_cast<int>(held.budgetBytes >> 20);
     settings.paging.loaderThreads = held.loaderThreads;
@@ -62,8 +62,8 @@ void Recorder::called(planet::Planet& planet, FlightCall call, const planet::Blo
     frame_.calls.push_back({.call = call, .block = block, .moves = planet.tools().takeMoves()});
 }
 
-void Recorder::givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused) {
-    const ui::ViewSettings settings = heldSettings(planet, asked);
+void Recorder::givenSettings(planet::Planet& planet, const ViewSettings& asked, bool pagingPaused) {
+    const ViewSettings settings = heldSettings(planet, asked);
     if (settings_ == settings && pagingPaused == pagingPaused_) return;
     CalledInFlight call{.call = FlightCall::Settings, .pagingPaused = pagingPaused};
     call.settings = settings_ ? flightSettings(*settings_, settings) : flightSettings(settings);

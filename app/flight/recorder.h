@@ -26,7 +26,7 @@ public:
     // planet has is recorded, which is not what was asked for where the GPU had no room for it.
     // block: of RetryBlock.
     void called(planet::Planet& planet, FlightCall call, const planet::BlockId& block = {});
-    void givenSettings(planet::Planet& planet, const ui::ViewSettings& asked, bool pagingPaused);
+    void givenSettings(planet::Planet& planet, const ViewSettings& asked, bool pagingPaused);
     // priorityFactors: of the step's views. A frame that no file may hold is left out, and encoded() is full.
     void stepped(planet::Planet& planet, std::span<const double> priorityFactors);
 
@@ -43,7 +43,7 @@ private:
     FlightData data_;
     FlightEncoder encoder_;
     FlightFrame frame_;  // what was called since the last step
-    std::optional<ui::ViewSettings> settings_;
+    std::optional<ViewSettings> settings_;
     bool pagingPaused_ = false;
     std::vector<std::vector<planet::ChunkId>> drawn_;  // by view, ascending
 };

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "app/base/stopwatch.h"
-#include "app/flight/flight_figures.h"
+#include "app/flight/measure_flight.h"
 #include "app/measure/cracks.h"
 #include "app/measure/pops_flight.h"
 #include "app/settings/camera_text.h"
@@ -37,8 +37,8 @@ struct PartWatch {
     bool operator()(double share) const { return whole(from + size * share); }
 };
 
-ui::ComparedFigures figuresOf(const FlightFigures& flown) {
-    ui::ComparedFigures figures;
+ComparedFigures figuresOf(const FlightFigures& flown) {
+    ComparedFigures figures;
     figures.groundTriangles = flown.meanGroundTriangles;
     figures.skirtTriangles = flown.meanSkirtTriangles;
     figures.triangles = flown.meanTriangles;
@@ -59,7 +59,7 @@ FlightFrames momentsOf(const ComparisonPlan& plan) {
 }
 
 struct MeasuredMoments {
-    ui::ComparedFigures figures;
+    ComparedFigures figures;
     bool software = false;  // the CPU draws
 };
 
@@ -72,7 +72,7 @@ Result<MeasuredMoments> measureMoments(const ComparedSide& side, const Compariso
     double leaking = 0;
     int done = 0;
     const auto measureMoment = [&](Offscreen& at, const SettledView& settled) -> Result<void> {
-        const Result<ui::CrackMeasurement> measured = measureCracks(at.scene, settled.view, side.settings);
+        const Result<CrackMeasurement> measured = measureCracks(at.scene, settled.view, side.settings);
         if (!measured) return tl::unexpected(measured.error());
         cracks += static_cast<double>(measured->map.pixels.size());
         leaking += measured->map.leaking;
@@ -90,7 +90,7 @@ Result<MeasuredMoments> measureMoments(const ComparedSide& side, const Compariso
 }
 
 Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, bool software,
-                     const PartWatch& goOn, ui::ComparedFigures& figures) {
+                     const PartWatch& goOn, ComparedFigures& figures) {
     auto planet = planet::Planet::open(side.chunkFile, pagingSettingsOf(side.settings));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(side.settings.surface.exaggeration);
@@ -107,8 +107,7 @@ Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, bool 
 // Without the tint that measures the true error for each picture anew.
 ComparedSide timedSide(const ComparisonPlan& plan, std::size_t index) {
     ComparedSide side = flownSide(plan, index);
-    if (side.settings.overlay.colourBy == ui::ColourBy::Measured)
-        side.settings.overlay.colourBy = ui::ColourBy::None;
+    if (side.settings.overlay.colourBy == ColourBy::Measured) side.settings.overlay.colourBy = ColourBy::None;
     return side;
 }
 
@@ -170,7 +169,7 @@ double timeOfMoment(const ComparisonPlan& plan, int moment) {
     return momentsOf(plan).timeS(moment);
 }
 
-Result<double> frameMs(Offscreen& offscreen, const planet::View& view, const ui::ViewSettings& settings) {
+Result<double> frameMs(Offscreen& offscreen, const planet::View& view, const ViewSettings& settings) {
     const Stopwatch watch;
     stepScene(offscreen.scene, view, settings);
     return drawAndFinish(offscreen, view, settings).map([&] { return watch.elapsedMs(); });
@@ -206,7 +205,7 @@ Result<std::array<double, 2>> measureFrameMs(const ComparisonPlan& plan, const P
 }
 
 Result<Picture> pictureAt(Offscreen& offscreen, const planet::CameraPose& pose,
-                          const ui::ViewSettings& settings) {
+                          const ViewSettings& settings) {
     const SettledView at = settleAt(offscreen, pose, settings);
     if (!at.settled)
         return planet::ioError(

@@ -10,16 +10,16 @@
 
 #include "app/base/picture.h"
 #include "app/flight/flight_path.h"
+#include "app/measure/compare_table.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/compare_table.h"
-#include "ui/model/view_settings.h"
+#include "app/settings/view_settings.h"
 
 namespace worldy {
 
 struct ComparedSide {
     std::filesystem::path chunkFile;
     // Fly as they are, but for the camera's, which are A's, and for a bad disk: loads are waited for.
-    ui::ViewSettings settings;
+    ViewSettings settings;
 };
 using ComparedSides = std::array<ComparedSide, 2>;  // A and B
 
@@ -40,7 +40,7 @@ ComparedSide flownSide(const ComparisonPlan& plan, std::size_t index);
 // of kind Cancelled.
 using ComparisonWatch = std::function<bool(double share)>;
 
-using ComparedPair = std::array<ui::ComparedFigures, 2>;
+using ComparedPair = std::array<ComparedFigures, 2>;
 
 // One side after the other: settled at each moment, what is drawn and held, its true error and its cracks;
 // then flown with all loads on time for its pops. At last the frame times of both, in turn. The Error says

@@ -76,12 +76,11 @@ struct Trial {
 
 }  // namespace
 
-Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& view,
-                                           const ui::ViewSettings& settings) {
+Result<CrackMeasurement> measureCracks(Scene& scene, const planet::View& view, const ViewSettings& settings) {
     const Stopwatch watch;
     const planet::Selection& selection = scene.planet->selection();
     const planet::ChunkTree& tree = scene.planet->tree();
-    ui::CrackMeasurement made;
+    CrackMeasurement made;
     made.view = view;
     made.lodView = scene.planet->views()[0].input.lodView;
     made.seams = settings.seams.mode;
@@ -105,9 +104,8 @@ Result<ui::CrackMeasurement> measureCracks(Scene& scene, const planet::View& vie
     return made;
 }
 
-Result<ui::SmallestSkirts> smallestSkirts(Scene& scene, const planet::View& view,
-                                          const ui::CrackMeasurement& measured,
-                                          const ui::SmallestSkirts& atLeast) {
+Result<SmallestSkirts> smallestSkirts(Scene& scene, const planet::View& view,
+                                      const CrackMeasurement& measured, const SmallestSkirts& atLeast) {
     const planet::Selection& selection = scene.planet->selection();
     Trial trial{scene, view, selection.draw, {}};
     const double shellM = planet::gl::innerShellDepthM(scene.planet->tree());
@@ -118,21 +116,21 @@ Result<ui::SmallestSkirts> smallestSkirts(Scene& scene, const planet::View& view
     const Result<double> depthM = smallestWithoutLeak([&](double depth) { return trial.leaksOfDepth(depth); },
                                                       atLeast.depthM, measured.required.depthM, shellM, 0.01);
     if (!depthM) return tl::unexpected(depthM.error());
-    if (std::isinf(atLeast.factor)) return ui::SmallestSkirts{*depthM, atLeast.factor};
+    if (std::isinf(atLeast.factor)) return SmallestSkirts{*depthM, atLeast.factor};
     const auto leaksOfFactor = [&](double factor) { return trial.leaksOfFactor(measured.pairs, factor); };
     const Result<int> atMost = leaksOfFactor(largestFactor);
     if (!atMost) return tl::unexpected(atMost.error());
-    if (*atMost > 0) return ui::SmallestSkirts{*depthM, std::numeric_limits<double>::infinity()};
+    if (*atMost > 0) return SmallestSkirts{*depthM, std::numeric_limits<double>::infinity()};
     const double first = std::isfinite(measured.required.factor) ? measured.required.factor : 1;
     const Result<double> factor =
         smallestWithoutLeak(leaksOfFactor, atLeast.factor, first, largestFactor, 0.001);
     if (!factor) return tl::unexpected(factor.error());
-    return ui::SmallestSkirts{*depthM, *factor};
+    return SmallestSkirts{*depthM, *factor};
 }
 
 Result<void> measureNow(CrackInstrument& instrument, Scene& scene, const planet::View& view,
-                        const ui::ViewSettings& settings) {
-    Result<ui::CrackMeasurement> measured = measureCracks(scene, view, settings);
+                        const ViewSettings& settings) {
+    Result<CrackMeasurement> measured = measureCracks(scene, view, settings);
     if (!measured) return tl::unexpected(measured.error());
     instrument.measured = std::move(*measured);
     instrument.drawn = scene.planet->selection().draw;
@@ -140,31 +138,25 @@ Result<void> measureNow(CrackInstrument& instrument, Scene& scene, const planet:
     return {};
 }
 
-Result<void> findSmallestNow(CrackInstrument& instrument, Scene& scene, const planet::View& view,
-                             const ui::ViewSettings& settings) {
-    if (!cracksViewOf(instrument, scene, view, settings).current) return {};
-    if (instrument.measured->seams == planet::SeamMode::Stitched) return {};
-    Result<ui::SmallestSkirts> smallest = smallestSkirts(scene, view, *instrument.measured);
-    if (!smallest) return tl::unexpected(smallest.error());
-    instrument.smallest = *smallest;
-    return {};
-}
-
-ui::CracksView cracksViewOf(const CrackInstrument& instrument, const Scene& scene, const planet::View& view,
-                            const ui::ViewSettings& settings) {
-    ui::CracksView shown;
-    if (!instrument.measured) return shown;
+bool isCurrent(const CrackInstrument& instrument, const Scene& scene, const planet::View& view,
+               const ViewSettings& settings) {
+    if (!instrument.measured || settings.overlay.cube || instrument.measured->view != view) return false;
     const auto sameItem = [](const planet::DrawItem& a, const planet::DrawItem& b) {
         return a.id == b.id && a.skirtDepthM == b.skirtDepthM && a.morph == b.morph;
     };
     const std::vector<planet::DrawItem>& drawn = scene.planet->selection().draw;
-    shown.measured = &*instrument.measured;
-    shown.current =
-        !settings.overlay.cube && instrument.measured->view == view &&
-        instrument.measured->seams == settings.seams.mode &&
-        std::equal(instrument.drawn.begin(), instrument.drawn.end(), drawn.begin(), drawn.end(), sameItem);
-    if (instrument.smallest) shown.smallest = &*instrument.smallest;
-    return shown;
+    return instrument.measured->seams == settings.seams.mode &&
+           std::equal(instrument.drawn.begin(), instrument.drawn.end(), drawn.begin(), drawn.end(), sameItem);
+}
+
+Result<void> findSmallestNow(CrackInstrument& instrument, Scene& scene, const planet::View& view,
+                             const ViewSettings& settings) {
+    if (!isCurrent(instrument, scene, view, settings)) return {};
+    if (instrument.measured->seams == planet::SeamMode::Stitched) return {};
+    Result<SmallestSkirts> smallest = smallestSkirts(scene, view, *instrument.measured);
+    if (!smallest) return tl::unexpected(smallest.error());
+    instrument.smallest = *smallest;
+    return {};
 }
 
 void markCracks(const planet::gl::CrackMap& map, Picture& picture) {

@@ -28,8 +28,8 @@ void takeResult(ErrorMeter& meter) {
         meter.keepMeasuring = false;  // it would only fail again, and again
         return;
     }
-    ui::ErrorMeasurement report = ui::measurementOf(std::move(**result));
-    ui::ErrorMeasurement measurement = std::exchange(meter.running, {});
+    ErrorMeasurement report = measurementOf(std::move(**result));
+    ErrorMeasurement measurement = std::exchange(meter.running, {});
     measurement.report = std::move(report.report);
     measurement.indexOf = std::move(report.indexOf);
     measurement.worstFirst = std::move(report.worstFirst);
@@ -38,9 +38,9 @@ void takeResult(ErrorMeter& meter) {
 }
 
 // Returns what the planet draws in this frame and the settings that it was selected with.
-ui::ErrorMeasurement frameOf(const planet::Planet& planet) {
+ErrorMeasurement frameOf(const planet::Planet& planet) {
     const planet::LodSettings& lod = planet.views()[0].input.lod;
-    ui::ErrorMeasurement frame;
+    ErrorMeasurement frame;
     frame.lodView = planet.views()[0].input.lodView;
     frame.tauPx = lod.tauPx;
     frame.metric = lod.metric;
@@ -54,7 +54,7 @@ bool drawnAlike(const planet::DrawItem& a, const planet::DrawItem& b) {
     return a.id == b.id && a.morph == b.morph && a.coarserBy == b.coarserBy && a.edgeMorph == b.edgeMorph;
 }
 
-bool isOf(const ui::ErrorMeasurement& last, const planet::Planet& planet) {
+bool isOf(const ErrorMeasurement& last, const planet::Planet& planet) {
     const planet::LodSettings& lod = planet.views()[0].input.lod;
     const auto& draw = planet.selection().draw;
     return last.lodView == planet.views()[0].input.lodView && last.tauPx == lod.tauPx &&
@@ -117,18 +117,6 @@ void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double
         planet::snapshotOf(planet.tree(), planet.selection().draw, planet.views()[0].input.lodView,
                            meter.running.stitched),
         meter.heights);
-}
-
-ui::ErrorsView errorsViewOf(const ErrorMeter& meter, std::uint64_t frame) {
-    ui::ErrorsView view;
-    view.last = meter.last ? &*meter.last : nullptr;
-    view.current = meter.current;
-    view.frame = frame;
-    view.running = meter.job != nullptr || meter.wanted;
-    view.progress = meter.job ? meter.job->progress() : 0;
-    view.keepMeasuring = meter.keepMeasuring;
-    view.problem = meter.problem;
-    return view;
 }
 
 }  // namespace worldy

@@ -9,9 +9,9 @@
 #include <optional>
 #include <thread>
 
+#include "app/scene/error_measurement.h"
 #include "planet/measure/true_error.h"
 #include "planet/planet.h"
-#include "ui/model/errors_view.h"
 
 namespace worldy {
 
@@ -43,8 +43,8 @@ struct ErrorMeter {
     bool keepMeasuring = false;                        // one after the other, for as long as this is set
     std::shared_ptr<planet::FinestHeights> heights{};  // of the planet that is shown
     std::unique_ptr<ErrorJob> job{};
-    ui::ErrorMeasurement running{};  // what is known of the one that runs: its frame and settings
-    std::optional<ui::ErrorMeasurement> last{};
+    ErrorMeasurement running{};  // what is known of the one that runs: its frame and settings
+    std::optional<ErrorMeasurement> last{};
     bool current = false;  // last is of what was drawn in the last frame
     std::string problem{};
 };
@@ -55,7 +55,5 @@ void forgetErrors(ErrorMeter& meter);
 // Once a frame, after its chunks are chosen: takes what is done, and starts what is wanted from the planet's
 // first view as it is in this frame.
 void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double timeS, ErrorMeter& meter);
-
-ui::ErrorsView errorsViewOf(const ErrorMeter& meter, std::uint64_t frame);
 
 }  // namespace worldy

@@ -26,9 +26,9 @@ void measurePops(const Scene& scene, const planet::View& view, double timeS, boo
 
 std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops) {
     pops.problem.clear();
-    if (!pops.shown || pops.side == ui::PopSide::Live) return std::nullopt;
+    if (!pops.shown || pops.side == PopSide::Live) return std::nullopt;
     const auto frame =
-        pops.side == ui::PopSide::Before ? pops.shown->frameBefore.lock() : pops.shown->frameAfter.lock();
+        pops.side == PopSide::Before ? pops.shown->frameBefore.lock() : pops.shown->frameAfter.lock();
     if (!frame) {
         pops.problem =
             "The chunks drawn then are no longer stored; only the latest frames with a level change are.";
@@ -59,14 +59,6 @@ const planet::PopEvent* findPop(const Pops& pops, std::uint64_t frame, const pla
         return event.frame == frame && event.chunk == chunk;
     });
     return found == events.end() ? nullptr : &*found;
-}
-
-ui::PopsView popsViewOf(const Pops& pops) {
-    return {.meter = &pops.meter,
-            .measuring = pops.measuring,
-            .shown = pops.shown ? &*pops.shown : nullptr,
-            .side = pops.side,
-            .problem = pops.problem};
 }
 
 }  // namespace worldy

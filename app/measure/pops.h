@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "app/measure/pop_side.h"
 #include "app/scene/scene.h"
 #include "planet/measure/pop_meter.h"
-#include "ui/model/pops_view.h"
 
 namespace worldy {
 
@@ -14,7 +14,7 @@ struct Pops {
     bool measuring = true;
     bool interrupted = false;  // frames went by unmeasured: what they changed is no one frame's switch
     std::optional<planet::PopEvent> shown;  // last gone back to
-    ui::PopSide side = ui::PopSide::Live;
+    PopSide side = PopSide::Live;
     std::string problem;  // why that side cannot be drawn
 };
 
@@ -34,7 +34,5 @@ std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops
 
 // The event, or null if it is no longer kept.
 const planet::PopEvent* findPop(const Pops& pops, std::uint64_t frame, const planet::ChunkId& chunk);
-
-ui::PopsView popsViewOf(const Pops& pops);
 
 }  // namespace worldy

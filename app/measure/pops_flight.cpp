@@ -71,7 +71,7 @@ Result<void> settleAtStart(planet::Planet& planet, const std::function<planet::V
     return {};
 }
 
-std::optional<double> seaLevelM(const planet::Planet& planet, const ui::ViewSettings& settings,
+std::optional<double> seaLevelM(const planet::Planet& planet, const ViewSettings& settings,
                                 const planet::View& view, bool software) {
     const planet::gl::RenderSettings render = renderSettingsOf(settings, view, planet.tree());
     return planet::gl::isSeaSurfaceDrawn(render, software) ? std::optional(render.seaLevelM) : std::nullopt;
@@ -79,9 +79,9 @@ std::optional<double> seaLevelM(const planet::Planet& planet, const ui::ViewSett
 
 }  // namespace
 
-Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
-                              const ui::ViewSettings& settings, const PictureSize& size, double stepS,
-                              bool software, const PopsFlightWatch& goOn) {
+Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path, const ViewSettings& settings,
+                              const PictureSize& size, double stepS, bool software,
+                              const PopsFlightWatch& goOn) {
     const planet::LodSettings lod = lodSettingsOf(settings);
     const double startS = path.keys.front().timeS;
     PopsFlight flown;

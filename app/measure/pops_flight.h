@@ -8,9 +8,9 @@
 
 #include "app/flight/flight_path.h"
 #include "app/settings/camera_text.h"
+#include "app/settings/view_settings.h"
 #include "planet/measure/pop_meter.h"
 #include "planet/planet.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -30,7 +30,7 @@ using PopsFlightWatch = std::function<bool(double share)>;
 // stepS: of the flight's time between two frames, > 0. software: the CPU draws, and a sea that is Automatic is
 // not drawn as water. The Error says what could not be loaded.
 planet::Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
-                                      const ui::ViewSettings& settings, const PictureSize& size, double stepS,
+                                      const ViewSettings& settings, const PictureSize& size, double stepS,
                                       bool software, const PopsFlightWatch& goOn);
 
 // The largest jumps, pixels, of the switches that count (planet::counts), smallest first.

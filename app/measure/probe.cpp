@@ -21,10 +21,10 @@ double highestRadiusM(const ProbeInput& input) {
     return input.tree.shape.radiusM + highestM;
 }
 
-ui::DepthSteps depthSteps(const ProbeInput& input, const glm::dvec3& positionM) {
+DepthSteps depthSteps(const ProbeInput& input, const glm::dvec3& positionM) {
     using namespace planet::gl;
     const double radiusM = input.tree.shape.radiusM;
-    ui::DepthSteps steps;
+    DepthSteps steps;
     steps.reversedInUse = input.projection.reversedZ;
     steps.aheadM = -glm::dot(positionM - input.view.eyeM, input.view.back);
     const Projection reversed = steps.reversedInUse
@@ -44,7 +44,7 @@ ui::DepthSteps depthSteps(const ProbeInput& input, const glm::dvec3& positionM) 
 
 }  // namespace
 
-ui::ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit) {
+ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit) {
     const planet::DrawItem& item = *itemOf(input.selection, hit.id);
     const planet::PlanetShape& shape = input.tree.shape;
     const std::vector<std::int16_t>& heights = *input.tree.nodes[item.node].heights;
@@ -55,14 +55,14 @@ ui::ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit
     return {precision, depthSteps(input, precision.positionM)};
 }
 
-std::optional<ui::ProbedVertex> probeWorst(const ProbeInput& input, const planet::ChunkId& chunk) {
+std::optional<ProbedVertex> probeWorst(const ProbeInput& input, const planet::ChunkId& chunk) {
     const planet::DrawItem* item = itemOf(input.selection, chunk);
     if (!item) return std::nullopt;
     const planet::PlanetShape& shape = input.tree.shape;
     const planet::VertexPrecision precision =
         planet::worstPrecision(shape, planet::vertexFrame(shape, input.view.eyeM), *item,
                                *input.tree.nodes[item->node].heights, input.stitched, input.view);
-    return ui::ProbedVertex{precision, depthSteps(input, precision.positionM)};
+    return ProbedVertex{precision, depthSteps(input, precision.positionM)};
 }
 
 }  // namespace worldy

@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "app/measure/probed_vertex.h"
 #include "app/scene/scene.h"
 #include "planet/measure/pick.h"
-#include "ui/model/probe_view.h"
 
 namespace worldy {
 
@@ -19,9 +19,9 @@ struct ProbeInput {
 };
 
 // The vertex nearest to the hit.
-ui::ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit);
+ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit);
 
 // None where the chunk is not drawn.
-std::optional<ui::ProbedVertex> probeWorst(const ProbeInput& input, const planet::ChunkId& chunk);
+std::optional<ProbedVertex> probeWorst(const ProbeInput& input, const planet::ChunkId& chunk);
 
 }  // namespace worldy

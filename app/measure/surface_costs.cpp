@@ -15,16 +15,16 @@ namespace {
 using planet::gl::FeatureUse;
 
 // The analytic atmosphere, where the physical one is off.
-void useAir(ui::SurfaceSettings& surface, FeatureUse physical) {
+void useAir(SurfaceSettings& surface, FeatureUse physical) {
     surface.atmosphere = true;
     surface.light.air.use = physical;
 }
 
 }  // namespace
 
-ui::ViewSettings barePicture(const ui::ViewSettings& settings) {
-    ui::ViewSettings bare = settings;
-    ui::SurfaceSettings& surface = bare.surface;
+ViewSettings barePicture(const ViewSettings& settings) {
+    ViewSettings bare = settings;
+    SurfaceSettings& surface = bare.surface;
     surface.lighting = true;
     surface.atmosphere = surface.detail = surface.streamed = false;
     surface.layers.use = surface.light.air.use = surface.light.sea.use = FeatureUse::Off;
@@ -32,29 +32,29 @@ ui::ViewSettings barePicture(const ui::ViewSettings& settings) {
     return bare;
 }
 
-std::vector<PartSettings> partsOf(const ui::ViewSettings& settings, const PartsThere& there) {
-    const ui::ViewSettings bare = barePicture(settings);
-    ui::ViewSettings all = bare;
+std::vector<PartSettings> partsOf(const ViewSettings& settings, const PartsThere& there) {
+    const ViewSettings bare = barePicture(settings);
+    ViewSettings all = bare;
     std::vector<PartSettings> parts;
     const auto add = [&](const char* name, const auto& turnOn) {
         parts.push_back({name, bare});
         turnOn(parts.back().settings.surface);
         turnOn(all.surface);
     };
-    add("analytic atmosphere", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::Off); });
-    add("physical atmosphere", [](ui::SurfaceSettings& surface) { useAir(surface, FeatureUse::On); });
-    add("sea surface", [](ui::SurfaceSettings& surface) { surface.light.sea.use = FeatureUse::On; });
-    add("shadows", [](ui::SurfaceSettings& surface) { surface.light.shadows.use = FeatureUse::On; });
+    add("analytic atmosphere", [](SurfaceSettings& surface) { useAir(surface, FeatureUse::Off); });
+    add("physical atmosphere", [](SurfaceSettings& surface) { useAir(surface, FeatureUse::On); });
+    add("sea surface", [](SurfaceSettings& surface) { surface.light.sea.use = FeatureUse::On; });
+    add("shadows", [](SurfaceSettings& surface) { surface.light.shadows.use = FeatureUse::On; });
     if (there.normals)
-        add("normals", [](ui::SurfaceSettings& surface) { surface.light.normals.use = FeatureUse::On; });
-    add("detail", [](ui::SurfaceSettings& surface) { surface.detail = true; });
-    add("layers", [](ui::SurfaceSettings& surface) { surface.layers.use = FeatureUse::On; });
-    if (there.colours) add("streamed colours", [](ui::SurfaceSettings& surface) { surface.streamed = true; });
+        add("normals", [](SurfaceSettings& surface) { surface.light.normals.use = FeatureUse::On; });
+    add("detail", [](SurfaceSettings& surface) { surface.detail = true; });
+    add("layers", [](SurfaceSettings& surface) { surface.layers.use = FeatureUse::On; });
+    if (there.colours) add("streamed colours", [](SurfaceSettings& surface) { surface.streamed = true; });
     parts.push_back({"all of them", all});
     return parts;
 }
 
-CostMeter::CostMeter(planet::gl::RenderTarget target, const planet::View& view, ui::ViewSettings bare,
+CostMeter::CostMeter(planet::gl::RenderTarget target, const planet::View& view, ViewSettings bare,
                      std::vector<Part> parts, int rounds)
     : target_(std::move(target)),
       view_(view),
@@ -63,7 +63,7 @@ CostMeter::CostMeter(planet::gl::RenderTarget target, const planet::View& view, 
       wanted_(parts_.size() * static_cast<std::size_t>(rounds)) {}
 
 planet::Result<CostMeter> CostMeter::create(const Scene& scene, const planet::View& view,
-                                            const ui::ViewSettings& settings, int rounds) {
+                                            const ViewSettings& settings, int rounds) {
     auto target = planet::gl::RenderTarget::create(view.widthPx, view.heightPx);
     if (!target) return tl::unexpected(target.error());
     const PartsThere there{scene.planet->colour().has_value(),
@@ -74,7 +74,7 @@ planet::Result<CostMeter> CostMeter::create(const Scene& scene, const planet::Vi
 }
 
 // Once untimed: what has to be made for these settings is no part of a frame.
-double CostMeter::drawnMs(Scene& scene, const ui::ViewSettings& settings) const {
+double CostMeter::drawnMs(Scene& scene, const ViewSettings& settings) const {
     drawScene(scene, view_, settings);
     glFinish();
     const Stopwatch watch;
@@ -99,8 +99,8 @@ double CostMeter::share() const {
     return wanted_ == 0 ? 1 : static_cast<double>(done_) / static_cast<double>(wanted_);
 }
 
-std::vector<ui::PartCost> CostMeter::costs() const {
-    std::vector<ui::PartCost> costs;
+std::vector<PartCost> CostMeter::costs() const {
+    std::vector<PartCost> costs;
     for (const Part& part : parts_)
         costs.push_back({part.settings.name, planet::percentileOf(std::vector(part.withoutMs), 0.5),
                          planet::percentileOf(std::vector(part.withMs), 0.5)});

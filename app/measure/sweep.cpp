@@ -91,10 +91,10 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
     return jsonText(report);
 }
 
-std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, const std::string& file,
+std::string suggestionsJson(std::span<const SweepSuggestion> suggestions, const std::string& file,
                             const std::string& flight) {
     Json report = {{"file", file}, {"flight", flight}, {"suggestions", Json::array()}};
-    for (const ui::SweepSuggestion& one : suggestions) {
+    for (const SweepSuggestion& one : suggestions) {
         const TauGoal& goal = one.goal;
         report["suggestions"].push_back(
             {{"metric", metricName(one.metric)},
@@ -131,15 +131,15 @@ Result<TauGoal> tauGoalFromText(const std::string& text) {
 }
 
 int mostSuggestFlights() {
-    const double range = std::log(ui::largestTauPx / ui::smallestTauPx);
+    const double range = std::log(largestTauPx / smallestTauPx);
     return 2 + static_cast<int>(std::ceil(std::log2(range / std::log(knownTo))));
 }
 
 Result<TauSuggestion> suggestTau(const TauGoal& goal, const MeasureTau& measure) {
     TauSuggestion best;
     // Goals are kept on one side of some tau: an error by small ones, a cost by large ones.
-    double keeps = goal.limitsError ? ui::smallestTauPx : ui::largestTauPx;
-    double breaks = goal.limitsError ? ui::largestTauPx : ui::smallestTauPx;
+    double keeps = goal.limitsError ? smallestTauPx : largestTauPx;
+    double breaks = goal.limitsError ? largestTauPx : smallestTauPx;
     const auto tryTau = [&](double tauPx) -> Result<bool> {
         const Result<double> value = measure(tauPx);
         if (!value) return tl::unexpected(value.error());

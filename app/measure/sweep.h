@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "app/flight/flight_figures.h"
-#include "ui/model/sweep_points.h"
-#include "ui/model/sweep_view.h"
+#include "app/flight/measure_flight.h"
+#include "app/measure/sweep_points.h"
+#include "app/measure/sweep_table.h"
 
 namespace worldy {
-
-using ui::costName;
-using ui::costOf;
-using ui::markFront;
-using ui::SweepCost;
-using ui::SweepPoint;
-using ui::TauGoal;
-using ui::TauSuggestion;
 
 // The table, a line a point, the names of its columns first.
 std::string sweepCsv(std::span<const SweepPoint> points);
@@ -26,7 +18,7 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
                       SweepCost cost);
 
 // The suggested tau of each metric.
-std::string suggestionsJson(std::span<const ui::SweepSuggestion> suggestions, const std::string& file,
+std::string suggestionsJson(std::span<const SweepSuggestion> suggestions, const std::string& file,
                             const std::string& flight);
 
 // "triangles=200000", "frame_ms=20", "memory_mib=64" or "error_px=1".

@@ -95,7 +95,7 @@ SweepWatcher SweepJob::watcherOf(const std::stop_token& stop, const SweepPlan& p
         const std::lock_guard lock(mutex_);
         points_.push_back(point);
     };
-    watcher.suggested = [this, &plan](const ui::SweepSuggestion& suggestion) {
+    watcher.suggested = [this, &plan](const SweepSuggestion& suggestion) {
         const std::lock_guard lock(mutex_);
         suggestions_.push_back(suggestion);
         // It may have needed fewer flights than it could have.
@@ -115,9 +115,9 @@ void SweepJob::run(const std::stop_token& stop, const SweepPlan& plan) {
     result_ = std::move(result);
 }
 
-ui::SweepProgress SweepJob::progress() const {
+SweepProgress SweepJob::progress() const {
     const std::lock_guard lock(mutex_);
-    ui::SweepProgress progress = progress_;
+    SweepProgress progress = progress_;
     const bool flies = progress.tauPx > 0;
     const double share = flies ? static_cast<double>(progress.frame) / progress.frames : 1;
     if (flies || !flown_.empty())
@@ -131,7 +131,7 @@ std::vector<SweepPoint> SweepJob::takePoints() {
     return std::exchange(points_, {});
 }
 
-std::vector<ui::SweepSuggestion> SweepJob::takeSuggestions() {
+std::vector<SweepSuggestion> SweepJob::takeSuggestions() {
     const std::lock_guard lock(mutex_);
     return std::exchange(suggestions_, {});
 }

@@ -34,10 +34,10 @@ public:
 
     void cancel() { thread_.request_stop(); }
     bool cancelling() const { return thread_.get_stop_token().stop_requested(); }
-    ui::SweepProgress progress() const;
+    SweepProgress progress() const;
     // Those that have come since the last call.
     std::vector<SweepPoint> takePoints();
-    std::vector<ui::SweepSuggestion> takeSuggestions();
+    std::vector<SweepSuggestion> takeSuggestions();
     // Once it has ended; nothing until then and nothing again after. Points and suggestions come first: take
     // them after this too.
     std::optional<planet::Result<void>> takeResult();
@@ -52,12 +52,12 @@ private:
 
     mutable std::mutex mutex_;
     // All guarded.
-    ui::SweepProgress progress_;
+    SweepProgress progress_;
     Clock::time_point legBegan_;
     std::vector<LegTime> flown_;
     std::vector<double> ahead_;  // taus to be flown after the one under way; 0: not known yet
     std::vector<SweepPoint> points_;
-    std::vector<ui::SweepSuggestion> suggestions_;
+    std::vector<SweepSuggestion> suggestions_;
     std::optional<planet::Result<void>> result_;
 
     std::jthread thread_;  // last: it uses all the others

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/base/plot_scale.h"
 #include "app/settings/settings.h"
-#include "ui/model/plot_scale.h"
 
 namespace worldy {
 
@@ -50,8 +50,8 @@ std::string tickText(double value) {
 
 struct Plot {
     ImageBuf image{OIIO::ImageSpec(width, height, 4, OIIO::TypeDesc::FLOAT)};
-    ui::LogAxis errors;
-    ui::LogAxis costs;
+    LogAxis errors;
+    LogAxis costs;
 
     int x(double error) const {
         return plotLeft + static_cast<int>(errors.position(error) * (plotRight - plotLeft));
@@ -106,12 +106,12 @@ void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const FlightFigures& a = points[i].figures;
             const FlightFigures& b = points[i + 1].figures;
-            plot.line(plot.x(a.worstMeasuredPx), plot.y(ui::plottedCost(a, cost)), plot.x(b.worstMeasuredPx),
-                      plot.y(ui::plottedCost(b, cost)), colour);
+            plot.line(plot.x(a.worstMeasuredPx), plot.y(plottedCost(a, cost)), plot.x(b.worstMeasuredPx),
+                      plot.y(plottedCost(b, cost)), colour);
         }
         for (const SweepPoint& point : points) {
             const int x = plot.x(point.figures.worstMeasuredPx);
-            const int y = plot.y(ui::plottedCost(point.figures, cost));
+            const int y = plot.y(plottedCost(point.figures, cost));
             if (point.onFront) {
                 plot.disc(x, y, 9 * finer, ink);
                 plot.disc(x, y, 8 * finer, {1, 1, 1, 1});
@@ -152,9 +152,9 @@ planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost 
     std::vector<double> costs;
     Series series;
     for (SweepPoint point : points) {
-        point.figures.worstMeasuredPx = ui::plottedErrorPx(point.figures);
+        point.figures.worstMeasuredPx = plottedErrorPx(point.figures);
         errors.push_back(point.figures.worstMeasuredPx);
-        costs.push_back(ui::plottedCost(point.figures, cost));
+        costs.push_back(plottedCost(point.figures, cost));
         series[{point.chunkSize, point.metric}].push_back(point);
     }
     for (auto& [key, own] : series) {
@@ -162,8 +162,8 @@ planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost 
                   [](const SweepPoint& a, const SweepPoint& b) { return a.tauPx < b.tauPx; });
     }
     Plot plot;
-    plot.errors = ui::logAxisOver(errors);
-    plot.costs = ui::logAxisOver(costs);
+    plot.errors = logAxisOver(errors);
+    plot.costs = logAxisOver(costs);
     draw::fill(plot.image, Colour{1, 1, 1, 1});
     if (!drawAxes(plot, cost, title))
         return planet::ioError(fmt::format("{}: the plot cannot be labelled without this font", font));

@@ -17,7 +17,7 @@ namespace {
 using planet::Result;
 
 // Overlays cost time that is not the setting's, and loads are waited for.
-ui::ViewSettings sweptSettings(ui::ViewSettings settings) {
+ViewSettings sweptSettings(ViewSettings settings) {
     settings.overlay = {};
     settings.surface.streamed = false;
     settings.surface.light.fill = 0;
@@ -63,7 +63,7 @@ Result<SweptPlanet> openSwept(const SweepPlan& plan, const SweptFile& swept) {
 
 Result<FlightFigures> fly(SweptPlanet& planet, const SweepPlan& plan, const FlightPath& path,
                           const SweepLeg& leg, FigureSet wanted, const SweepWatcher& watcher) {
-    ui::ViewSettings settings = plan.view;
+    ViewSettings settings = plan.view;
     settings.lod.metric = leg.metric;
     settings.lod.tauPx = leg.tauPx;
     const FlightFrames frames = plan.frameStepS > 0

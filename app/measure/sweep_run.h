@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/measure/sweep.h"
+#include "app/measure/sweep_table.h"
 #include "app/settings/camera_text.h"
 #include "planet/bake/bake.h"
 #include "planet/source/height_source.h"
-#include "ui/model/sweep_view.h"
 
 namespace worldy {
 
@@ -37,7 +37,7 @@ struct SweepPlan {
     double frameStepS = 0;  // seconds of the flight from one to the next; 0: evenly spread
     std::optional<TauGoal> goal;
     PictureSize size;
-    ui::ViewSettings view;  // all but tau, metric, overlays and bad disks
+    ViewSettings view;  // all but tau, metric, overlays and bad disks
 };
 
 // What is flown: one setting over one chunk file.
@@ -55,7 +55,7 @@ struct SweepWatcher {
     std::function<void(const SweepLeg& leg)> begun{};  // before each flight,
     std::function<void(const SweepLeg& leg)> ended{};  // and after it
     std::function<void(const SweepPoint&)> flown{};
-    std::function<void(const ui::SweepSuggestion&)> suggested{};
+    std::function<void(const SweepSuggestion&)> suggested{};
 };
 
 // Makes a GL context of its own on the calling thread for each file, and leaves none current. The Error names

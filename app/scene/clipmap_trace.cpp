@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/scene/overlay_colours.h"
 #include "planet/sphere/cube_sphere.h"
 #include "planet/surface/colour_clipmap.h"
-#include "ui/model/overlay_colours.h"
 
 namespace worldy {
 
@@ -110,8 +110,8 @@ void traceClipmap(const planet::gl::ChunkRenderer& renderer, double nowS, Clipma
     if (state) remember(*state, nowS, trace);
 }
 
-ui::ClipmapStats clipmapStatsOf(const planet::gl::PlanetRenderer& renderer, const ClipmapTrace& trace) {
-    ui::ClipmapStats stats;
+ClipmapStats clipmapStatsOf(const planet::gl::PlanetRenderer& renderer, const ClipmapTrace& trace) {
+    ClipmapStats stats;
     stats.problem = renderer.clipmapProblem();
     const planet::gl::ColourClipmapState* state = renderer.chunks().colourClipmap();
     if (!state) return stats;
@@ -136,7 +136,7 @@ void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const Clipmap
     }
     // Over those that were filled as a whole.
     for (const planet::gl::ColourClipmapState::Window& window : state->windows) {
-        const glm::vec3 colour = ui::levelColour(window.level);
+        const glm::vec3 colour = levelColour(window.level);
         const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
         appendOutline({tree, renderView, window.face, window.level, lines}, window.texels,
                       {byte(colour.x), byte(colour.y), byte(colour.z), 255});

@@ -5,11 +5,11 @@
 #include <deque>
 #include <optional>
 
+#include "app/scene/frame_stats.h"
 #include "planet/gl/draw/debug_shapes.h"
 #include "planet/gl/draw/planet_renderer.h"
 #include "planet/sphere/view.h"
 #include "planet/tree/chunk_tree.h"
-#include "ui/model/frame_stats.h"
 
 namespace worldy {
 
@@ -28,7 +28,7 @@ struct ClipmapTrace {
 // Adds what the last draw filled, at nowS.
 void traceClipmap(const planet::gl::ChunkRenderer& renderer, double nowS, ClipmapTrace& trace);
 
-ui::ClipmapStats clipmapStatsOf(const planet::gl::PlanetRenderer& renderer, const ClipmapTrace& trace);
+ClipmapStats clipmapStatsOf(const planet::gl::PlanetRenderer& renderer, const ClipmapTrace& trace);
 
 // The windows' outlines on the ground in the colours of their levels, and what was filled in the last
 // seconds, fading: magenta came in by moving, cyan because tiles came or went.

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/base/glossary.h"
 #include "app/settings/camera_text.h"
-#include "ui/model/glossary.h"
 
 namespace worldy {
 
@@ -20,7 +20,7 @@ namespace {
 
 // Returns one object for a total that is counted per kind of block; countOf(counters) picks the total.
 template <class CountOf>
-nlohmann::ordered_json byKind(const ui::FrameStats& stats, const CountOf& countOf) {
+nlohmann::ordered_json byKind(const FrameStats& stats, const CountOf& countOf) {
     return {{"heights", countOf(stats.paging[planet::BlockKind::Heights])},
             {"colours", countOf(stats.paging[planet::BlockKind::Colours])},
             {"normals", countOf(stats.paging[planet::BlockKind::Normals])}};
@@ -28,14 +28,14 @@ nlohmann::ordered_json byKind(const ui::FrameStats& stats, const CountOf& countO
 
 }  // namespace
 
-nlohmann::ordered_json statsJson(const ui::FrameStats& stats) {
+nlohmann::ordered_json statsJson(const FrameStats& stats) {
     return {{"visited", stats.selection.visited},
             {"culled_frustum", stats.selection.culledFrustum},
             {"culled_horizon", stats.selection.culledHorizon},
-            {ui::terms::drawnChunks.key, stats.selection.drawn},
-            {ui::terms::groundTriangles.key, stats.selection.groundTriangles},
-            {ui::terms::skirtTriangles.key, stats.selection.skirtTriangles},
-            {ui::terms::triangles.key, stats.selection.triangles()},
+            {terms::drawnChunks.key, stats.selection.drawn},
+            {terms::groundTriangles.key, stats.selection.groundTriangles},
+            {terms::skirtTriangles.key, stats.selection.skirtTriangles},
+            {terms::triangles.key, stats.selection.triangles()},
             {"waiting", stats.selection.waiting},
             {"deepest_level", stats.selection.deepestLevel},
             {"worst_eps_px", stats.selection.worstEpsPx},

@@ -5,9 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "app/scene/frame_stats.h"
 #include "planet/select/lod_select.h"
 #include "planet/sphere/view.h"
-#include "ui/model/frame_stats.h"
 
 namespace worldy {
 
@@ -15,7 +15,7 @@ namespace worldy {
 nlohmann::ordered_json poseJson(const planet::CameraPose& exact);
 
 // Returns the counts, bytes and times of one frame.
-nlohmann::ordered_json statsJson(const ui::FrameStats& stats);
+nlohmann::ordered_json statsJson(const FrameStats& stats);
 
 // Returns the number of drawn chunks of each level, indexed by level.
 std::vector<std::uint32_t> drawnByLevel(const planet::Selection& selection);

@@ -104,8 +104,7 @@ Camera observerStart(const planet::View& lodView, const Ground& ground) {
 }
 
 planet::Lines observerLines(const planet::Planet& planet, const planet::View& lodView,
-                            const ui::CameraSettings& settings,
-                            const std::optional<planet::ChunkId>& selected) {
+                            const CameraSettings& settings, const std::optional<planet::ChunkId>& selected) {
     planet::Lines lines;
     const planet::ChunkTree& tree = planet.tree();
     const double groundRadiusM =

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "app/scene/camera_control.h"
+#include "app/settings/view_settings.h"
 #include "planet/gl/draw/debug_shapes.h"
 #include "planet/planet.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -19,8 +19,7 @@ Camera observerStart(const planet::View& lodView, const Ground& ground);
 // horizon; a mark at its eye; and how far d_m of the selected chunk reaches, as the outlines, in three
 // planes, of all places from which the chunk must be replaced by its children (d_m about its bounds).
 planet::Lines observerLines(const planet::Planet& planet, const planet::View& lodView,
-                            const ui::CameraSettings& settings,
-                            const std::optional<planet::ChunkId>& selected);
+                            const CameraSettings& settings, const std::optional<planet::ChunkId>& selected);
 
 // How far a view's frustum is drawn, metres: to the farthest ground or horizon within it.
 double frustumLengthM(const planet::View& view, double groundRadiusM);

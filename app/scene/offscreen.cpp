@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "app/data/data_set.h"
+#include "app/scene/overlay_colours.h"
 #include "app/settings/camera_text.h"
 #include "planet/measure/true_error.h"
 #include "planet/planet_tools.h"
-#include "ui/model/overlay_colours.h"
 
 namespace worldy {
 
@@ -29,7 +29,7 @@ planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, c
 }
 
 // In short stretches, between which it can be given up.
-bool settleWhile(Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
+bool settleWhile(Scene& scene, const planet::View& view, const ViewSettings& settings,
                  const std::function<bool()>& goOn) {
     if (!goOn) return settleScene(scene, view, settings, settleTimeoutS);
     constexpr int stretches = 600;
@@ -41,9 +41,9 @@ bool settleWhile(Scene& scene, const planet::View& view, const ui::ViewSettings&
 }
 
 // Nothing where chunks are not coloured by it.
-planet::Result<std::optional<ui::ErrorMeasurement>> measuredFor(const planet::Planet& planet,
-                                                                const ui::ViewSettings& settings) {
-    if (settings.overlay.colourBy != ui::ColourBy::Measured) return std::nullopt;
+planet::Result<std::optional<ErrorMeasurement>> measuredFor(const planet::Planet& planet,
+                                                            const ViewSettings& settings) {
+    if (settings.overlay.colourBy != ColourBy::Measured) return std::nullopt;
     const planet::LodSettings& lod = planet.views()[0].input.lod;
     planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(planet.file()));
     auto report = planet::measureTrueError(
@@ -51,14 +51,14 @@ planet::Result<std::optional<ui::ErrorMeasurement>> measuredFor(const planet::Pl
                            lod.seams == planet::SeamMode::Stitched),
         heights);
     if (!report) return tl::unexpected(report.error());
-    ui::ErrorMeasurement measured = ui::measurementOf(std::move(*report));
+    ErrorMeasurement measured = measurementOf(std::move(*report));
     measured.tauPx = lod.tauPx;
     return measured;
 }
 
 }  // namespace
 
-planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
+planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,
                                         const PictureSize& size, int samples) {
     auto context = planet::gl::OffscreenContext::create();
     if (!context) return tl::unexpected(context.error());
@@ -84,15 +84,15 @@ planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::pa
 }
 
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,
-                                   const ui::ViewSettings& settings) {
+                                   const ViewSettings& settings) {
     Scene& scene = offscreen.scene;
     const planet::Selection& selection = scene.planet->selection();
     const auto measured = measuredFor(*scene.planet, settings);
     if (!measured) return tl::unexpected(measured.error());
     offscreen.target.bind();
     drawScene(scene, view, settings, 0,
-              ui::chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                             *measured ? &**measured : nullptr));
+              chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
+                         *measured ? &**measured : nullptr));
     const planet::Lines lines = linesOver(scene, selection, view, settings);
     // Lines are those of the sphere.
     if (!lines.empty() && !settings.overlay.cube) {
@@ -107,7 +107,7 @@ Picture readPicture(const Offscreen& offscreen) {
     return {offscreen.target.widthPx(), offscreen.target.heightPx(), offscreen.target.readRgb()};
 }
 
-SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings,
+SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ViewSettings& settings,
                      const std::function<bool()>& goOn) {
     Scene& scene = offscreen.scene;
     const double radiusM = scene.planet->tree().shape.radiusM;

@@ -21,7 +21,7 @@ struct Offscreen {
     std::optional<planet::gl::DebugLines> lines{};  // once any were drawn
 };
 
-planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ui::ViewSettings& settings,
+planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,
                                         const PictureSize& size, int samples);
 
 // The picture to lay over a planet: the one named, else the one beside its file; none where there is none.
@@ -30,7 +30,7 @@ planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::pa
 
 // Draws the last selection, tints and lines over it included, and waits until the GPU has done it.
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,
-                                   const ui::ViewSettings& settings);
+                                   const ViewSettings& settings);
 
 Picture readPicture(const Offscreen& offscreen);
 
@@ -45,7 +45,7 @@ struct SettledView {
     bool lifted = false;
     bool settled = false;  // false: the time ran out
 };
-SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ui::ViewSettings& settings,
+SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ViewSettings& settings,
                      const std::function<bool()>& goOn = {});
 
 }  // namespace worldy

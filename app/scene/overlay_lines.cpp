@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/scene/overlay_colours.h"
 #include "planet/sphere/cube_sphere.h"
-#include "ui/model/overlay_colours.h"
 
 namespace worldy {
 
@@ -80,11 +80,11 @@ void appendFailed(const planet::ChunkTree& tree, const planet::ChunkNode& node, 
 }  // namespace
 
 planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selection& selection,
-                           const planet::View& renderView, const ui::ViewSettings& settings) {
+                           const planet::View& renderView, const ViewSettings& settings) {
     planet::Lines lines;
     if (settings.overlay.bounds) {
         for (const planet::DrawItem& item : selection.draw) {
-            planet::appendBox(tree.nodes[item.node].bounds.box, bytesOf(ui::levelColour(item.id.level), 200),
+            planet::appendBox(tree.nodes[item.node].bounds.box, bytesOf(levelColour(item.id.level), 200),
                               lines);
         }
     }
@@ -98,7 +98,7 @@ planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selectio
     return lines;
 }
 
-planet::Lines focusLines(const planet::ChunkTree& tree, const ui::ChunkFocus& focus,
+planet::Lines focusLines(const planet::ChunkTree& tree, const ChunkFocus& focus,
                          const planet::View& renderView) {
     planet::Lines lines;
     if (focus.hovered) appendFocus(tree, *focus.hovered, hoverColour, renderView, lines);

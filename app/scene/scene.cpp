@@ -12,8 +12,8 @@
 #include "app/base/stopwatch.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/layer_file.h"
+#include "app/settings/sun_overhead.h"
 #include "planet/sphere/cube_sphere.h"
-#include "ui/model/sun_overhead.h"
 
 namespace worldy {
 
@@ -65,7 +65,7 @@ planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wan
     return applied;
 }
 
-planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers) {
+planet::gl::LayerDrawing layerDrawingOf(const LayerSettings& layers) {
     return {.use = layers.use,
             .set = layers.set,
             .pictures = {},
@@ -78,19 +78,19 @@ planet::gl::LayerDrawing layerDrawingOf(const ui::LayerSettings& layers) {
 }
 
 // Only where layers are drawn: most of the time it is nothing to do.
-void fitLayers(Scene& scene, const ui::LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
+void fitLayers(Scene& scene, const LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
     const bool software = scene.renderer.chunks().capabilities().software;
     if (!planet::gl::isUsed(layers.use, software)) return;
     fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer.chunks(), scene.layers);
     drawing.pictures = picturesOf(layers.set, scene.layers);
 }
 
-ui::ViewSettings afforded(const Scene& scene, ui::ViewSettings settings) {
-    ui::turnDown(scene.turnedDown, settings.surface);
+ViewSettings afforded(const Scene& scene, ViewSettings settings) {
+    turnDown(scene.turnedDown, settings.surface);
     return settings;
 }
 
-planet::ViewInput viewInputOf(const Scene& scene, const planet::View& view, const ui::ViewSettings& settings,
+planet::ViewInput viewInputOf(const Scene& scene, const planet::View& view, const ViewSettings& settings,
                               double priorityFactor = 1) {
     planet::ViewInput input{view, lodSettingsOf(settings), priorityFactor, colourSettingsOf(settings),
                             normalSettingsOf(settings)};
@@ -98,7 +98,7 @@ planet::ViewInput viewInputOf(const Scene& scene, const planet::View& view, cons
     return input;
 }
 
-void beginFrame(Scene& scene, const planet::View& lodView, const ui::ViewSettings& settings) {
+void beginFrame(Scene& scene, const planet::View& lodView, const ViewSettings& settings) {
     const planet::gl::RenderSettings render = renderSettingsOf(settings, lodView, scene.planet->tree());
     scene.seaSurfaceM =
         scene.renderer.chunks().drawsSeaSurface(render) ? std::optional(render.seaLevelM) : std::nullopt;
@@ -109,7 +109,7 @@ void beginFrame(Scene& scene, const planet::View& lodView, const ui::ViewSetting
 
 }  // namespace
 
-planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSettings& settings) {
+planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& settings) {
     auto planet = planet::Planet::open(config.chunkFile, pagingSettingsOf(settings));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(settings.surface.exaggeration);
@@ -133,7 +133,7 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ui::ViewSetting
     return scene;
 }
 
-planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
+planet::LodSettings lodSettingsOf(const ViewSettings& settings) {
     planet::LodSettings lod;
     lod.metric = settings.lod.metric;
     lod.tauPx = settings.lod.tauPx;
@@ -152,21 +152,21 @@ planet::LodSettings lodSettingsOf(const ui::ViewSettings& settings) {
     return lod;
 }
 
-planet::TileSettings colourSettingsOf(const ui::ViewSettings& settings) {
-    const ui::SurfaceSettings& surface = settings.surface;
+planet::TileSettings colourSettingsOf(const ViewSettings& settings) {
+    const SurfaceSettings& surface = settings.surface;
     const bool seen = surface.streamed && surface.surface == planet::gl::SurfaceColour::Image &&
                       surface.imageOpacity > 0 && !settings.overlay.cube;
     return {.enabled = seen, .texelsPerPixel = surface.texelsPerPixel};
 }
 
 // Without light nothing shows them but the layers, whose slopes are near enough by the mesh.
-planet::TileSettings normalSettingsOf(const ui::ViewSettings& settings) {
+planet::TileSettings normalSettingsOf(const ViewSettings& settings) {
     const planet::gl::NormalDrawing& normals = settings.surface.light.normals;
     return {.enabled = settings.surface.lighting && normals.use != planet::gl::FeatureUse::Off,
             .texelsPerPixel = normals.texelsPerPixel};
 }
 
-planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool paused,
+planet::PagingSettings pagingSettingsOf(const ViewSettings& settings, bool paused,
                                         std::optional<planet::PagingTime> time, bool software) {
     const planet::PagingTime asSet =
         settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock;
@@ -183,16 +183,16 @@ planet::PagingSettings pagingSettingsOf(const ui::ViewSettings& settings, bool p
             .time = time.value_or(asSet)};
 }
 
-planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, const planet::View& view,
+planet::gl::RenderSettings renderSettingsOf(const ViewSettings& settings, const planet::View& view,
                                             const planet::ChunkTree& tree) {
-    const ui::SurfaceSettings& surface = settings.surface;
-    const ui::OverlaySettings& overlay = settings.overlay;
+    const SurfaceSettings& surface = settings.surface;
+    const OverlaySettings& overlay = settings.overlay;
     planet::gl::RenderSettings render;
     render.surface = surface.surface;
     render.imageOpacity = surface.imageOpacity;
     render.streamed = surface.streamed;
     render.texelsPerPixel = surface.texelsPerPixel;
-    if (surface.colourMode == ui::ColourMode::Clipmap) render.clipmapPx = surface.clipmapSizePx;
+    if (surface.colourMode == ColourMode::Clipmap) render.clipmapPx = surface.clipmapSizePx;
     render.rampTopM = rampTopM(tree);
     // Users name true heights; the renderer's are as drawn.
     render.ramp = surface.ramp;
@@ -208,17 +208,17 @@ planet::gl::RenderSettings renderSettingsOf(const ui::ViewSettings& settings, co
     render.atmosphere = surface.atmosphere && !overlay.cube;
     render.lighting = surface.lighting;
     render.detail = surface.detail;
-    render.sunDirection = surface.sunFollows ? morningSun(view.eyeM)
-                                             : planet::directionFromGeographic(ui::sunOverheadOf(surface));
+    render.sunDirection =
+        surface.sunFollows ? morningSun(view.eyeM) : planet::directionFromGeographic(sunOverheadOf(surface));
     render.light = surface.light;
-    if (overlay.colourBy != ui::ColourBy::None) render.light.fill = 0;  // a tinted picture measures
+    if (overlay.colourBy != ColourBy::None) render.light.fill = 0;  // a tinted picture measures
     render.layers = layerDrawingOf(surface.layers);
     return render;
 }
 
-planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& asked, bool pagingPaused,
+planet::Result<void> applyLiveSettings(Scene& scene, const ViewSettings& asked, bool pagingPaused,
                                        std::optional<planet::PagingTime> time) {
-    const ui::ViewSettings settings = afforded(scene, asked);
+    const ViewSettings settings = afforded(scene, asked);
     if (scene.exaggeration != settings.surface.exaggeration) {
         scene.exaggeration = settings.surface.exaggeration;
         scene.planet->setExaggeration(settings.surface.exaggeration);
@@ -229,7 +229,7 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ui::ViewSettings& ask
 
 namespace {
 
-void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet::ViewInput> views,
+void step(Scene& scene, const ViewSettings& settings, std::span<const planet::ViewInput> views,
           std::optional<double> elapsedS) {
     beginFrame(scene, views.front().lodView, settings);
     scene.planet->step(views, scene.renderer.upload(), elapsedS);
@@ -237,33 +237,33 @@ void step(Scene& scene, const ui::ViewSettings& settings, std::span<const planet
 
 }  // namespace
 
-void stepScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked,
+void stepScene(Scene& scene, const planet::View& lodView, const ViewSettings& asked,
                std::optional<double> elapsedS) {
-    const ui::ViewSettings settings = afforded(scene, asked);
+    const ViewSettings settings = afforded(scene, asked);
     const planet::ViewInput only = viewInputOf(scene, lodView, settings);
     step(scene, settings, std::span(&only, 1), elapsedS);
 }
 
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
-               const ui::ViewSettings& asked, std::optional<double> elapsedS) {
-    const ui::ViewSettings settings = afforded(scene, asked);
+               const ViewSettings& asked, std::optional<double> elapsedS) {
+    const ViewSettings settings = afforded(scene, asked);
     const std::array<planet::ViewInput, 2> views = {
         viewInputOf(scene, lodView, settings),
         viewInputOf(scene, observerView, settings, observerPriorityFactor)};
     step(scene, settings, views, elapsedS);
 }
 
-void drawScene(Scene& scene, const planet::View& renderView, const ui::ViewSettings& settings,
+void drawScene(Scene& scene, const planet::View& renderView, const ViewSettings& settings,
                std::size_t selection, std::span<const planet::gl::ChunkTint> tints,
                planet::gl::ShaderWait wait) {
     drawItems(scene, renderView, settings, scene.planet->selection(selection).draw,
               settings.seams.mode == planet::SeamMode::Stitched, tints, wait);
 }
 
-void drawItems(Scene& scene, const planet::View& renderView, const ui::ViewSettings& asked,
+void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings& asked,
                std::span<const planet::DrawItem> items, bool stitched,
                std::span<const planet::gl::ChunkTint> tints, planet::gl::ShaderWait wait) {
-    const ui::ViewSettings settings = afforded(scene, asked);
+    const ViewSettings settings = afforded(scene, asked);
     const Stopwatch watch;
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
@@ -291,15 +291,15 @@ std::vector<std::string> takeProblems(Scene& scene) {
     return problems;
 }
 
-bool settleScene(Scene& scene, const planet::View& lodView, const ui::ViewSettings& asked, double timeoutS) {
-    const ui::ViewSettings settings = afforded(scene, asked);
+bool settleScene(Scene& scene, const planet::View& lodView, const ViewSettings& asked, double timeoutS) {
+    const ViewSettings settings = afforded(scene, asked);
     beginFrame(scene, lodView, settings);
     const planet::ViewInput only = viewInputOf(scene, lodView, settings);
     return scene.planet->settle(std::span(&only, 1), scene.renderer.upload(), timeoutS);
 }
 
-ui::FrameStats statsOf(const Scene& scene) {
-    ui::FrameStats stats;
+FrameStats statsOf(const Scene& scene) {
+    FrameStats stats;
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
     stats.stages = scene.planet->lastStep().times;
@@ -311,7 +311,7 @@ ui::FrameStats statsOf(const Scene& scene) {
 }
 
 planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
-                        const planet::View& renderView, const ui::ViewSettings& settings) {
+                        const planet::View& renderView, const ViewSettings& settings) {
     const planet::ChunkTree& tree = scene.planet->tree();
     planet::Lines lines = overlayLines(tree, selection, renderView, settings);
     if (settings.overlay.clipmap)

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "app/settings/view_settings.h"
+#include "app/settings/workspace.h"
 #include "planet/sphere/view.h"
-#include "ui/model/layout.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -36,12 +36,12 @@ inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "
 struct Settings {
     std::string dataSet;      // chunk file, elevation image or faces to open; empty: the Earth
     std::string colourImage;  // picture laid over it; empty: colour.jpg or colour.png beside the data set
-    ui::ViewSettings view;
+    ViewSettings view;
     planet::CameraPose camera{.altitudeM =
                                   0};  // where a session starts; altitude 0: the whole planet in view
     int windowWidthPx = 1600;          // [640, 16384]
     int windowHeightPx = 1000;         // [400, 16384]
-    ui::Workspace workspace;
+    Workspace workspace;
 };
 
 }  // namespace worldy

@@ -12,7 +12,6 @@
 
 #include "app/base/colour_text.h"
 #include "app/settings/layer_file.h"
-#include "ui/model/sweep_points.h"
 
 namespace worldy {
 
@@ -41,12 +40,12 @@ void addData(Fields& fields, Settings& s) {
                     Text{&s.colourImage}}});
 }
 
-void addLod(Fields& fields, ui::LodKnobs& lod) {
+void addLod(Fields& fields, LodKnobs& lod) {
     fields.insert(
         fields.end(),
         {{"lod", "tau_px",
           "Screen-space error threshold tau, pixels; larger: fewer triangles, more visible error.",
-          Number{&lod.tauPx, {ui::smallestTauPx, ui::largestTauPx, "px"}}},
+          Number{&lod.tauPx, {smallestTauPx, largestTauPx, "px"}}},
          {"lod", "hysteresis", "Fraction of tau by which a merge is delayed after a split.",
           Number{&lod.hysteresis, {0, 0.9, ""}}},
          {"lod", "max_level", "Deepest level drawn.", Integer{&lod.maxLevel, {0, 20, ""}}},
@@ -62,7 +61,7 @@ void addLod(Fields& fields, ui::LodKnobs& lod) {
           Number{&lod.fadeS, {0, 10, "s"}}}});
 }
 
-void addSeams(Fields& fields, ui::SeamKnobs& seams) {
+void addSeams(Fields& fields, SeamKnobs& seams) {
     fields.insert(
         fields.end(),
         {{"seams", "mode", "What hides cracks between chunks: none, skirts or stitched.",
@@ -76,7 +75,7 @@ void addSeams(Fields& fields, ui::SeamKnobs& seams) {
           Flag{&seams.showPairs}}});
 }
 
-void addPaging(Fields& fields, ui::PagingKnobs& paging) {
+void addPaging(Fields& fields, PagingKnobs& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
     fields.insert(
         fields.end(),
@@ -110,7 +109,7 @@ void addPaging(Fields& fields, ui::PagingKnobs& paging) {
          {"bad_disk", "seed", "Seed of the injected faults.", Seed{&disk.seed}}});
 }
 
-void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
+void addOverlay(Fields& fields, OverlaySettings& overlay) {
     fields.insert(
         fields.end(),
         {{"overlay", "colour_by",
@@ -135,7 +134,7 @@ void addOverlay(Fields& fields, ui::OverlaySettings& overlay) {
          {"overlay", "clipmap", "Tint clipmap levels and recently updated texels.", Flag{&overlay.clipmap}}});
 }
 
-void addSurface(Fields& fields, ui::SurfaceSettings& surface) {
+void addSurface(Fields& fields, SurfaceSettings& surface) {
     fields.insert(
         fields.end(),
         {{"surface", "colour", "Ground colour: image or height ramp.",
@@ -227,7 +226,7 @@ void addLight(Fields& fields, planet::gl::LightDrawing& light) {
     addAir(fields, light.air);
 }
 
-void addLayers(Fields& fields, ui::LayerSettings& layers) {
+void addLayers(Fields& fields, LayerSettings& layers) {
     fields.insert(
         fields.end(),
         {{"surface", "layer_use",
@@ -257,7 +256,7 @@ void addLayers(Fields& fields, ui::LayerSettings& layers) {
           LayerStack{&layers.set.layers}}});
 }
 
-void addView(Fields& fields, ui::CameraSettings& camera) {
+void addView(Fields& fields, CameraSettings& camera) {
     fields.insert(
         fields.end(),
         {{"view", "fov_deg", "Horizontal field of view, degrees.", Number{&camera.fovDeg, {5, 150, "°"}}},
@@ -292,7 +291,7 @@ void addCamera(Fields& fields, planet::CameraPose& pose) {
 }
 
 void addWindow(Fields& fields, Settings& s) {
-    ui::Workspace& workspace = s.workspace;
+    Workspace& workspace = s.workspace;
     fields.insert(
         fields.end(),
         {{"window", "width_px", "Window size, pixels.", Integer{&s.windowWidthPx, {640, 16384, "px"}}},
@@ -306,29 +305,29 @@ void addWindow(Fields& fields, Settings& s) {
           Number{&workspace.scale, {0.5, 3, ""}}}});
 }
 
-// In the order of ui::PanelId, as ui::panelInfos is.
-constexpr std::array<std::string_view, ui::panelCount> panelKeys = [] {
-    std::array<std::string_view, ui::panelCount> keys;
-    for (const ui::PanelInfo& info : ui::panelInfos) keys[static_cast<std::size_t>(info.id)] = info.key;
+// In the order of PanelId, as panelInfos is.
+constexpr std::array<std::string_view, panelCount> panelKeys = [] {
+    std::array<std::string_view, panelCount> keys;
+    for (const PanelInfo& info : panelInfos) keys[static_cast<std::size_t>(info.id)] = info.key;
     return keys;
 }();
 
-void addPanels(Fields& fields, ui::Workspace& workspace) {
+void addPanels(Fields& fields, Workspace& workspace) {
     std::string_view meaning = "Dock of each panel: left, right or bottom; and whether the panel is shown.";
-    for (std::size_t dock = 0; dock < ui::dockCount; ++dock) {
+    for (std::size_t dock = 0; dock < dockCount; ++dock) {
         fields.push_back({"panels", fmt::format("{}_front", dockNames[dock]),
                           dock == 0 ? "Front panel of each dock." : "",
                           Choice{asByte(workspace.inFront[dock]), panelKeys}});
     }
-    for (const ui::PanelInfo& info : ui::panelInfos) {
-        ui::PanelPlace& place = workspace.panels[static_cast<std::size_t>(info.id)];
+    for (const PanelInfo& info : panelInfos) {
+        PanelPlace& place = workspace.panels[static_cast<std::size_t>(info.id)];
         fields.push_back({"panels", std::string(info.key), meaning, Choice{asByte(place.dock), dockNames}});
         fields.push_back({"panels", fmt::format("{}_shown", info.key), "", Flag{&place.shown}});
         meaning = {};
     }
 }
 
-void addCracks(Fields& fields, ui::CrackKnobs& cracks) {
+void addCracks(Fields& fields, CrackKnobs& cracks) {
     fields.insert(fields.end(),
                   {{"cracks", "live", "Measure cracks continuously.", Flag{&cracks.live}},
                    {"cracks", "every_frames", "Frames between crack measurements.",
@@ -336,7 +335,7 @@ void addCracks(Fields& fields, ui::CrackKnobs& cracks) {
                    {"cracks", "mark", "Highlight crack pixels in the viewport.", Flag{&cracks.mark}}});
 }
 
-void addCompare(Fields& fields, ui::CompareKnobs& compare) {
+void addCompare(Fields& fields, CompareKnobs& compare) {
     fields.insert(fields.end(),
                   {{"compare", "mode", "Comparison view: side_by_side, wipe, difference or flip.",
                     Choice{asByte(compare.mode), compareModeNames}},

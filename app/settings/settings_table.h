@@ -59,7 +59,7 @@ struct Field {
 // Grouped by table, in the order of the file. They point into the settings.
 std::vector<Field> fieldsOf(Settings& settings);
 
-// Of ui::ViewSettings, what a preset holds; the others are the data set, the camera and the window.
+// Of ViewSettings, what a preset holds; the others are the data set, the camera and the window.
 bool isViewTable(std::string_view table);
 
 // The field of that name, or of the name that it had in former versions; null where there is none.

@@ -82,9 +82,9 @@ std::string textOf(const Settings& settings, const Wanted& wanted) {
 }
 
 template <class Wanted>
-std::vector<ui::SettingDifference> differencesIn(Settings here, Settings there, const Wanted& wanted) {
+std::vector<SettingDifference> differencesIn(Settings here, Settings there, const Wanted& wanted) {
     const std::vector<Field> hereFields = fieldsOf(here), thereFields = fieldsOf(there);
-    std::vector<ui::SettingDifference> found;
+    std::vector<SettingDifference> found;
     for (std::size_t i = 0; i < hereFields.size(); ++i) {
         if (!wanted(hereFields[i])) continue;
         std::string hereText = plainText(hereFields[i]), thereText = plainText(thereFields[i]);
@@ -99,7 +99,7 @@ bool isViewField(const Field& field) {
     return isViewTable(field.table);
 }
 
-Settings settingsWith(const ui::ViewSettings& view) {
+Settings settingsWith(const ViewSettings& view) {
     Settings settings;
     settings.view = view;
     return settings;
@@ -168,18 +168,18 @@ Result<void> setSetting(Settings& settings, std::string_view assignment) {
     return readField(place, *field, name, *value.get("value"));
 }
 
-std::vector<ui::SettingDifference> differences(const Settings& here, const Settings& there) {
+std::vector<SettingDifference> differences(const Settings& here, const Settings& there) {
     return differencesIn(here, there, isViewField);
 }
 
-std::vector<std::string> assignmentsFor(const ui::ViewSettings& view) {
+std::vector<std::string> assignmentsFor(const ViewSettings& view) {
     std::vector<std::string> assignments;
-    for (const ui::SettingDifference& difference : differences(Settings{}, settingsWith(view)))
+    for (const SettingDifference& difference : differences(Settings{}, settingsWith(view)))
         assignments.push_back(fmt::format("{}={}", difference.setting, difference.there));
     return assignments;
 }
 
-std::string viewSettingsText(const ui::ViewSettings& view) {
+std::string viewSettingsText(const ViewSettings& view) {
     return "# Partial view settings of Worldy; keys not listed keep their values.\n" +
            textOf(settingsWith(view), isViewField);
 }
@@ -195,7 +195,7 @@ Result<ViewPart> viewPartFromText(std::string_view text, const fs::path& place) 
     });
 }
 
-ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now) {
+ViewSettings applied(const ViewPart& part, const ViewSettings& now) {
     Settings from = settingsWith(part.values), to = settingsWith(now);
     const std::vector<Field> fromFields = fieldsOf(from), toFields = fieldsOf(to);
     for (const std::string& name : part.names)
@@ -203,13 +203,13 @@ ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now) {
     return to.view;
 }
 
-std::vector<ui::SettingDifference> differences(const ui::ViewSettings& here, const ViewPart& there) {
+std::vector<SettingDifference> differences(const ViewSettings& here, const ViewPart& there) {
     return differencesIn(settingsWith(here), settingsWith(there.values), [&](const Field& field) {
         return std::find(there.names.begin(), there.names.end(), field.name()) != there.names.end();
     });
 }
 
-Result<ui::ViewSettings> loadViewSettings(const fs::path& file, const ui::ViewSettings& now) {
+Result<ViewSettings> loadViewSettings(const fs::path& file, const ViewSettings& now) {
     return loadViewPart(file).map([&](const ViewPart& part) { return applied(part, now); });
 }
 

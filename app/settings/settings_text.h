@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "app/settings/setting_difference.h"
 #include "app/settings/settings.h"
+#include "app/settings/view_settings.h"
 #include "planet/base/result.h"
-#include "ui/model/setting_difference.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -35,30 +35,30 @@ planet::Result<void> saveSettings(const Settings& settings, const std::filesyste
 planet::Result<void> setSetting(Settings& settings, std::string_view assignment);
 
 // Returns the view settings that differ, as text: "lod.tau_px", "2", "3".
-std::vector<ui::SettingDifference> differences(const Settings& here, const Settings& there);
+std::vector<SettingDifference> differences(const Settings& here, const Settings& there);
 
 // Returns the assignments for setSetting that turn the default view settings into these.
-std::vector<std::string> assignmentsFor(const ui::ViewSettings& view);
+std::vector<std::string> assignmentsFor(const ViewSettings& view);
 
 // A preset's file holds view settings, all of them or a few.
 struct ViewPart {
-    ui::ViewSettings values;
+    ViewSettings values;
     std::vector<std::string> names;  // of the settings that it holds, "lod.tau_px"
 };
 // Returns every view setting as TOML. Equal settings give equal text.
-std::string viewSettingsText(const ui::ViewSettings& view);
+std::string viewSettingsText(const ViewSettings& view);
 // Reads the view settings of a file. Its other settings are checked but left out, so a settings file serves
 // too.
 planet::Result<ViewPart> loadViewPart(const std::filesystem::path& file);
 // Does the same for text; place stands for the file's name in errors.
 planet::Result<ViewPart> viewPartFromText(std::string_view text, const std::filesystem::path& place);
 // Returns the settings `now` with the values that the part holds.
-ui::ViewSettings applied(const ViewPart& part, const ui::ViewSettings& now);
+ViewSettings applied(const ViewPart& part, const ViewSettings& now);
 // Returns the settings that applying the part would change.
-std::vector<ui::SettingDifference> differences(const ui::ViewSettings& here, const ViewPart& there);
+std::vector<SettingDifference> differences(const ViewSettings& here, const ViewPart& there);
 
 // Reads a preset's file and applies it to the settings `now`.
-planet::Result<ui::ViewSettings> loadViewSettings(const std::filesystem::path& file,
-                                                  const ui::ViewSettings& now = {});
+planet::Result<ViewSettings> loadViewSettings(const std::filesystem::path& file,
+                                              const ViewSettings& now = {});
 
 }  // namespace worldy

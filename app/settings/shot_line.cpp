@@ -26,7 +26,7 @@ std::string shellWord(std::string_view text) {
 }
 
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
-                     const PictureSize& size, const ui::ViewSettings& view,
+                     const PictureSize& size, const ViewSettings& view,
                      const std::filesystem::path& colourImage) {
     std::string line = fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(chunkFile),
                                    cameraText(pose), size.widthPx, size.heightPx);

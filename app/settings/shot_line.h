@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "app/settings/camera_text.h"
+#include "app/settings/view_settings.h"
 #include "planet/sphere/view.h"
-#include "ui/model/view_settings.h"
 
 namespace worldy {
 
@@ -18,7 +18,7 @@ std::string shellWord(std::string_view text);
 // them. Paths go in as they are given: absolute ones work from any folder. colourImage empty: the one beside
 // the chunk file.
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
-                     const PictureSize& size, const ui::ViewSettings& view,
+                     const PictureSize& size, const ViewSettings& view,
                      const std::filesystem::path& colourImage);
 
 }  // namespace worldy

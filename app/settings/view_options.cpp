@@ -16,7 +16,7 @@ planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
         if (!loaded) return loaded;
         settings = std::move(*loaded);
     }
-    ui::ViewSettings& view = settings.view;
+    ViewSettings& view = settings.view;
     view.lod.tauPx = texts.tauPx.value_or(view.lod.tauPx);
     view.camera.fovDeg = texts.fovDeg.value_or(view.camera.fovDeg);
     view.paging.budgetMB = texts.budgetMB.value_or(view.paging.budgetMB);

@@ -182,20 +182,27 @@ TEST_F(Layers, aFolderThatIsNotListedFails) {
 TEST(Dependencies, theRuntimeUsesNoImageLibraryNoTbbAndNoGl) {
     expectNone(PLANET_ARCHIVE,
                "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|ImGui|tbb::|OpenImageIO|OIIO|TIFF|planet::gl::|planet::bake|"
-               "ui::|worldy::)");
+               "worldy::)");
 }
 
 TEST(Dependencies, theLibrariesCallNoWindow) {
-    expectNone(PLANET_BAKE_ARCHIVE, "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|ImGui|planet::gl::|ui::|worldy::)");
-    expectNone(PLANET_MEASURE_ARCHIVE, "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|ImGui|planet::gl::|ui::|worldy::)");
-    expectNone(PLANET_GL_ARCHIVE, "^(glfw|ImGui|OpenImageIO|ui::|worldy::)");
+    expectNone(PLANET_BAKE_ARCHIVE, "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|ImGui|planet::gl::|worldy::)");
+    expectNone(PLANET_MEASURE_ARCHIVE, "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|ImGui|planet::gl::|worldy::)");
+    expectNone(PLANET_GL_ARCHIVE, "^(glfw|ImGui|OpenImageIO|worldy::)");
 }
 
-// `bake` itself and the parts of a bake; asking what one would cost is none.
+// Commands run without a window, so what they share with the editor must know neither panels nor a window.
+TEST(Dependencies, theCoreKnowsNoPanelAndNoWindow) {
+    expectNone(CORE_ARCHIVE, "^(glfw|ImGui|worldy::ui::)");
+}
+
+// Panels may ask what a bake would cost, but they must not bake, page, draw or measure.
 TEST(Dependencies, panelsCallNoGlAndNoBake) {
-    expectNone(UI_ARCHIVE,
-               "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|planet::bake|planet::AtomicFile|planet::gl::|planet::Planet::"
-               "(open|step|settle|setPaging|dropAll|retryFailed)|worldy::)");
+    expectNone(
+        UI_ARCHIVE,
+        "^(epoxy_|gl[A-Z]|egl[A-Z]|glfw|planet::bake|planet::AtomicFile|planet::gl::|planet::Planet::"
+        "(open|step|settle|setPaging|dropAll|retryFailed)|"
+        "worldy::(openScene|stepScene|drawScene|measure|ErrorJob|CostMeter|PreviewJob|BakeJob|SweepJob))");
 }
 
 }  // namespace

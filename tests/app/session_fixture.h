@@ -48,8 +48,8 @@ protected:
         return folder_ / name;
     }
 
-    ui::BakeRequest requestFor(const std::filesystem::path& source, int chunkSize, int faceSize = 65) const {
-        ui::BakeRequest request;
+    BakeRequest requestFor(const std::filesystem::path& source, int chunkSize, int faceSize = 65) const {
+        BakeRequest request;
         request.source = source;
         request.settings.chunkSize = chunkSize;
         request.settings.faceSize = faceSize;
@@ -89,7 +89,7 @@ protected:
 
     const tests::TemporaryFolder folder_;
     const Log log_;
-    ui::ViewSettings settings_;
+    ViewSettings settings_;
 
 private:
     std::unique_ptr<planet::gl::OffscreenContext> context_;

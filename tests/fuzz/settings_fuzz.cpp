@@ -20,7 +20,7 @@ void readSettings(std::string_view text) {
 void readPreset(std::string_view text) {
     const auto part = viewPartFromText(text, "fuzzed.toml");
     if (!isRead(part)) return;
-    const ui::ViewSettings view = applied(*part, {});
+    const ViewSettings view = applied(*part, {});
     require(differences(view, *part).empty(), "a preset that is laid over differs no more");
     require(isRead(viewPartFromText(viewSettingsText(view), "written.toml")), "what is written can be read");
 }

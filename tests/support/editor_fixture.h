@@ -18,7 +18,7 @@ public:
     explicit EditorFixture(std::unique_ptr<planet::Planet> planet) : planet_(std::move(planet)) {}
 
     // Flies towards the ground over some frames, a sixtieth of a second each.
-    void fly(const ui::ViewSettings& settings, int frames) {
+    void fly(const ViewSettings& settings, int frames) {
         planet::LodSettings lod = planet::suddenLod();
         lod.tauPx = settings.lod.tauPx;
         lod.hysteresis = settings.lod.hysteresis;
@@ -88,7 +88,7 @@ public:
     }
 
     double altitudeM = 60'000;
-    std::deque<ui::LogLine> log_;
+    std::deque<LogLine> log_;
     std::vector<ui::PresetView> presets_{
         {"crack hunting",
          "/usr/share/worldy/presets/crack hunting.toml",
@@ -108,7 +108,7 @@ private:
     planet::CameraPose pose_{.latitudeDeg = 28, .longitudeDeg = 86, .altitudeM = 4e6};
     planet::View view_;
     planet::LodChanges changes_;
-    ui::FrameStats stats_;
+    FrameStats stats_;
     std::deque<ui::FrameSample> history_;
     std::vector<ui::Bookmark> bookmarks_{{"Himalaya", {}, true}, {"My ridge", {}, false}};
     double timeS_ = 0;

@@ -15,7 +15,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/model/commands.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // One at a time, as it holds ImGui's context. The mouse lies beside the panel until it is moved.
 class PanelWindow {
@@ -92,4 +92,4 @@ inline void addAsked(Commands frame, Commands& all) {
     }
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -1,6 +1,6 @@
 // Draws one panel into a PNG, without a window:
 //     panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]
-// To look at what a change does to a panel. PANEL is a key of ui/model/panel_list.h, as "quadtree"; with failing
+// To look at what a change does to a panel. PANEL is a key of app/settings/panel_list.h, as "quadtree"; with failing
 // some blocks cannot be read; ITEM is what ui/kit/item_map.h calls it, and is clicked before.
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -21,8 +21,8 @@ namespace {
 
 using namespace worldy;
 
-const ui::PanelInfo* panelNamed(std::string_view key) {
-    for (const ui::PanelInfo& info : ui::panelInfos) {
+const PanelInfo* panelNamed(std::string_view key) {
+    for (const PanelInfo& info : panelInfos) {
         if (info.key == key) return &info;
     }
     return nullptr;
@@ -37,12 +37,12 @@ ImVec2 middleOf(const std::vector<ui::ItemPlace>& items, std::string_view name) 
     return {-1, -1};
 }
 
-void drawFrames(const ui::EditorView& view, const ui::PanelInfo& panel, int width, int height,
+void drawFrames(const ui::EditorView& view, const PanelInfo& panel, int width, int height,
                 std::string_view clicked) {
     std::vector<ui::ItemPlace> items;
     ui::PanelStates states;
     if (!view.presets.empty()) states.presets.selected = view.presets.front().name;
-    ui::ViewSettings settings;
+    ViewSettings settings;
     ui::Commands commands;
     ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     // Some frames until what sizes itself has done so.
@@ -64,7 +64,7 @@ void drawFrames(const ui::EditorView& view, const ui::PanelInfo& panel, int widt
 }
 
 int run(int argumentCount, char** arguments) {
-    const ui::PanelInfo* panel = argumentCount > 4 ? panelNamed(arguments[2]) : nullptr;
+    const PanelInfo* panel = argumentCount > 4 ? panelNamed(arguments[2]) : nullptr;
     int width = 0, height = 0;
     if (!panel || std::sscanf(arguments[3], "%dx%d", &width, &height) != 2) {
         std::fputs("panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]\n",
@@ -91,14 +91,14 @@ int run(int argumentCount, char** arguments) {
     }
     test::EditorFixture fixture(std::move(*planet));
     fixture.fly({}, 120);
-    fixture.log_.push_back({ui::LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk, 7 levels"});
+    fixture.log_.push_back({LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk, 7 levels"});
     fixture.log_.push_back(
-        {ui::LogLevel::Error, "14:03:25", "earth.chk: block of z_pos/3/1/2: checksum is wrong"});
+        {LogLevel::Error, "14:03:25", "earth.chk: block of z_pos/3/1/2: checksum is wrong"});
 
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui_ImplOpenGL3_Init("#version 330 core");
-    ui::applyTheme(light ? ui::Theme::Light : ui::Theme::Dark, 1);
+    ui::applyTheme(light ? Theme::Light : Theme::Dark, 1);
     target->bind();
     glViewport(0, 0, width, height);
     drawFrames(fixture.view(), *panel, width, height, clicked);

@@ -62,7 +62,7 @@ std::unique_ptr<worldy::test::EditorFixture> fixtureWith(std::size_t residentChu
     double low = 0.0005, high = 64;
     std::unique_ptr<worldy::test::EditorFixture> best;
     for (int i = 0; i < 11; ++i) {
-        ui::ViewSettings settings;
+        worldy::ViewSettings settings;
         settings.lod.tauPx = std::sqrt(low * high);
         auto planet =
             Planet::open(wavyPlanet(), {.budgetBytes = std::size_t{1} << 30, .uploadLimitMs = 1000});
@@ -75,13 +75,13 @@ std::unique_ptr<worldy::test::EditorFixture> fixtureWith(std::size_t residentChu
     return best;
 }
 
-const ui::EditorView viewWith(std::size_t residentChunks) {
+const worldy::ui::EditorView viewWith(std::size_t residentChunks) {
     static std::map<std::size_t, std::unique_ptr<worldy::test::EditorFixture>> fixtures;
     auto& fixture = fixtures[residentChunks];
     if (!fixture) {
         fixture = fixtureWith(residentChunks);
         for (int i = 0; i < 2000; ++i)
-            fixture->log_.push_back({ui::LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk"});
+            fixture->log_.push_back({worldy::LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk"});
     }
     return fixture->view();
 }
@@ -91,31 +91,31 @@ void startImGui() {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().DisplaySize = {1600, 1000};
-    ui::applyTheme(ui::Theme::Dark, 1);
+    worldy::ui::applyTheme(worldy::Theme::Dark, 1);
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
 }
 
 // Where docks put it in a window of 1600 x 1000.
-ui::Rect placeOf(const ui::PanelInfo& info) {
-    const ui::Layout layout = ui::layoutOf(1600, 1000, {}, 22, 24, ui::unitPx());
+worldy::ui::Rect placeOf(const worldy::PanelInfo& info) {
+    const worldy::ui::Layout layout = worldy::ui::layoutOf(1600, 1000, {}, 22, 24, worldy::ui::unitPx());
     return layout.docks[static_cast<std::size_t>(info.dock)];
 }
 
 void drawPanels(benchmark::State& state, std::size_t residentChunks,
-                const std::vector<ui::PanelInfo>& panels) {
+                const std::vector<worldy::PanelInfo>& panels) {
     startImGui();
-    const ui::EditorView view = viewWith(residentChunks);
-    ui::PanelStates states;
-    ui::ViewSettings settings;
-    ui::Commands commands;
+    const worldy::ui::EditorView view = viewWith(residentChunks);
+    worldy::ui::PanelStates states;
+    worldy::ViewSettings settings;
+    worldy::ui::Commands commands;
     for (auto _ : state) {
         ImGui::GetIO().DeltaTime = 1.0f / 60;
         ImGui::NewFrame();
-        for (const ui::PanelInfo& info : panels) {
-            ui::beginFixedWindow(info.title, placeOf(info));
-            ui::drawPanel(info.id, view, states, settings, commands);
+        for (const worldy::PanelInfo& info : panels) {
+            worldy::ui::beginFixedWindow(info.title, placeOf(info));
+            worldy::ui::drawPanel(info.id, view, states, settings, commands);
             ImGui::End();
         }
         ImGui::Render();
@@ -129,15 +129,15 @@ void drawPanels(benchmark::State& state, std::size_t residentChunks,
 
 int main(int argumentCount, char** arguments) {
     benchmark::Initialize(&argumentCount, arguments);
-    const std::vector<ui::PanelInfo> all(ui::panelInfos.begin(), ui::panelInfos.end());
+    const std::vector<worldy::PanelInfo> all(worldy::panelInfos.begin(), worldy::panelInfos.end());
     for (const std::size_t chunks : {std::size_t{5000}, std::size_t{50000}}) {
-        const auto add = [&](const std::string& name, const std::vector<ui::PanelInfo>& panels) {
+        const auto add = [&](const std::string& name, const std::vector<worldy::PanelInfo>& panels) {
             benchmark::RegisterBenchmark((name + "/" + std::to_string(chunks)).c_str(),
                                          [=](benchmark::State& state) { drawPanels(state, chunks, panels); })
                 ->Unit(benchmark::kMillisecond);
         };
         add("all panels", all);
-        for (const ui::PanelInfo& info : all) add(info.title, {info});
+        for (const worldy::PanelInfo& info : all) add(info.title, {info});
     }
     benchmark::RunSpecifiedBenchmarks();
 }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -58,4 +58,4 @@ void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& comm
     chunkLink(id, view, commands, flags);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

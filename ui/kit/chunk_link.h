@@ -9,7 +9,7 @@
 #include "planet/sphere/chunk_id.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Click selects the chunk, a double click looks at it, resting on it lights it up in the viewport, a right
 // click offers these and copying its name. Lit while it is selected.
@@ -28,4 +28,4 @@ planet::ChunkId chunkAround(const planet::ChunkTree& tree, planet::ChunkId squar
 void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& commands,
                ImGuiSelectableFlags flags = 0);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -98,4 +98,4 @@ void drawColumns(const char* id, std::span<const Column> columns) {
     ImGui::PopID();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace ui {
+namespace worldy::ui {
 
 struct Column {
     const char* title = "";  // a heading where they are stacked
@@ -24,4 +24,4 @@ std::vector<float> sideBySideWidths(std::span<const Column> columns, float width
 // Side by side each column scrolls by itself and fills the height that is left.
 void drawColumns(const char* id, std::span<const Column> columns);
 
-}  // namespace ui
+}  // namespace worldy::ui

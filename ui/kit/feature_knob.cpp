@@ -5,7 +5,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 void featureKnob(const char* label, CostlyPart part, const EditorView& view, SurfaceSettings& surface,
                  Commands& commands, const char* explanation) {
@@ -26,4 +26,4 @@ void featureKnob(const char* label, CostlyPart part, const EditorView& view, Sur
     }
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -9,7 +9,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 InspectPlace inspectionOf(const planet::View& lodView, const planet::View& measured, const glm::dvec3& placeM,
                           double radiusM) {
@@ -75,4 +75,4 @@ void inspectionNotice(const EditorView& view, const Rect& viewport, Commands& co
     ImGui::PopStyleVar(2);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Asks to inspect a place of a measurement, from 0.35 of the distance that the measured view had.
 // placeM: metres from the planet's centre.
@@ -19,4 +19,4 @@ void inspectButton(const planet::View& lodView, const planet::View& measured, co
 // A window at the bottom of the viewport that says that LOD is frozen, and offers the way back.
 void inspectionNotice(const EditorView& view, const Rect& viewport, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -36,4 +36,4 @@ void noteRect(std::string_view label, const Rect& rect) {
     if (collected) collected->push_back({currentScope + "/" + std::string(label), rect});
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

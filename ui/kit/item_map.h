@@ -8,7 +8,7 @@
 
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ItemPlace {
     std::string name;  // "lod/Tolerance"
@@ -26,4 +26,4 @@ void noteItem(std::string_view label);
 // Where ImGui does not say afterwards where an item was.
 void noteRect(std::string_view label, const Rect& rect);
 
-}  // namespace ui
+}  // namespace worldy::ui

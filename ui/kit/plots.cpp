@@ -7,10 +7,10 @@
 #include <cmath>
 #include <optional>
 
+#include "app/base/plot_scale.h"
 #include "ui/kit/theme.h"
-#include "ui/model/plot_scale.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -380,4 +380,4 @@ void histogram(const char* id, std::span<const float> counts, const std::string&
     ImGui::EndGroup();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace ui {
+namespace worldy::ui {
 
 struct Series {
     const char* name = "";
@@ -56,4 +56,4 @@ void histogram(const char* id, std::span<const float> counts, const std::string&
                const std::string& rightLabel, std::span<const HistogramMark> marks, float lines = 4,
                const PositionText& positionText = {});
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace ui {
+namespace worldy::ui {
 
 // Puts into [first, last) what a whole sort would put there, sorted; the rest is in any order, before or
 // after. In linear time while the window is short, so that a table of thousands can be shown sorted anew
@@ -17,4 +17,4 @@ void sortWindow(std::vector<T>& items, std::size_t first, std::size_t last, cons
     std::partial_sort(at(first), at(last), items.end(), less);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -9,7 +9,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -146,4 +146,4 @@ void rightCell(const std::string& text, const ImVec4& colour) {
     ImGui::TextColored(colour, "%s", text.c_str());
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

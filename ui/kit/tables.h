@@ -13,7 +13,7 @@
 #include "ui/kit/table_window.h"
 #include "ui/model/table_order.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct TableColumn {
     const char* title;  // "##go": no title, not sortable
@@ -99,4 +99,4 @@ void sortedTableRows(std::vector<T>& items, const Less& less, const Draw& draw) 
     });
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/font_symbols.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -144,4 +144,4 @@ float unitPx() {
     return ImGui::GetFontSize() / 13;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Colours with a meaning, for text and plots.
 struct Palette {
@@ -37,4 +37,4 @@ void applyTheme(Theme theme, float contentScale);
 // Pixels of one unit of ui::PanelSizes.
 float unitPx();
 
-}  // namespace ui
+}  // namespace worldy::ui

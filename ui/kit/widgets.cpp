@@ -13,7 +13,7 @@
 #include "ui/kit/theme.h"
 #include "ui/model/font_symbols.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -359,4 +359,4 @@ void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4
     drawList.AddText({position.x + pad, position.y + pad / 2}, ImGui::GetColorU32(colour), text);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // A window without frame that fills a rectangle; end with ImGui::End().
 void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags = 0);
@@ -97,4 +97,4 @@ ImU32 boxColour();
 // Text in a rounded box over a picture; position is its top left.
 void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4& colour);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 #include "planet/gl/device/object_counts.h"
 #include "planet/gl/draw/render_counters.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct Allocations {
     double atS = 0;  // since the program began
@@ -40,4 +40,4 @@ struct AllocationsView {
     Allocations mark{};                // to compare with: when the first planet was there, or as marked since
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

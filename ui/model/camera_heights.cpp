@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-namespace ui {
+namespace worldy::ui {
 
 CameraHeights cameraHeights(const EditorView& view, const ViewSettings& settings) {
     const double altitudeM = view.camera.pose.altitudeM;
@@ -37,4 +37,4 @@ std::vector<NamedHeight> namedHeights(const CameraHeights& heights) {
             sea};
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

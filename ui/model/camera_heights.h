@@ -6,7 +6,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Metres, of the point right below the camera.
 struct CameraHeights {
@@ -25,4 +25,4 @@ struct NamedHeight {
 // what stands below them stays where it is.
 std::vector<NamedHeight> namedHeights(const CameraHeights& heights);
 
-}  // namespace ui
+}  // namespace worldy::ui

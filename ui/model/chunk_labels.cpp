@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "ui/model/text.h"
+#include "app/base/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -171,4 +171,4 @@ std::vector<ChunkLabel> chunkLabels(const planet::View& view, const planet::Chun
     return labels;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

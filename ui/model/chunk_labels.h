@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
+#include "app/settings/view_settings.h"
 #include "planet/select/lod_select.h"
 #include "planet/sphere/view.h"
 #include "planet/tree/chunk_tree.h"
 #include "ui/model/layout.h"
-#include "ui/model/view_settings.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ChunkLabel {
     planet::ChunkId id;
@@ -41,4 +41,4 @@ std::vector<ChunkLabel> chunkLabels(const planet::View& view, const planet::Chun
                                     std::span<const planet::DrawItem> items,
                                     const ChunkLabelSettings& settings, const TextSize& textSize);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -11,16 +11,18 @@
 #include <utility>
 #include <vector>
 
+#include "app/data/bake_request.h"
+#include "app/measure/pop_side.h"
+#include "app/measure/sweep_points.h"
+#include "app/settings/view_settings.h"
 #include "planet/bake/bake.h"
 #include "planet/source/height_source.h"
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/view.h"
 #include "ui/model/replay_controls.h"
-#include "ui/model/sweep_points.h"
-#include "ui/model/view_settings.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Chunks.
 struct HoverChunk {  // for this frame
@@ -93,12 +95,6 @@ struct AskForColourImage {};  // the same for the Bake panel's image of colours
 struct ChooseColourImage {    // puts it into the Bake panel
     std::filesystem::path file;
 };
-struct BakeRequest {
-    std::filesystem::path source;
-    planet::HeightSourceSettings sourceSettings;
-    planet::BakeSettings settings;
-    std::filesystem::path colour{};  // image that its tiles of colour are made of; empty: none
-};
 struct StartBake {
     BakeRequest request;
 };
@@ -107,16 +103,6 @@ struct EstimateBake {
     BakeRequest request;
 };
 struct CancelBake {};
-// A square of a face as a source gives it, before it is baked.
-struct PreviewRequest {
-    std::filesystem::path source;
-    planet::HeightSourceSettings sourceSettings;
-    double radiusM = 6'371'000;
-    planet::Face face = planet::Face::PosX;
-    int zoomLog2 = 0;  // 0: the whole face; each more halves the square's side; [0, 14]
-    double u = 0;      // the square's middle, [-1, 1]; the square is moved so that it lies on the face
-    double v = 0;
-};
 struct PreviewSource {  // in place of what was asked before
     PreviewRequest request;
 };
@@ -170,7 +156,6 @@ struct GoBackToPop {  // inspects where one of the meter's events was seen
     std::uint64_t frame = 0;
     planet::ChunkId chunk;
 };
-enum class PopSide : std::uint8_t { Live, Before, After };
 struct ShowPopSide {  // of the event last gone back to: what was drawn then instead of what is chosen now
     PopSide side = PopSide::Live;
 };
@@ -266,4 +251,4 @@ private:
 };
 using Commands = std::vector<Command>;
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,12 +8,12 @@
 #include <span>
 #include <string>
 
+#include "app/measure/compare_table.h"
+#include "app/settings/setting_difference.h"
+#include "app/settings/view_settings.h"
 #include "planet/planet.h"
-#include "ui/model/compare_table.h"
-#include "ui/model/setting_difference.h"
-#include "ui/model/view_settings.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Of the pictures as they are now.
 struct PictureDifferenceNow {
@@ -51,4 +51,4 @@ struct CompareView {
 // "A  tau_px 2" where that is the only difference, else "A" and "B, 3 settings differ".
 std::array<std::string, 2> sideNames(const CompareView& compare);
 
-}  // namespace ui
+}  // namespace worldy::ui

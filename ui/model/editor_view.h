@@ -9,6 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "app/base/log_lines.h"
+#include "app/data/worlds.h"
+#include "app/scene/frame_stats.h"
+#include "app/scene/overlay_lines.h"
+#include "app/settings/setting_difference.h"
+#include "app/settings/view_settings.h"
 #include "planet/bake/bake_estimate.h"
 #include "planet/measure/lod_changes.h"
 #include "planet/planet.h"
@@ -17,28 +23,18 @@
 #include "ui/model/compare_view.h"
 #include "ui/model/cracks_view.h"
 #include "ui/model/errors_view.h"
-#include "ui/model/frame_stats.h"
 #include "ui/model/layers_view.h"
 #include "ui/model/light_view.h"
-#include "ui/model/log_lines.h"
 #include "ui/model/pops_view.h"
 #include "ui/model/probe_view.h"
 #include "ui/model/recording_view.h"
-#include "ui/model/setting_difference.h"
 #include "ui/model/sweep_view.h"
-#include "ui/model/view_settings.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct FrameSample {
     double timeS = 0;  // since the program began
     FrameStats stats;  // as measured, not smoothed
-};
-
-struct ChunkFocus {
-    std::optional<planet::ChunkId> selected;
-    std::optional<planet::ChunkId>
-        hovered;  // under the pointer, in the viewport or the net, the frame before
 };
 
 struct DataView {
@@ -51,14 +47,6 @@ struct DataView {
     std::string previousName;                       // "33 vertices, 2049 samples, 5.1 MiB"
     std::string problem;                            // why there is nothing to show
     std::span<const std::filesystem::path> recent;  // files opened, newest first
-};
-
-// A source that comes with Worldy, by name.
-struct World {
-    std::string name;   // "earth-amplified"
-    std::string title;  // "Earth amplified"
-    std::string about;
-    BakeRequest request;  // its source, radius, face size and colours
 };
 
 // A shaded picture of a source.
@@ -153,4 +141,4 @@ struct EditorView {
     AllocationsView allocations{};
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 #include "planet/sphere/chunk_id.h"
 #include "ui/model/font_symbols.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -171,4 +171,4 @@ const char* stateText(ChunkState state) {
     return "not in the file";
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 
 #include "planet/chunk_explanation.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // One or two plain sentences: "Drawn: eps 1.2 px is within tau 2.0 px."
 std::string whyText(const planet::ChunkExplanation& chunk);
@@ -13,4 +13,4 @@ std::string whyText(const planet::ChunkExplanation& chunk);
 // In a word or three: "drawn", "culled by frustum".
 const char* stateText(planet::ChunkState state);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::string inFont(std::string text) {
     return text;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

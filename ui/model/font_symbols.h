@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace ui {
+namespace worldy::ui {
 
 // Tells whether the current font has Greek letters and arrows; the theme calls it when it loads a font.
 // Before the first call symbols are written out.
@@ -16,4 +16,4 @@ const char* epsSymbol();
 // Returns the text with "τ", "ε", "δ" and "→" written out if the font lacks them: "δc" becomes "delta_c".
 std::string inFont(std::string text);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Seconds from a moment that stays the same for a thousand seconds: floats keep them apart, and plots that
 // move on keep their shape.
@@ -36,4 +36,4 @@ inline double longestFrameMs(const std::deque<FrameSample>& history) {
     return longestMs;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -10,7 +10,7 @@
 
 #include "planet/surface/layer_set.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct LayerSetFile {
     std::string name;  // without the folder and ".toml"
@@ -33,4 +33,4 @@ struct LayersView {
     std::optional<LayerReadout> under;  // it, or where it was last
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -60,4 +60,4 @@ Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspac
     return layout;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

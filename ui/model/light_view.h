@@ -4,18 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/costly_parts.h"
 #include "planet/surface/light_drawing.h"
-#include "ui/model/costly_parts.h"
 
-namespace ui {
-
-// A part of the picture beside nothing but the lit ground, drawn in turn. Milliseconds, medians of the
-// rounds.
-struct PartCost {
-    std::string part;
-    double withoutMs = 0;
-    double withMs = 0;
-};
+namespace worldy::ui {
 
 struct LightView {
     bool software = false;  // the CPU draws: what is Automatic is turned down
@@ -25,4 +17,4 @@ struct LightView {
     double measured = 1;          // share of a measurement that is under way, [0, 1]; 1: none is
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

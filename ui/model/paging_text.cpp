@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "ui/model/plot_scale.h"
-#include "ui/model/text.h"
+#include "app/base/plot_scale.h"
+#include "app/base/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 std::string pageInReason(double epsPx, double tauPx, double hysteresis, const char* epsSymbol,
                          const char* tauSymbol) {
@@ -55,4 +55,4 @@ std::string latencyText(double seconds) {
     return seconds < 100.5 ? fmt::format("{} s", axisText(seconds)) : durationText(seconds);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 #include "planet/paging/paging_types.h"
 #include "planet/sphere/block_id.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Why children are asked for: "ε 3.1 > τ 2.0". Where the chunk has meanwhile come to need them less, it says
 // so. All in pixels; hysteresis is a share of tau.
@@ -40,4 +40,4 @@ std::string badDiskText(const planet::BadDiskSettings& disk);
 // A duration as short as it can be said: "3.6 µs", "0.4 ms", "12 ms", "3.25 s", "4 min 10 s".
 std::string latencyText(double seconds);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "app/measure/pop_side.h"
 #include "planet/measure/pop_meter.h"
-#include "ui/model/commands.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct PopsView {
     const planet::PopMeter* meter = nullptr;  // null where there is no planet
@@ -16,4 +16,4 @@ struct PopsView {
     std::string problem;                      // why it cannot
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

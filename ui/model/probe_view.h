@@ -1,25 +1,11 @@
-// What the Precision panel shows: what floats and the depth buffer make of a point.
+// The state of the Precision panel.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <optional>
 
-#include "planet/measure/precision_probe.h"
+#include "app/measure/probed_vertex.h"
 
-namespace ui {
-
-// What two surfaces must be apart to be told apart by depth, metres; infinity where depth tells nothing.
-struct DepthSteps {
-    double aheadM = 0;  // along the view direction
-    double reversedFloatM = 0;
-    double fallbackM = 0;  // near plane by the height above the ground
-    bool reversedInUse = true;
-};
-
-struct ProbedVertex {
-    planet::VertexPrecision precision;
-    DepthSteps depth;
-};
+namespace worldy::ui {
 
 struct ProbeView {
     bool overGround = false;               // the pointer, now
@@ -27,4 +13,4 @@ struct ProbeView {
     std::optional<ProbedVertex> selected;  // the selected chunk's worst vertex; none where it is not drawn
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

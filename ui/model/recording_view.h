@@ -9,10 +9,7 @@
 
 #include "ui/model/replay_controls.h"
 
-namespace ui {
-
-// The ending of a recorded flight's file.
-inline constexpr const char* recordedFlightEnding = ".flight";
+namespace worldy::ui {
 
 struct RecordedFlight {
     std::string name;
@@ -56,4 +53,4 @@ struct RecordingView {
     std::optional<ReplayNow> replay;
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -1,7 +1,7 @@
 // How a recorded flight is replayed.
 #pragma once
 
-namespace ui {
+namespace worldy::ui {
 
 struct ReplayControls {
     bool playing = true;
@@ -12,4 +12,4 @@ struct ReplayControls {
     bool operator==(const ReplayControls&) const = default;
 };
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-namespace ui {
+namespace worldy::ui {
 
 SortKey textSortKey(const std::string& text) {
     double number = 0;
@@ -18,4 +18,4 @@ SortKey sortKey(const planet::ChunkId& id) {
     return fmt::format("{} {:02} {:010} {:010}", static_cast<int>(id.face), id.level, id.x, id.y);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -11,7 +11,7 @@
 
 #include "planet/sphere/chunk_id.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // The value a cell is sorted by: numbers ascend by value, texts alphabetically.
 using SortKey = std::variant<double, std::string>;
@@ -42,4 +42,4 @@ std::vector<std::size_t> tableOrder(std::size_t rows, const std::optional<TableS
     return order;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
+#include "app/base/text.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -62,4 +62,4 @@ BakeWindowCommands bakeWindow(const BakeWindowInput& input, const Rect& within) 
     return commands;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,7 +6,7 @@
 #include "planet/bake/bake.h"
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct BakeWindowInput {
     std::string source;  // "elevation.tif"
@@ -24,4 +24,4 @@ struct BakeWindowCommands {
 // A window of its own in the middle of a rectangle.
 BakeWindowCommands bakeWindow(const BakeWindowInput& input, const Rect& within);
 
-}  // namespace ui
+}  // namespace worldy::ui

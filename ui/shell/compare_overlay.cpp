@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -195,4 +195,4 @@ void compareOverlay(const CompareView& compare, const CompareKnobs& knobs, const
     drawMiddleLabel(drawList, name, knobs.showB ? palette().warning : palette().accent, viewport);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Where the window shows a picture, or the part of one: the part, and where all of it would lie.
 struct ShownPart {
@@ -24,4 +24,4 @@ void wipeHandle(CompareKnobs& knobs, const Rect& viewport);
 
 void compareOverlay(const CompareView& compare, const CompareKnobs& knobs, const Rect& viewport);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -9,7 +9,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -127,4 +127,4 @@ void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStat
     dragSplitter(dock, layout, workspace);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 #include "ui/model/layout.h"
 #include "ui/shell/panels.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Shows a panel, and brings it to the front of its dock.
 void showPanel(PanelId id, Workspace& workspace);
@@ -13,4 +13,4 @@ void showPanel(PanelId id, Workspace& workspace);
 void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStates& panels,
               Workspace& workspace, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -14,7 +14,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -287,4 +287,4 @@ void helpWindows(MenuState& state) {
     }
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

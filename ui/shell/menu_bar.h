@@ -5,7 +5,7 @@
 
 #include "ui/shell/docks.h"
 
-namespace ui {
+namespace worldy::ui {
 
 float menuBarHeight();
 
@@ -28,4 +28,4 @@ std::vector<KeyHelp> listedKeys();
 // The windows that the Help menu opens.
 void helpWindows(MenuState& state);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -10,7 +10,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 void messageBox(Message& message, Commands& commands) {
     constexpr const char* popup = "###message";
@@ -83,4 +83,4 @@ void confirmationLine(Confirmation& confirmation, double timeS, const Rect& view
     ImGui::PopStyleVar(2);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

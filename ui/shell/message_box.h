@@ -7,7 +7,7 @@
 #include "ui/model/commands.h"
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct Message {
     std::string title;        // "broken.chk cannot be opened"; empty: no message
@@ -29,4 +29,4 @@ void messageBox(Message& message, Commands& commands);
 // A line at the top of the viewport until its time is over; then clears it.
 void confirmationLine(Confirmation& confirmation, double timeS, const Rect& viewport);
 
-}  // namespace ui
+}  // namespace worldy::ui

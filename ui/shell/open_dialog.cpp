@@ -7,13 +7,14 @@
 #include <cstring>
 #include <system_error>
 
+#include "app/base/text.h"
+#include "app/flight/flight_record.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/model/recording_view.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -174,4 +175,4 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     ImGui::EndPopup();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 
 #include "ui/model/commands.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct OpenDialogEntry {
     std::filesystem::path path;
@@ -34,4 +34,4 @@ void listFolder(const std::filesystem::path& folder, OpenDialogState& state);
 // Call every frame. Appends OpenFile or ChooseColourImage.
 void openDialog(OpenDialogState& state, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

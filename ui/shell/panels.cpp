@@ -1,6 +1,6 @@
 #include "ui/shell/panels.h"
 
-namespace ui {
+namespace worldy::ui {
 
 void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSettings& settings,
                Commands& commands) {
@@ -48,4 +48,4 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
     }
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

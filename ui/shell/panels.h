@@ -1,8 +1,8 @@
 // All panels, each of which has a file of its own, behind one function.
 #pragma once
 
+#include "app/settings/panel_list.h"
 #include "ui/model/editor_view.h"
-#include "ui/model/panel_list.h"
 #include "ui/panels/bake/bake_panel.h"
 #include "ui/panels/camera/camera_panel.h"
 #include "ui/panels/camera/presets_panel.h"
@@ -24,7 +24,7 @@
 #include "ui/panels/surface/surface_panel.h"
 #include "ui/panels/sweep/sweep_panel.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // The state that panels keep between frames and that is not a setting.
 struct PanelStates {
@@ -49,4 +49,4 @@ struct PanelStates {
 void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSettings& settings,
                Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/camera_heights.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -137,4 +137,4 @@ void statusBar(const EditorView& view, const ViewSettings& settings, const Rect&
     ImGui::PopStyleVar(2);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,10 +4,10 @@
 #include "ui/model/editor_view.h"
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 float statusBarHeight();
 
 void statusBar(const EditorView& view, const ViewSettings& settings, const Rect& rect);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,14 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "app/scene/overlay_colours.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/chunk_labels.h"
-#include "ui/model/overlay_colours.h"
+#include "ui/model/overlay_legend.h"
 #include "ui/model/paging_text.h"
 #include "ui/shell/compare_overlay.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -323,4 +324,4 @@ void observerOverlay(const EditorView& view, const ViewSettings& settings, const
     ImGui::PopClipRect();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

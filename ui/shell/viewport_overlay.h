@@ -10,7 +10,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/model/layout.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Fills the current window with a picture whose row 0 is at the bottom, as an item that takes both buttons.
 void viewportPicture(ImTextureID picture, const Rect& viewport);
@@ -29,4 +29,4 @@ struct ViewportBadge {
 // What there is to say, most important first; the data set's name is not among them.
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -12,13 +12,13 @@ TEST(Log, LinesKeepTheirLevelAndOrder) {
     log->debug("one");
     log->warn("two {}", 2);
     log->error("three");
-    std::deque<ui::LogLine> lines;
+    std::deque<LogLine> lines;
     log.moveNewLines(lines);
     ASSERT_EQ(lines.size(), 3u);
-    EXPECT_EQ(lines[0].level, ui::LogLevel::Debug);
-    EXPECT_EQ(lines[1].level, ui::LogLevel::Warning);
+    EXPECT_EQ(lines[0].level, LogLevel::Debug);
+    EXPECT_EQ(lines[1].level, LogLevel::Warning);
     EXPECT_EQ(lines[1].text, "two 2");
-    EXPECT_EQ(lines[2].level, ui::LogLevel::Error);
+    EXPECT_EQ(lines[2].level, LogLevel::Error);
     EXPECT_EQ(lines[0].time.size(), 8u);
     log.moveNewLines(lines);
     EXPECT_EQ(lines.size(), 3u);
@@ -26,7 +26,7 @@ TEST(Log, LinesKeepTheirLevelAndOrder) {
 
 TEST(Log, ForgetsTheOldestLines) {
     Log log;
-    std::deque<ui::LogLine> lines;
+    std::deque<LogLine> lines;
     for (std::size_t i = 0; i < 3 * Log::keptLines; ++i) {
         log->debug("{}", i);
         if (i == Log::keptLines / 2) log.moveNewLines(lines);
@@ -42,7 +42,7 @@ TEST(Log, TakesLinesFromSeveralThreads) {
     std::thread other([&] {
         for (int i = 0; i < 500; ++i) log->debug("other");
     });
-    std::deque<ui::LogLine> lines;
+    std::deque<LogLine> lines;
     for (int i = 0; i < 500; ++i) {
         log->debug("own");
         log.moveNewLines(lines);

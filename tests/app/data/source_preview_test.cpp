@@ -7,14 +7,15 @@
 
 #include "tests/app/session_fixture.h"
 #include "tests/support/synthetic_source.h"
+#include "app/editor/instrument_views.h"
 
 namespace worldy {
 namespace {
 
 using planet::Result;
 
-ui::PreviewRequest requestOf(const char* source, int zoomLog2 = 0, double u = 0, double v = 0) {
-    ui::PreviewRequest request;
+PreviewRequest requestOf(const char* source, int zoomLog2 = 0, double u = 0, double v = 0) {
+    PreviewRequest request;
     request.source = source;
     request.zoomLog2 = zoomLog2;
     request.u = u;

@@ -6,11 +6,11 @@
 #include <set>
 
 #include "app/base/places.h"
+#include "app/base/text.h"
 #include "app/data/data_set.h"
 #include "app/data/recent_files.h"
 #include "planet/source/terrain.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/model/text.h"
 
 namespace worldy {
 namespace {
@@ -22,7 +22,7 @@ using tests::TemporaryFolder;
 
 TEST(Worlds, EachCanBeOpenedAndHasAShape) {
     std::set<std::string> names;
-    for (const ui::World& world : worlds()) {
+    for (const World& world : worlds()) {
         names.insert(world.name);
         const auto source = planet::openHeightSource(world.request.source, {});
         ASSERT_TRUE(source) << source.error().message;
@@ -107,10 +107,10 @@ TEST(Worlds, RecentFilesKeepNamesAsTheyAre) {
 }
 
 TEST(Worlds, SourcesHaveShortNames) {
-    EXPECT_EQ(ui::sourceName("/data/elevation.tif"), "elevation.tif");
-    EXPECT_EQ(ui::sourceName("noise:fbm,seed=2"), "noise:fbm,seed=2");
-    EXPECT_EQ(ui::sourceName("detail:seed=2,of=/data/elevation.tif"), "elevation.tif with detail");
-    EXPECT_EQ(ui::sourceName("detail:seed=2,of=noise:fbm,seed=2"), "noise:fbm,seed=2 with detail");
+    EXPECT_EQ(sourceName("/data/elevation.tif"), "elevation.tif");
+    EXPECT_EQ(sourceName("noise:fbm,seed=2"), "noise:fbm,seed=2");
+    EXPECT_EQ(sourceName("detail:seed=2,of=/data/elevation.tif"), "elevation.tif with detail");
+    EXPECT_EQ(sourceName("detail:seed=2,of=noise:fbm,seed=2"), "noise:fbm,seed=2 with detail");
 }
 
 }  // namespace

@@ -120,10 +120,10 @@ TEST_F(Counting, WhatASessionHoldsIsCountedByKind) {
     watchAllocations(session, editor);
     EXPECT_EQ(editor.allocations.now->planets, 1u);
     editor.timeS = 1.5;
-    editor.settings.workspace.panels[static_cast<std::size_t>(ui::PanelId::Frame)].shown = false;
+    editor.settings.workspace.panels[static_cast<std::size_t>(PanelId::Frame)].shown = false;
     watchAllocations(session, editor);
     EXPECT_EQ(editor.allocations.now->planets, 1u);  // nobody looks
-    editor.settings.workspace.panels[static_cast<std::size_t>(ui::PanelId::Frame)].shown = true;
+    editor.settings.workspace.panels[static_cast<std::size_t>(PanelId::Frame)].shown = true;
     watchAllocations(session, editor);
     EXPECT_EQ(editor.allocations.now->planets, 2u);
     EXPECT_EQ(editor.allocations.now->openFiles, first.openFiles + 1);

@@ -31,7 +31,7 @@ Surroundings smoothPlanet(double heightM = 0) {
 
 struct Driver {
     CameraRig rig{.camera = cameraAt(27, 86, 50'000, 30, -35)};
-    ui::CameraSettings settings;
+    CameraSettings settings;
     Surroundings around = smoothPlanet();
 
     planet::Result<void> frame(const PointerInput& pointer = {}, const HeldKeys& keys = {},
@@ -84,10 +84,10 @@ pitch_deg = -25
 TEST(CameraRig, changingFromFlyToOrbitAndBackMovesNothing) {
     Driver driver;
     const Camera before = driver.rig.camera;
-    driver.settings.mode = ui::CameraMode::Orbit;
+    driver.settings.mode = CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, before);
-    driver.settings.mode = ui::CameraMode::Fly;
+    driver.settings.mode = CameraMode::Fly;
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, before);
 }
@@ -96,7 +96,7 @@ TEST(CameraRig, aStillCameraKeepsEveryBit) {
     const std::array cameras = {cameraAt(20, 10, 14'016'200, 0, -90), cameraAt(27, 86, 50'000, 30, -35),
                                 cameraAt(-71, -133.3, 123.4, 211, 12),
                                 cameraAt(12.3, 45.6, -5000, 77, -89.9999)};
-    for (const ui::CameraMode mode : {ui::CameraMode::Fly, ui::CameraMode::Orbit}) {
+    for (const CameraMode mode : {CameraMode::Fly, CameraMode::Orbit}) {
         for (const Camera& start : cameras) {
             Driver driver;
             driver.rig.camera = start;
@@ -116,7 +116,7 @@ TEST(CameraRig, aStillCameraKeepsEveryBit) {
 
 TEST(CameraRig, orbitKeepsThePivotInTheMiddleAndItsDistance) {
     Driver driver;
-    driver.settings.mode = ui::CameraMode::Orbit;
+    driver.settings.mode = CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     const glm::dvec3 pivotM = *driver.rig.pivotM;
     EXPECT_NEAR(glm::length(pivotM), planet::earthRadiusM, 1e-3);
@@ -132,7 +132,7 @@ TEST(CameraRig, orbitKeepsThePivotInTheMiddleAndItsDistance) {
 
 TEST(CameraRig, orbitStopsAboveThePivotAndAtItsHorizon) {
     Driver driver;
-    driver.settings.mode = ui::CameraMode::Orbit;
+    driver.settings.mode = CameraMode::Orbit;
     for (int i = 0; i < 100; ++i) ASSERT_TRUE(driver.frame({.dragPx = {0, 50}}));
     glm::dvec3 offset = glm::normalize(driver.rig.camera.eyeM - *driver.rig.pivotM);
     EXPECT_NEAR(glm::dot(offset, glm::normalize(*driver.rig.pivotM)), 1, 1e-9);
@@ -147,7 +147,7 @@ TEST(CameraRig, orbitStopsAboveThePivotAndAtItsHorizon) {
 
 TEST(CameraRig, orbitWheelGoesNearerButNeverThrough) {
     Driver driver;
-    driver.settings.mode = ui::CameraMode::Orbit;
+    driver.settings.mode = CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     const double far = glm::length(driver.rig.camera.eyeM - *driver.rig.pivotM);
     ASSERT_TRUE(driver.frame({.wheelNotches = 1}));
@@ -164,7 +164,7 @@ TEST(CameraRig, orbitOfTheSkyTurnsAboutTheGroundBelow) {
     Driver driver;
     driver.rig.camera = cameraAt(10, 20, 3000, 0, 40);
     const Camera before = driver.rig.camera;
-    driver.settings.mode = ui::CameraMode::Orbit;
+    driver.settings.mode = CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, before);
     EXPECT_NEAR(glm::length(*driver.rig.pivotM - planet::earthRadiusM * glm::normalize(before.eyeM)), 0,
@@ -173,7 +173,7 @@ TEST(CameraRig, orbitOfTheSkyTurnsAboutTheGroundBelow) {
 
 TEST(CameraRig, orbitRightButtonMovesThePivotOverTheGround) {
     Driver driver;
-    driver.settings.mode = ui::CameraMode::Orbit;
+    driver.settings.mode = CameraMode::Orbit;
     ASSERT_TRUE(driver.frame());
     const glm::dvec3 before = *driver.rig.pivotM;
     ASSERT_TRUE(driver.frame({.lookPx = {100, 0}}));
@@ -187,7 +187,7 @@ TEST(CameraRig, aFlightIsJoinedWithoutAJumpAndThenFollowed) {
     Driver driver;
     const Camera before = driver.rig.camera;
     ASSERT_TRUE(startFlight(driver.rig, writeFlight(folder), driver.settings));
-    EXPECT_EQ(driver.settings.mode, ui::CameraMode::FollowFlight);
+    EXPECT_EQ(driver.settings.mode, CameraMode::FollowFlight);
     ASSERT_TRUE(driver.frame({}, {}, 1e-6));
     expectSame(driver.rig.camera, before, 1);
     for (int i = 0; i < 120; ++i) {
@@ -250,12 +250,12 @@ TEST(CameraRig, touchingTheControlsLeavesAFlightWhereItIs) {
     ASSERT_TRUE(driver.frame());
     const Camera before = driver.rig.camera;
     ASSERT_TRUE(driver.frame({.lookPx = {1, 0}}));
-    EXPECT_EQ(driver.settings.mode, ui::CameraMode::Fly);
+    EXPECT_EQ(driver.settings.mode, CameraMode::Fly);
     EXPECT_NEAR(glm::length(driver.rig.camera.eyeM - before.eyeM), 0, 1e-3);
     EXPECT_FALSE(cameraViewOf(driver.rig, {}, {}, {}).flight);
     // And it goes on where it was left.
     const double leftS = driver.rig.flight->timeS;
-    driver.settings.mode = ui::CameraMode::FollowFlight;
+    driver.settings.mode = CameraMode::FollowFlight;
     ASSERT_TRUE(driver.frame());
     EXPECT_EQ(driver.rig.flight->timeS, leftS);
     EXPECT_NEAR(glm::length(driver.rig.camera.eyeM - before.eyeM), 0, 100);
@@ -264,12 +264,12 @@ TEST(CameraRig, touchingTheControlsLeavesAFlightWhereItIs) {
 TEST(CameraRig, aFlightThatCannotBeReadIsAnErrorAndTheCameraFliesOn) {
     Driver driver;
     const Camera before = driver.rig.camera;
-    driver.settings.mode = ui::CameraMode::FollowFlight;
+    driver.settings.mode = CameraMode::FollowFlight;
     driver.settings.flight = "/nonexistent/flight.toml";
     const planet::Result<void> moved = driver.frame();
     ASSERT_FALSE(moved);
     EXPECT_THAT(moved.error().message, testing::HasSubstr("/nonexistent/flight.toml"));
-    EXPECT_EQ(driver.settings.mode, ui::CameraMode::Fly);
+    EXPECT_EQ(driver.settings.mode, CameraMode::Fly);
     expectSame(driver.rig.camera, before);
     EXPECT_TRUE(driver.frame());
 }
@@ -292,15 +292,14 @@ TEST(CameraRig, placingLeavesAFlightAndForgetsThePivot) {
     ASSERT_TRUE(driver.frame());
     const Camera there = cameraAt(-33, 151, 4000, 10, -10);
     placeRig(driver.rig, there, driver.settings);
-    EXPECT_EQ(driver.settings.mode, ui::CameraMode::Fly);
+    EXPECT_EQ(driver.settings.mode, CameraMode::Fly);
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, there);
 }
 
 TEST(CameraRig, theGroundLiftsEveryMode) {
     const tests::TemporaryFolder folder;
-    for (const ui::CameraMode mode :
-         {ui::CameraMode::Fly, ui::CameraMode::Orbit, ui::CameraMode::FollowFlight}) {
+    for (const CameraMode mode : {CameraMode::Fly, CameraMode::Orbit, CameraMode::FollowFlight}) {
         Driver driver;
         driver.around = smoothPlanet(60'000);
         driver.settings.flight = writeFlight(folder).string();

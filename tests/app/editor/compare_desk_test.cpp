@@ -57,14 +57,14 @@ protected:
 TEST_F(CompareDeskTest, withEqualSettingsNoPixelDiffersInAnyMode) {
     Session session = sessionOfSlope();
     ASSERT_TRUE(start(session));
-    settings_.compare.mode = ui::CompareMode::Wipe;
+    settings_.compare.mode = CompareMode::Wipe;
     frame(session);
     ASSERT_TRUE(desk_.difference);
     EXPECT_EQ(desk_.difference->pixels, 0u);
     EXPECT_EQ(desk_.difference->largestSteps, 0);
     EXPECT_EQ(desk_.difference->of, 200u * 120u);
     EXPECT_EQ(picture(), viewport_.main.target->readRgb());
-    settings_.compare.mode = ui::CompareMode::Flip;
+    settings_.compare.mode = CompareMode::Flip;
     settings_.compare.showB = true;
     frame(session);
     EXPECT_EQ(picture(), viewport_.main.target->readRgb());
@@ -90,10 +90,10 @@ TEST_F(CompareDeskTest, aChangedSettingChangesAAloneUntilTheyAreSwapped) {
     EXPECT_EQ(settings_.lod.tauPx, 0.5);
     EXPECT_EQ(desk_.other->settings.lod.tauPx, 16);
     // The camera and how the two are shown stay as they are.
-    settings_.compare.mode = ui::CompareMode::Difference;
+    settings_.compare.mode = CompareMode::Difference;
     settings_.camera.fovDeg = 77;
     settings_ = swapCompared(desk_, session, settings_, log_);
-    EXPECT_EQ(settings_.compare.mode, ui::CompareMode::Difference);
+    EXPECT_EQ(settings_.compare.mode, CompareMode::Difference);
     EXPECT_EQ(settings_.camera.fovDeg, 77);
 }
 
@@ -222,7 +222,7 @@ TEST_F(CompareDeskTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
 TEST(CompareOverlay, theShownPartsMeetAtTheDividerAndLieWhereTheirPixelsDo) {
     const ui::Rect viewport{100, 50, 400, 300};
     ui::CompareView compare;
-    ui::CompareKnobs knobs;
+    CompareKnobs knobs;
     ASSERT_EQ(ui::shownParts(compare, knobs, viewport).size(), 1u);
     compare.on = true;
     std::vector<ui::ShownPart> parts = ui::shownParts(compare, knobs, viewport);
@@ -234,13 +234,13 @@ TEST(CompareOverlay, theShownPartsMeetAtTheDividerAndLieWhereTheirPixelsDo) {
     const planet::gl::PictureMix mix = planet::gl::sideBySideMix(400);
     EXPECT_EQ(parts[0].whole.x, viewport.x - static_cast<float>(planet::gl::pictureColumn(mix, 0)));
     EXPECT_EQ(parts[1].whole.x, viewport.x + 200 - static_cast<float>(planet::gl::pictureColumn(mix, 200)));
-    knobs.mode = ui::CompareMode::Wipe;
+    knobs.mode = CompareMode::Wipe;
     knobs.wipe = 0.25;
     parts = ui::shownParts(compare, knobs, viewport);
     EXPECT_EQ(parts[1].part.x, 200);
     EXPECT_EQ(parts[1].part.width, 300);
     EXPECT_EQ(parts[1].whole.x, viewport.x);
-    knobs.mode = ui::CompareMode::Flip;
+    knobs.mode = CompareMode::Flip;
     knobs.showB = true;
     parts = ui::shownParts(compare, knobs, viewport);
     ASSERT_EQ(parts.size(), 1u);

@@ -9,7 +9,7 @@ namespace {
 struct EditorActions : testing::Test {
     Editor editor_;
 
-    void inspectPop(ui::PopSide side) {
+    void inspectPop(PopSide side) {
         editor_.rig = CameraRig{};
         inspect(editor_, {}, {});
         editor_.pops.side = side;
@@ -17,26 +17,26 @@ struct EditorActions : testing::Test {
 };
 
 TEST_F(EditorActions, TheEndOfAnInspectionDrawsLiveAgain) {
-    inspectPop(ui::PopSide::Before);
+    inspectPop(PopSide::Before);
     endInspection(editor_);
-    EXPECT_EQ(editor_.pops.side, ui::PopSide::Live);
+    EXPECT_EQ(editor_.pops.side, PopSide::Live);
     EXPECT_FALSE(editor_.lodFrozen);
 }
 
 TEST_F(EditorActions, UnfreezingDrawsLiveAgainAndFreezingDoesNot) {
-    inspectPop(ui::PopSide::After);
+    inspectPop(PopSide::After);
     freezeLod(editor_, true);
-    EXPECT_EQ(editor_.pops.side, ui::PopSide::After);
+    EXPECT_EQ(editor_.pops.side, PopSide::After);
     EXPECT_FALSE(editor_.beforeInspection);
     freezeLod(editor_, false);
-    EXPECT_EQ(editor_.pops.side, ui::PopSide::Live);
+    EXPECT_EQ(editor_.pops.side, PopSide::Live);
     EXPECT_FALSE(editor_.lodFrozen);
 }
 
 TEST_F(EditorActions, AnotherInspectedPlaceIsDrawnLive) {
-    inspectPop(ui::PopSide::Before);
+    inspectPop(PopSide::Before);
     inspect(editor_, {}, {});
-    EXPECT_EQ(editor_.pops.side, ui::PopSide::Live);
+    EXPECT_EQ(editor_.pops.side, PopSide::Live);
 }
 
 TEST_F(EditorActions, AFileIsRecentOnceItIsOpenAndNotBefore) {

@@ -62,14 +62,14 @@ protected:
     void advance(double seconds) {
         EXPECT_TRUE(advanceReplay(*desk_.replay, *scene_, seconds,
                                   {[&](const planet::Selection&) { ++stepped_; },
-                                   [&](const ui::ViewSettings& settings, bool) { told_ = settings; }}));
+                                   [&](const ViewSettings& settings, bool) { told_ = settings; }}));
     }
     std::size_t frame() const { return desk_.replay->replay.next(); }
 
     std::unique_ptr<Scene> scene_;
     FlightDesk desk_;
     int stepped_ = 0;
-    ui::ViewSettings told_;
+    ViewSettings told_;
 };
 
 TEST_F(FlightDeskTest, WhatIsRecordedIsListedAndDeleted) {
@@ -204,7 +204,7 @@ TEST_F(FlightDeskTest, ThePlanetGoesOnWhereItRefusesAReplaysSettings) {
         openScene({.chunkFile = bakeTo("large.chk", {.faceSize = 1025, .chunkSize = 17})}, settings_);
     ASSERT_TRUE(large) << large.error().message;
     *scene_ = std::move(*large);
-    const ui::ViewSettings before = settings_;
+    const ViewSettings before = settings_;
     settings_.paging.budgetMB = 16;
     const std::filesystem::path file = recordOne("small budget");
     settings_ = before;

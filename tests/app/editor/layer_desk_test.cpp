@@ -36,7 +36,7 @@ TEST(LayerDesk, ListsShippedSetsFirstAndSavesOnesOwn) {
     ASSERT_EQ(desk.sets.size(), 2u);
     EXPECT_EQ(desk.sets[0].name, "earth");
     EXPECT_TRUE(desk.sets[1].shipped);
-    ui::LayerSettings layers;
+    LayerSettings layers;
     layers.file = (shippedLayers() / "earth.toml").string();
     layers.set.layers.resize(3);
     ASSERT_TRUE(saveAs(desk, "mine", layers));
@@ -44,7 +44,7 @@ TEST(LayerDesk, ListsShippedSetsFirstAndSavesOnesOwn) {
     EXPECT_EQ(desk.sets[2].name, "mine");
     EXPECT_EQ(fs::path(layers.file), folder.path() / "own" / "mine.toml");
     EXPECT_TRUE(fs::exists(layerFolderOf(layers.file) / layers.set.layers[1].albedo));
-    ui::LayerSettings loaded;
+    LayerSettings loaded;
     ASSERT_TRUE(loadInto(desk, layers.file, loaded));
     EXPECT_EQ(loaded.set, layers.set);
     EXPECT_EQ(loaded.file, layers.file);
@@ -53,15 +53,15 @@ TEST(LayerDesk, ListsShippedSetsFirstAndSavesOnesOwn) {
 TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     const tests::TemporaryFolder folder;
     LayerDesk desk = openLayerDesk({shippedLayers(), folder.path()});
-    ui::LayerSettings layers;
+    LayerSettings layers;
     std::ofstream(folder.path() / "broken.toml") << "[[layer]\n";
     EXPECT_FALSE(loadInto(desk, folder.path() / "broken.toml", layers));
     EXPECT_THAT(desk.setProblem, HasSubstr("broken.toml: line 1"));
-    EXPECT_EQ(layers, ui::LayerSettings{});
+    EXPECT_EQ(layers, LayerSettings{});
     EXPECT_FALSE(saveAs(desk, "earth", layers));
     EXPECT_THAT(desk.setProblem, HasSubstr("is built-in"));
     EXPECT_FALSE(saveAs(desk, "a/b", layers));
-    EXPECT_EQ(layers, ui::LayerSettings{});
+    EXPECT_EQ(layers, LayerSettings{});
     fs::create_directories(desk.folders.own);
     std::ofstream(desk.folders.own / "flight.toml") << "[[key]]\ntime_s = 0\n";
     EXPECT_FALSE(saveAs(desk, "flight", layers));
@@ -74,7 +74,7 @@ TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
 TEST(LayerDesk, TheReadoutFollowsTheLayersWhileThePointerIsAway) {
     LayerDesk desk;
     desk.under = ui::LayerReadout{{{0, 0, 6.371e6}, 51, 0, 90}, {}};
-    ui::LayerSettings layers;
+    LayerSettings layers;
     layers.set = planet::twoLayerHeightBlend();
     EXPECT_NEAR(layersViewOf(desk, nullptr, layers).under->weights[1], 0.2, 1e-12);
     layers.set.layers[1].muted = true;

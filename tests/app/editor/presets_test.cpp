@@ -18,8 +18,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-ui::ViewSettings someView() {
-    ui::ViewSettings view;
+ViewSettings someView() {
+    ViewSettings view;
     view.lod.tauPx = 5;
     view.surface.ramp = {{-1, {0, 0, 1}}, {1, {1, 1, 0}}};
     return view;
@@ -60,21 +60,21 @@ TEST_F(Presets, WhatIsSavedIsListedAndLoadedAgain) {
 
 TEST_F(Presets, APresetChangesOnlyWhatItHolds) {
     PresetShelf shelf(folders);
-    ui::ViewSettings wanted = someView();
+    ViewSettings wanted = someView();
     wanted.lod.morph = false;
     EXPECT_EQ(shelf.load("no morph", someView()), wanted);
-    EXPECT_EQ(shelf.load("default", someView()), ui::ViewSettings{});
+    EXPECT_EQ(shelf.load("default", someView()), ViewSettings{});
 }
 
 TEST_F(Presets, TheDefaultCanBeLoadedWhereItsFileIsNot) {
     PresetShelf shelf({folder / "none", folder / "none either"});
-    EXPECT_EQ(shelf.load("default", someView()), ui::ViewSettings{});
+    EXPECT_EQ(shelf.load("default", someView()), ViewSettings{});
     EXPECT_FALSE(shelf.load("no morph", someView()));
 }
 
 TEST_F(Presets, DifferencesAreThoseFromTheSettingsAsTheyAre) {
     PresetShelf shelf(folders);
-    const auto of = [&](const ui::ViewSettings& now) { return shelf.views(now)[1].differences; };
+    const auto of = [&](const ViewSettings& now) { return shelf.views(now)[1].differences; };
     ASSERT_EQ(of(someView()).size(), 1u);
     EXPECT_EQ(of(someView())[0].setting, "lod.morph");
     EXPECT_EQ(of(someView())[0].here, "true");
@@ -134,7 +134,7 @@ TEST_F(Presets, fileThatIsNoPresetIsNotWrittenOver) {
 TEST_F(Presets, AFileThatHidesBehindAShippedNameIsToldAsAProblem) {
     writeOwn("Default.toml", "[lod]\ntau_px = 9\n");
     PresetShelf shelf(folders);
-    EXPECT_EQ(shelf.load("default", someView()), ui::ViewSettings{});
+    EXPECT_EQ(shelf.load("default", someView()), ViewSettings{});
     EXPECT_THAT(shelf.views({})[2].problem, HasSubstr("rename the file"));
 }
 
@@ -169,7 +169,7 @@ TEST(ShippedPresets, AllCanBeReadAndChangeSomethingAndTheDefaultHoldsEverything)
                 ElementsAre("airless moon", "crack hunting", "default", "overview", "popping", "slow disk"));
     const planet::Result<ViewPart> all = loadViewPart(data / "default.toml");
     ASSERT_TRUE(all);
-    EXPECT_EQ(all->values, ui::ViewSettings{});
+    EXPECT_EQ(all->values, ViewSettings{});
     Settings settings;
     for (const Field& field : fieldsOf(settings)) {
         const bool held = std::find(all->names.begin(), all->names.end(), field.name()) != all->names.end();

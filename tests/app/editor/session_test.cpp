@@ -58,7 +58,7 @@ TEST_F(SessionTest, aPlanetFromNothingIsBakedAndItsFileTellsHowToMakeItAgain) {
     EXPECT_TRUE(bake.canBake);
     EXPECT_EQ(bake.worlds.size(), 4u);
     // A bad text is told as such, and nothing changes.
-    ui::BakeRequest request = bake.current;
+    BakeRequest request = bake.current;
     request.source = "noise:fbm,octaves=99";
     startBake(again, request, log_);
     EXPECT_THAT(bakeViewOf(again).lastProblem, HasSubstr("octaves is 99"));
@@ -240,7 +240,7 @@ TEST_F(SessionTest, aBakeIntoTheOpenFileLeavesBothReadable) {
     Session session = sessionOf(source);
     ASSERT_TRUE(advanceUntilQuiet(session));
     const fs::path file = session.open->data.chunkFile;
-    ui::BakeRequest same;
+    BakeRequest same;
     same.source = source;
     startBake(session, same, log_);
     ASSERT_TRUE(advanceUntilQuiet(session));
@@ -334,7 +334,7 @@ TEST_F(SessionTest, theSourcesOwnImageIsStreamedAndABakeOfTheSamePlanetKeepsIt) 
     EXPECT_EQ(bake.current.settings.colour.faceSize, 257);
     EXPECT_EQ(bake.lostColours, "");
 
-    ui::BakeRequest request = bake.current;
+    BakeRequest request = bake.current;
     request.settings.chunkSize = 17;
     request.settings.colour.format = planet::ColourFormat::Lossless;
     startBake(session, request, log_);
@@ -364,7 +364,7 @@ TEST_F(SessionTest, anOwnImageThatCannotBeReadIsLeftOutAndOneThatIsNamedIsAnErro
     const planet::Planet* before = shownPlanet(session);
     EXPECT_FALSE(before->colour());
     EXPECT_TRUE(bakeViewOf(session).current.colour.empty());
-    ui::BakeRequest request = requestFor(source, 17);
+    BakeRequest request = requestFor(source, 17);
     request.colour = folder_ / "colour.png";
     startBake(session, request, log_);
     ASSERT_TRUE(advanceUntilQuiet(session));

@@ -26,19 +26,18 @@ std::set<std::string> listedNames() {
 TEST(Shortcuts, everyKeyIsListedInTheHelp) {
     const std::set<std::string> listed = listedNames();
     for (const std::string& name : shortcutNames()) EXPECT_TRUE(listed.contains(name)) << name;
-    for (const ui::PanelInfo& info : ui::panelInfos)
-        EXPECT_TRUE(listed.contains(info.shortcut)) << info.title;
+    for (const PanelInfo& info : panelInfos) EXPECT_TRUE(listed.contains(info.shortcut)) << info.title;
 }
 
 TEST(Shortcuts, escClosesTheHelpWindowsOneByOneAndThenSelectsNothing) {
     ImGui::CreateContext();
-    const ui::FrameStats stats;
+    const FrameStats stats;
     const std::deque<ui::FrameSample> history;
     const planet::LodChanges changes;
-    const std::deque<ui::LogLine> log;
+    const std::deque<LogLine> log;
     const ui::EditorView view{.stats = stats, .history = history, .changes = changes, .log = log};
-    ui::ViewSettings settings;
-    ui::Workspace workspace;
+    ViewSettings settings;
+    Workspace workspace;
     ui::MenuState menu{true, true};
     ui::Commands commands;
     const KeyPress escape{256, 0};

@@ -5,13 +5,13 @@
 namespace worldy {
 namespace {
 
-ui::ViewSettings withTau(double tauPx) {
-    ui::ViewSettings settings;
+ViewSettings withTau(double tauPx) {
+    ViewSettings settings;
     settings.lod.tauPx = tauPx;
     return settings;
 }
 
-ui::ViewSettings withOutlines(ui::ViewSettings settings) {
+ViewSettings withOutlines(ViewSettings settings) {
     settings.overlay.outlines = true;
     return settings;
 }
@@ -54,10 +54,10 @@ TEST(Undo, AllChangesWhileAControlIsHeldAreOneStep) {
 
 TEST(Undo, TakesBackWhatWasDoneToALayer) {
     UndoHistory history;
-    const ui::ViewSettings before;
-    ui::ViewSettings muted = before;
+    const ViewSettings before;
+    ViewSettings muted = before;
     muted.surface.layers.set.layers[2].muted = true;
-    ui::ViewSettings removed = muted;
+    ViewSettings removed = muted;
     removed.surface.layers.set.layers.pop_back();
     history.record(before, muted, false, 1);
     history.record(muted, removed, false, 2);
@@ -127,7 +127,7 @@ TEST(Undo, TheOldestOfTooManyStepsAreForgotten) {
     UndoHistory history;
     for (int i = 0; i < 250; ++i) history.record(withTau(i), withTau(i + 1), false, i);
     std::size_t steps = 0;
-    while (const std::optional<ui::ViewSettings> settings = history.undo()) {
+    while (const std::optional<ViewSettings> settings = history.undo()) {
         ++steps;
         EXPECT_EQ(*settings, withTau(250 - static_cast<double>(steps)));
     }
@@ -149,7 +149,7 @@ TEST(Undo, AStepMayHaveANameOfItsOwn) {
 }
 
 TEST(ChangeName, IsShortAndHasTheUnit) {
-    ui::ViewSettings after;
+    ViewSettings after;
     after.lod.morphRange = 0.5;
     EXPECT_EQ(changeName({}, after), "Morph range 0.3 -> 0.5");
     after = {};
@@ -159,7 +159,7 @@ TEST(ChangeName, IsShortAndHasTheUnit) {
     after.paging.badDisk.bandwidthMBs = 10;
     EXPECT_EQ(changeName({}, after), "Bandwidth 0 -> 10 MB/s");
     after = {};
-    after.overlay.colourBy = ui::ColourBy::Error;
+    after.overlay.colourBy = ColourBy::Error;
     EXPECT_EQ(changeName({}, after), "Colour by none -> error");
     after = {};
     after.surface.sea = false;

@@ -55,7 +55,7 @@ protected:
         settings.radiusM = 1e5;
         if (!source || !planet::bake(*source, settings, folder_ / name)) throw std::runtime_error("no bake");
     }
-    std::unique_ptr<planet::Planet> openPlanet(const ui::ViewSettings& settings) const {
+    std::unique_ptr<planet::Planet> openPlanet(const ViewSettings& settings) const {
         return planet::Planet::open(folder_ / "hills.chk", pagingSettingsOf(settings)).value();
     }
     static planet::View viewAt(int frame) {
@@ -66,7 +66,7 @@ protected:
         pose.pitchDeg = -60;
         return planet::viewFromPose(pose, 1e5, 1.1, 1280, 720);
     }
-    static void step(planet::Planet& planet, Recorder& recorder, const ui::ViewSettings& settings, int frame,
+    static void step(planet::Planet& planet, Recorder& recorder, const ViewSettings& settings, int frame,
                      bool observed = false, bool paused = false, double elapsedS = 1.0 / 60) {
         EXPECT_TRUE(headless(planet).apply(
             settings, paused,
@@ -81,7 +81,7 @@ protected:
     }
 
     // With all that can happen between frames.
-    Recorder flyAbout(planet::Planet& planet, ui::ViewSettings settings, int frames) const {
+    Recorder flyAbout(planet::Planet& planet, ViewSettings settings, int frames) const {
         Recorder recorder(planet, "about");
         for (int frame = 0; frame < frames; ++frame) {
             if (frame == 30) settings.lod.tauPx = 3.7;
@@ -111,8 +111,8 @@ protected:
         }
         return recorder;
     }
-    static ui::ViewSettings troubled(bool simulated) {
-        ui::ViewSettings settings;
+    static ViewSettings troubled(bool simulated) {
+        ViewSettings settings;
         settings.lod.tauPx = 1.5;
         settings.paging.simulated = simulated;
         settings.paging.loaderThreads = 2;
@@ -225,7 +225,7 @@ protected:
 };
 
 TEST_F(FlightRecordTest, AFlightByTheClockReplaysExactlyAsRecorded) {
-    const ui::ViewSettings settings = troubled(false);
+    const ViewSettings settings = troubled(false);
     const auto planet = openPlanet(settings);
     // Something before the recording.
     planet->settle(viewAt(90), lodSettingsOf(settings), headless(*planet).upload, 60);
@@ -294,7 +294,7 @@ TEST_F(FlightRecordTest, WhatWasRecordedBeforeThereWereRetriesHasNone) {
 
 TEST_F(FlightRecordTest, AFlightWithTilesOfNormalsReplaysExactlyEitherWay) {
     bakeTo("hills.chk", 513);
-    ui::ViewSettings settings = troubled(true);
+    ViewSettings settings = troubled(true);
     settings.surface.light.normals = {planet::gl::FeatureUse::On, 2};
     const auto planet = openPlanet(settings);
     const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, settings, 120))).value();
@@ -309,7 +309,7 @@ TEST_F(FlightRecordTest, AFlightWithTilesOfNormalsReplaysExactlyEitherWay) {
 }
 
 TEST_F(FlightRecordTest, WhetherNormalsAreUsedIsAsItWasOnTheMachineThatRecorded) {
-    ui::ViewSettings settings = troubled(true);
+    ViewSettings settings = troubled(true);
     for (const bool used : {false, true}) {
         planet::PagingSettings paging = pagingSettingsOf(settings);
         paging.normals = used;
@@ -365,7 +365,7 @@ TEST_F(FlightRecordTest, AFrameThatWasNotSoIsFoundWithItsChunk) {
 }
 
 TEST_F(FlightRecordTest, AFlightIsSmall) {
-    const ui::ViewSettings settings;
+    const ViewSettings settings;
     const auto planet = openPlanet(settings);
     // Ten seconds of frames that are never quite as long as the one before.
     const auto bytesPerS = [&](bool flying) {
@@ -471,7 +471,7 @@ TEST_F(FlightRecordTest, MoreCallsThanARecorderWritesAreRefused) {
                 HasSubstr("more than 432000 calls"));
     FlightFrame settings;
     settings.calls.push_back({.call = FlightCall::Settings});
-    settings.calls[0].settings = flightSettings(ui::ViewSettings{});
+    settings.calls[0].settings = flightSettings(ViewSettings{});
     EXPECT_EQ(errorOfFrames({settings}), "no error");
     settings.calls[0].settings.push_back("lod.tau_px=3");
     EXPECT_THAT(errorOfFrames({settings}), HasSubstr("settings in a call"));
@@ -533,11 +533,11 @@ TEST_F(FlightRecordTest, ARecorderEndsBeforeAFrameThatNoFileMayHold) {
 
 // As where the GPU had no room for a budget.
 TEST_F(FlightRecordTest, WhatThePlanetHasOfPagingIsRecorded) {
-    ui::ViewSettings settings;
+    ViewSettings settings;
     settings.paging.budgetMB = 300;
     const auto planet = openPlanet(settings);
     Recorder recorder(*planet, "a");
-    ui::ViewSettings asked = settings;
+    ViewSettings asked = settings;
     asked.paging.budgetMB = 60'000;
     asked.lod.tauPx = 3;
     recorder.givenSettings(*planet, asked, false);
@@ -545,7 +545,7 @@ TEST_F(FlightRecordTest, WhatThePlanetHasOfPagingIsRecorded) {
     constexpr std::array<double, 1> factors = {1};
     recorder.stepped(*planet, factors);
     const FlightRecord record = loadFlightRecord(written(recorder)).value();
-    ui::ViewSettings recorded;
+    ViewSettings recorded;
     EXPECT_TRUE(applyFlightSettings(record.frames[0].calls[0].settings, recorded));
     EXPECT_EQ(recorded.paging.budgetMB, 300);
     EXPECT_EQ(recorded.lod.tauPx, 3);
@@ -657,7 +657,7 @@ TEST_F(FlightRecordTest, SplitsAndMergesAreToldFromIt) {
 TEST_F(FlightRecordTest, AReportOfAFileWhoseNameIsNotUtf8IsWritten) {
     const std::filesystem::path copy = folder_ / "h\xE9.chk";
     std::filesystem::copy_file(folder_ / "hills.chk", copy);
-    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
+    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ViewSettings{})).value();
     ReplayOptions options;
     options.flight = written(flyAbout(*planet, troubled(true), 5));
     options.report.file = folder_ / "out.json";
@@ -669,7 +669,7 @@ TEST_F(FlightRecordTest, AReportOfAFileWhoseNameIsNotUtf8IsWritten) {
 TEST_F(FlightRecordTest, theFileThatARecordingNamesIsNotReplacedByTheReport) {
     const std::filesystem::path copy = folder_ / "flown.chk";
     std::filesystem::copy_file(folder_ / "hills.chk", copy);
-    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ui::ViewSettings{})).value();
+    const auto planet = planet::Planet::open(copy, pagingSettingsOf(ViewSettings{})).value();
     ReplayOptions options;
     options.flight = written(flyAbout(*planet, troubled(true), 5));
     options.report.file = copy;

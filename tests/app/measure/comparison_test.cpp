@@ -58,7 +58,7 @@ TEST_F(ComparisonTest, equalSettingsHaveEqualFigures) {
     ASSERT_TRUE(pair[0].frameMs && pair[1].frameMs);
     pair[0].frameMs = pair[1].frameMs = 0;
     EXPECT_EQ(pair[0], pair[1]);
-    for (const ui::CompareRow& row : ui::compareRows())
+    for (const CompareRow& row : compareRows())
         EXPECT_EQ((pair[0].*row.value).has_value(), row.flight) << row.name;
     EXPECT_GT(pair[0].bytesRead, 0);
     EXPECT_GT(pair[0].switches, 0);
@@ -205,18 +205,18 @@ TEST_F(ComparisonJobTest, cancellingEndsIt) {
 }
 
 TEST(CompareTable, sayWhatBIsOfA) {
-    const ui::CompareRow& triangles = ui::compareRows().front();
-    EXPECT_EQ(ui::changeText(triangles, 100, 53), "x 0.53");
-    EXPECT_EQ(ui::changeText(triangles, 5, 5), "=");
-    EXPECT_EQ(ui::changeText(triangles, 0, 0), "=");
-    EXPECT_EQ(ui::changeText(triangles, 0, 12), "+12");
-    EXPECT_EQ(ui::changeText(triangles, 12, 0), "-12");
-    EXPECT_EQ(ui::changeText(triangles, 1, 2500), "x 2500");
-    EXPECT_EQ(ui::changeText(triangles, std::nullopt, 3), "-");
-    EXPECT_EQ(ui::figureText(triangles, std::nullopt), "-");
-    EXPECT_EQ(ui::figureText(triangles, 950), "950");
-    const auto rows = ui::compareRows();
-    const auto pop = std::find_if(rows.begin(), rows.end(), [](const ui::CompareRow& row) {
+    const CompareRow& triangles = compareRows().front();
+    EXPECT_EQ(changeText(triangles, 100, 53), "x 0.53");
+    EXPECT_EQ(changeText(triangles, 5, 5), "=");
+    EXPECT_EQ(changeText(triangles, 0, 0), "=");
+    EXPECT_EQ(changeText(triangles, 0, 12), "+12");
+    EXPECT_EQ(changeText(triangles, 12, 0), "-12");
+    EXPECT_EQ(changeText(triangles, 1, 2500), "x 2500");
+    EXPECT_EQ(changeText(triangles, std::nullopt, 3), "-");
+    EXPECT_EQ(figureText(triangles, std::nullopt), "-");
+    EXPECT_EQ(figureText(triangles, 950), "950");
+    const auto rows = compareRows();
+    const auto pop = std::find_if(rows.begin(), rows.end(), [](const CompareRow& row) {
         return std::string_view(row.key) == "worst_pop_px";
     });
     ASSERT_NE(pop, rows.end());
@@ -226,30 +226,7 @@ TEST(CompareTable, sayWhatBIsOfA) {
                                    {0.229, "0.229 px"},
                                    {9.876, "9.88 px"},
                                    {12.34, "12.3 px"}})
-        EXPECT_EQ(ui::figureText(*pop, px), text);
-}
-
-TEST(CompareTable, figuresSortByValueAndByTheRatioOfBToA) {
-    std::array<ui::ComparedFigures, 2> figures;
-    figures[0].chunks = 100;
-    figures[1].chunks = 50;
-    figures[0].late = 0;
-    figures[1].late = 3;
-    figures[0].switches = figures[1].switches = 0;
-    const auto key = [&](std::string_view name, ui::FigureColumn column) {
-        const auto rows = ui::compareRows();
-        const auto row =
-            std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
-        return ui::figureSortKey(*row, column, figures);
-    };
-    using Column = ui::FigureColumn;
-    EXPECT_EQ(key("Drawn chunks", Column::A), ui::SortKey(100.0));
-    EXPECT_EQ(key("Drawn chunks", Column::B), ui::SortKey(50.0));
-    EXPECT_EQ(key("Drawn chunks", Column::Name), ui::SortKey(std::string("Drawn chunks")));
-    EXPECT_EQ(key("Drawn chunks", Column::Change), ui::SortKey(0.5));
-    EXPECT_EQ(key("Level changes", Column::Change), ui::SortKey(1.0));
-    EXPECT_GT(key("Late arrivals", Column::Change), ui::SortKey(1e300));
-    EXPECT_LT(key("Memory", Column::Change), key("Drawn chunks", Column::Change));
+        EXPECT_EQ(figureText(*pop, px), text);
 }
 
 }  // namespace

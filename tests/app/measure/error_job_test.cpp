@@ -5,11 +5,13 @@
 
 #include <thread>
 
+#include "app/editor/instrument_views.h"
+#include "app/scene/overlay_colours.h"
 #include "planet/bake/bake.h"
 #include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/model/overlay_colours.h"
+#include "ui/model/overlay_legend.h"
 
 namespace worldy {
 namespace {
@@ -126,21 +128,21 @@ TEST_F(Errors, ThatCannotBeMeasuredSayWhyAndStop) {
 TEST_F(Errors, TintChunksByWhatWasMeasuredAndGreyWhereNothingWas) {
     meter_.wanted = true;
     runUntilDone(1);
-    ui::OverlaySettings overlay;
-    overlay.colourBy = ui::ColourBy::Measured;
-    ui::ErrorMeasurement measured = *meter_.last;
+    OverlaySettings overlay;
+    overlay.colourBy = ColourBy::Measured;
+    ErrorMeasurement measured = *meter_.last;
     measured.indexOf.erase(measured.report.chunks[0].id);
-    const auto tints = ui::chunkTints(*planet_, planet_->selection(), overlay, 3, &measured);
+    const auto tints = chunkTints(*planet_, planet_->selection(), overlay, 3, &measured);
     ASSERT_EQ(tints.size(), measured.report.chunks.size());
     EXPECT_EQ(tints[0].rgba[0], 128);
     EXPECT_EQ(tints[0].rgba[2], 128);
     for (std::size_t i = 1; i < tints.size(); ++i) {
-        const glm::vec3 wanted = ui::errorColour(measured.report.chunks[i].facingPx / 3);
+        const glm::vec3 wanted = errorColour(measured.report.chunks[i].facingPx / 3);
         EXPECT_NEAR(tints[i].rgba[0], 255 * wanted.x, 1) << i;
         EXPECT_NEAR(tints[i].rgba[1], 255 * wanted.y, 1) << i;
     }
     EXPECT_EQ(ui::legendOf(overlay, 3, 4).entries.back().label, "not measured");
-    EXPECT_EQ(ui::chunkTints(*planet_, planet_->selection(), overlay, 3).back().rgba[1], 128);
+    EXPECT_EQ(chunkTints(*planet_, planet_->selection(), overlay, 3).back().rgba[1], 128);
 }
 
 TEST(ErrorMeasurement, ListsViolationsFirstThenTheLargest) {
@@ -149,7 +151,7 @@ TEST(ErrorMeasurement, ListsViolationsFirstThenTheLargest) {
     report.chunks[0] = {.id = {planet::Face::PosX, 1, 0, 0}, .drawnBoundPx = 5, .facingPx = 1};
     report.chunks[1] = {.id = {planet::Face::PosX, 1, 1, 0}, .drawnBoundPx = 5, .facingPx = 2};
     report.chunks[2] = {.id = {planet::Face::PosX, 1, 0, 1}, .drawnBoundPx = 0.1, .facingPx = 0.5};
-    const ui::ErrorMeasurement measured = ui::measurementOf(std::move(report));
+    const ErrorMeasurement measured = measurementOf(std::move(report));
     EXPECT_EQ(measured.worstFirst, (std::vector<std::size_t>{2, 1, 0}));
     EXPECT_EQ(measured.indexOf.at({planet::Face::PosX, 1, 1, 0}), 1u);
 }

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <string_view>
 
+#include "app/base/plot_scale.h"
 #include "planet/planet_tools.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "tests/support/sudden_lod.h"
-#include "ui/model/plot_scale.h"
 #include "ui/shell/panels.h"
+#include "app/editor/instrument_views.h"
 
 namespace worldy {
 namespace {
@@ -40,7 +41,7 @@ protected:
         ui::Commands commands;
         view_.pops = popsViewOf(pops_);
         view_.timeS += 1;
-        window_.frame([&] { ui::drawPanel(ui::PanelId::Pops, view_, states_, settings_, commands); });
+        window_.frame([&] { ui::drawPanel(PanelId::Pops, view_, states_, settings_, commands); });
         return commands;
     }
 
@@ -69,13 +70,13 @@ protected:
     Pops pops_;
     double timeS_ = 0;
     bool running_ = false;  // whether frames go on while a button is held
-    ui::FrameStats stats_;
+    FrameStats stats_;
     std::deque<ui::FrameSample> history_;
     planet::LodChanges changes_;
-    std::deque<ui::LogLine> log_;
+    std::deque<LogLine> log_;
     ui::EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
     ui::PanelStates states_;
-    ui::ViewSettings settings_;
+    ViewSettings settings_;
 };
 
 TEST_F(PopsTest, ThePanelStandsWithoutPlanetAndWithoutPops) {
@@ -86,7 +87,7 @@ TEST_F(PopsTest, ThePanelStandsWithoutPlanetAndWithoutPops) {
     flyUpAndDown();
     view_.planet = planet_.get();
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame().empty());
-    EXPECT_EQ(settings_, ui::ViewSettings{});
+    EXPECT_EQ(settings_, ViewSettings{});
 }
 
 TEST_F(PopsTest, TheFirstRowIsTheWorstAndGoesBackToItsView) {
@@ -107,7 +108,7 @@ TEST_F(PopsTest, TheFirstRowIsTheWorstAndGoesBackToItsView) {
     const ui::Commands before = click("Before");
     ASSERT_EQ(before.size(), 1u);
     ASSERT_TRUE(before.front().as<ui::ShowPopSide>());
-    EXPECT_EQ(before.front().as<ui::ShowPopSide>()->side, ui::PopSide::Before);
+    EXPECT_EQ(before.front().as<ui::ShowPopSide>()->side, PopSide::Before);
 }
 
 TEST_F(PopsTest, AClickOnTheTimelineSelectsWhatIsThere) {
@@ -153,10 +154,9 @@ TEST_F(PopsTest, BothSidesAreDrawnWithTheChunksWhereTheyAreNow) {
     flyUpAndDown();
     pops_.shown = worst();
     EXPECT_FALSE(keptPicture(planet_->tree(), pops_));
-    for (const ui::PopSide side : {ui::PopSide::Before, ui::PopSide::After}) {
+    for (const PopSide side : {PopSide::Before, PopSide::After}) {
         pops_.side = side;
-        const auto frame =
-            side == ui::PopSide::Before ? worst().frameBefore.lock() : worst().frameAfter.lock();
+        const auto frame = side == PopSide::Before ? worst().frameBefore.lock() : worst().frameAfter.lock();
         ASSERT_TRUE(frame);
         const std::optional<KeptPicture> kept = keptPicture(planet_->tree(), pops_);
         ASSERT_TRUE(kept) << pops_.problem;
@@ -175,7 +175,7 @@ TEST_F(PopsTest, BothSidesAreDrawnWithTheChunksWhereTheyAreNow) {
 TEST_F(PopsTest, WhatHasBeenDroppedIsSaid) {
     flyUpAndDown();
     pops_.shown = worst();
-    pops_.side = worst().toLevel > worst().fromLevel ? ui::PopSide::After : ui::PopSide::Before;
+    pops_.side = worst().toLevel > worst().fromLevel ? PopSide::After : PopSide::Before;
     planet_->tools().dropAll();
     EXPECT_FALSE(keptPicture(planet_->tree(), pops_));
     EXPECT_NE(pops_.problem.find("not resident"), std::string::npos);

@@ -24,8 +24,8 @@ protected:
                                   "altitude_m = 1e5\nheading_deg = 30\npitch_deg = -40\n";
     }
 
-    ui::SweepRequest request() const {
-        ui::SweepRequest request;
+    SweepRequest request() const {
+        SweepRequest request;
         request.flight = flight_;
         request.tausPx = {1, 4};
         request.metrics = {ErrorMetric::Additive, ErrorMetric::Tight};
@@ -132,9 +132,9 @@ TEST_F(Sweeping, SuggestsATauThatKeepsTheGoal) {
     SweepJob job(plan);
     const planet::Result<void> result = waitFor(job);
     ASSERT_TRUE(result) << result.error().message;
-    const std::vector<ui::SweepSuggestion> found = job.takeSuggestions();
+    const std::vector<SweepSuggestion> found = job.takeSuggestions();
     ASSERT_EQ(found.size(), 2u);
-    for (const ui::SweepSuggestion& suggestion : found) {
+    for (const SweepSuggestion& suggestion : found) {
         EXPECT_TRUE(suggestion.found.met);
         EXPECT_LE(suggestion.found.value, 0.5);
         EXPECT_LE(suggestion.found.flown, mostSuggestFlights());
@@ -195,7 +195,7 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
     ASSERT_TRUE(shownPlanet(session));
     ASSERT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
     SweepDesk desk;
-    ui::SweepRequest asked = request();
+    SweepRequest asked = request();
     asked.chunkSizes = {17, 33};
     startSweep(desk, shownPlanet(session), asked, settings_, log_);
     ASSERT_TRUE(desk.job) << desk.problem;
@@ -231,7 +231,7 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
 TEST_F(Sweeping, AFileOfUnknownSourceIsSweptInItsOwnChunksAlone) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
     SweepDesk desk;
-    ui::SweepRequest asked = request();
+    SweepRequest asked = request();
     asked.chunkSizes = {33};
     startSweep(desk, shownPlanet(session), asked, settings_, log_);
     EXPECT_FALSE(desk.job);
@@ -262,7 +262,7 @@ TEST_F(Sweeping, GoesOnWhenItsPlanetIsClosedAndItsFileIsGone) {
 TEST_F(Sweeping, CancelledKeepsItsPointsButPassesForNoWholeTable) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
     SweepDesk desk;
-    ui::SweepRequest asked = request();
+    SweepRequest asked = request();
     asked.tausPx.assign(30, 1.0);
     startSweep(desk, shownPlanet(session), asked, settings_, log_);
     while (desk.table->points.empty()) advanceSweep(desk, log_);
@@ -307,7 +307,7 @@ TEST_F(Sweeping, HasNoPartInOverlaysNorInABadDisk) {
     };
     const std::vector<SweepPoint> undisturbed = pointsOf();
     ASSERT_EQ(undisturbed.size(), 2u);
-    plan.view.overlay.colourBy = ui::ColourBy::Measured;
+    plan.view.overlay.colourBy = ColourBy::Measured;
     plan.view.paging.badDisk.failureRate = 1;
     plan.view.paging.simulated = true;
     EXPECT_EQ(pointsOf(), undisturbed);
@@ -315,7 +315,7 @@ TEST_F(Sweeping, HasNoPartInOverlaysNorInABadDisk) {
 
 TEST_F(Sweeping, KeepsTheWindowsOtherSettingsAndItsChunkSize) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
-    ui::ViewSettings settings;
+    ViewSettings settings;
     settings.lod.morph = false;
     const auto plan = sweepPlanOf(*shownPlanet(session), request(), settings);
     ASSERT_TRUE(plan);

@@ -123,7 +123,7 @@ TEST(Sweep, aGoalThatNothingKeepsIsToldAndOneThatAllKeepIsCheap) {
 }
 
 TEST(Sweep, theLimitOfTrianglesIsAWholeNumber) {
-    ui::SweepSuggestion one;
+    SweepSuggestion one;
     one.goal = {false, SweepCost::Triangles, 20'000};
     EXPECT_THAT(suggestionsJson(std::array{one}, "s.chk", "down"), testing::HasSubstr("\"limit\": 20000,"));
     one.goal = {true, SweepCost::Triangles, 3};

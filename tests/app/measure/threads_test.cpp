@@ -153,7 +153,7 @@ protected:
     }
 
     void preview(Session& session) {
-        ui::PreviewRequest request;
+        PreviewRequest request;
         request.source = sources_[pick(2)];
         requestPreview(session.preview, request);
     }

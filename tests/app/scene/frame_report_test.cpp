@@ -9,7 +9,7 @@ namespace worldy {
 namespace {
 
 TEST(FrameReport, totalsOfBlocksAreGivenPerKind) {
-    ui::FrameStats stats;
+    FrameStats stats;
     stats.paging[planet::BlockKind::Heights] = {.loaded = 1, .evicted = 2, .failed = 3, .bytesRead = 100};
     stats.paging[planet::BlockKind::Colours] = {.loaded = 4, .evicted = 5, .failed = 6, .bytesRead = 20};
     stats.paging[planet::BlockKind::Normals] = {.loaded = 7, .evicted = 8, .failed = 9, .bytesRead = 3};

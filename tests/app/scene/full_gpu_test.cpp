@@ -89,7 +89,7 @@ protected:
         planet::test::writeColours<std::uint8_t>(folder_ / "grey.png", 8, 8, 3,
                                                  [](int, int, int) { return 128; });
         using planet::gl::FeatureUse;
-        settings_.surface.colourMode = ui::ColourMode::Clipmap;
+        settings_.surface.colourMode = ColourMode::Clipmap;
         settings_.surface.clipmapSizePx = 256;
         settings_.surface.light.air.use = FeatureUse::On;
         settings_.surface.light.normals.use = FeatureUse::On;

@@ -103,7 +103,7 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
             // In and out of the clipmap, whose memory comes and goes.
             const std::uint64_t phase = frame * phases / frames;
             const bool clipmap = phase % 2 == 0;
-            settings_.surface.colourMode = clipmap ? ui::ColourMode::Clipmap : ui::ColourMode::Tiles;
+            settings_.surface.colourMode = clipmap ? ColourMode::Clipmap : ColourMode::Tiles;
             ASSERT_TRUE(applyLiveSettings(*scene, settings_));
             // Chosen for a large picture, drawn in a small one.
             stepScene(*scene, flight.view(1280, 720), settings_, planet::test::frameS);
@@ -170,7 +170,7 @@ TEST_F(LongFlightDrawn, SwappedFilesLeaveNothingBehind) {
         ASSERT_EQ(shownPlanet(session)->data.chunkFile, file);
         Scene& scene = *shownScene(session);
         for (int frame = 0; frame < 2; ++frame, flight.step()) {
-            settings_.surface.colourMode = frame % 2 == 0 ? ui::ColourMode::Clipmap : ui::ColourMode::Tiles;
+            settings_.surface.colourMode = frame % 2 == 0 ? ColourMode::Clipmap : ColourMode::Tiles;
             settings_.paging.budgetMB = frame == 0 ? 8 : 12;
             settings_.surface.exaggeration = frame == 0 ? 1 : 2;
             ASSERT_TRUE(applyLiveSettings(scene, settings_));

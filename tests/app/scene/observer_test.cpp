@@ -71,11 +71,11 @@ protected:
         planet_->settle(
             view_, lod, [](std::uint32_t, std::span<const std::int16_t>) {}, 60);
     }
-    planet::Lines linesOf(const ui::CameraSettings& settings, std::optional<planet::ChunkId> selected = {}) {
+    planet::Lines linesOf(const CameraSettings& settings, std::optional<planet::ChunkId> selected = {}) {
         return observerLines(*planet_, view_, settings, selected);
     }
 
-    ui::CameraSettings nothing_;
+    CameraSettings nothing_;
     std::unique_ptr<planet::Planet> planet_;
     planet::View view_;
 };
@@ -83,13 +83,13 @@ protected:
 TEST_F(ObserverLines, eachSwitchAddsItsLines) {
     const std::size_t eyeAlone = linesOf(nothing_).size();
     EXPECT_GT(eyeAlone, 0u);
-    ui::CameraSettings frustum = nothing_;
+    CameraSettings frustum = nothing_;
     frustum.showFrustum = true;
     EXPECT_GT(linesOf(frustum).size(), eyeAlone);
-    ui::CameraSettings horizon = nothing_;
+    CameraSettings horizon = nothing_;
     horizon.showHorizon = true;
     EXPECT_GT(linesOf(horizon).size(), eyeAlone);
-    ui::CameraSettings distances = nothing_;
+    CameraSettings distances = nothing_;
     distances.showSwitchDistances = true;
     EXPECT_EQ(linesOf(distances).size(), eyeAlone);
     EXPECT_GT(linesOf(distances, planet::ChunkId{}).size(), eyeAlone);
@@ -97,7 +97,7 @@ TEST_F(ObserverLines, eachSwitchAddsItsLines) {
 }
 
 TEST_F(ObserverLines, switchDistancesLieWhereTheErrorIsExactlyTau) {
-    ui::CameraSettings distances = nothing_;
+    CameraSettings distances = nothing_;
     const std::size_t before = linesOf(distances).size();
     distances.showSwitchDistances = true;
     const planet::ChunkId id{planet::Face::PosX, 1, 0, 0};

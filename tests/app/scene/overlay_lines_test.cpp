@@ -10,7 +10,7 @@ namespace {
 
 // Vertices of lines that are of a colour like red, or like amber.
 std::pair<int, int> redAndAmber(const planet::Planet& planet, bool outlines) {
-    ui::ViewSettings settings;
+    ViewSettings settings;
     settings.overlay.outlines = outlines;
     int red = 0, amber = 0;
     for (const planet::LineVertex& vertex :

@@ -6,11 +6,12 @@
 #include <glm/vec3.hpp>
 
 #include "app/scene/offscreen.h"
+#include "app/scene/overlay_colours.h"
 #include "planet/gl/device/render_target.h"
 #include "planet/planet_tools.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/synthetic_colours.h"
-#include "ui/model/overlay_colours.h"
+#include "ui/model/overlay_legend.h"
 
 namespace worldy {
 namespace {
@@ -38,7 +39,7 @@ protected:
 
 // A program that embeds the library then sees what the editor shows.
 TEST_F(SceneTest, TheLibrarysDefaultsAreTheEditors) {
-    EXPECT_EQ(lodSettingsOf(ui::ViewSettings()), planet::LodSettings());
+    EXPECT_EQ(lodSettingsOf(ViewSettings()), planet::LodSettings());
 }
 
 TEST_F(SceneTest, everyKnobOfSelectionReachesTheLibrary) {
@@ -134,7 +135,7 @@ TEST_F(SceneTest, theFillLightIsLeftOutOfTintedPictures) {
     EXPECT_EQ(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).light.fill, 0);
     settings_.surface.light.fill = 0.75;
     EXPECT_EQ(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).light.fill, 0.75);
-    settings_.overlay.colourBy = ui::ColourBy::Level;
+    settings_.overlay.colourBy = ColourBy::Level;
     EXPECT_EQ(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).light.fill, 0);
 }
 
@@ -206,7 +207,7 @@ TEST_F(SceneTest, anObserversPictureAddsNoTrianglesToThoseOfTheLodView) {
     const planet::View view = viewAt(1e6);
     ASSERT_TRUE(settleScene(scene, view, settings_, 60));
     picture(scene, view);
-    const ui::FrameStats alone = statsOf(scene);
+    const FrameStats alone = statsOf(scene);
     ASSERT_GT(alone.selection.skirtTriangles, 0u);
     EXPECT_EQ(alone.render.groundTriangles, alone.selection.groundTriangles);
     EXPECT_EQ(alone.render.skirtTriangles, alone.selection.skirtTriangles);
@@ -246,15 +247,14 @@ glm::ivec3 bytesOfColour(const glm::vec3& colour) {
 }
 
 // Levels have a colour each; amounts have all the colours of their scale, of which the legend names some.
-std::vector<glm::ivec3> coloursOfLegend(const ui::OverlaySettings& overlay, double tauPx,
+std::vector<glm::ivec3> coloursOfLegend(const OverlaySettings& overlay, double tauPx,
                                         std::uint32_t deepestLevel) {
     std::vector<glm::ivec3> colours;
     for (const ui::LegendEntry& entry : ui::legendOf(overlay, tauPx, deepestLevel).entries)
         colours.push_back(bytesOfColour(entry.colour));
-    const bool isError =
-        overlay.colourBy == ui::ColourBy::Error || overlay.colourBy == ui::ColourBy::Measured;
-    for (int i = 0; i <= 1000 && overlay.colourBy != ui::ColourBy::Level; ++i)
-        colours.push_back(bytesOfColour(isError ? ui::errorColour(i / 500.0) : ui::rampColour(i / 1000.0)));
+    const bool isError = overlay.colourBy == ColourBy::Error || overlay.colourBy == ColourBy::Measured;
+    for (int i = 0; i <= 1000 && overlay.colourBy != ColourBy::Level; ++i)
+        colours.push_back(bytesOfColour(isError ? errorColour(i / 500.0) : rampColour(i / 1000.0)));
     return colours;
 }
 
@@ -273,9 +273,8 @@ TEST_F(SceneTest, aTintOfFullOpacityHasOnlyTheColoursOfItsLegend) {
     const std::uint32_t deepest = offscreen->scene.planet->selection().counters.deepestLevel;
     for (const double sunLongitudeDeg : {31.0, 120.0, 210.0}) {
         settings_.surface.sunLongitudeDeg = sunLongitudeDeg;
-        for (const ui::ColourBy colourBy :
-             {ui::ColourBy::Level, ui::ColourBy::Error, ui::ColourBy::DeltaC, ui::ColourBy::Morph,
-              ui::ColourBy::Age, ui::ColourBy::LoadOrder, ui::ColourBy::Measured}) {
+        for (const ColourBy colourBy : {ColourBy::Level, ColourBy::Error, ColourBy::DeltaC, ColourBy::Morph,
+                                        ColourBy::Age, ColourBy::LoadOrder, ColourBy::Measured}) {
             settings_.overlay.colourBy = colourBy;
             ASSERT_TRUE(drawAndFinish(*offscreen, settled.view, settings_));
             const Picture picture = readPicture(*offscreen);
@@ -314,16 +313,16 @@ protected:
         if (!scene) throw std::runtime_error(scene.error().message);
         return std::move(*scene);
     }
-    std::vector<std::uint8_t> settledPicture(Scene& scene, ui::ColourMode mode) {
+    std::vector<std::uint8_t> settledPicture(Scene& scene, ColourMode mode) {
         settings_.surface.colourMode = mode;
         EXPECT_TRUE(applyLiveSettings(scene, settings_));
         EXPECT_TRUE(settleScene(scene, view_, settings_, 60));
         return picture(scene, view_);
     }
     void expectBothModesAlike(Scene& scene) {
-        const std::vector<std::uint8_t> tiles = settledPicture(scene, ui::ColourMode::Tiles);
+        const std::vector<std::uint8_t> tiles = settledPicture(scene, ColourMode::Tiles);
         EXPECT_EQ(scene.renderer.chunks().gpuMemory().colourClipmap, 0u);
-        const std::vector<std::uint8_t> clipmap = settledPicture(scene, ui::ColourMode::Clipmap);
+        const std::vector<std::uint8_t> clipmap = settledPicture(scene, ColourMode::Clipmap);
         EXPECT_GT(scene.renderer.chunks().gpuMemory().colourClipmap, 0u);
         int furthest = 0;
         for (std::size_t i = 0; i < tiles.size(); ++i)
@@ -342,11 +341,11 @@ TEST_F(ClipmapScene, switchesLiveAndGivesItsMemoryBack) {
     EXPECT_EQ(statsOf(scene).clipmap.windows, 1);
     const std::size_t bytes = scene.renderer.chunks().gpuMemory().colourClipmap;
     settings_.surface.clipmapSizePx = 512;
-    settledPicture(scene, ui::ColourMode::Clipmap);
+    settledPicture(scene, ColourMode::Clipmap);
     EXPECT_GT(scene.renderer.chunks().gpuMemory().colourClipmap, bytes);
     EXPECT_EQ(statsOf(scene).clipmap.windows, 0);  // all levels are kept whole
     settings_.surface.streamed = false;
-    settledPicture(scene, ui::ColourMode::Clipmap);
+    settledPicture(scene, ColourMode::Clipmap);
     EXPECT_EQ(scene.renderer.chunks().gpuMemory().colourClipmap, 0u);
     settings_.surface.streamed = true;
     expectBothModesAlike(scene);
@@ -358,20 +357,20 @@ TEST_F(ClipmapScene, isRightAgainAfterThePoolOrItsTilesAreNew) {
     expectBothModesAlike(scene);
     settings_.paging.budgetMB = 24;
     const auto tiles = scene.planet->paging()[planet::BlockKind::Colours].capacity;
-    settledPicture(scene, ui::ColourMode::Clipmap);
+    settledPicture(scene, ColourMode::Clipmap);
     EXPECT_NE(scene.planet->paging()[planet::BlockKind::Colours].capacity, tiles);
-    const std::vector<std::uint8_t> before = settledPicture(scene, ui::ColourMode::Clipmap);
+    const std::vector<std::uint8_t> before = settledPicture(scene, ColourMode::Clipmap);
     scene.planet->beginTilesAnew(planet::BlockKind::Colours);
     EXPECT_NE(picture(scene, view_), before);
-    EXPECT_EQ(settledPicture(scene, ui::ColourMode::Clipmap), before);
+    EXPECT_EQ(settledPicture(scene, ColourMode::Clipmap), before);
     scene.planet->tools().dropAll();
-    EXPECT_EQ(settledPicture(scene, ui::ColourMode::Clipmap), before);
+    EXPECT_EQ(settledPicture(scene, ColourMode::Clipmap), before);
     expectBothModesAlike(scene);
 }
 
 TEST_F(ClipmapScene, staysAroundTheLodViewAndShowsItsWindowsAndStrips) {
     Scene scene = openColoured();
-    settledPicture(scene, ui::ColourMode::Clipmap);
+    settledPicture(scene, ColourMode::Clipmap);
     const planet::Selection& selection = scene.planet->selection();
     EXPECT_TRUE(linesOver(scene, selection, view_, settings_).empty());
     settings_.overlay.clipmap = true;

@@ -93,15 +93,15 @@ TEST(Settings, WhatIsSavedIsLoadedAgainWhateverItIs) {
 
 TEST(Settings, EveryFieldOfTheViewAndTheWorkspaceStandsInTheTable) {
     const Settings settings = allOther();
-    const ui::ViewSettings none;
+    const ViewSettings none;
     EXPECT_NE(settings.view.lod, none.lod);
     // Each field by itself, so that none shares another's place.
     std::set<std::string> names;
     Settings counted;
     for (const Field& field : fieldsOf(counted))
         EXPECT_TRUE(names.insert(field.name()).second) << field.name();
-    EXPECT_EQ(names.size(), 2u + 9 + 5 + 8 + 5 + 12 + 14 + 14 + 8 + 5 + 5 + 11 + 7 + 7 + 2 * ui::panelCount +
-                                ui::dockCount + 3 + 4);
+    EXPECT_EQ(names.size(), 2u + 9 + 5 + 8 + 5 + 12 + 14 + 14 + 8 + 5 + 5 + 11 + 7 + 7 + 2 * panelCount +
+                                dockCount + 3 + 4);
     for (std::size_t i = 0; i < names.size(); ++i) {
         Settings one;
         const std::vector<Field> fields = fieldsOf(one);
@@ -151,8 +151,8 @@ TEST(Settings, NamesOfFormerVersionsAreUnderstood) {
     Settings wanted;
     wanted.view.seams.skirtFactor = 3;
     wanted.view.seams.mode = planet::SeamMode::None;
-    wanted.view.overlay.colourBy = ui::ColourBy::Error;
-    ui::SurfaceSettings& surface = wanted.view.surface;
+    wanted.view.overlay.colourBy = ColourBy::Error;
+    SurfaceSettings& surface = wanted.view.surface;
     surface.surface = planet::gl::SurfaceColour::HeightRamp;
     surface.atmosphere = surface.detail = surface.lighting = surface.sunFollows = false;
     surface.sunLatitudeDeg = 1;
@@ -267,12 +267,12 @@ TEST(SetSetting, TakesWordsTextsNumbersAndRampsAsTheyAreWritten) {
     EXPECT_EQ(settings.view.lod.tauPx, 3);
     EXPECT_FALSE(settings.view.lod.morph);
     EXPECT_EQ(settings.view.paging.badDisk.seed, 4294967295u);
-    EXPECT_EQ(settings.view.overlay.colourBy, ui::ColourBy::Level);
+    EXPECT_EQ(settings.view.overlay.colourBy, ColourBy::Level);
     EXPECT_EQ(settings.view.surface.surface, planet::gl::SurfaceColour::HeightRamp);
     EXPECT_EQ(settings.dataSet, "/a b'c=d.chk");
     EXPECT_EQ(settings.view.camera.flight, "x\ty");
     EXPECT_EQ(settings.camera.longitudeDeg, -70.5);
-    EXPECT_FALSE(settings.workspace.panels[static_cast<std::size_t>(ui::PanelId::Log)].shown);
+    EXPECT_FALSE(settings.workspace.panels[static_cast<std::size_t>(PanelId::Log)].shown);
     EXPECT_EQ(settings.view.surface.ramp.size(), 1u);
 }
 
@@ -295,15 +295,15 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
-    const std::vector<ui::SettingDifference> all = differences(here, there);
+    const std::vector<SettingDifference> all = differences(here, there);
     EXPECT_EQ(all.size(), 105u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;
-    there.view.overlay.colourBy = ui::ColourBy::LoadOrder;
+    there.view.overlay.colourBy = ColourBy::LoadOrder;
     there.camera.latitudeDeg = 80;
     there.workspace.scale = 2;
-    const std::vector<ui::SettingDifference> few = differences(here, there);
+    const std::vector<SettingDifference> few = differences(here, there);
     ASSERT_EQ(few.size(), 2u);
     EXPECT_EQ(few[0].setting, "lod.tau_px");
     EXPECT_EQ(few[0].here, "2");
@@ -312,7 +312,7 @@ TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
 }
 
 TEST(Differences, AsAssignmentsMakeTheSameViewOfTheDefaults) {
-    const ui::ViewSettings view = allOther().view;
+    const ViewSettings view = allOther().view;
     Settings built;
     for (const std::string& assignment : assignmentsFor(view)) {
         const planet::Result<void> set = setSetting(built, assignment);
@@ -329,10 +329,10 @@ TEST(ViewPart, ChangesWhatItHoldsAndNothingElse) {
     const planet::Result<ViewPart> part = loadViewPart(folder / "part.toml");
     ASSERT_TRUE(part) << part.error().message;
     EXPECT_THAT(part->names, ElementsAre("lod.morph", "seams.skirt_factor"));
-    ui::ViewSettings now;
+    ViewSettings now;
     now.lod.tauPx = 9;
     now.seams.skirtFactor = 5;
-    ui::ViewSettings wanted = now;
+    ViewSettings wanted = now;
     wanted.lod.morph = false;
     wanted.seams.skirtFactor = 1;
     EXPECT_EQ(applied(*part, now), wanted);
@@ -341,10 +341,10 @@ TEST(ViewPart, ChangesWhatItHoldsAndNothingElse) {
 }
 
 TEST(ViewPart, TheWholeViewIsKeptAsText) {
-    const ui::ViewSettings view = allOther().view;
+    const ViewSettings view = allOther().view;
     const TemporaryFolder folder;
     std::ofstream(folder / "whole.toml") << viewSettingsText(view);
-    const planet::Result<ui::ViewSettings> loaded = loadViewSettings(folder / "whole.toml");
+    const planet::Result<ViewSettings> loaded = loadViewSettings(folder / "whole.toml");
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(*loaded, view);
     EXPECT_THAT(viewSettingsText(view), Not(HasSubstr("[window]")));

@@ -52,11 +52,11 @@ TEST(ShotLine, OfTheDefaultsIsShort) {
 
 TEST(ShotLine, TypedAgainGivesTheSameViewAndSettings) {
     Settings settings;
-    ui::ViewSettings& view = settings.view;
+    ViewSettings& view = settings.view;
     view.lod = {.tauPx = 0.1 + 0.2, .hysteresis = 1.0 / 3, .maxLevel = 7, .morph = false};
     view.seams.mode = planet::SeamMode::Stitched;
     view.paging.badDisk = {.latencyMs = 3, .shuffledOrder = true, .seed = 4294967295u};
-    view.overlay.colourBy = ui::ColourBy::DeltaC;
+    view.overlay.colourBy = ColourBy::DeltaC;
     view.overlay.skirtPaint = planet::gl::SkirtPaint::LoudAlone;
     view.surface.ramp = {{-10921.5, {0, 0, 51 / 255.0f}}, {0, {1, 0.2f, 0}}, {8848.125, {1, 1, 1}}};
     view.surface.sunFollows = false;
@@ -178,11 +178,11 @@ TEST(ShotOptions, TheOldOptionsStillWork) {
         "--no-skirts",  "--cube",   "--wireframe", "--fov",       "33"};
     const planet::Result<ShotOptions> options = shotOptionsFrom(arguments);
     ASSERT_TRUE(options) << options.error().message;
-    const ui::ViewSettings& view = options->view;
+    const ViewSettings& view = options->view;
     EXPECT_EQ(view.lod.tauPx, 0.25);
     EXPECT_FALSE(view.lod.frustumCulling || view.lod.horizonCulling);
     EXPECT_EQ(view.paging.budgetMB, 64);
-    EXPECT_EQ(view.overlay.colourBy, ui::ColourBy::LoadOrder);
+    EXPECT_EQ(view.overlay.colourBy, ColourBy::LoadOrder);
     EXPECT_EQ(view.surface.surface, planet::gl::SurfaceColour::HeightRamp);
     EXPECT_EQ(view.seams.mode, planet::SeamMode::None);
     EXPECT_TRUE(view.overlay.cube && view.overlay.wireframe);

@@ -6,7 +6,7 @@
 
 #include "tests/support/panel_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 std::array<Column, 3> columnsThatNeed(float first, float last) {
@@ -44,4 +44,4 @@ TEST(Columns, areStackedWhereTheirNeedsDoNotFit) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

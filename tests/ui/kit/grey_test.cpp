@@ -8,7 +8,7 @@
 #include "tests/support/panel_fixture.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 TEST(Grey, theTooltipOfAGreyControlBeginsWithWhy) {
@@ -44,4 +44,4 @@ TEST(Grey, noPanelGreysWithoutAReason) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 constexpr double radiusM = 1000;
@@ -35,4 +35,4 @@ TEST(Inspection, aPlaceBeyondTheHorizonIsSeenFromAboveTheGround) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 #include <functional>
 #include <random>
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 TEST(TableWindow, aWindowHoldsWhatAWholeSortPutsThere) {
@@ -29,4 +29,4 @@ TEST(TableWindow, anEmptyTableStaysEmpty) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,7 +6,7 @@
 
 #include "tests/support/panel_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 constexpr std::array threeColumns = {TableColumn{"Figure", 1.5f, nullptr, "a value that is very wide indeed"},
@@ -64,4 +64,4 @@ TEST(Tables, everyColumnHoldsItsWidestTextAtAnyWidth) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

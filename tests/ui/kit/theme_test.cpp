@@ -7,7 +7,7 @@
 
 #include "tests/support/panel_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 // Largest difference of a channel from the window's background.
@@ -28,4 +28,4 @@ TEST(Theme, aSelectedRowStandsOutFromTheStripes) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

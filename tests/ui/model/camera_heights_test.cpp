@@ -4,7 +4,7 @@
 
 #include "tests/support/planet_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 std::vector<std::string> namesOf(const CameraHeights& heights) {
@@ -90,4 +90,4 @@ TEST(CameraHeights, aPlainOfACoarsePlanetIsNoSeaBed) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

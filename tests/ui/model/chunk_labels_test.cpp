@@ -8,7 +8,7 @@
 
 #include "tests/support/fake_pyramid.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 const planet::ChunkTree& tree() {
@@ -156,4 +156,4 @@ TEST(ChunkLabels, ATinyPictureHoldsNone) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 
 #include "ui/model/font_symbols.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using planet::ChunkExplanation;
@@ -182,4 +182,4 @@ TEST(ExplanationText, StatesHaveNamesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 const Rect& dockOf(const Layout& layout, Dock dock) {
@@ -80,4 +80,4 @@ TEST(Layout, AMinimisedWindowHasALayoutToo) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "ui/panels/paging/failed_blocks.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 TEST(PagingText, aRequestSaysByWhatItIsOverTheTolerance) {
@@ -99,4 +99,4 @@ TEST(PagingText, eachTroubleAloneMakesADiskBad) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 #include "tests/support/panel_fixture.h"
 #include "ui/kit/tables.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using Order = std::vector<std::size_t>;
@@ -103,4 +103,4 @@ TEST_F(SortedTable, columnsAreAsWideAsTheirTitlesAndWidestText) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

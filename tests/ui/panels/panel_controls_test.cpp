@@ -11,7 +11,7 @@
 #include "ui/kit/chunk_link.h"
 #include "ui/shell/panels.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 class PanelControls : public testing::Test {
@@ -515,4 +515,4 @@ TEST_F(PanelControls, aComparisonOverAFlightIsStartedAndCancelled) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

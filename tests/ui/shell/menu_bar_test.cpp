@@ -4,7 +4,7 @@
 
 #include "tests/support/panel_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 TEST(MenuBar, theKeysWindowStaysWithinASmallScreen) {
@@ -21,4 +21,4 @@ TEST(MenuBar, theKeysWindowStaysWithinASmallScreen) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 
 #include "tests/support/panel_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 class ConfirmationLine : public testing::Test {
@@ -38,4 +38,4 @@ TEST_F(ConfirmationLine, aLongPathIsWrappedWithinTheViewport) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 #include "app/flight/flight_record.h"
 #include "ui/model/recording_view.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 TEST(OpenDialog, listsRecordedFlights) {
@@ -15,4 +15,4 @@ TEST(OpenDialog, listsRecordedFlights) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -11,13 +11,13 @@
 #include <thread>
 #include <vector>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -443,4 +443,4 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
     if (pinned) ImGui::EndChild();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

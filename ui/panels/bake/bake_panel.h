@@ -9,7 +9,7 @@
 #include "ui/panels/bake/source_controls.h"
 #include "ui/panels/bake/source_preview_box.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct BakePanelState {
     std::optional<BakeRequest> edited;  // what the user has chosen; none: as the open file
@@ -23,4 +23,4 @@ struct BakePanelState {
 // Fills the current window.
 void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

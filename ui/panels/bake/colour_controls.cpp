@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
+#include "app/data/own_colour.h"
 #include "planet/source/height_source.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/own_colour.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::string colourText(const planet::ColourBakeSettings& colour) {
                        colour.format == planet::ColourFormat::Bc1 ? "BC1" : "lossless");
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

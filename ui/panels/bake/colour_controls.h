@@ -7,7 +7,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ColourEdit {
     enum class From : int { None, Own, Image };
@@ -30,4 +30,4 @@ bool colourControls(const EditorView& view, ColourEdit& edit, BakeRequest& reque
 // "1025 texels, BC1".
 std::string colourText(const planet::ColourBakeSettings& colour);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -12,7 +12,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -236,4 +236,4 @@ bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& reque
     return changed || edited;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

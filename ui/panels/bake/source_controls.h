@@ -9,7 +9,7 @@
 #include "planet/source/terrain.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct SourceEdit {
     int kind = 0;                               // 0: a file; else one of terrainKinds(), from 1
@@ -30,4 +30,4 @@ std::filesystem::path sourceOf(const SourceEdit& edit);
 // Another kind or world takes the automatic quantum. Lit where it is not the open file's.
 bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& request);
 
-}  // namespace ui
+}  // namespace worldy::ui

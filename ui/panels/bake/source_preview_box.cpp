@@ -8,12 +8,12 @@
 #include <numbers>
 #include <string>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -123,4 +123,4 @@ void sourcePreviewBox(const EditorView& view, const BakeRequest& request, bool g
         state, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct PreviewBoxState {
     bool open = false;  // opens by itself once a source is changed
@@ -22,4 +22,4 @@ struct PreviewBoxState {
 void sourcePreviewBox(const EditorView& view, const BakeRequest& request, bool good, PreviewBoxState& state,
                       Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <string>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/camera_heights.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -213,4 +213,4 @@ void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& 
     observerSection(settings.camera);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -5,7 +5,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct CameraPanelState {
     std::array<char, 64> bookmarkName{};
@@ -16,4 +16,4 @@ struct CameraPanelState {
 // Fills the current window.
 void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <array>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -193,4 +193,4 @@ void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings
     if (section("Changes")) selectedSection(view, state, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,7 +6,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct PresetsPanelState {
     std::array<char, 64> name{};
@@ -17,4 +17,4 @@ struct PresetsPanelState {
 void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings& settings,
                   Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,13 +7,14 @@
 #include <iterator>
 #include <vector>
 
+#include "app/base/text.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/compare_order.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -271,4 +272,4 @@ void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings
     if (section("Another B")) chooseB(view, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

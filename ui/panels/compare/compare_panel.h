@@ -6,7 +6,7 @@
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ComparePanelState {
     std::filesystem::path flight;  // to measure over; empty: the first there is
@@ -16,4 +16,4 @@ struct ComparePanelState {
 void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings& settings,
                   Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

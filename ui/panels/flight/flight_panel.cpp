@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -293,4 +293,4 @@ void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& 
     if (section("Recorded flights")) flightList(view, state, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

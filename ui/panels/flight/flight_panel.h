@@ -9,7 +9,7 @@
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct FlightPanelState {
     std::array<char, 64> name{};  // of the next recording
@@ -26,4 +26,4 @@ std::string replayStatus(const ReplayNow& replay);
 // the same time where there is none.
 double nextTickS(std::span<const FlightTick> ticks, double timeS, bool forward);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 
+#include "app/base/text.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -210,4 +210,4 @@ void allocationTable(const AllocationsView& view, double timeS, Commands& comman
     drawTable(view);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

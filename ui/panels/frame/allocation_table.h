@@ -10,7 +10,7 @@
 #include "ui/model/commands.h"
 #include "ui/model/table_order.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct AllocationRow {
     const char* name;
@@ -36,4 +36,4 @@ float allocationTableWidth();
 // Fills the current column.
 void allocationTable(const AllocationsView& view, double timeS, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,16 +7,16 @@
 #include <array>
 #include <vector>
 
+#include "app/base/glossary.h"
+#include "app/base/text.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/glossary.h"
 #include "ui/model/history.h"
-#include "ui/model/text.h"
 #include "ui/panels/frame/allocation_table.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -202,4 +202,4 @@ void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
     drawColumns("frame", columns);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/base/text.h"
 #include "ui/kit/feature_knob.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -73,4 +73,4 @@ void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& comman
     endGrey();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

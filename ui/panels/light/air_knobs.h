@@ -3,9 +3,9 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // A section's inside.
 void airKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 #include "ui/panels/light/normal_knobs.h"
 #include "ui/panels/light/sun_knobs.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -74,4 +74,4 @@ void lightPanel(const EditorView& view, ViewSettings& settings, Commands& comman
     if (section("Shadows")) shadowKnobs(view, surface, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

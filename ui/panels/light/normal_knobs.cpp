@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/base/text.h"
 #include "planet/paging/normal_tile.h"
 #include "planet/planet_tools.h"
 #include "ui/kit/feature_knob.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -89,4 +89,4 @@ void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& comma
         whyNone(view);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

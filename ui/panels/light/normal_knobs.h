@@ -3,9 +3,9 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // A section's inside.
 void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "app/base/text.h"
+#include "app/settings/sun_overhead.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/sun_overhead.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -123,4 +123,4 @@ void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
     endValues();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -3,9 +3,9 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Fills the inside of a section.
 void sunKnobs(const EditorView& view, SurfaceSettings& surface);
 
-}  // namespace ui
+}  // namespace worldy::ui

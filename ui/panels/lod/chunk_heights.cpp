@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "ui/model/overlay_colours.h"
-#include "ui/model/text.h"
+#include "app/base/text.h"
+#include "app/scene/overlay_colours.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::string chunkIdProblem(const std::string& text, int leafLevel) {
     return {};
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "planet/tree/chunk_tree.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Square, row 0 in the north; colours as ImGui packs them, red in the lowest byte.
 struct ChunkPicture {
@@ -31,4 +31,4 @@ std::string middlePlaceText(const planet::ChunkId& id);
 // What is wrong with a typed id and what would be right; empty if it names a chunk that a planet can have.
 std::string chunkIdProblem(const std::string& text, int leafLevel);
 
-}  // namespace ui
+}  // namespace worldy::ui

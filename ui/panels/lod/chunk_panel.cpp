@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/glossary.h"
+#include "app/base/text.h"
+#include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/explanation_text.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/glossary.h"
-#include "ui/model/overlay_colours.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -400,4 +400,4 @@ void chunkPanel(const EditorView& view, ChunkPanelState& state, ViewSettings&, C
     }
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/panels/lod/chunk_heights.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ChunkPanelState {
     std::array<char, 40> idText{};         // being typed
@@ -22,4 +22,4 @@ struct ChunkPanelState {
 // Fills the current window.
 void chunkPanel(const EditorView& view, ChunkPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "app/base/glossary.h"
+#include "app/base/text.h"
+#include "app/scene/overlay_colours.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/glossary.h"
 #include "ui/model/history.h"
-#include "ui/model/overlay_colours.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -298,4 +298,4 @@ void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands
     if (section("Level changes")) changes(view, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,14 +6,14 @@
 #include <array>
 #include <string>
 
+#include "app/base/glossary.h"
+#include "app/base/text.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/glossary.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -133,4 +133,4 @@ void overlayPanel(const EditorView& view, ViewSettings& settings, Commands&) {
         ImGui::TextDisabled("No planet is open.");
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,12 +6,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/scene/overlay_colours.h"
 #include "planet/planet_tools.h"
 #include "planet/select/screen_error.h"
 #include "ui/model/explanation_text.h"
-#include "ui/model/overlay_colours.h"
 
-namespace ui {
+namespace worldy::ui {
 
 using planet::ChunkId;
 using planet::ChunkNode;
@@ -529,4 +529,4 @@ void openWayTo(const ChunkId& id, OpenChunks& open) {
     }
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

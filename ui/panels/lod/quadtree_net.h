@@ -21,7 +21,7 @@
 #include "ui/model/layout.h"
 #include "ui/model/table_order.h"
 
-namespace ui {
+namespace worldy::ui {
 
 inline constexpr int netColumns = 4;
 inline constexpr int netRows = 3;
@@ -151,4 +151,4 @@ std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open,
 // So that a row shows it.
 void openWayTo(const planet::ChunkId& id, OpenChunks& open);
 
-}  // namespace ui
+}  // namespace worldy::ui

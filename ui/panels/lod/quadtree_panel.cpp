@@ -8,16 +8,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/base/text.h"
+#include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/explanation_text.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/overlay_colours.h"
-#include "ui/model/text.h"
+#include "ui/model/overlay_legend.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -370,4 +371,4 @@ void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettin
     treeList(view, data, listSize, state, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/panels/lod/quadtree_net.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct QuadtreePanelState {
     int colourBy = 0;                         // NetColour: state, level, eps / tau, delta_c, age, tight
@@ -24,4 +24,4 @@ struct QuadtreePanelState {
 void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettings& settings,
                    Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

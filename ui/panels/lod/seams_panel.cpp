@@ -8,15 +8,15 @@
 #include <tuple>
 #include <vector>
 
+#include "app/base/text.h"
 #include "planet/base/percentile.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -153,4 +153,4 @@ void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& comman
     seamTable(view, selection.seams, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

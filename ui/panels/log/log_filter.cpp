@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -46,4 +46,4 @@ const char* levelName(LogLevel level) {
     return names[static_cast<std::size_t>(level)];
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

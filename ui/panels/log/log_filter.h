@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "ui/model/log_lines.h"
+#include "app/base/log_lines.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Returns true if text contains part, ignoring the case of ASCII letters. Every text contains the empty one.
 bool holds(std::string_view text, std::string_view part);
@@ -26,4 +26,4 @@ std::string linesText(const std::deque<LogLine>& lines, std::span<const std::siz
 
 const char* levelName(LogLevel level);
 
-}  // namespace ui
+}  // namespace worldy::ui

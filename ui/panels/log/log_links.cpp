@@ -1,6 +1,6 @@
 #include "ui/panels/log/log_links.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::optional<std::filesystem::path> fileNamedIn(std::string_view text) {
     return std::nullopt;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

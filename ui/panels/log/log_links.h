@@ -7,7 +7,7 @@
 
 #include "planet/sphere/chunk_id.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // The first chunk that a text names, "z_pos/3/1/2". Pure.
 std::optional<planet::ChunkId> chunkNamedIn(std::string_view text);
@@ -18,4 +18,4 @@ std::optional<planet::ChunkId> colourTileNamedIn(std::string_view text);
 // system.
 std::optional<std::filesystem::path> fileNamedIn(std::string_view text);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -13,7 +13,7 @@
 #include "ui/panels/log/log_filter.h"
 #include "ui/panels/log/log_links.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -165,4 +165,4 @@ void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& 
     ImGui::EndChild();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/base/log_lines.h"
 #include "ui/model/commands.h"
-#include "ui/model/log_lines.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct LogPanelState {
     std::array<char, 128> filter{};  // shows only lines that hold this; case does not matter
@@ -32,4 +32,4 @@ struct LogPanelState {
 // Fills the current window.
 void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

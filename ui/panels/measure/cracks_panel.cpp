@@ -7,15 +7,15 @@
 #include <array>
 #include <cmath>
 
+#include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -244,4 +244,4 @@ void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settin
     endGrey();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,10 +4,10 @@
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct CracksPanelState {};
 
 void cracksPanel(const EditorView& view, CracksPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

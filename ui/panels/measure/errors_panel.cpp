@@ -8,6 +8,9 @@
 #include <cmath>
 #include <optional>
 
+#include "app/base/glossary.h"
+#include "app/base/plot_scale.h"
+#include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/inspection.h"
@@ -16,11 +19,8 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/glossary.h"
-#include "ui/model/plot_scale.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -325,4 +325,4 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
     drawColumns("errors", columns);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,7 +4,7 @@
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ErrorsPanelState {
     bool logarithmic = true;  // the scatter's axes
@@ -12,4 +12,4 @@ struct ErrorsPanelState {
 
 void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,6 +7,8 @@
 #include <array>
 #include <numeric>
 
+#include "app/base/plot_scale.h"
+#include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/item_map.h"
@@ -14,10 +16,8 @@
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/plot_scale.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -310,4 +310,4 @@ void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings&, Com
     drawColumns("pops", columns);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

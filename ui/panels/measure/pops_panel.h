@@ -8,7 +8,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/panels/measure/pops_timeline.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct PopsPanelState {
     PopTimelineState timeline;
@@ -28,4 +28,4 @@ struct PopsPanelState {
 
 void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <vector>
 
+#include "app/base/plot_scale.h"
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/plot_scale.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -200,4 +200,4 @@ std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
     return clicked && event ? std::optional(keyOf(*event)) : std::nullopt;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -10,7 +10,7 @@
 
 #include "planet/measure/pop_meter.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Names an event; the meter keeps no two alike.
 struct PopKey {
@@ -40,4 +40,4 @@ std::string popPxText(double px);  // "under 0.001 px", "0.004 px", "1.3 px"
 std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
                                   const std::optional<PopKey>& selected, PopTimelineState& state);
 
-}  // namespace ui
+}  // namespace worldy::ui

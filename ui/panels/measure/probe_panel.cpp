@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -110,4 +110,4 @@ void probePanel(const EditorView& view, ProbePanelState&, ViewSettings&, Command
                                                : "Click a chunk in the viewport to select it.");
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,10 +4,10 @@
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct ProbePanelState {};
 
 void probePanel(const EditorView& view, ProbePanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -15,7 +15,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/model/paging_text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -90,4 +90,4 @@ void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>&
     ImGui::EndTable();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,7 +8,7 @@
 #include "planet/planet.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Those that have failed for good first, then those that are tried again, the soonest first.
 void sortFailed(std::vector<planet::FailedBlock>& blocks);
@@ -19,4 +19,4 @@ std::string retryText(const std::optional<double>& retryInS);
 // Fills the room there is. blocks: as sortFailed leaves them, of heights and tiles alike.
 void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <span>
 
+#include "app/base/plot_scale.h"
+#include "app/base/text.h"
 #include "planet/base/percentile.h"
 #include "planet/paging/normal_tile.h"
 #include "planet/planet_tools.h"
@@ -22,11 +24,9 @@
 #include "ui/model/font_symbols.h"
 #include "ui/model/history.h"
 #include "ui/model/paging_text.h"
-#include "ui/model/plot_scale.h"
-#include "ui/model/text.h"
 #include "ui/panels/paging/failed_blocks.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -784,4 +784,4 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     if (!wide && section("I/O fault injection")) badDisk(settings.paging);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // A pending request, as the table shows it.
 struct PagingRow {
@@ -56,4 +56,4 @@ struct PagingPanelState {
 // Fills the current window: columns side by side where it is wide, one below the other where it is narrow.
 void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

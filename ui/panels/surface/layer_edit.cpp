@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -57,4 +57,4 @@ std::size_t removeLayer(LayerList& layers, std::size_t index) {
     return layers.empty() ? 0 : std::min(index, layers.size() - 1);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

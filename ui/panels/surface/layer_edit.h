@@ -6,7 +6,7 @@
 
 #include "planet/surface/layer_set.h"
 
-namespace ui {
+namespace worldy::ui {
 
 using LayerList = std::vector<planet::TextureLayer>;
 
@@ -22,4 +22,4 @@ std::size_t addLayer(LayerList& layers);
 // Removes a layer. Returns which is chosen then, where that one was; 0 where none is left.
 std::size_t removeLayer(LayerList& layers, std::size_t index);
 
-}  // namespace ui
+}  // namespace worldy::ui

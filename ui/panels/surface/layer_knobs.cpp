@@ -12,7 +12,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -131,4 +131,4 @@ void layerKnobs(TextureLayer& layer, const std::string& problem, Commands& comma
     textures(layer, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

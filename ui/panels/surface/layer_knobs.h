@@ -3,9 +3,9 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // problem: what is wrong with it; empty: nothing.
 void layerKnobs(planet::TextureLayer& layer, const std::string& problem, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

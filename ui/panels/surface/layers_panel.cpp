@@ -13,7 +13,7 @@
 #include "ui/panels/surface/layer_edit.h"
 #include "ui/panels/surface/layer_knobs.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -274,4 +274,4 @@ void layersSections(const EditorView& view, LayersPanelState& state, SurfaceSett
     ImGui::PopID();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct LayersPanelState {
     std::size_t chosen = 0;          // of the layers; the last one where there are fewer
@@ -20,4 +20,4 @@ struct LayersPanelState {
 void layersSections(const EditorView& view, LayersPanelState& state, SurfaceSettings& surface,
                     Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

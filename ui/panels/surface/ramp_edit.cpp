@@ -5,7 +5,7 @@
 #include <cassert>
 #include <glm/common.hpp>
 
-namespace ui {
+namespace worldy::ui {
 
 using planet::gl::RampStop;
 
@@ -89,4 +89,4 @@ Ramp hypsometricRamp(double lowestM, double highestM) {
     return ramp;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

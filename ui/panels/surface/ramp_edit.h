@@ -9,7 +9,7 @@
 
 #include "planet/gl/draw/render_settings.h"
 
-namespace ui {
+namespace worldy::ui {
 
 using Ramp = std::vector<planet::gl::RampStop>;
 
@@ -35,4 +35,4 @@ Ramp greyRamp(double lowestM, double highestM);
 // planet's heights. lowestM <= highestM.
 Ramp hypsometricRamp(double lowestM, double highestM);
 
-}  // namespace ui
+}  // namespace worldy::ui

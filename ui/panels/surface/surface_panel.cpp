@@ -10,13 +10,13 @@
 #include <optional>
 #include <span>
 
+#include "app/base/text.h"
 #include "planet/surface/colour_clipmap.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
-#include "ui/model/text.h"
 #include "ui/panels/surface/ramp_edit.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -276,4 +276,4 @@ void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings
     layersSections(view, state.layers, surface, commands);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

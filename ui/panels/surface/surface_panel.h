@@ -4,7 +4,7 @@
 #include "ui/model/editor_view.h"
 #include "ui/panels/surface/layers_panel.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct SurfacePanelState {
     int selectedStop = -1;  // of the ramp; -1: none
@@ -15,4 +15,4 @@ struct SurfacePanelState {
 void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings& settings,
                   Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,15 +7,15 @@
 #include <cmath>
 #include <vector>
 
+#include "app/base/plot_scale.h"
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/plot_scale.h"
-#include "ui/model/text.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -228,4 +228,4 @@ std::optional<std::size_t> sweepChart(std::span<const SweepPoint> points, SweepC
     return std::nullopt;
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "ui/model/sweep_points.h"
+#include "app/measure/sweep_points.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Of a series of seriesOf(points).
 ImVec4 sweepColour(std::size_t series);
@@ -20,4 +20,4 @@ void sweepMark(ImVec2 middle, const ImVec4& colour, bool onFront);
 std::optional<std::size_t> sweepChart(std::span<const SweepPoint> points, SweepCost cost,
                                       std::optional<std::size_t> selected);
 
-}  // namespace ui
+}  // namespace worldy::ui

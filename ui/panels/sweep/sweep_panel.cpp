@@ -8,16 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "app/base/text.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
-#include "ui/model/text.h"
 #include "ui/panels/sweep/sweep_chart.h"
 #include "ui/panels/sweep/sweep_table.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -425,4 +425,4 @@ void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& se
     drawColumns("sweep", columns);
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -9,7 +9,7 @@
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 
 struct SweepPanelState {
     std::string flight;  // a file; empty: the first that there is
@@ -28,4 +28,4 @@ struct SweepPanelState {
 
 void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& settings, Commands& commands);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,13 +7,13 @@
 #include <array>
 #include <vector>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
-#include "ui/model/text.h"
 #include "ui/panels/sweep/sweep_chart.h"
 
-namespace ui {
+namespace worldy::ui {
 
 namespace {
 
@@ -109,4 +109,4 @@ void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& 
     ImGui::EndTable();
 }
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -4,11 +4,11 @@
 #include <optional>
 #include <span>
 
-#include "ui/model/sweep_points.h"
+#include "app/measure/sweep_points.h"
 
-namespace ui {
+namespace worldy::ui {
 
 // Fills what room there is. A click on a row selects its point.
 void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected);
 
-}  // namespace ui
+}  // namespace worldy::ui

@@ -10,7 +10,7 @@
 #include "tests/support/panel_fixture.h"
 #include "ui/shell/panels.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using ::testing::HasSubstr;
@@ -201,4 +201,4 @@ TEST_F(BakePanelSource, ASourceThatIsNotThereCannotBeBaked) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -9,7 +9,7 @@
 #include "tests/support/planet_fixture.h"
 #include "ui/model/editor_view.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using testing::HasSubstr;
@@ -73,4 +73,4 @@ TEST(FlightPanel, aRecordingIsSelectedOnceAndAgainUnderTheNameItIsSavedBy) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 
 #include "tests/support/fake_pyramid.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using planet::ChunkId;
@@ -87,4 +87,4 @@ TEST(ChunkHeights, AWrongIdIsToldWhatWouldBeRight) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -14,7 +14,7 @@
 #include "tests/support/planet_fixture.h"
 #include "ui/shell/viewport_overlay.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 class ChunkPanel : public testing::Test {
@@ -119,4 +119,4 @@ TEST_F(ChunkPanel, BadgesTellWhatChangesHowThePictureIsRead) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
+#include "app/scene/overlay_colours.h"
 #include "tests/support/fake_pyramid.h"
 #include "tests/support/sudden_lod.h"
-#include "ui/model/overlay_colours.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using planet::ChunkId;
@@ -407,4 +407,4 @@ TEST(QuadtreeNet, ErrorsAreThoseOfTheSelection) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -13,7 +13,7 @@
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 class QuadtreePanel : public testing::Test {
@@ -169,4 +169,4 @@ TEST_F(QuadtreePanel, SquaresStayWithinTheNetsArea) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using testing::ElementsAre;
@@ -38,4 +38,4 @@ TEST(LogFilter, copiedLinesSayTimeAndLevel) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

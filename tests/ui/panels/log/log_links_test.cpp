@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 TEST(LogLinks, aChunkIsFoundWhereverItStands) {
@@ -56,4 +56,4 @@ TEST(LogLinks, aFileThatIsNotThereIsNoLink) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -7,7 +7,7 @@
 #include "tests/support/planet_fixture.h"
 #include "ui/shell/panels.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 class CracksPanel : public testing::Test {
@@ -112,4 +112,4 @@ TEST_F(CracksPanel, findSmallestSkirtsSaysWhyItIsGrey) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

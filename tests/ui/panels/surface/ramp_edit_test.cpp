@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using planet::gl::RampStop;
@@ -92,4 +92,4 @@ TEST(RampEdit, theHypsometricRampHasItsShoreAtZero) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ui/model/plot_scale.h"
-#include "ui/model/sweep_points.h"
+#include "app/base/plot_scale.h"
+#include "app/measure/sweep_points.h"
 
-namespace ui {
+namespace worldy::ui {
 namespace {
 
 using planet::ErrorMetric;
@@ -83,4 +83,4 @@ TEST(LogAxis, GoesFromRoundNumberToRoundNumber) {
 }
 
 }  // namespace
-}  // namespace ui
+}  // namespace worldy::ui

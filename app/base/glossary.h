@@ -1,0 +1,48 @@
+// The terms for what Worldy counts and measures: one name for one thing, the same in the window, in JSON and
+// in CSV. app/README.md holds the same table. Before a key, "worst_" and "p99_" stand for the largest value and
+// the 99th percentile over all drawn chunks, "mean_" and "most_" for the mean and the largest value over the
+// sample frames of a flight.
+#pragma once
+
+#include <array>
+
+namespace worldy {
+
+struct Term {
+    const char* key;      // in JSON and CSV
+    const char* name;     // in the window
+    const char* meaning;  // one or two full sentences
+};
+
+namespace terms {
+
+inline constexpr Term drawnChunks{"drawn_chunks", "Drawn chunks",
+                                  "Number of chunks drawn for the LOD view. Excludes the observer."};
+inline constexpr Term groundTriangles{
+    "ground_triangles", "Ground triangles",
+    "Triangles of the chunks drawn for the LOD view. Excludes skirts and the observer."};
+inline constexpr Term skirtTriangles{"skirt_triangles", "Skirt triangles",
+                                     "Triangles of the skirts of the same chunks; 0 without skirts."};
+inline constexpr Term triangles{"triangles", "Triangles", "The sum of ground triangles and skirt triangles."};
+inline constexpr Term epsPx{"eps_px", "Screen-space error \u03b5",
+                            "Predicted error of a chunk's own surface, \u03b4c K' / D, pixels. Compared with "
+                            "\u03c4. Excludes morph."};
+inline constexpr Term drawnBoundPx{
+    "drawn_bound_px", "Drawn bound",
+    "Bound of the error of what is drawn, pixels: the chunk's own \u03b5 and its parent's, weighted by the "
+    "morph, including edge morphs. Without morph and stitched edges it is \u03b5."};
+inline constexpr Term measuredPx{"measured_px", "Measured error",
+                                 "Largest distance between a finest sample and the drawn surface at the same "
+                                 "place, pixels, as if the view faced "
+                                 "it. Never exceeds the drawn bound."};
+inline constexpr Term screenPx{"screen_px", "Measured screen-space error",
+                               "The same distance in the projected image, pixels, for samples inside it; "
+                               "larger towards the corners."};
+
+}  // namespace terms
+
+inline constexpr std::array glossary = {terms::drawnChunks, terms::groundTriangles, terms::skirtTriangles,
+                                        terms::triangles,   terms::epsPx,           terms::drawnBoundPx,
+                                        terms::measuredPx,  terms::screenPx};
+
+}  // namespace worldy

@@ -1,0 +1,34 @@
+#include "app/data/own_colour.h"
+
+#include "planet/source/terrain.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The file that detail is added to; of other sources themselves.
+fs::path fileUnder(const fs::path& source) {
+    if (!planet::isTerrainText(source)) return source;
+    const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
+    return terrain && !terrain->of.empty() ? fileUnder(terrain->of) : fs::path();
+}
+
+}  // namespace
+
+fs::path colourImageBeside(const fs::path& file) {
+    std::error_code status;
+    for (const char* name : {"colour.jpg", "colour.png"}) {
+        const fs::path image = file.parent_path() / name;
+        if (fs::is_regular_file(image, status)) return image;
+    }
+    return {};
+}
+
+fs::path ownColourImage(const fs::path& source) {
+    const fs::path file = fileUnder(source);
+    return file.empty() ? fs::path() : colourImageBeside(file);
+}
+
+}  // namespace worldy

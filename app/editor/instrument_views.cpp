@@ -1,0 +1,48 @@
+#include "app/editor/instrument_views.h"
+
+namespace worldy {
+
+ui::CracksView cracksViewOf(const CrackInstrument& instrument, const Scene& scene, const planet::View& view,
+                            const ViewSettings& settings) {
+    ui::CracksView shown;
+    if (!instrument.measured) return shown;
+    shown.measured = &*instrument.measured;
+    shown.current = isCurrent(instrument, scene, view, settings);
+    if (instrument.smallest) shown.smallest = &*instrument.smallest;
+    return shown;
+}
+
+ui::ErrorsView errorsViewOf(const ErrorMeter& meter, std::uint64_t frame) {
+    ui::ErrorsView view;
+    view.last = meter.last ? &*meter.last : nullptr;
+    view.current = meter.current;
+    view.frame = frame;
+    view.running = meter.job != nullptr || meter.wanted;
+    view.progress = meter.job ? meter.job->progress() : 0;
+    view.keepMeasuring = meter.keepMeasuring;
+    view.problem = meter.problem;
+    return view;
+}
+
+ui::PopsView popsViewOf(const Pops& pops) {
+    return {.meter = &pops.meter,
+            .measuring = pops.measuring,
+            .shown = pops.shown ? &*pops.shown : nullptr,
+            .side = pops.side,
+            .problem = pops.problem};
+}
+
+ui::SourcePreview previewViewOf(const PreviewDesk& desk) {
+    ui::SourcePreview view;
+    view.working = desk.job || desk.next;
+    view.problem = desk.problem;
+    if (!desk.shown) return view;
+    view.texture = reinterpret_cast<void*>(static_cast<std::intptr_t>(desk.texture.name()));
+    view.shown = desk.shown->request;
+    view.lowM = desk.shown->lowM;
+    view.highM = desk.shown->highM;
+    view.seconds = desk.shown->seconds;
+    return view;
+}
+
+}  // namespace worldy

@@ -1,0 +1,20 @@
+// Makes the panels' state of the instruments. Pointers in it hold until the instrument changes.
+#pragma once
+
+#include <cstdint>
+
+#include "app/data/source_preview.h"
+#include "app/measure/cracks.h"
+#include "app/measure/error_job.h"
+#include "app/measure/pops.h"
+#include "ui/model/editor_view.h"
+
+namespace worldy {
+
+ui::CracksView cracksViewOf(const CrackInstrument& instrument, const Scene& scene, const planet::View& view,
+                            const ViewSettings& settings);
+ui::ErrorsView errorsViewOf(const ErrorMeter& meter, std::uint64_t frame);
+ui::PopsView popsViewOf(const Pops& pops);
+ui::SourcePreview previewViewOf(const PreviewDesk& desk);
+
+}  // namespace worldy

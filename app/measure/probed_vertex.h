@@ -1,0 +1,23 @@
+// The result of the precision probe.
+#pragma once
+
+#include "planet/measure/precision_probe.h"
+
+namespace worldy {
+
+// Holds the smallest distance of two surfaces that the depth buffer can separate, in metres. A value is infinity
+// where the buffer cannot separate any.
+struct DepthSteps {
+    double aheadM = 0;  // distance along the view direction
+    double reversedFloatM = 0;
+    double fallbackM = 0;  // non-reversed Z, with the near plane chosen by the height above the ground
+    bool reversedInUse = true;
+};
+
+// Holds the precision of one vertex and of the depth buffer there.
+struct ProbedVertex {
+    planet::VertexPrecision precision;
+    DepthSteps depth;
+};
+
+}  // namespace worldy

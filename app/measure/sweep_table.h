@@ -1,0 +1,45 @@
+// The results and the progress of a sweep.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/measure/sweep_points.h"
+#include "planet/bake/bake.h"
+
+namespace worldy {
+
+// Holds the points of the last sweep, or of the one that is running.
+struct SweepTable {
+    SweepRequest request;
+    std::string flight;              // name of the flight
+    std::filesystem::path source;    // the opened source
+    std::vector<SweepPoint> points;  // in order of completion; onFront is not set
+    bool whole = false;              // true once every requested point is there
+};
+
+// Holds the suggested tau for one chunk size and metric.
+struct SweepSuggestion {
+    int chunkSize = 33;
+    planet::ErrorMetric metric = planet::ErrorMetric::Additive;
+    TauGoal goal;
+    TauSuggestion found;
+};
+
+// Tells how far a running sweep or search has come.
+struct SweepProgress {
+    std::size_t flown = 0;    // completed flights
+    std::size_t flights = 0;  // planned flights; for a suggestion the upper limit
+    int frame = 0;            // completed sample frames of the current flight
+    int frames = 1;
+    int chunkSize = 33;  // current chunk size
+    planet::ErrorMetric metric = planet::ErrorMetric::Additive;
+    double tauPx = 0;                          // 0 before the first flight
+    std::optional<planet::BakeProgress> bake;  // set while a bake is running
+    std::optional<double> leftS;               // estimate in seconds; empty before the first sample frame is done
+};
+
+}  // namespace worldy

@@ -1,0 +1,32 @@
+// The measured true error of the chunks that one frame drew.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "planet/measure/true_error.h"
+#include "planet/select/lod_select.h"
+
+namespace worldy {
+
+// Holds one measurement and the frame that it belongs to.
+struct ErrorMeasurement {
+    planet::TrueErrorReport report;
+    std::unordered_map<planet::ChunkId, std::size_t> indexOf;  // in the report's chunks
+    std::vector<std::size_t> worstFirst;                       // violations, then by facing pixels
+    std::uint64_t frame = 0;                                   // since the window opened
+    double atS = 0;                                            // seconds since the window opened
+    planet::View lodView;                                      // the view that chose the measured chunks
+    double tauPx = 2;
+    planet::ErrorMetric metric = planet::ErrorMetric::Additive;
+    bool stitched = false;
+    double exaggeration = 1;
+    std::vector<planet::DrawItem> drawn;
+    double tookS = 0;
+};
+
+// Fills in the index and the order of a report.
+ErrorMeasurement measurementOf(planet::TrueErrorReport&& report);
+
+}  // namespace worldy

@@ -1,0 +1,145 @@
+#include "app/scene/overlay_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+
+namespace worldy {
+
+namespace {
+
+// Neighbouring levels are far apart in hue; after twelve the series begins again, lighter.
+constexpr std::array<std::uint32_t, 12> hues = {0x3D6BE0, 0xFF9A1F, 0x1FA34A, 0xE0332B, 0x9B3FD1, 0xF2D024,
+                                                0x12A5C9, 0xE64C93, 0x7CC21A, 0x95602E, 0x1BB89A, 0x6A6F7A};
+
+// Even in lightness, and told apart by people who do not see red and green: from viridis, its violet end
+// bluer.
+constexpr std::array<std::uint32_t, 6> rampColours = {0x1B1F6B, 0x30508F, 0x21898C,
+                                                      0x3DBB75, 0xA6DB3A, 0xFDF3A0};
+
+// In the order of planet::ChunkState.
+constexpr std::array<std::uint32_t, 10> stateColours = {0x3FB65F, 0x246B43, 0x5C6B80, 0x75609A, 0x3478BD,
+                                                        0xEDC238, 0xFA8522, 0x80858C, 0xE03A32, 0x4A4D52};
+
+glm::vec3 fromHex(std::uint32_t hex) {
+    const auto channel = [&](int shift) { return static_cast<float>((hex >> shift) & 0xFFu) / 255.0f; };
+    return {channel(16), channel(8), channel(0)};
+}
+
+std::uint8_t byteOf(double value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
+}
+
+// Of a planet's drawn chunks; 1 where none has been loaded since the roots.
+double newestLoad(const planet::ChunkTree& tree, const planet::Selection& selection) {
+    std::uint32_t newest = 1;
+    for (const planet::DrawItem& item : selection.draw) {
+        if (item.node < tree.nodes.size()) newest = std::max(newest, tree.nodes[item.node].loadOrder);
+    }
+    return newest;
+}
+
+struct TintScale {
+    const OverlaySettings& overlay;
+    double tauPx;
+    double nowS;
+    double newestLoad;
+    const ErrorMeasurement* measured;
+};
+
+glm::vec3 measuredColour(const planet::ChunkId& id, const TintScale& scale) {
+    if (!scale.measured) return unmeasuredColour;
+    const auto found = scale.measured->indexOf.find(id);
+    if (found == scale.measured->indexOf.end()) return unmeasuredColour;
+    const double px = scale.measured->report.chunks[found->second].facingPx;
+    return errorColour(px / (scale.measured->tauPx * scale.overlay.errorScale));
+}
+
+glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, const TintScale& scale) {
+    switch (scale.overlay.colourBy) {
+        case ColourBy::Level:
+            return levelColour(item.id.level);
+        case ColourBy::Error:
+            return errorColour(static_cast<double>(item.epsPx) / (scale.tauPx * scale.overlay.errorScale));
+        case ColourBy::DeltaC:
+            return rampColour(deltaShare(static_cast<double>(item.deltaCM), scale.overlay.deltaTopM));
+        case ColourBy::Morph:
+            return rampColour(static_cast<double>(item.morph));
+        case ColourBy::Age:
+            return rampColour(ageShare(scale.nowS - node.loadedAtS, scale.overlay.ageTopS));
+        case ColourBy::LoadOrder:
+            return rampColour(node.loadOrder / scale.newestLoad);
+        case ColourBy::Measured:
+            return measuredColour(item.id, scale);
+        case ColourBy::None:
+            break;
+    }
+    return {0, 0, 0};
+}
+
+}  // namespace
+
+std::uint32_t packedColour(const glm::vec3& colour) {
+    const auto channel = [](float value) {
+        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
+    };
+    return 0xFF000000u | (channel(colour.z) << 16) | (channel(colour.y) << 8) | channel(colour.x);
+}
+
+glm::vec3 levelColour(int level) {
+    const auto index = static_cast<std::size_t>(std::max(level, 0));
+    const glm::vec3 colour = fromHex(hues[index % hues.size()]);
+    return index < hues.size() ? colour : glm::mix(colour, glm::vec3(1), 0.45f);
+}
+
+glm::vec3 errorColour(double epsOverTau) {
+    const glm::vec3 green(0.16f, 0.66f, 0.26f);
+    const glm::vec3 yellow(0.97f, 0.83f, 0.15f);
+    const glm::vec3 red(0.86f, 0.14f, 0.12f);
+    const auto t = static_cast<float>(std::clamp(epsOverTau, 0.0, 2.0));
+    return t < 1 ? glm::mix(green, yellow, t) : glm::mix(yellow, red, t - 1);
+}
+
+glm::vec3 rampColour(double share) {
+    const double along = std::clamp(share, 0.0, 1.0) * (rampColours.size() - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(along), rampColours.size() - 2);
+    return glm::mix(fromHex(rampColours[below]), fromHex(rampColours[below + 1]),
+                    static_cast<float>(along - static_cast<double>(below)));
+}
+
+glm::vec3 stateColour(planet::ChunkState state) {
+    return fromHex(stateColours[static_cast<std::size_t>(state)]);
+}
+
+double deltaShare(double deltaCM, double topM) {
+    if (!(deltaCM > 0)) return 0;
+    return std::clamp(1 + std::log10(deltaCM / topM) / deltaDecades, 0.0, 1.0);
+}
+
+double ageShare(double ageS, double topS) {
+    return std::clamp(1 - ageS / topS, 0.0, 1.0);
+}
+
+std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
+                                              const planet::Selection& selection,
+                                              const OverlaySettings& overlay, double tauPx,
+                                              const ErrorMeasurement* measured) {
+    if (overlay.colourBy == ColourBy::None) return {};
+    const planet::ChunkTree& tree = planet.tree();
+    const TintScale scale{overlay, tauPx, planet.lastStep().nowS, newestLoad(tree, selection), measured};
+    const std::uint8_t strength = byteOf(overlay.opacity);
+    std::vector<planet::gl::ChunkTint> tints;
+    tints.reserve(selection.draw.size());
+    const planet::ChunkNode unknown;
+    for (const planet::DrawItem& item : selection.draw) {
+        const auto& node = item.node < tree.nodes.size() ? tree.nodes[item.node] : unknown;
+        const glm::vec3 colour = tintOf(item, node, scale);
+        tints.push_back({{byteOf(static_cast<double>(colour.x)), byteOf(static_cast<double>(colour.y)),
+                          byteOf(static_cast<double>(colour.z)), strength}});
+    }
+    return tints;
+}
+
+}  // namespace worldy

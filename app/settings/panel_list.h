@@ -1,0 +1,68 @@
+// The panels that there are, and where they stand at first.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace worldy {
+
+enum class PanelId : std::uint8_t {
+    Lod,
+    Seams,
+    Overlay,
+    Surface,
+    Camera,
+    Presets,
+    Quadtree,
+    Chunk,
+    Paging,
+    Frame,
+    Bake,
+    Log,
+    Errors,
+    Cracks,
+    Pops,
+    Probe,
+    Flight,
+    Compare,
+    Sweep,
+    Light
+};
+inline constexpr std::size_t panelCount = 20;
+
+enum class Dock : std::uint8_t { Left, Right, Bottom };
+inline constexpr std::size_t dockCount = 3;
+
+struct PanelInfo {
+    PanelId id;
+    const char* title;
+    std::string_view key;  // in the settings file and for --panels
+    const char* shortcut;  // "Ctrl+1"
+    Dock dock;             // where it stands at first
+    bool shown;            // at first
+};
+inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
+    {PanelId::Lod, "LOD", "lod", "Ctrl+1", Dock::Right, true},
+    {PanelId::Seams, "Seams", "seams", "Ctrl+6", Dock::Right, true},
+    {PanelId::Overlay, "Overlay", "overlay", "Ctrl+4", Dock::Right, true},
+    {PanelId::Surface, "Surface", "surface", "Ctrl+7", Dock::Right, true},
+    {PanelId::Camera, "Camera", "camera", "Ctrl+0", Dock::Right, true},
+    {PanelId::Presets, "Presets", "presets", "Ctrl+P", Dock::Right, false},
+    {PanelId::Quadtree, "Quadtree", "quadtree", "Ctrl+2", Dock::Left, true},
+    {PanelId::Chunk, "Chunk", "chunk", "Ctrl+5", Dock::Left, true},
+    {PanelId::Paging, "Paging", "paging", "Ctrl+3", Dock::Bottom, true},
+    {PanelId::Frame, "Frame", "frame", "Ctrl+9", Dock::Bottom, true},
+    {PanelId::Bake, "Bake", "bake", "Ctrl+8", Dock::Left, true},
+    {PanelId::Log, "Log", "log", "Ctrl+L", Dock::Bottom, true},
+    {PanelId::Errors, "True error", "errors", "Ctrl+Shift+1", Dock::Left, false},
+    {PanelId::Cracks, "Cracks", "cracks", "Ctrl+Shift+2", Dock::Left, false},
+    {PanelId::Pops, "Pops", "pops", "Ctrl+Shift+3", Dock::Bottom, false},
+    {PanelId::Probe, "Precision", "probe", "Ctrl+Shift+4", Dock::Left, false},
+    {PanelId::Flight, "Flight", "flight", "Ctrl+Shift+5", Dock::Bottom, false},
+    {PanelId::Compare, "Compare", "compare", "Ctrl+Shift+6", Dock::Left, false},
+    {PanelId::Sweep, "Sweep", "sweep", "Ctrl+Shift+7", Dock::Bottom, false},
+    {PanelId::Light, "Light", "light", "Ctrl+Shift+8", Dock::Right, true},
+}};
+
+}  // namespace worldy

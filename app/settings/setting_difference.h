@@ -1,0 +1,15 @@
+// Where two sets of settings differ, as text.
+#pragma once
+
+#include <string>
+
+namespace worldy {
+
+struct SettingDifference {
+    std::string setting;  // "lod.tau_px"
+    std::string here;
+    std::string there;
+    std::string label{};  // as the panel's control: "Tolerance τ"
+};
+
+}  // namespace worldy

@@ -1,0 +1,42 @@
+// The arrangement of the window that is kept between sessions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "app/settings/panel_list.h"
+
+namespace worldy {
+
+// Tells where a panel is docked, and whether it is shown.
+struct PanelPlace {
+    Dock dock = Dock::Right;
+    bool shown = true;
+
+    bool operator==(const PanelPlace&) const = default;
+};
+constexpr std::array<PanelPlace, panelCount> firstPlaces() {
+    std::array<PanelPlace, panelCount> places{};
+    for (const PanelInfo& info : panelInfos)
+        places[static_cast<std::size_t>(info.id)] = {info.dock, info.shown};
+    return places;
+}
+
+enum class Theme : std::uint8_t { Dark, Light };
+
+// Holds the arrangement of the window. It is kept between runs. Sizes are in units of a 13 px font, so that they fit
+// any monitor.
+struct Workspace {
+    double leftWidth = 300;     // [160, 1000]
+    double rightWidth = 310;    // [160, 1000]
+    double bottomHeight = 210;  // [60, 1000]
+    std::array<PanelPlace, panelCount> panels = firstPlaces();
+    // The panel that each dock shows; ignored if that panel is not docked there.
+    std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging};
+    Theme theme = Theme::Dark;
+    double scale = 1;  // of the monitor's own, [0.5, 3]; Ctrl + and Ctrl -
+
+    bool operator==(const Workspace&) const = default;
+};
+
+}  // namespace worldy

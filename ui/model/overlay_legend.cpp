@@ -1,0 +1,79 @@
+#include "ui/model/overlay_legend.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/base/text.h"
+#include "app/scene/overlay_colours.h"
+#include "ui/model/font_symbols.h"
+
+namespace worldy::ui {
+
+namespace {
+
+std::vector<LegendEntry> levelEntries(std::uint32_t deepestLevel) {
+    std::vector<LegendEntry> entries;
+    for (std::uint32_t level = 0; level <= deepestLevel; ++level) {
+        entries.push_back({levelColour(static_cast<int>(level)), fmt::format("{}", level)});
+    }
+    return entries;
+}
+
+std::vector<LegendEntry> errorEntries(double yellowPx) {
+    std::vector<LegendEntry> entries;
+    for (const double share : {0.0, 0.5, 1.0, 1.5, 2.0}) {
+        entries.push_back(
+            {errorColour(share), fmt::format("{:.3g} px{}", share * yellowPx, share < 2 ? "" : " and over")});
+    }
+    return entries;
+}
+
+// Two digits, since the scale's steps are decades.
+std::string deltaText(double metres) {
+    return metres < 1 ? fmt::format("{:.2g} m", metres) : distanceText(metres);
+}
+
+template <class Label>
+std::vector<LegendEntry> rampEntries(Label&& label) {
+    std::vector<LegendEntry> entries;
+    for (int i = 0; i <= 4; ++i) entries.push_back({rampColour(i / 4.0), label(i / 4.0)});
+    return entries;
+}
+
+}  // namespace
+
+Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel) {
+    switch (overlay.colourBy) {
+        case ColourBy::Level:
+            return {"Level", levelEntries(deepestLevel)};
+        case ColourBy::Error:
+            return {std::string("Error ") + epsSymbol(), errorEntries(tauPx * overlay.errorScale)};
+        case ColourBy::DeltaC:
+            return {inFont("δc"), rampEntries([&](double share) {
+                        return deltaText(overlay.deltaTopM * std::pow(10.0, deltaDecades * (share - 1)));
+                    })};
+        case ColourBy::Morph:
+            return {"Morph", rampEntries([](double share) { return fmt::format("{:.0f} %", 100 * share); })};
+        case ColourBy::Age:
+            return {"Loaded", rampEntries([&](double share) {
+                        return share == 1 ? "just now" : durationText((1 - share) * overlay.ageTopS) + " ago";
+                    })};
+        case ColourBy::LoadOrder:
+            return {"Load order", rampEntries([](double share) {
+                        return share == 0   ? std::string("first")
+                               : share == 1 ? std::string("last")
+                                            : fmt::format("{:.0f} %", 100 * share);
+                    })};
+        case ColourBy::Measured: {
+            std::vector<LegendEntry> entries = errorEntries(tauPx * overlay.errorScale);
+            entries.push_back({unmeasuredColour, "not measured"});
+            return {"Measured error", entries};
+        }
+        case ColourBy::None:
+            break;
+    }
+    return {};
+}
+
+}  // namespace worldy::ui
