@@ -4,21 +4,33 @@
 //   the revision of 2017
 //   Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique" (EGSR 2020)
 //
-// Lengths are kilometres of an Earth (airShape.z of them a metre), heights above the planet's radius. A rise is
-// the cosine of a direction to the zenith. Light is as the tone mapping takes it: airSun is what a white level
-// square sends out where the sun, unweakened, stands in the zenith.
+// Lengths are kilometres of an Earth (air.kmPerM of them a metre), heights above the planet's radius. A rise
+// is the cosine of a direction to the zenith. Light is as the tone mapping takes it: air.light is what a
+// white level square sends out where the sun, unweakened, stands in the zenith.
 
+// AirUniforms in planet/gl/store/air_textures.h has the same members.
 layout(std140) uniform Air {
-    vec4 airMolecules;  // Rayleigh: scattered a kilometre at height 0; 1 / scale height
-    vec4 airHaze;       // Mie: scattered a kilometre at height 0; taken; 1 / scale height; asymmetry g
-    vec4 airOzone;      // swallowed a kilometre where it is densest; 1 / half its depth
-    vec4 airShape;      // radius; height of the top; kilometres a metre; height where ozone is densest
-    vec4 airSun;        // light; steps along a ray through all of the air
-    vec4 airEye;        // xyz: up, unit; height, 0 or more
-    vec4 airSizes;      // of the table of transmittance: width, height; of the glow: side; the farthest that the
-                        // air's end is from height 0
-    vec4 airSkySizes;   // of the table of the sky: rises, sides, suns; unused
-};
+    vec3 rayleigh;            // scattering coefficient at height 0, 1 / km
+    float perRayleighHeight;  // 1 / scale height
+    vec3 ozone;               // absorption coefficient where it is densest
+    float perOzoneHalf;       // 1 / half the layer's depth
+    float ozoneMiddleKm;      // height where it is densest
+    float hazeScattered;      // Mie: scattering coefficient at height 0, 1 / km
+    float hazeTaken;          // extinction coefficient
+    float perHazeHeight;      // 1 / scale height
+    float forward;            // asymmetry g
+    float radiusKm;           // of the planet
+    float topKm;              // height of the air's end
+    float farthestKm;         // the longest way from height 0 to the air's end
+    float kmPerM;
+    vec3 light;               // of the sun
+    float steps;              // along a ray through all of the air
+    vec3 eyeUp;               // unit
+    float eyeKm;              // height, 0 or more
+    vec3 skySize;             // texels of the tables; of the sky's: rises, sides, suns
+    float glowSize;
+    vec2 transmittanceSize;
+} air;
 
 uniform sampler2D airTransmittance;
 uniform sampler2DArray airGlow;
@@ -28,54 +40,55 @@ uniform sampler3D airSky;
 const vec3 nightLight = vec3(0.0025, 0.003, 0.0045);
 
 vec3 clearTo(float height, float rise) {
-    float inside = min(height, airShape.y);
-    float radius = airShape.x + inside;
-    float squared = inside * (radius + airShape.x);
+    float inside = min(height, air.topKm);
+    float radius = air.radiusKm + inside;
+    float squared = inside * (radius + air.radiusKm);
     float along = radius * rise;
-    float most = airSizes.w;
+    float most = air.farthestKm;
     float toEnd = sqrt(max(along * along + most * most - squared, 0.0)) - along;
     float horizon = sqrt(squared);
-    float nearest = airShape.y - inside;
+    float nearest = air.topKm - inside;
     vec2 place = clamp(vec2((toEnd - nearest) / (horizon + most - nearest), horizon / most), 0.0, 1.0);
-    return textureLod(airTransmittance, mix(0.5 / airSizes.xy, 1.0 - 0.5 / airSizes.xy, place), 0.0).rgb;
+    vec2 halfTexel = 0.5 / air.transmittanceSize;
+    return textureLod(airTransmittance, mix(halfTexel, 1.0 - halfTexel, place), 0.0).rgb;
 }
 
 // What is left of the sun's light at a height, 0 behind the ground; over its light above the air.
 vec3 sunThroughAir(float height, float sunRise) {
     float above = max(height, 0.0);
-    float radius = airShape.x + above;
-    float overHorizon = sunRise + sqrt(above * (radius + airShape.x)) / radius;
-    float soft = 0.004654 * airShape.x / radius;  // the sun's own radius
+    float radius = air.radiusKm + above;
+    float overHorizon = sunRise + sqrt(above * (radius + air.radiusKm)) / radius;
+    float soft = 0.004654 * air.radiusKm / radius;  // the sun's own radius
     return clearTo(above, sunRise) * smoothstep(-soft, soft, overHorizon);
 }
 
 vec2 glowPlace(float height, float sunRise) {
     float sun = 0.5 + 0.5 * sign(sunRise) * sqrt(min(abs(sunRise), 1.0));
-    vec2 place = vec2(sun, sqrt(clamp(height / airShape.y, 0.0, 1.0)));
-    return mix(vec2(0.5 / airSizes.z), vec2(1.0 - 0.5 / airSizes.z), place);
+    vec2 place = vec2(sun, sqrt(clamp(height / air.topKm, 0.0, 1.0)));
+    return mix(vec2(0.5 / air.glowSize), vec2(1.0 - 0.5 / air.glowSize), place);
 }
 
 // What a white level square sends out of the sky's light.
 vec3 skyIrradianceAt(float height, float sunRise) {
-    return airSun.rgb * textureLod(airGlow, vec3(glowPlace(height, sunRise), 1.0), 0.0).rgb + nightLight;
+    return air.light * textureLod(airGlow, vec3(glowPlace(height, sunRise), 1.0), 0.0).rgb + nightLight;
 }
 
 // The sky's light in a direction, unit, seen from low ground, up there being unit: by one lookup, without the sun
 // itself. Below the horizon: the horizon's. Of the thin air where that is drawn, and none where none is.
 vec3 skyRadianceAlong(vec3 direction, vec3 up) {
     float rise = clamp(dot(direction, up), 0.0, 1.0);
-    if (!isOn(switchPhysicalAir)) {
-        if (!isOn(switchAir)) return vec3(0.0);
-        return scattered(airAbove(0.0, rise), scattering, sunOnAir(up * (atmosphere.x + 1.5)),
-                         dot(direction, sun.xyz));
+    if (!switchPhysicalAir) {
+        if (!switchAir) return vec3(0.0);
+        return scattered(airAbove(0.0, rise), scattering, sunOnAir(up * (frame.radiusScaleHeights + 1.5)),
+                         dot(direction, frame.sun));
     }
-    float sunRise = dot(sun.xyz, up);
+    float sunRise = dot(frame.sun, up);
     float aside = sqrt(max((1.0 - rise * rise) * (1.0 - sunRise * sunRise), 1e-6));
-    float turn = clamp((dot(direction, sun.xyz) - rise * sunRise) / aside, -1.0, 1.0);
+    float turn = clamp((dot(direction, frame.sun) - rise * sunRise) / aside, -1.0, 1.0);
     float sunPlace = 0.5 + 0.5 * sign(sunRise) * sqrt(min(abs(sunRise), 1.0));
     vec3 place = vec3(sqrt(rise), sqrt(0.5 - 0.5 * turn), sunPlace);
-    place = mix(0.5 / airSkySizes.xyz, 1.0 - 0.5 / airSkySizes.xyz, place);
-    return airSun.rgb * (3.14159265 * textureLod(airSky, place, 0.0).rgb) + nightLight;
+    place = mix(0.5 / air.skySize, 1.0 - 0.5 / air.skySize, place);
+    return air.light * (3.14159265 * textureLod(airSky, place, 0.0).rgb) + nightLight;
 }
 
 struct AirLight {
@@ -94,21 +107,21 @@ struct AirSpan {
 
 // distance: to where the ray ends; negative: at the air's end or on the ground at height 0.
 AirSpan airSpan(float rise, float distance) {
-    AirSpan span = AirSpan(0.0, airEye.w, 0.0, 0.0, false);
-    float radius = airShape.x + span.height;
-    float top = airShape.x + airShape.y;
+    AirSpan span = AirSpan(0.0, air.eyeKm, 0.0, 0.0, false);
+    float radius = air.radiusKm + span.height;
+    float top = air.radiusKm + air.topKm;
     span.along = radius * rise;
-    float inside = span.along * span.along - (span.height - airShape.y) * (radius + top);
-    if (inside <= 0.0 || (span.height >= airShape.y && span.along >= 0.0)) return span;
+    float inside = span.along * span.along - (span.height - air.topKm) * (radius + top);
+    if (inside <= 0.0 || (span.height >= air.topKm && span.along >= 0.0)) return span;
     float root = sqrt(inside);
-    if (span.height > airShape.y) {
+    if (span.height > air.topKm) {
         span.before = -span.along - root;
-        span.height = airShape.y;
+        span.height = air.topKm;
         span.along = -root;
         radius = top;
     }
     span.far = root - span.along;
-    float toGround = span.along * span.along - span.height * (radius + airShape.x);
+    float toGround = span.along * span.along - span.height * (radius + air.radiusKm);
     if (distance < 0.0 && span.along < 0.0 && toGround >= 0.0) {
         span.far = max(-span.along - sqrt(toGround), 0.0);
         span.meetsGround = true;
@@ -126,11 +139,11 @@ float squareOf(float x) {
 AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
     AirLight light = AirLight(vec3(0.0), vec3(1.0));
     if (span.far <= 0.0) return light;
-    float cosine = dot(ray, sun.xyz);
-    float sunAlong = (airShape.x + airEye.w) * dot(airEye.xyz, sun.xyz) + span.before * cosine;
-    float radius = airShape.x + span.height;
+    float cosine = dot(ray, frame.sun);
+    float sunAlong = (air.radiusKm + air.eyeKm) * dot(air.eyeUp, frame.sun) + span.before * cosine;
+    float radius = air.radiusKm + span.height;
     float rayleigh = 0.0596831 * (1.0 + cosine * cosine);
-    float g = airHaze.w;
+    float g = air.forward;
     float spread = max(1.0 + g * g - 2.0 * g * cosine, 1e-4);
     float forward = 0.1193662 * (1.0 - g * g) * (1.0 + cosine * cosine) /
                     ((2.0 + g * g) * spread * sqrt(spread));  // Cornette and Shanks
@@ -151,40 +164,40 @@ AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
         float there = sqrt(max(radius * radius + square, 1.0));
         float height = max(span.height + square / (there + radius), 0.0);
         float sunRise = clamp((sunAlong + distance * cosine) / there, -1.0, 1.0);
-        vec3 molecules = airMolecules.rgb * exp(-height * airMolecules.w);
-        float haze = exp(-height * airHaze.z);
-        float ozone = max(1.0 - abs(height - airShape.w) * airOzone.w, 0.0);
+        vec3 molecules = air.rayleigh * exp(-height * air.perRayleighHeight);
+        float haze = exp(-height * air.perHazeHeight);
+        float ozone = max(1.0 - abs(height - air.ozoneMiddleKm) * air.perOzoneHalf, 0.0);
         vec3 even = textureLod(airGlow, vec3(glowPlace(height, sunRise), 0.0), 0.0).rgb;
-        vec3 scatters = sunThroughAir(height, sunRise) * (molecules * rayleigh + airHaze.x * haze * forward) +
-                        even * (molecules + airHaze.x * haze);
-        vec3 thickness = depth * (molecules + airHaze.y * haze + airOzone.rgb * ozone);
+        vec3 scatters = sunThroughAir(height, sunRise) * (molecules * rayleigh + air.hazeScattered * haze * forward) +
+                        even * (molecules + air.hazeScattered * haze);
+        vec3 thickness = depth * (molecules + air.hazeTaken * haze + air.ozone * ozone);
         vec3 taken = exp(-thickness);
         vec3 least = max(thickness, vec3(1e-3));
         light.scattered += light.through * scatters * (depth * (1.0 - exp(-least)) / least);
         light.through *= taken;
     }
-    light.scattered *= 3.14159265 * airSun.rgb;
+    light.scattered *= 3.14159265 * air.light;
     return light;
 }
 
 // Along a ray, unit, to the air's end; or down to height 0, and then with the light of dark ground there: what is
 // seen past ground that lies lower, between the horizon and where it begins.
 AirLight lightOfSky(vec3 ray, out bool meetsGround) {
-    AirSpan span = airSpan(dot(airEye.xyz, ray), -1.0);
+    AirSpan span = airSpan(dot(air.eyeUp, ray), -1.0);
     meetsGround = span.meetsGround;
-    AirLight light = lightAlongSpan(span, ray, airSun.w);
+    AirLight light = lightAlongSpan(span, ray, air.steps);
     if (!meetsGround) return light;
-    vec3 place = (airShape.x + airEye.w) * airEye.xyz + (span.before + span.far) * ray;
-    float sunRise = clamp(dot(place, sun.xyz) * inversesqrt(max(dot(place, place), 1.0)), -1.0, 1.0);
-    vec3 arrives = airSun.rgb * sunThroughAir(0.0, sunRise) * max(sunRise, 0.0) + skyIrradianceAt(0.0, sunRise);
+    vec3 place = (air.radiusKm + air.eyeKm) * air.eyeUp + (span.before + span.far) * ray;
+    float sunRise = clamp(dot(place, frame.sun) * inversesqrt(max(dot(place, place), 1.0)), -1.0, 1.0);
+    vec3 arrives = air.light * sunThroughAir(0.0, sunRise) * max(sunRise, 0.0) + skyIrradianceAt(0.0, sunRise);
     light.scattered += light.through * arrives * vec3(0.02, 0.04, 0.07);
     return light;
 }
 
 // To where a ray is at a height; where it stays above, to its lowest point.
 float distanceToHeight(float rise, float height) {
-    float along = (airShape.x + airEye.w) * rise;
-    float fall = along * along - (airEye.w - height) * (2.0 * airShape.x + airEye.w + height);
+    float along = (air.radiusKm + air.eyeKm) * rise;
+    float fall = along * along - (air.eyeKm - height) * (2.0 * air.radiusKm + air.eyeKm + height);
     return -along - sqrt(max(fall, 0.0));
 }
 
@@ -194,18 +207,18 @@ float distanceToHeight(float rise, float height) {
 AirLight lightBefore(vec3 position, float heightM, float share) {
     float distance = length(position);
     vec3 ray = position / max(distance, 1e-6);
-    float rise = dot(airEye.xyz, ray);
-    distance *= airShape.z;
-    float height = heightM * airShape.z;
-    float sea = heights.w * airShape.z;
-    float byHeight = smoothstep(30.0, 150.0, airEye.w - height);
-    if (isOn(switchSea) && height < sea && airEye.w > sea) {
-        height = sea;
+    float rise = dot(air.eyeUp, ray);
+    distance *= air.kmPerM;
+    float height = heightM * air.kmPerM;
+    float seaKm = frame.seaLevelM * air.kmPerM;
+    float byHeight = smoothstep(30.0, 150.0, air.eyeKm - height);
+    if (switchSea && height < seaKm && air.eyeKm > seaKm) {
+        height = seaKm;
         byHeight = 1.0;
     }
     if (byHeight > 0.0) distance = mix(distance, max(distanceToHeight(rise, height), 0.0), byHeight);
     AirSpan span = airSpan(rise, distance);
-    float steps = clamp(3.0 + 0.9 * sqrt(span.far), 4.0, max(share * airSun.w, 4.0));
+    float steps = clamp(3.0 + 0.9 * sqrt(span.far), 4.0, max(share * air.steps, 4.0));
     return lightAlongSpan(span, ray, steps);
 }
 

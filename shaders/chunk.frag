@@ -53,23 +53,20 @@ Detail noDetail() {
     return Detail(vec3(0.0), 0.0);
 }
 
-Detail octave(int i, vec3 position) {
-    vec4 x = detailRows[3 * i];
-    vec4 y = detailRows[3 * i + 1];
-    vec4 z = detailRows[3 * i + 2];
-    vec3 place = vec3(dot(x.xyz, position) + x.w, dot(y.xyz, position) + y.w, dot(z.xyz, position) + z.w);
-    vec4 noise = texture(detailNoise, place) * 2.0 - 256.0 / 255.0;
-    return Detail(mat3(x.xyz, y.xyz, z.xyz) * noise.xyz * detailSizes[i], noise.w);
+Detail octaveAt(int i, vec3 position) {
+    DetailOctave octave = frame.detail[i];
+    vec4 noise = texture(detailNoise, position * octave.axes + octave.eye) * 2.0 - 256.0 / 255.0;
+    return Detail(octave.axes * noise.xyz * octave.sizeM, noise.w);
 }
 
 // Finer octaves are bent by the coarsest, and fade in its valleys, so that no pattern runs through.
 Detail detailAt(vec3 position) {
-    Detail coarse = octave(0, position);
-    vec3 bent = position + 0.07 * detailSizes.y * coarse.slope;
+    Detail coarse = octaveAt(0, position);
+    vec3 bent = position + 0.07 * frame.detail[1].sizeM * coarse.slope;
     float rugged = 0.55 + 0.45 * coarse.height;
-    Detail middle = octave(1, bent);
+    Detail middle = octaveAt(1, bent);
     Detail fine = noDetail();
-    if (isOn(switchFineDetail)) fine = octave(2, bent);
+    if (switchFineDetail) fine = octaveAt(2, bent);
     return Detail(coarse.slope + rugged * (1.5 * middle.slope + 1.2 * fine.slope),
                   coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
 }
@@ -78,14 +75,14 @@ Detail detailAt(vec3 position) {
 // along, where the next face's does the same.
 vec4 imageColour(Detail detail, float strength) {
     vec2 place = facePlace.xy;
-    if (isOn(switchDetail)) {
-        vec2 inside = min(place, 1.0 - place) / (4.0 * detailPixels.z);
+    if (switchDetail) {
+        vec2 inside = min(place, 1.0 - place) / (4.0 * frame.imageStep);
         vec2 aside = vec2(dot(detail.slope, faceU), dot(detail.slope, faceV));
-        place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * detailPixels.z);
+        place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * frame.imageStep);
     }
-    if (isOn(switchTiles)) {
+    if (switchTiles) {
         vec3 colour;
-        if (isOn(switchClipmap)) {
+        if (switchClipmap) {
             colour = clipmapColours(place, facePlace.w);
         } else {
             colour = streamedColours(place, facePlace.w);
@@ -102,13 +99,13 @@ vec3 seaByDepth(float height) {
     vec3 shelf = vec3(0.022, 0.095, 0.135);
     vec3 open = vec3(0.008, 0.036, 0.085);
     vec3 deep = vec3(0.003, 0.014, 0.046);
-    float depth = max(-height, 0.0) * heights.y;
+    float depth = max(-height, 0.0) * frame.perRampTopM;
     return mix(mix(shelf, open, smoothstep(0.0, 0.22, depth)), deep, smoothstep(0.3, 1.0, depth));
 }
 
-// Lowland green to rock to snow; heights.y is 1 / the height of the highest band.
+// Lowland green to rock to snow; frame.perRampTopM is 1 / the height of the highest band.
 vec3 landByHeight(float height, float latitudeSine, float steep) {
-    float h = max(height, 0.0) * heights.y;
+    float h = max(height, 0.0) * frame.perRampTopM;
     float cold = latitudeSine * latitudeSine;
     float dry = 1.0 - smoothstep(0.10, 0.26, abs(abs(latitudeSine) - 0.40));
     vec3 low = mix(vec3(0.036, 0.092, 0.018), vec3(0.230, 0.165, 0.068), 0.7 * dry);
@@ -135,16 +132,18 @@ float anyWater(Material material) {
 
 // The ramp's own stops, mixed one after the other: those above the height add nothing, those below it are covered.
 vec3 stopsAt(float height) {
-    vec3 root = rampColours[0].rgb;
-    for (int i = 1; i < grid.z; ++i)
-        root = mix(root, rampColours[i].rgb, clamp((height - rampRises[i].x) * rampRises[i].y, 0.0, 1.0));
+    vec3 root = frame.ramp[0].root;
+    for (int i = 1; i < frame.rampStopCount; ++i)
+        root = mix(root, frame.ramp[i].root,
+                   clamp((height - frame.ramp[i].startM) * frame.ramp[i].perM, 0.0, 1.0));
     return root * root;
 }
 
 Material rampMaterial(vec3 up, float height, float steep, float below) {
-    if (isOn(switchRamp)) {
+    if (switchRamp) {
         vec3 stops = stopsAt(height);
-        return Material(mix(stops, seaByDepth(height), below * (1.0 - surfacing.y)), below, 0.0, sandyBed);
+        vec3 albedo = mix(stops, seaByDepth(height), below * (1.0 - frame.rampColoursSea));
+        return Material(albedo, below, 0.0, sandyBed);
     }
     vec3 land = landByHeight(height, up.z, steep);
     float ice = below * smoothstep(0.955, 0.985, abs(up.z));
@@ -155,20 +154,20 @@ Material rampMaterial(vec3 up, float height, float steep, float below) {
 // Returns whether the sea's surface is drawn here: over ground below the sea level, as the mesh has it. Water that the
 // image shows on higher ground has no depth to draw, and keeps the image's colour.
 bool isUnderSea() {
-    return isOn(switchSeaSurface) && facePlace.z < heights.w;
+    return switchSeaSurface && facePlace.z < frame.seaLevelM;
 }
 
 // Returns 1 where the ground lies as deep as the shore or deeper, 0 above the sea level. shoreM: on the Earth.
 float belowSea(float height, float shoreM) {
-    if (!isOn(switchSea)) return 0.0;
-    return 1.0 - smoothstep(-shoreM * planet.x / 6.371e6, 0.0, height);
+    if (!switchSea) return 0.0;
+    return 1.0 - smoothstep(-shoreM * frame.radiusM / 6.371e6, 0.0, height);
 }
 
 // The image says which low land is dry and which ground is water, but knows nothing of a sea that has risen. Where the
 // sea's surface is drawn, the image's colour is its bed's: it shows shallows as they look.
 Material imageMaterial(float height, float below, Detail detail, float strength) {
     vec4 image = imageColour(detail, strength);
-    float flooded = clamp(heights.w * (6.371e6 / 30.0) / planet.x, 0.0, 1.0);
+    float flooded = clamp(frame.seaLevelM * (6.371e6 / 30.0) / frame.radiusM, 0.0, 1.0);
     // The mesh's coast is coarser than the image's, and lakes may be deeper than the sea level: in water that the image
     // shows, the drawn surface fades in with its depth.
     float deep = isUnderSea() ? belowSea(height, 30.0) : below;
@@ -182,12 +181,13 @@ Material imageMaterial(float height, float below, Detail detail, float strength)
 // Height above the sea level.
 Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
     float below = belowSea(height, isUnderSea() ? 2.0 : 30.0);
-    if (!isOn(switchImage)) return rampMaterial(up, height, steep, below);
+    if (!switchImage) return rampMaterial(up, height, steep, below);
     Material image = imageMaterial(height, below, detail, strength);
-    if (!isOn(switchImageOverRamp)) return image;
+    if (!switchImageOverRamp) return image;
     Material ramp = rampMaterial(up, height, steep, below);
-    return Material(mix(ramp.albedo, image.albedo, surfacing.x), mix(ramp.water, image.water, surfacing.x),
-                    surfacing.x * image.shownWater, mix(ramp.bed, image.bed, surfacing.x));
+    float share = frame.imageOpacity;
+    return Material(mix(ramp.albedo, image.albedo, share), mix(ramp.water, image.water, share),
+                    share * image.shownWater, mix(ramp.bed, image.bed, share));
 }
 
 // The chunk's mesh: lines one pixel wide along rows, columns and diagonals, smooth whatever their distance.
@@ -207,16 +207,16 @@ float meshLine() {
 // itself is only some pixels wide, and down a skirt, where a coordinate stands still.
 float borderAwayPx() {
     vec2 width = fwidth(gridCoordinate);
-    vec2 away = min(gridCoordinate, float(1 << grid.y) - gridCoordinate) / max(width, vec2(1e-9));
+    vec2 away = min(gridCoordinate, float(1 << frame.chunkCellsLog2) - gridCoordinate) / max(width, vec2(1e-9));
     away += 1e3 * (1.0 - step(vec2(1e-5), width));
-    float chunkPx = float(1 << grid.y) / max(width.x, width.y);
+    float chunkPx = float(1 << frame.chunkCellsLog2) / max(width.x, width.y);
     return min(away.x, away.y) + 10.0 * (1.0 - smoothstep(3.0, 8.0, chunkPx));
 }
 
 // A light line 1.5 pixels wide, shaded at its sides so that it shows on any ground.
 vec3 outlined(vec3 colour) {
     float away = borderAwayPx();
-    vec3 line = isOn(switchWireframe) ? vec3(1.0, 0.70, 0.15) : vec3(1.0, 0.98, 0.92);
+    vec3 line = switchWireframe ? vec3(1.0, 0.70, 0.15) : vec3(1.0, 0.98, 0.92);
     colour *= 1.0 - 0.45 * (1.0 - smoothstep(1.0, 2.25, away));
     return mix(colour, line, 0.9 * (1.0 - smoothstep(0.25, 1.25, away)));
 }
@@ -228,19 +228,19 @@ float between(float pixels) {
 
 // The air between the eye and the ground takes light away and scatters the sun's in.
 vec3 throughAir(vec3 light, vec3 position, vec3 ray, vec3 up) {
-    if (!isOn(switchAir)) return light;
-    if (isOn(switchPhysicalAir)) {
+    if (!switchAir) return light;
+    if (switchPhysicalAir) {
         AirLight before = lightBefore(position, facePlace.z, 0.5);
         return light * before.through + before.scattered;
     }
-    float air = airBefore(ray, up, max(facePlace.z, 0.0) * atmosphere.y);
+    float mass = airBefore(ray, up, max(facePlace.z, 0.0) * frame.scaleHeightsPerM);
     vec3 amount = scatteringBeforeGround();
-    return light * exp(-(amount + vec3(haze)) * air) + scattered(air, amount, inRange(airLit), dot(ray, sun.xyz));
+    return light * exp(-(amount + vec3(haze)) * mass) + scattered(mass, amount, inRange(airLit), dot(ray, frame.sun));
 }
 
 vec3 groundNormal() {
     vec3 normal = normalize(surfaceNormal.xyz);
-    if (isOn(switchNormalTiles)) normal = normalFromTiles(normal, meshLevel, facePlace);
+    if (switchNormalTiles) normal = normalFromTiles(normal, meshLevel, facePlace);
     return normal;
 }
 
@@ -248,61 +248,61 @@ vec3 lightByPixel() {
     vec3 position = positionSeen();
     float nearness = inversesqrt(dot(position, position));
     vec3 ray = position * nearness;
-    vec3 up = normalize(eye.xyz + position);
+    vec3 up = normalize(frame.eyeM + position);
     vec3 bare = groundNormal();
     vec3 normal = bare;
     Detail detail = noDetail();
     float rough = 0.0;
     float ragged = 0.0;
-    float height = facePlace.z - heights.w;
-    if (isOn(switchDetail)) {
+    float height = facePlace.z - frame.seaLevelM;
+    if (switchDetail) {
         detail = detailAt(position);
-        rough = between(detailPixels.x * nearness) * (0.05 + 0.95 * surfaceNormal.w);
-        ragged = between(detailPixels.y * nearness);
-        height += 500.0 * rough * detail.height * (planet.x / 6.371e6) * step(0.0, height);
+        rough = between(frame.heightStepPxM * nearness) * (0.05 + 0.95 * surfaceNormal.w);
+        ragged = between(frame.imageStepPxM * nearness);
+        height += 500.0 * rough * detail.height * (frame.radiusM / 6.371e6) * step(0.0, height);
         vec3 tilt = rough * (detail.slope - up * dot(detail.slope, up));
         normal = normalize(normal - tilt * inversesqrt(1.0 + 1.5 * dot(tilt, tilt)));
     }
     Material material = materialAt(up, height, steepness(normal, up), detail, ragged);
-    if (isOn(switchDetail))
+    if (switchDetail)
         material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - anyWater(material)) * detail.height;
     float glint = 0.0;
-    if (isOn(switchLayers)) {
-        Layered layered = layeredGround(position, up, bare, facePlace.z - heights.w, material.albedo);
+    if (switchLayers) {
+        Layered layered = layeredGround(position, up, bare, facePlace.z - frame.seaLevelM, material.albedo);
         float amount = layered.amount * (1.0 - anyWater(material));
         material.albedo = mix(material.albedo, layered.albedo, amount);
         vec3 tilt = layered.tilt - normal * dot(layered.tilt, normal);
         normal = normalize(normal - amount * tilt);
         glint = amount * layerGlint(normal, -ray, layered.roughness);
     }
-    vec3 facing = normalize(mix(normal, up, (isOn(switchDetail) ? 0.98 : 0.94) * material.water));
+    vec3 facing = normalize(mix(normal, up, (switchDetail ? 0.98 : 0.94) * material.water));
     float sea = isUnderSea() ? material.water : 0.0;
     vec3 sunlight = inRange(sunLit);
     vec3 skylight = inRange(skyLit) + fillLight(facing, -ray, up);
-    if (isOn(switchShadows))
+    if (switchShadows)
         sunlight *= sunSeen(position, normalize(mix(surfaceNormal.xyz, up, sea)));
     float wet = material.water - sea;
-    vec3 light = material.albedo * (sunlight * max(dot(facing, sun.xyz), 0.0) + skylight) +
+    vec3 light = material.albedo * (sunlight * max(dot(facing, frame.sun), 0.0) + skylight) +
                  sunlight * (wet * seaGlint(facing, -ray) + glint);
     if (sea > 0.0)
         light = mix(light,
-                    seaLight(position, ray, up, facePlace.z - heights.w, material.bed, sunlight, skylight), sea);
+                    seaLight(position, ray, up, facePlace.z - frame.seaLevelM, material.bed, sunlight, skylight), sea);
     return throughAir(light, position, ray, up);
 }
 
 vec3 lightByVertex() {
-    vec3 up = normalize(eye.xyz + surface);
-    Material material = materialAt(up, facePlace.z - heights.w, steep, noDetail(), 0.0);
+    vec3 up = normalize(frame.eyeM + surface);
+    Material material = materialAt(up, facePlace.z - frame.seaLevelM, steep, noDetail(), 0.0);
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
     return inRange(groundArriving.rgb) * max(reflected, 0.0) + inRange(airArriving.rgb);
 }
 
 vec3 flatSurface() {
-    vec3 up = normalize(eye.xyz + surface);
-    Material material = materialAt(up, facePlace.z - heights.w, 0.0, noDetail(), 0.0);
+    vec3 up = normalize(frame.eyeM + surface);
+    Material material = materialAt(up, facePlace.z - frame.seaLevelM, 0.0, noDetail(), 0.0);
     vec3 albedo = material.albedo;
-    if (isOn(switchLayers)) {
-        Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - heights.w, albedo);
+    if (switchLayers) {
+        Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - frame.seaLevelM, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - anyWater(material)));
     }
     return encodeSrgb(clamp(albedo, 0.0, 1.0));
@@ -310,24 +310,24 @@ vec3 flatSurface() {
 
 vec3 litSurface() {
     vec3 light = vec3(0.0);
-    if (isOn(switchLightByVertex)) light = lightByVertex();
+    if (switchLightByVertex) light = lightByVertex();
     else light = lightByPixel();
-    if (isOn(switchPhysicalAir)) light = onFilm(light);
+    if (switchPhysicalAir) light = onFilm(light);
     return developed(light) + ditherStep();
 }
 
 void main() {
-    vec3 colour = isOn(switchLighting) ? litSurface() : flatSurface();
-    if (isOn(switchLayerPreview))
-        colour = layerPreview(colour, surface, normalize(eye.xyz + surface), groundNormal(),
-                              facePlace.z - heights.w);
+    vec3 colour = switchLighting ? litSurface() : flatSurface();
+    if (switchLayerPreview)
+        colour = layerPreview(colour, surface, normalize(frame.eyeM + surface), groundNormal(),
+                              facePlace.z - frame.seaLevelM);
     // A tint measures: it is laid over the finished picture, so that light, air and dither do not change its colour.
-    if (isOn(switchTint)) colour = mix(colour, tint.rgb, tint.a);
-    if (isOn(switchWireframe)) {
-        vec3 lineColour = isOn(switchTint) ? tint.rgb : vec3(0.92, 0.96, 1.0);
+    if (switchTint) colour = mix(colour, tint.rgb, tint.a);
+    if (switchWireframe) {
+        vec3 lineColour = switchTint ? tint.rgb : vec3(0.92, 0.96, 1.0);
         colour = mix(colour * 0.35, lineColour, meshLine());
     }
-    if (isOn(switchOutlines)) colour = outlined(colour);
-    if (isOn(switchLoudSkirts) && onSkirt > 0.0) colour = vec3(1.0, 0.0, 0.8);
+    if (switchOutlines) colour = outlined(colour);
+    if (switchLoudSkirts && onSkirt > 0.0) colour = vec3(1.0, 0.0, 0.8);
     fragment = vec4(colour, 1.0);
 }

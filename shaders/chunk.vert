@@ -1,12 +1,18 @@
 // One vertex of the grid that all chunks share.
 
-layout(location = 0) in uvec4 gridVertex;  // column; row; 1 at the skirt's lower end; unused
-layout(location = 1) in uvec4 chunk;       // face + 8 level; x; y; slot
-layout(location = 2) in uvec4 beside;      // slots of the chunks of the same level to the west, east, south, north
-layout(location = 3) in vec2 skirtAndMorph;  // depth, metres; [0, 1]
-layout(location = 4) in vec4 chunkTint;    // colour, sRGB, and its strength
-layout(location = 5) in vec4 edgeMorph;    // west, east, south, north: [0, 1]
-layout(location = 6) in uvec4 coarserBy;   // levels that the chunk beside it is coarser and moved onto
+// Their locations are the order in planet/gl/draw/chunk_instances.cpp.
+in uvec2 gridVertex;  // column, row
+in uint skirt;        // 1 at the skirt's lower end
+in uint chunkFace;
+in uint chunkLevel;
+in uvec2 chunkPlace;  // x, y
+in uint chunkSlot;
+in uvec4 beside;      // slots of the chunks of the same level to the west, east, south, north
+in float skirtDepthM;
+in float morph;       // [0, 1]
+in vec4 chunkTint;    // sRGB and opacity
+in uvec4 coarserBy;   // levels that the chunk beside it is coarser and moved onto: west, east, south, north
+in vec4 edgeMorph;    // west, east, south, north: [0, 1]
 
 uniform isampler2DArray heightPool;
 
@@ -27,8 +33,6 @@ flat out vec4 tint;
 flat out float meshLevel;  // of tiles whose texels are the mesh's vertices
 
 invariant gl_Position;
-
-const uint noSlot = 0xFFFFFFFFu;  // not drawn, or on another face
 
 // Texel of a slot's first height: column and row in its page, and the page.
 ivec3 slotCorner(uint slot, int last) {
@@ -74,43 +78,43 @@ vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slot
 }
 
 void lightGround(vec3 position, vec3 up, float height) {
-    float sunRise = dot(up, sun.xyz);
+    float sunRise = dot(up, frame.sun);
     float day = smoothstep(-0.06, 0.10, sunRise);
     vec3 sky = vec3(0.0125, 0.013, 0.0145);
     sunLit = sunLight * day;
     airLit = vec3(0.0);
-    if (isOn(switchPhysicalAir)) {
-        float above = height * airShape.z;
-        sunLit = airSun.rgb * sunThroughAir(above, sunRise);
+    if (switchPhysicalAir) {
+        float above = height * air.kmPerM;
+        sunLit = air.light * sunThroughAir(above, sunRise);
         skyLit = skyIrradianceAt(above, sunRise);
         return;
     }
-    if (isOn(switchAir)) {
+    if (switchAir) {
         sky = vec3(0.085, 0.115, 0.165) * smoothstep(-0.18, 0.30, sunRise) + vec3(0.0025, 0.003, 0.0045);
         sunLit *= sunThrough(0.1, sunRise);
-        airLit = sunOnAirBefore(position, normalize(position), up, max(height, 0.0) * atmosphere.y);
+        airLit = sunOnAirBefore(position, normalize(position), up, max(height, 0.0) * frame.scaleHeightsPerM);
     }
     skyLit = sunLight * 0.55 * sky;
 }
 
 void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     vec3 ray = normalize(position);
-    vec3 land = sunLit * max(dot(normal, sun.xyz), 0.0) + skyLit + fillLight(normal, -ray, up);
-    vec3 sea = sunLit * max(dot(up, sun.xyz), 0.0) + skyLit + fillLight(up, -ray, up);
+    vec3 land = sunLit * max(dot(normal, frame.sun), 0.0) + skyLit + fillLight(normal, -ray, up);
+    vec3 sea = sunLit * max(dot(up, frame.sun), 0.0) + skyLit + fillLight(up, -ray, up);
     steep = steepness(normal, up);
     groundArriving = vec4(land, sea.g / land.g);
     airArriving = vec4(0.0, 0.0, 0.0, seaGlint(up, -ray) * sunLit.g / land.g);
-    if (!isOn(switchAir)) return;
-    if (isOn(switchPhysicalAir)) {
+    if (!switchAir) return;
+    if (switchPhysicalAir) {
         AirLight before = lightBefore(position, height, 0.5);
         groundArriving.rgb *= before.through;
         airArriving.rgb = before.scattered;
         return;
     }
-    float air = airBefore(ray, up, max(height, 0.0) * atmosphere.y);
+    float mass = airBefore(ray, up, max(height, 0.0) * frame.scaleHeightsPerM);
     vec3 amount = scatteringBeforeGround();
-    groundArriving.rgb *= exp(-(amount + vec3(haze)) * air);
-    airArriving.rgb = scattered(air, amount, airLit, dot(ray, sun.xyz));
+    groundArriving.rgb *= exp(-(amount + vec3(haze)) * mass);
+    airArriving.rgb = scattered(mass, amount, airLit, dot(ray, frame.sun));
 }
 
 // Both slopes at a vertex: along u, along v.
@@ -138,13 +142,13 @@ Slide slideOf(ivec2 vertex, int last) {
     bool east = vertex.x == last;
     bool south = vertex.y == 0;
     if (!(west || east || south || vertex.y == last))
-        return Slide(vertex, vertex & 1, skirtAndMorph.y, ivec2(0), 0.0);
+        return Slide(vertex, vertex & 1, morph, ivec2(0), 0.0);
     int edge = west ? 0 : east ? 1 : south ? 2 : 3;
     ivec2 along = edge < 2 ? ivec2(0, 1) : ivec2(1, 0);
     int levels = int(coarserBy[edge]);
     // Along the whole face, where both sides of an edge count alike.
     int here = vertex.x * along.x + vertex.y * along.y;
-    int start = int(edge < 2 ? chunk.z : chunk.y) << grid.y;
+    int start = int(edge < 2 ? chunkPlace.y : chunkPlace.x) << frame.chunkCellsLog2;
     int at = start + here;
     for (int level = 0; level < levels; ++level) {
         if (((at >> level) & 1) != 0) at = gatherPoint(at >> level) << level;
@@ -153,28 +157,34 @@ Slide slideOf(ivec2 vertex, int last) {
     int coarse = at >> levels;
     if ((coarse & 1) == 0) return slide;
     slide.aside = along << levels;
-    if (!isOn(switchGather)) return slide;
+    if (!switchGather) return slide;
     slide.onto = along * ((gatherPoint(coarse) << levels) - at);
     slide.gathered = max(4.0 * slide.amount - 3.0, 0.0);
     return slide;
 }
 
+// Returns log2 of the chunk's cell side in cells of the finest grid.
+int cellLog2() {
+    return fineGridLog2 - frame.chunkCellsLog2 - int(chunkLevel);
+}
+
 ivec2 gridPointOf(ivec2 vertex) {
-    return ((ivec2(chunk.yz) << grid.y) + vertex) << (fineGridLog2 - grid.y - int(chunk.x >> 3u));
+    return ((ivec2(chunkPlace) << frame.chunkCellsLog2) + vertex) << cellLog2();
 }
 
 // And the direction from the planet's centre, of about unit length.
 vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
-    int face = int(chunk.x & 7u);
+    int face = int(chunkFace);
     ivec2 gridPoint = gridPointOf(vertex);
     moveToOwningFace(face, gridPoint);
-    GridPlace place = gridPlace(faces[face], gridPoint);
-    up = faces[face].direction.xyz + place.turn;
-    if (isOn(switchCube))
-        return positionOnCube(faces[face], place, heights.x + float(heightStep) * planet.y - drop);
-    float rise = float(heightStep - grid.x) * planet.y;
-    if (isOn(switchSeaSurface)) rise = max(rise, surfacing.z);
-    return positionOnSphere(faces[face], place, rise - drop);
+    GridPlace place = gridPlace(frame.faces[face], gridPoint);
+    up = frame.faces[face].direction + place.turn;
+    if (switchCube)
+        return positionOnCube(frame.faces[face], place,
+                              frame.baseHeightM + float(heightStep) * frame.quantumM - drop);
+    float rise = float(heightStep - frame.referenceStep) * frame.quantumM;
+    if (switchSeaSurface) rise = max(rise, frame.seaRiseM);
+    return positionOnSphere(frame.faces[face], place, rise - drop);
 }
 
 // What is drawn of a vertex, or of several in shares.
@@ -211,7 +221,7 @@ void gatherTo(inout Drawn drawn, Drawn to, float amount) {
 // Where the coarser chunk would draw one of its vertices: on a stitched edge not where it lies.
 Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
     bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
-    if (inside || !isOn(switchGather)) return ownDrawn(corner, vertex, drop);
+    if (inside || !switchGather) return ownDrawn(corner, vertex, drop);
     Slide slide = slideOf(vertex, last);
     vertex = slide.vertex;
     Drawn drawn = ownDrawn(corner, vertex, drop);
@@ -224,22 +234,22 @@ Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
 }
 
 void main() {
-    FaceFrame frame = faces[chunk.x & 7u];
-    int last = 1 << grid.y;
-    Slide slide = Slide(ivec2(gridVertex.xy), ivec2(0), 0.0, ivec2(0), 0.0);
-    if (isOn(switchSlide)) slide = slideOf(slide.vertex, last);
+    FaceUniforms face = frame.faces[chunkFace];
+    int last = 1 << frame.chunkCellsLog2;
+    Slide slide = Slide(ivec2(gridVertex), ivec2(0), 0.0, ivec2(0), 0.0);
+    if (switchSlide) slide = slideOf(slide.vertex, last);
     ivec2 vertex = slide.vertex;
 
-    ivec3 corner = slotCorner(chunk.w, last);
+    ivec3 corner = slotCorner(chunkSlot, last);
     int heightStep = stepAt(corner, vertex);
-    float drop = gridVertex.z == 0u ? 0.0 : skirtAndMorph.x;
-    float rise = float(heightStep - grid.x) * planet.y - drop;
+    float drop = skirt == 0u ? 0.0 : skirtDepthM;
+    float rise = float(heightStep - frame.referenceStep) * frame.quantumM - drop;
 
     vec3 up;
     Drawn drawn = Drawn(positionOf(vertex, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
     ivec2 before = vertex - slide.aside;
     ivec2 after = vertex + slide.aside;
-    if (isOn(switchSlide)) {
+    if (switchSlide) {
         Drawn drawnBefore = coarserDrawn(corner, before, last, drop);
         Drawn drawnAfter = coarserDrawn(corner, after, last, drop);
         slideTo(drawn, middleOf(drawnBefore, drawnAfter), slide.amount);
@@ -252,16 +262,16 @@ void main() {
         up += slide.gathered * (gatherUp - up);
     }
     vec3 position = drawn.position;
-    float height = heights.x + drawn.height * planet.y;
+    float height = frame.baseHeightM + drawn.height * frame.quantumM;
     vec3 normal = up;
     float rough = 0.0;
     sunLit = skyLit = airLit = vec3(0.0);
     groundArriving = airArriving = vec4(0.0);
     steep = 0.0;
-    if (isOn(switchLighting) || isOn(switchLayers) || isOn(switchLayerPreview)) {
+    if (switchLighting || switchLayers || switchLayerPreview) {
         mat2 steps = slopes(corner, vertex, last, heightStep, 1);
         // The light turns into the coarser mesh's too, between the same two vertices of it.
-        if (isOn(switchMorph) && slide.amount > 0.0) {
+        if (switchMorph && slide.amount > 0.0) {
             mat2 coarser = 0.5 * (slopes(corner, before, last, stepAt(corner, before), 2) +
                                   slopes(corner, after, last, stepAt(corner, after), 2));
             steps += slide.amount * (coarser - steps);
@@ -269,28 +279,28 @@ void main() {
                 steps += slide.gathered *
                          (slopes(corner, gatherVertex, last, stepAt(corner, gatherVertex), 1) - steps);
         }
-        float stepsPerSlope = planet.y / (float(1 << (fineGridLog2 - grid.y - int(chunk.x >> 3u))) * fineCell);
-        vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * heights.z);
+        float stepsPerSlope = frame.quantumM / (float(1 << cellLog2()) * fineCell);
+        vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * frame.reliefBoost);
         vec2 coordinates = drawn.place * fineCell - 1.0;
-        normal = isOn(switchCube) ? frame.normal.xyz * planet.w - heightSlope.x * frame.u.xyz -
-                                        heightSlope.y * frame.v.xyz
-                                  : normalOnSphere(frame, coordinates, up, planet.z + rise, heightSlope);
+        normal = switchCube
+                     ? face.normal * frame.cubeHalfM - heightSlope.x * face.u - heightSlope.y * face.v
+                     : normalOnSphere(face, coordinates, up, frame.referenceRadiusM + rise, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
-        float steepest = max(steps[0].y, steps[1].y) * stepsPerSlope / (0.75 * planet.x);
+        float steepest = max(steps[0].y, steps[1].y) * stepsPerSlope / (0.75 * frame.radiusM);
         rough = smoothstep(0.0, 0.09, steepest);
         vec3 unitUp = normalize(up);
         lightGround(position, unitUp, height);
-        if (isOn(switchLightByVertex)) lightByVertex(position, unitUp, normal, height);
+        if (switchLightByVertex) lightByVertex(position, unitUp, normal, height);
     }
 
     surface = position;
-    facePlace = vec4(drawn.place * (0.5 * fineCell), height, float(chunk.x & 7u));
+    facePlace = vec4(drawn.place * (0.5 * fineCell), height, float(chunkFace));
     surfaceNormal = vec4(normal, rough);
-    gridCoordinate = vec2(gridVertex.xy);
-    onSkirt = float(gridVertex.z);
-    faceU = frame.u.xyz;
-    faceV = frame.v.xyz;
+    gridCoordinate = vec2(gridVertex);
+    onSkirt = float(skirt);
+    faceU = face.u;
+    faceV = face.v;
     tint = chunkTint;
-    meshLevel = float(int(chunk.x >> 3u) + grid.y - 8);
-    gl_Position = clipFromWorld * vec4(position, 1.0);
+    meshLevel = float(int(chunkLevel) + frame.chunkCellsLog2 - 8);
+    gl_Position = frame.clipFromWorld * vec4(position, 1.0);
 }

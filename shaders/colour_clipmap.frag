@@ -4,25 +4,22 @@
 uniform sampler2DArray colourTiles;
 uniform usampler2DArray colourPages;
 uniform ivec2 firstTexel;  // of the level's, that the texture's first would be
-uniform ivec3 filled;      // face, level, the quadtree's finest level
+uniform int face;
+uniform int level;
+uniform int leafLevel;
 
 out vec4 colour;
 
-const int tileCells = 256;
-const int tileBorder = 7;
-const float tileTexels = 272.0;
-
 void main() {
-    int level = filled.y;
     ivec2 texel = firstTexel + ivec2(gl_FragCoord.xy);
     ivec2 cell = clamp(texel >> 8, ivec2(0), ivec2((1 << level) - 1));
-    uvec2 page = texelFetch(colourPages, ivec3(cell, filled.x), filled.z - level).rg;
+    uvec2 page = texelFetch(colourPages, ivec3(cell, face), leafLevel - level).rg;
     int above = level - int(page.g);
     ivec2 within = texel - ((cell >> above) << above) * tileCells;
     if (above == 0) {
-        colour = texelFetch(colourTiles, ivec3(within + tileBorder, int(page.r)), 0);
+        colour = texelFetch(colourTiles, ivec3(within + tileBorderBefore, int(page.r)), 0);
         return;
     }
-    vec2 at = (float(tileBorder) + 0.5 + vec2(within) / float(1 << above)) / tileTexels;
+    vec2 at = (float(tileBorderBefore) + 0.5 + vec2(within) / float(1 << above)) / float(tileTexels);
     colour = textureLod(colourTiles, vec3(at, float(page.r)), 0.0);
 }

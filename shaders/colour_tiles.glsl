@@ -7,7 +7,7 @@ uniform sampler2DArray colourRoots;   // a face a layer, with mipmaps
 
 // What is resident for a level. place: [0, 1] across the face; dx, dy: its change from pixel to pixel.
 vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
-    uvec2 page = tilePage(colourPages, colouring.x, level, place, face);
+    uvec2 page = tilePage(colourPages, frame.colours.leafLevel, level, place, face);
     return tileTexel(colourTiles, page, place, dx, dy).rgb;
 }
 
@@ -15,9 +15,9 @@ vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
 vec3 streamedColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
-    float level = levelWanted(dx, dy, colourFilter);
+    float level = levelWanted(dx, dy, frame.colours);
     if (level <= 0.0) return rootTexel(colourRoots, place, face, dx, dy).rgb;
-    level = min(level, float(colouring.x));
+    level = min(level, float(frame.colours.leafLevel));
     int coarser = int(floor(level));
     vec3 coarse = coloursOfLevel(coarser, place, face, dx, dy);
     float finer = level - float(coarser);

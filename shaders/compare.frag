@@ -2,7 +2,9 @@
 
 uniform sampler2D pictureA;
 uniform sampler2D pictureB;
-uniform ivec3 columns;  // the first column that shows B; how far right of it A's and B's are taken from
+uniform int border;  // the first column that shows B
+uniform int shiftA;  // A's pixels are taken from as many columns further right
+uniform int shiftB;
 uniform bool difference;
 uniform float gain;
 
@@ -14,9 +16,9 @@ void main() {
         vec3 a = texelFetch(pictureA, at, 0).rgb;
         vec3 b = texelFetch(pictureB, at, 0).rgb;
         fragment = vec4(gain * abs(a - b), 1.0);
-    } else if (at.x < columns.x) {
-        fragment = texelFetch(pictureA, at + ivec2(columns.y, 0), 0);
+    } else if (at.x < border) {
+        fragment = texelFetch(pictureA, at + ivec2(shiftA, 0), 0);
     } else {
-        fragment = texelFetch(pictureB, at + ivec2(columns.z, 0), 0);
+        fragment = texelFetch(pictureB, at + ivec2(shiftB, 0), 0);
     }
 }

@@ -6,7 +6,7 @@ float steepness(vec3 normal, vec3 up) {
 
 // The sun mirrored in open sea, over its light: a core and a faint halo.
 float seaGlint(vec3 normal, vec3 toEye) {
-    vec3 middle = normalize(toEye + sun.xyz);
+    vec3 middle = normalize(toEye + frame.sun);
     float halo = exp(-62.0 * (1.0 - dot(normal, middle)));
     float aside = 1.0 - max(dot(middle, toEye), 0.0);
     float squared = aside * aside;
@@ -18,14 +18,14 @@ float seaGlint(vec3 normal, vec3 toEye) {
 // Returns the debug light that falls where the sun is down. It comes from the upper left of the view, so that slopes
 // show as on a shaded map.
 float fillLight(vec3 normal, vec3 toEye, vec3 up) {
-    float night = 1.0 - smoothstep(-0.10, 0.15, dot(up, sun.xyz));
-    vec3 from = normalize(toEye + 0.7 * (normalize(rayUp.xyz) - normalize(rayRight.xyz)));
-    return 2.0 * surfacing.w * night * (0.2 + 0.8 * max(dot(normal, from), 0.0));
+    float night = 1.0 - smoothstep(-0.10, 0.15, dot(up, frame.sun));
+    vec3 from = normalize(toEye + 0.7 * (normalize(frame.rayUp) - normalize(frame.rayRight)));
+    return 2.0 * frame.fill * night * (0.2 + 0.8 * max(dot(normal, from), 0.0));
 }
 
 // The cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the axes are the
 // chunk's own face's, whichever face reckons the position.
-vec3 normalOnSphere(FaceFrame face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
+vec3 normalOnSphere(FaceUniforms face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
     float u = coordinates.x;
     float v = coordinates.y;
     vec3 roots = sqrt(vec3(1.0 - 0.5 * (u * u + v * v) + u * u * v * v * (1.0 / 3.0),
@@ -33,7 +33,7 @@ vec3 normalOnSphere(FaceFrame face, vec2 coordinates, vec3 d, float radius, vec2
     float cross6 = -u * v * (1.0 / 6.0);
     vec3 along = vec3(u * (v * v * (1.0 / 3.0) - 0.5) / roots.x, roots.y, cross6 / roots.z);
     vec3 across = vec3(v * (u * u * (1.0 / 3.0) - 0.5) / roots.x, cross6 / roots.y, roots.z);
-    mat3 world = mat3(face.normal.xyz, face.u.xyz, face.v.xyz);
+    mat3 world = mat3(face.normal, face.u, face.v);
     vec3 du = world * along;
     vec3 dv = world * across;
     return radius * cross(du, dv) + heightSlope.x * cross(d, dv) + heightSlope.y * cross(du, d);

@@ -1,29 +1,56 @@
 // Texture layers: how much of each lies at a pixel, and what they look like there. The weights are those of
 // planet/surface/layer_set.h, whose doubles are the reference.
 
-const int mostLayers = 8;
-const int repeatLevels = 10;
-const float repeatLevelStep = 3.2360680;  // irrational, so that two levels' repeats never meet
+// planet/gl/draw/layer_uniforms.h has structs with the same members.
+struct LineUniforms {
+    float lowest;   // value where the lower edge begins
+    float rise;     // 1 / width of the lower edge
+    float highest;  // value where the upper edge ends
+    float fall;
+};
 
-struct Layer {
-    vec4 heightLines;    // lowest; rise; highest; fall
-    vec4 slopeLines;
-    vec4 latitudeLines;
-    vec4 tint;           // linear light; opacity
-    vec4 noise;          // amount; field; component; slice of the textures
-    vec4 mean;           // linear albedo on average, tinted; metres a repeat
+struct LayerUniforms {
+    LineUniforms heightLines;
+    LineUniforms slopeLines;
+    LineUniforms latitudeLines;
+    vec3 tint;  // linear light
+    float opacity;
+    vec3 mean;  // linear albedo on average, tinted
+    float repeatM;
+    float noiseAmount;
+    int noiseField;
+    int noiseComponent;
+    int slice;  // of the textures
+};
+
+struct NoiseOctave {
+    ivec3 cell;  // the eye's
+    float cellsPerM;
+    vec3 inside;  // the eye's place in its cell
+};
+
+struct RepeatUniforms {
+    vec3 eye;  // the eye's place in the repeat
+    float perM;
 };
 
 layout(std140) uniform Layers {
-    ivec4 layerCounts;   // layers that are drawn; noise fields; the previewed one or -1; 1: preview as a mask
-    vec4 layerMix;       // metres from the eye to where they begin to fade; 1 / metres from there to their end;
-                         // opacity; sharpness of the blend by height, 0: by weight
-    vec4 layerTruth;     // true over drawn height; true over lit slope; how much of the colour below shows; pixels
-    Layer layers[mostLayers];
-    ivec4 noiseCells[3 * mostLayers];   // of each field, an octave each: the eye's cell; unused
-    vec4 noiseInside[3 * mostLayers];   // the eye's place in it; cells a metre
-    vec4 repeatPlaces[mostLayers * repeatLevels];  // the eye's place in the repeat; repeats a metre
-};
+    int count;  // layers that are drawn
+    int noiseFieldCount;
+    int previewed;      // -1: none
+    int previewsMask;   // 1: the preview is a mask
+    float fadeBeginM;   // distance where the layers begin to fade
+    float perFadeM;     // 1 / metres from there to their end
+    float opacity;
+    float sharpness;    // of the blend by height; 0: by weight
+    float trueHeight;   // true over drawn height
+    float trueSlope;    // true over lit slope
+    float colourBelow;  // how much of the colour below shows
+    float repeatRad;    // a repeat appears at least as large, as long as larger repeats are left
+    LayerUniforms layers[maxLayers];
+    NoiseOctave noise[3 * maxLayers];  // three octaves of each field
+    RepeatUniforms repeats[maxLayers * layerRepeatLevels];
+} layerSet;
 
 uniform sampler2DArray layerAlbedo;   // sRGB; relief
 uniform sampler2DArray layerSurface;  // normal's x and y; roughness; unused
@@ -50,8 +77,8 @@ vec4 valueNoise(ivec3 eyeCell, vec3 place) {
 }
 
 vec4 octaveNoise(int at, vec3 position) {
-    vec4 inside = noiseInside[at];
-    return valueNoise(noiseCells[at].xyz, inside.xyz + position * inside.w);
+    NoiseOctave octave = layerSet.noise[at];
+    return valueNoise(octave.cell, octave.inside + position * octave.cellsPerM);
 }
 
 vec4 fieldNoise(int field, vec3 position) {
@@ -59,26 +86,29 @@ vec4 fieldNoise(int field, vec3 position) {
            0.16 * octaveNoise(3 * field + 2, position);
 }
 
-float alongRange(vec4 lines, float value, float shift) {
-    return clamp((value - lines.x) * lines.y + shift, 0.0, 1.0) * clamp((lines.z - value) * lines.w + shift, 0.0, 1.0);
+float alongRange(LineUniforms lines, float value, float shift) {
+    return clamp((value - lines.lowest) * lines.rise + shift, 0.0, 1.0) *
+           clamp((lines.highest - value) * lines.fall + shift, 0.0, 1.0);
 }
 
 // Of each layer that is drawn; what they leave to 1 is the ground below them. height: above the sea, as drawn.
 // normal: unit, as it is lit.
-void layerWeightsAt(vec3 position, vec3 up, vec3 normal, float height, out float weights[mostLayers]) {
-    vec4 noises[mostLayers];
-    for (int field = 0; field < layerCounts.y; ++field) noises[field] = fieldNoise(field, position);
+void layerWeightsAt(vec3 position, vec3 up, vec3 normal, float height, out float weights[maxLayers]) {
+    vec4 noises[maxLayers];
+    for (int field = 0; field < layerSet.noiseFieldCount; ++field) noises[field] = fieldNoise(field, position);
     float upright = max(dot(normal, up), 1e-4);
-    float slope = degrees(atan(length(normal - up * dot(normal, up)) / upright * layerTruth.y));
+    float slope = degrees(atan(length(normal - up * dot(normal, up)) / upright * layerSet.trueSlope));
     float latitude = degrees(atan(up.z, length(up.xy)));
     float open = 1.0;
-    for (int i = mostLayers - 1; i >= 0; --i) weights[i] = 0.0;
-    for (int i = layerCounts.x - 1; i >= 0; --i) {
-        vec4 noise = layers[i].noise;
-        float shift = noise.x > 0.0 ? noise.x * noises[int(noise.y)][int(noise.z)] : 0.0;
-        float covers = layers[i].tint.a * alongRange(layers[i].heightLines, height * layerTruth.x, shift) *
-                       alongRange(layers[i].slopeLines, slope, shift) *
-                       alongRange(layers[i].latitudeLines, latitude, shift);
+    for (int i = maxLayers - 1; i >= 0; --i) weights[i] = 0.0;
+    for (int i = layerSet.count - 1; i >= 0; --i) {
+        LayerUniforms layer = layerSet.layers[i];
+        float shift = layer.noiseAmount > 0.0
+                          ? layer.noiseAmount * noises[layer.noiseField][layer.noiseComponent]
+                          : 0.0;
+        float covers = layer.opacity * alongRange(layer.heightLines, height * layerSet.trueHeight, shift) *
+                       alongRange(layer.slopeLines, slope, shift) *
+                       alongRange(layer.latitudeLines, latitude, shift);
         weights[i] = covers * open;
         open *= 1.0 - covers;
     }
@@ -111,17 +141,17 @@ vec3 offPlane(vec2 v, int plane) {
 // A layer's textures laid along one of the planet's three planes, at the two repeats that suit the distance: a repeat
 // covers as many pixels from near and far, and what is seen of one is broken up by the other.
 void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 steps, inout LayerSum sum) {
-    float slice = layers[i].noise.w;
-    float wanted = max(layerTruth.w * length(position) / layers[i].mean.w, 1.0);
-    float level = min(log2(wanted) / log2(repeatLevelStep), float(repeatLevels) - 1.001);
-    int first = i * repeatLevels + int(level);
+    float slice = float(layerSet.layers[i].slice);
+    float wanted = max(layerSet.repeatRad * length(position) / layerSet.layers[i].repeatM, 1.0);
+    float level = min(log2(wanted) / log2(layerRepeatLevelStep), float(layerRepeatLevels) - 1.001);
+    int first = i * layerRepeatLevels + int(level);
     vec4 albedo[2];
     vec4 detail[2];
     for (int k = 0; k < 2; ++k) {
-        vec4 repeat = repeatPlaces[first + k];
-        vec3 at = vec3(onPlane(repeat.xyz + position * repeat.w, plane), slice);
-        vec2 alongX = onPlane(steps[0] * repeat.w, plane);
-        vec2 alongY = onPlane(steps[1] * repeat.w, plane);
+        RepeatUniforms repeat = layerSet.repeats[first + k];
+        vec3 at = vec3(onPlane(repeat.eye + position * repeat.perM, plane), slice);
+        vec2 alongX = onPlane(steps[0] * repeat.perM, plane);
+        vec2 alongY = onPlane(steps[1] * repeat.perM, plane);
         albedo[k] = textureGrad(layerAlbedo, at, alongX, alongY);
         detail[k] = textureGrad(layerSurface, at, alongX, alongY);
     }
@@ -133,9 +163,9 @@ void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 
     vec2 slope = vec2(-bent.x, bent.y) * inversesqrt(max(1.0 - dot(bent, bent), 0.05));
     // What stands for wider ground is flatter, as ground is.
     slope *= exp2(-0.35 * level);
-    float part = share * exp(layerMix.w * (colour.a + weight - 1.0));
-    sum.albedo += part * colour.rgb * layers[i].tint.rgb;
-    sum.mean += part * layers[i].mean.rgb;
+    float part = share * exp(layerSet.sharpness * (colour.a + weight - 1.0));
+    sum.albedo += part * colour.rgb * layerSet.layers[i].tint;
+    sum.mean += part * layerSet.layers[i].mean;
     sum.tilt += part * offPlane(slope, plane);
     sum.roughness += part * normal.z;
     sum.shares += part;
@@ -154,15 +184,15 @@ vec3 planeShares(vec3 normal) {
 Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 below) {
     mat2x3 steps = mat2x3(dFdx(position), dFdy(position));
     float away = length(position);
-    float weights[mostLayers];
+    float weights[maxLayers];
     layerWeightsAt(position, up, normal, height, weights);
     vec3 planes = planeShares(normal);
     float total = 0.0;
     LayerSum sum = LayerSum(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     // One after the other what is there at all, so that a pixel with one layer on one plane takes one round.
-    int wanted[3 * mostLayers];
+    int wanted[3 * maxLayers];
     int count = 0;
-    for (int i = 0; i < layerCounts.x; ++i) {
+    for (int i = 0; i < layerSet.count; ++i) {
         total += weights[i];
         for (int plane = 0; plane < 3; ++plane) {
             if (weights[i] * planes[plane] > 0.004) wanted[count++] = 3 * i + plane;
@@ -173,29 +203,29 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
         int plane = wanted[k] - 3 * i;
         layDown(i, plane, weights[i], weights[i] * planes[plane], position, steps, sum);
     }
-    float fade = 1.0 - clamp((away - layerMix.x) * layerMix.y, 0.0, 1.0);
+    float fade = 1.0 - clamp((away - layerSet.fadeBeginM) * layerSet.perFadeM, 0.0, 1.0);
     // Shares may be as small as e^-80.
     float each = sum.shares > 0.0 ? 1.0 / sum.shares : 0.0;
     vec3 albedo = sum.albedo * each;
     // The layers' light and dark on the colour below: its hue stays.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     vec3 coloured = below * dot(albedo, luminance) / max(dot(sum.mean * each, luminance), 0.01);
-    albedo = mix(albedo, min(coloured, vec3(1.0)), layerTruth.z);
+    albedo = mix(albedo, min(coloured, vec3(1.0)), layerSet.colourBelow);
     return Layered(albedo, sum.tilt * each, sum.roughness * each,
-                   sum.shares > 0.0 ? total * fade * layerMix.z : 0.0);
+                   sum.shares > 0.0 ? total * fade * layerSet.opacity : 0.0);
 }
 
 // The sun mirrored in what is not quite rough, over its light: Blinn and Phong's lobe, as wide as the roughness, and
 // Schlick's Fresnel from 0.04.
 float layerGlint(vec3 normal, vec3 toEye, float roughness) {
-    vec3 middle = toEye + sun.xyz;
+    vec3 middle = toEye + frame.sun;
     middle *= inversesqrt(max(dot(middle, middle), 1e-6));
     float wide = max(roughness * roughness, 0.02);
     float power = 2.0 / (wide * wide) - 2.0;
     float aside = 1.0 - max(dot(middle, toEye), 0.0);
     float squared = aside * aside;
     float fresnel = 0.04 + 0.96 * squared * squared * aside;
-    float facing = max(dot(normal, sun.xyz), 0.0);
+    float facing = max(dot(normal, frame.sun), 0.0);
     return facing * fresnel * (power + 2.0) / 8.0 * pow(max(dot(normal, middle), 0.0), max(power, 0.01));
 }
 
@@ -209,9 +239,9 @@ vec3 heatOf(float weight) {
 
 // The previewed layer's weight over the picture, or alone as a mask.
 vec3 layerPreview(vec3 colour, vec3 position, vec3 up, vec3 normal, float height) {
-    float weights[mostLayers];
+    float weights[maxLayers];
     layerWeightsAt(position, up, normal, height, weights);
-    float weight = layerCounts.z < 0 ? 0.0 : weights[layerCounts.z];
-    if (layerCounts.w != 0) return vec3(weight);
+    float weight = layerSet.previewed < 0 ? 0.0 : weights[layerSet.previewed];
+    if (layerSet.previewsMask != 0) return vec3(weight);
     return mix(colour, heatOf(weight), 0.45 + 0.35 * weight);
 }

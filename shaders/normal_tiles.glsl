@@ -11,7 +11,7 @@ uniform sampler2DArray normalRoots;   // a face a layer, with mipmaps
 
 // xy: slopes times z; z: the share that a tile has in them, 0 where none is fine enough.
 vec3 slopeOfLevel(int level, float meshLevel, vec2 place, float face, vec2 dx, vec2 dy) {
-    uvec2 page = tilePage(normalPages, normalLevels.x, level, place, face);
+    uvec2 page = tilePage(normalPages, frame.normals.leafLevel, level, place, face);
     if (page.r == noTile || float(page.g) < meshLevel) return vec3(0.0);
     return vec3(tileTexel(normalTiles, page, place, dx, dy).rg, 1.0);
 }
@@ -19,12 +19,12 @@ vec3 slopeOfLevel(int level, float meshLevel, vec2 place, float face, vec2 dx, v
 vec3 slopeAt(float meshLevel, vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
-    float level = levelWanted(dx, dy, normalFilter);
+    float level = levelWanted(dx, dy, frame.normals);
     if (level <= 0.0) {
-        bool isThere = meshLevel <= 0.0 && tilePage(normalPages, normalLevels.x, 0, place, face).r != noTile;
+        bool isThere = meshLevel <= 0.0 && tilePage(normalPages, frame.normals.leafLevel, 0, place, face).r != noTile;
         return isThere ? vec3(rootTexel(normalRoots, place, face, dx, dy).rg, 1.0) : vec3(0.0);
     }
-    level = min(level, float(normalLevels.x));
+    level = min(level, float(frame.normals.leafLevel));
     int coarser = int(floor(level));
     float finer = level - float(coarser);
     vec3 slope = (1.0 - finer) * slopeOfLevel(coarser, meshLevel, place, face, dx, dy);
@@ -33,10 +33,10 @@ vec3 slopeAt(float meshLevel, vec2 place, float face) {
 }
 
 // Nowell's map.
-vec3 directionOf(FaceFrame face, vec2 c) {
+vec3 directionOf(FaceUniforms face, vec2 c) {
     vec3 roots = sqrt(vec3(1.0 - 0.5 * dot(c, c) + c.x * c.x * c.y * c.y * (1.0 / 3.0),
                            0.5 - c.y * c.y * (1.0 / 6.0), 0.5 - c.x * c.x * (1.0 / 6.0)));
-    return roots.x * face.normal.xyz + c.x * roots.y * face.u.xyz + c.y * roots.z * face.v.xyz;
+    return roots.x * face.normal + c.x * roots.y * face.u + c.y * roots.z * face.v;
 }
 
 // meshNormal: unit; what there is without tiles. meshLevel: of tiles whose texels are the mesh's vertices.
@@ -44,12 +44,12 @@ vec3 directionOf(FaceFrame face, vec2 c) {
 vec3 normalFromTiles(vec3 meshNormal, float meshLevel, vec4 place) {
     vec3 slope = slopeAt(meshLevel, place.xy, place.w);
     if (slope.z <= 0.0) return meshNormal;
-    FaceFrame face = faces[int(place.w + 0.5)];
+    FaceUniforms face = frame.faces[int(place.w + 0.5)];
     vec2 coordinates = 2.0 * place.xy - 1.0;
-    vec2 heightSlope = slope.xy / slope.z * (normalFilter.z * heights.z);
-    vec3 normal = isOn(switchCube)
-                      ? face.normal.xyz * planet.w - heightSlope.x * face.u.xyz - heightSlope.y * face.v.xyz
-                      : normalOnSphere(face, coordinates, directionOf(face, coordinates), planet.x + place.z,
+    vec2 heightSlope = slope.xy / slope.z * (frame.normalRiseM * frame.reliefBoost);
+    vec3 normal = switchCube
+                      ? face.normal * frame.cubeHalfM - heightSlope.x * face.u - heightSlope.y * face.v
+                      : normalOnSphere(face, coordinates, directionOf(face, coordinates), frame.radiusM + place.z,
                                        heightSlope);
     return normalize(mix(meshNormal, normalize(normal), slope.z));
 }

@@ -5,14 +5,21 @@
 // of the sun's glitter", 1954), and by which the sun's glint and the mirrored sky are spread (Bruneton, Neyret and
 // Holzschuch, "Real-time realistic ocean lighting using seamless transitions from geometry to BRDF", 2010).
 
-const int waveCount = 32;
+// planet/gl/draw/sea_uniforms.h has structs with the same members.
+struct WaveUniforms {
+    vec3 vector;      // radians per metre, world axes
+    float phase;      // at the eye
+    vec3 bendVector;  // of a long wave that bends this one, so that no pattern runs through
+    float bendPhase;
+};
 
 layout(std140) uniform Sea {
-    vec4 waves[waveCount];       // wave vector, radians a metre, world axes; phase at the eye
-    vec4 bends[waveCount];       // of long waves that bend each, so that no pattern runs through: likewise
-    vec4 water;                  // extinction of red, green and blue, 1 / metre; 1 / exaggeration
-    vec4 roughness;              // variance of all slopes; the largest slope of a wave; unused
-};
+    WaveUniforms waves[seaWaveCount];
+    vec3 extinction;       // of red, green and blue, 1 / metre
+    float perExaggeration; // 1 / exaggeration
+    float slopeVariance;   // of all waves
+    float waveSlope;       // largest slope of one wave
+} seaState;
 
 // Albedo of a bed that no image shows.
 const vec3 sandyBed = vec3(0.30, 0.27, 0.19);
@@ -25,20 +32,20 @@ struct Waves {
 Waves wavesAt(vec3 position, vec3 up) {
     vec3 acrossX = dFdx(position);
     vec3 acrossY = dFdy(position);
-    Waves seen = Waves(vec3(0.0), roughness.x);
-    for (int i = 0; i < waveCount; ++i) {
-        vec3 k = waves[i].xyz;
+    Waves seen = Waves(vec3(0.0), seaState.slopeVariance);
+    for (int i = 0; i < seaWaveCount; ++i) {
+        vec3 k = seaState.waves[i].vector;
         float turn = max(abs(dot(k, acrossX)), abs(dot(k, acrossY)));  // radians from pixel to pixel
         float share = 1.0 - smoothstep(0.4, 1.8, turn);
         if (share == 0.0) continue;
         vec3 along = k - up * dot(k, up);
-        float slope = roughness.y * share;
+        float slope = seaState.waveSlope * share;
         vec3 tilt = along * (slope * inversesqrt(dot(k, k)));
-        float bend = 2.2 * sin(dot(bends[i].xyz, position) + bends[i].w);
-        seen.tilt += tilt * cos(dot(k, position) + waves[i].w + bend);
+        float bend = 2.2 * sin(dot(seaState.waves[i].bendVector, position) + seaState.waves[i].bendPhase);
+        seen.tilt += tilt * cos(dot(k, position) + seaState.waves[i].phase + bend);
         seen.variance -= 0.5 * dot(tilt, tilt);
     }
-    seen.variance = max(seen.variance, 0.1 * roughness.x);
+    seen.variance = max(seen.variance, 0.1 * seaState.slopeVariance);
     return seen;
 }
 
@@ -50,7 +57,7 @@ float seaFresnel(float cosine, float variance) {
 
 // The sun's light mirrored by slopes so distributed. Irradiance in units of pi, as sunLit.
 vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
-    vec3 middle = normalize(toEye + sun.xyz);
+    vec3 middle = normalize(toEye + frame.sun);
     float across = max(dot(middle, normal), 1e-3);
     float across2 = across * across;
     float slope2 = (1.0 - across2) / across2;
@@ -59,7 +66,7 @@ vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
     float fresnel = 0.02 + 0.98 * aside * aside * aside * aside * aside;
     // Low over the water waves hide one another: no more is seen than their tilt turns to the eye.
     float seenCosine = max(dot(normal, toEye), 0.35 * sqrt(variance));
-    float lit = smoothstep(0.0, 0.06, dot(normal, sun.xyz));
+    float lit = smoothstep(0.0, 0.06, dot(normal, frame.sun));
     return sunlight * (lit * fresnel * density / (4.0 * seenCosine * across2 * across2));
 }
 
@@ -67,7 +74,7 @@ vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
 // and scattered by the water itself.
 vec3 fromWater(float depth, vec3 bed, vec3 downwelling) {
     const vec3 deep = vec3(0.0022, 0.014, 0.040);  // reflectance of a sea without a bed
-    vec3 kept = exp(-2.0 * water.rgb * depth);
+    vec3 kept = exp(-2.0 * seaState.extinction * depth);
     return downwelling * mix(deep, bed, kept);
 }
 
@@ -83,8 +90,8 @@ vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 bed, vec3 sun
     float mirrored = seaFresnel(cosine, waves.variance);
     vec3 direction = reflect(ray, normal);
     direction = normalize(direction + up * (max(-dot(direction, up), 0.0) + 0.5 * sqrt(waves.variance)));
-    vec3 downwelling = sunlight * max(dot(up, sun.xyz), 0.0) + skylight;
-    vec3 below = fromWater(max(-height, 0.0) * water.w, bed, downwelling);
+    vec3 downwelling = sunlight * max(dot(up, frame.sun), 0.0) + skylight;
+    vec3 below = fromWater(max(-height, 0.0) * seaState.perExaggeration, bed, downwelling);
     return mix(below, skyRadianceAlong(direction, up), mirrored) +
            sunGlitter(normal, toEye, sunlight, waves.variance);
 }

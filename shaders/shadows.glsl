@@ -1,20 +1,25 @@
 // How much of the sun the ground sees past other ground. planet/select/shadow_cascades.h.
 
-const int cascadeCount = 3;
+// planet/gl/draw/shadow_uniforms.h has structs with the same members.
+struct CascadeUniforms {
+    mat4 place;  // from positions relative to the eye to [0, 1]: place in the map, depth
+    float texelM;
+    float endM;  // along the view
+};
 
 layout(std140) uniform Shadows {
-    mat4 shadowPlace[cascadeCount];   // from positions relative to the eye to [0, 1]: place in the map, depth
-    vec4 shadowTexels[cascadeCount];  // metres of a texel; where the cascade ends, along the view; unused
-    vec4 shadowFilter;                // radius, texels; size of a texel, [0, 1] across the map; unused
-};
+    CascadeUniforms cascades[shadowCascadeCount];
+    float softness;   // radius of the filter, texels
+    float texelSize;  // [0, 1] across the map
+} shadow;
 
 uniform sampler2DArrayShadow shadowMaps;
 
 float shadowAt(int cascade, vec3 position) {
-    vec3 place = (shadowPlace[cascade] * vec4(position, 1.0)).xyz;
+    vec3 place = (shadow.cascades[cascade].place * vec4(position, 1.0)).xyz;
     float seen = texture(shadowMaps, vec4(place.xy, float(cascade), place.z));
-    if (shadowFilter.x == 0.0) return seen;
-    float aside = shadowFilter.x * shadowFilter.y;
+    if (shadow.softness == 0.0) return seen;
+    float aside = shadow.softness * shadow.texelSize;
     for (int i = 0; i < 8; ++i) {
         // The places around a square's middle.
         int at = i < 4 ? i : i + 1;
@@ -27,20 +32,18 @@ float shadowAt(int cascade, vec3 position) {
 // [0, 1]. normal: of the mesh, unit. The place asked for lies above the ground by what the filter reaches over on
 // a slope that the sun grazes.
 float sunSeen(vec3 position, vec3 normal) {
-    float along = dot(position, rayForward.xyz);
-    float last = shadowTexels[cascadeCount - 1].y;
+    float along = dot(position, frame.rayForward);
+    float last = shadow.cascades[shadowCascadeCount - 1].endM;
     if (along >= last) return 1.0;
-    int cascade = along < shadowTexels[0].y ? 0 : along < shadowTexels[1].y ? 1 : 2;
-    float facing = dot(normal, sun.xyz);
-    vec3 off = normal * ((1.0 + shadowFilter.x) * sqrt(max(1.0 - facing * facing, 0.0)));
-    float seen = shadowAt(cascade, position + off * shadowTexels[cascade].x);
+    int cascade = along < shadow.cascades[0].endM ? 0 : along < shadow.cascades[1].endM ? 1 : 2;
+    float facing = dot(normal, frame.sun);
+    vec3 off = normal * ((1.0 + shadow.softness) * sqrt(max(1.0 - facing * facing, 0.0)));
+    float seen = shadowAt(cascade, position + off * shadow.cascades[cascade].texelM);
     // Into the next one over a tenth of its length, and out at the end.
-    float end = shadowTexels[cascade].y;
-    float begin = cascade == 0 ? 0.0 : shadowTexels[cascade - 1].y;
+    float end = shadow.cascades[cascade].endM;
+    float begin = cascade == 0 ? 0.0 : shadow.cascades[cascade - 1].endM;
     float onward = smoothstep(mix(begin, end, 0.9), end, along);
     if (onward == 0.0) return seen;
-    float next = cascade + 1 < cascadeCount
-                     ? shadowAt(cascade + 1, position + off * shadowTexels[min(cascade + 1, cascadeCount - 1)].x)
-                     : 1.0;
-    return mix(seen, next, onward);
+    if (cascade + 1 == shadowCascadeCount) return mix(seen, 1.0, onward);
+    return mix(seen, shadowAt(cascade + 1, position + off * shadow.cascades[cascade + 1].texelM), onward);
 }

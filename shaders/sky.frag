@@ -23,48 +23,48 @@ float starLight(vec3 ray) {
     float pick = hash(vec3(cell, face * 17.0));
     if (pick < 0.86) return 0.0;
     vec2 star = vec2(hash(vec3(cell, face * 31.0)), hash(vec3(cell, face * 57.0))) * 0.7 + 0.15;
-    vec2 away = (side * cells - cell - star) / (cells * screen.x);  // pixels
+    vec2 away = (side * cells - cell - star) / (cells * frame.pixelRad);  // pixels
     float magnitude = (pick - 0.86) / 0.14;
     return (0.02 + 0.55 * pow(magnitude, 9.0)) * exp(-dot(away, away) * 1.4);
 }
 
 vec3 physicalSky(vec3 ray) {
     bool meetsGround = false;
-    AirLight air = lightOfSky(ray, meetsGround);
-    if (meetsGround) return onFilm(max(air.scattered, 0.0));
-    vec3 light = air.scattered + air.through * airSun.rgb * (5.0 * sunDisk(dot(ray, sun.xyz), screen.x));
+    AirLight sky = lightOfSky(ray, meetsGround);
+    if (meetsGround) return onFilm(max(sky.scattered, 0.0));
+    vec3 light = sky.scattered + sky.through * air.light * (5.0 * sunDisk(dot(ray, frame.sun), frame.pixelRad));
     light = onFilm(min(max(light, 0.0), vec3(1e4)));
-    float clear = max(1.0 - 12.0 * (air.scattered.r + air.scattered.g + air.scattered.b), 0.0);
-    if (clear > 0.01) light += air.through * vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
+    float clear = max(1.0 - 12.0 * (sky.scattered.r + sky.scattered.g + sky.scattered.b), 0.0);
+    if (clear > 0.01) light += sky.through * vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
     return light;
 }
 
 void main() {
     vec3 ray = normalize(skyRay);
     vec3 light = vec3(0.0);
-    if (isOn(switchPhysicalAir)) {
+    if (switchPhysicalAir) {
         light = physicalSky(ray);
         fragment = vec4(developed(light) + ditherStep() * step(0.002, light.b), 1.0);
         return;
     }
     float clear = 1.0;
-    vec3 eyeScaled = eye.xyz * atmosphere.y;
+    vec3 eyeScaled = frame.eyeM * frame.scaleHeightsPerM;
     float eyeRadius = length(eyeScaled);
     float rise = dot(eyeScaled, ray) / eyeRadius;
     float lowest = length(cross(eyeScaled, ray));
-    if (atmosphere.z > 0.0 && (rise > 0.0 || lowest > 0.985 * atmosphere.x)) {
-        float eyeHeight = max(eyeRadius - atmosphere.x, 0.0);
-        float air = airAlong(eyeHeight, rise, max(lowest, atmosphere.x));
-        air = clamp(air, 0.0, 200.0);
+    if (frame.drawsAtmosphere != 0 && (rise > 0.0 || lowest > 0.985 * frame.radiusScaleHeights)) {
+        float eyeHeight = max(eyeRadius - frame.radiusScaleHeights, 0.0);
+        float mass = airAlong(eyeHeight, rise, max(lowest, frame.radiusScaleHeights));
+        mass = clamp(mass, 0.0, 200.0);
         // Where most of the light comes from: the ray's lowest point, or nearer where the air is thick.
         float toLowest = max(-rise * eyeRadius, 0.0);
-        float nearer = min(20.0 * clamp(0.05 * air, 0.0, 1.0), toLowest);
+        float nearer = min(20.0 * clamp(0.05 * mass, 0.0, 1.0), toLowest);
         vec3 dense = eyeScaled + ray * (rise > 0.0 ? 1.5 : toLowest - nearer);
-        light = scattered(air, scattering, sunOnAir(dense), dot(ray, sun.xyz));
-        clear = exp(-0.6 * air) * (1.0 - min(dot(light, vec3(3.0)), 1.0));
+        light = scattered(mass, scattering, sunOnAir(dense), dot(ray, frame.sun));
+        clear = exp(-0.6 * mass) * (1.0 - min(dot(light, vec3(3.0)), 1.0));
     }
     // A planet that is not drawn there still hides the stars behind it.
-    if (rise < 0.0 && lowest < atmosphere.x) clear = 0.0;
+    if (rise < 0.0 && lowest < frame.radiusScaleHeights) clear = 0.0;
     if (clear > 0.01) light += vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
     fragment = vec4(developed(max(light, 0.0)) + ditherStep() * step(0.002, light.b), 1.0);
 }

@@ -1,7 +1,6 @@
 // planet/sphere/vertex_position.cpp, line by line; that header says why.
 
-const int fineGridLog2 = 22;
-const float fineCell = 1.0 / 2097152.0;  // 2 / 2^22
+const float fineCell = 2.0 / float(1 << fineGridLog2);
 
 // A vertex's place on its face.
 struct GridPlace {
@@ -11,22 +10,22 @@ struct GridPlace {
     vec3 turn;         // d - d0, world axes
 };
 
-GridPlace gridPlace(FaceFrame face, ivec2 grid) {
+GridPlace gridPlace(FaceUniforms face, ivec2 grid) {
     GridPlace place;
-    vec2 start = face.coordinates.xy;
-    place.delta = vec2(grid - face.grid.xy) * fineCell;
+    vec2 start = face.coordinates;
+    place.delta = vec2(grid - face.grid) * fineCell;
     place.coordinates = start + place.delta;
     vec2 squares = place.delta * (start + place.coordinates);  // u^2 - u0^2, v^2 - v0^2
     vec2 c = place.coordinates;
     float underRoot = squares.x * (c.y * c.y * (1.0 / 3.0) - 0.5) +
                       squares.y * (start.x * start.x * (1.0 / 3.0) - 0.5);
-    vec3 roots0 = face.roots.xyz;
+    vec3 roots0 = face.roots;
     place.roots = sqrt(vec3(roots0.x * roots0.x + underRoot, 0.5 - c.y * c.y * (1.0 / 6.0),
                             0.5 - c.x * c.x * (1.0 / 6.0)));
     float alongNormal = underRoot / (place.roots.x + roots0.x);
     vec2 along = place.delta * place.roots.yz -
                  start * (squares.yx * (1.0 / 6.0)) / (place.roots.yz + roots0.yz);
-    place.turn = alongNormal * face.normal.xyz + along.x * face.u.xyz + along.y * face.v.xyz;
+    place.turn = alongNormal * face.normal + along.x * face.u + along.y * face.v;
     return place;
 }
 
@@ -36,21 +35,21 @@ void moveToOwningFace(inout int face, inout ivec2 grid) {
     const int side = 1 << fineGridLog2;
     ivec2 fromMiddle = 2 * grid - side;
     if (max(abs(fromMiddle.x), abs(fromMiddle.y)) < side) return;
-    vec3 cube = float(side) * faces[face].normal.xyz + float(fromMiddle.x) * faces[face].u.xyz +
-                float(fromMiddle.y) * faces[face].v.xyz;
+    vec3 cube = float(side) * frame.faces[face].normal + float(fromMiddle.x) * frame.faces[face].u +
+                float(fromMiddle.y) * frame.faces[face].v;
     int axis = abs(cube.x) == float(side) ? 0 : abs(cube.y) == float(side) ? 1 : 2;
     face = 2 * axis + (cube[axis] < 0.0 ? 1 : 0);
-    grid = (ivec2(dot(cube, faces[face].u.xyz), dot(cube, faces[face].v.xyz)) + side) / 2;
+    grid = (ivec2(dot(cube, frame.faces[face].u), dot(cube, frame.faces[face].v)) + side) / 2;
 }
 
 // Rise: height over the reference step, metres.
-vec3 positionOnSphere(FaceFrame face, GridPlace place, float rise) {
-    return face.origin.xyz + (planet.z + rise) * place.turn + rise * face.direction.xyz;
+vec3 positionOnSphere(FaceUniforms face, GridPlace place, float rise) {
+    return face.originM + (frame.referenceRadiusM + rise) * place.turn + rise * face.direction;
 }
 
 // The cube before it is blown up, of the size that fits into the sphere; heights point away from its middle.
-vec3 positionOnCube(FaceFrame face, GridPlace place, float height) {
-    vec3 cube = face.normal.xyz + place.coordinates.x * face.u.xyz + place.coordinates.y * face.v.xyz;
-    vec3 fromReference = planet.w * (place.delta.x * face.u.xyz + place.delta.y * face.v.xyz);
-    return face.cubeOrigin.xyz + fromReference + height * normalize(cube);
+vec3 positionOnCube(FaceUniforms face, GridPlace place, float height) {
+    vec3 cube = face.normal + place.coordinates.x * face.u + place.coordinates.y * face.v;
+    vec3 fromReference = frame.cubeHalfM * (place.delta.x * face.u + place.delta.y * face.v);
+    return face.cubeOriginM + fromReference + height * normalize(cube);
 }

@@ -1,4 +1,4 @@
-// Where shaders come from, and how they become programs. Wants a current context; one thread.
+// Reads shaders and links them into programs. Wants a current context; one thread.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,14 @@
 
 #include "planet/base/result.h"
 #include "planet/gl/device/gl_objects.h"
+#include "planet/gl/device/vertex_inputs.h"
 
 namespace planet::gl {
 
-// The text of a file of shaders/ as it was built in; empty where there is none of that name.
+// Returns the text of a file of shaders/ as it was built in; empty if there is none of that name.
 std::string_view embeddedShader(std::string_view name);
 
-// A shader is put together from files in the order given; the version line is added in front.
+// A shader consists of these files in this order; linkProgram adds the version line.
 using ShaderFiles = std::span<const std::string_view>;
 
 struct ShaderText {
@@ -23,12 +24,18 @@ struct ShaderText {
     std::string text;
 };
 
-// Reads the built-in files, or those in the folder where one is named. The Error names the file.
+// Reads the files from a folder, or the built-in ones if it is empty. The Error names the file.
 Result<ShaderText> readShader(const std::filesystem::path& folder, ShaderFiles files);
 
-// Links a program; both shaders see the number as the constant int variant. Outputs named in captured are
-// recorded by transform feedback, interleaved. The Error names the files and has the compiler's own words.
-Result<Program> linkProgram(const ShaderText& vertex, const ShaderText& fragment, int variant = 0,
-                            std::span<const char* const> captured = {});
+struct LinkOptions {
+    std::string_view prologue{};              // stands before the text of both shaders
+    std::span<const VertexInput> inputs{};    // of the vertex shader, in the order of their locations
+    std::span<const char* const> captured{};  // outputs that transform feedback records, interleaved
+};
+
+// Links a program and connects its blocks and samplers (shader_inputs.h). The Error names the files and
+// quotes the compiler.
+Result<Program> linkProgram(const ShaderText& vertex, const ShaderText& fragment,
+                            const LinkOptions& options = {});
 
 }  // namespace planet::gl

@@ -1,17 +1,33 @@
 #include "planet/gl/draw/chunk_instances.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 
 #include "planet/gl/draw/chunk_grid.h"
-#include "planet/gl/draw/frame_uniforms.h"
 
 namespace planet::gl {
 
 namespace {
 
-// The chunk's neighbours of its own level on its own face, as far as they are drawn.
+constexpr GLuint gridInputCount = 2;
+constexpr auto vertexInputs = std::to_array<VertexInput>({
+    {"gridVertex", 2, GL_UNSIGNED_BYTE, InputKind::Integer, offsetof(GridVertex, column)},
+    {"skirt", 1, GL_UNSIGNED_BYTE, InputKind::Integer, offsetof(GridVertex, skirt)},
+    {"chunkFace", 1, GL_UNSIGNED_SHORT, InputKind::Integer, offsetof(ChunkInstance, face)},
+    {"chunkLevel", 1, GL_UNSIGNED_SHORT, InputKind::Integer, offsetof(ChunkInstance, level)},
+    {"chunkPlace", 2, GL_UNSIGNED_INT, InputKind::Integer, offsetof(ChunkInstance, x)},
+    {"chunkSlot", 1, GL_UNSIGNED_INT, InputKind::Integer, offsetof(ChunkInstance, slot)},
+    {"beside", 4, GL_UNSIGNED_INT, InputKind::Integer, offsetof(ChunkInstance, beside)},
+    {"skirtDepthM", 1, GL_FLOAT, InputKind::Float, offsetof(ChunkInstance, skirtDepthM)},
+    {"morph", 1, GL_FLOAT, InputKind::Float, offsetof(ChunkInstance, morph)},
+    {"chunkTint", 4, GL_UNSIGNED_BYTE, InputKind::Normalised, offsetof(ChunkInstance, tint)},
+    {"coarserBy", 4, GL_UNSIGNED_BYTE, InputKind::Integer, offsetof(ChunkInstance, coarserBy)},
+    {"edgeMorph", 4, GL_FLOAT, InputKind::Float, offsetof(ChunkInstance, edgeMorph)},
+});
+
+// Returns the slots of the chunk's neighbours of its own level on its own face; noSlot for those not drawn.
 std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const ChunkId& id) {
     const std::uint32_t last = (1u << id.level) - 1;
     const auto slotAt = [&](bool onFace, std::uint32_t x, std::uint32_t y) {
@@ -23,10 +39,11 @@ std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const 
             slotAt(id.y > 0, id.x, id.y - 1), slotAt(id.y < last, id.x, id.y + 1)};
 }
 
-// Without the slots and the tint.
+// Leaves out the slots and the tint.
 ChunkInstance instanceOf(const DrawItem& item, bool stitched) {
     ChunkInstance instance;
-    instance.faceAndLevel = static_cast<std::uint32_t>(item.id.face) + 8u * item.id.level;
+    instance.face = static_cast<std::uint16_t>(item.id.face);
+    instance.level = item.id.level;
     instance.x = item.id.x;
     instance.y = item.id.y;
     instance.skirtDepthM = item.skirtDepthM;
@@ -59,31 +76,27 @@ void ChunkInstances::fill(const PoolLayout& layout, std::span<const DrawItem> it
     }
 }
 
-void describeChunkVertices(const Buffer& gridVertices, const Buffer& instances) {
-    const auto byteOffset = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
-    constexpr GLsizei stride = sizeof(ChunkInstance);
-    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
-    glVertexAttribIPointer(0, 4, GL_UNSIGNED_BYTE, sizeof(GridVertex), nullptr);
-    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
-    glVertexAttribIPointer(1, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, faceAndLevel)));
-    glVertexAttribIPointer(2, 4, GL_UNSIGNED_INT, stride, byteOffset(offsetof(ChunkInstance, beside)));
-    glVertexAttribPointer(3, 2, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, skirtDepthM)));
-    glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, byteOffset(offsetof(ChunkInstance, tint)));
-    glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, stride, byteOffset(offsetof(ChunkInstance, edgeMorph)));
-    glVertexAttribIPointer(6, 4, GL_UNSIGNED_BYTE, stride, byteOffset(offsetof(ChunkInstance, coarserBy)));
-    for (GLuint attribute = 0; attribute <= 6; ++attribute) glEnableVertexAttribArray(attribute);
-    for (GLuint attribute = 1; attribute <= 6; ++attribute) glVertexAttribDivisor(attribute, 1);
+std::span<const VertexInput> chunkInputs() {
+    return vertexInputs;
 }
 
-int slidingSwitches(std::span<const DrawItem> items, bool stitched) {
+void describeChunkVertices(const Buffer& gridVertices, const Buffer& instances) {
+    const std::span<const VertexInput> all = vertexInputs;
+    glBindBuffer(GL_ARRAY_BUFFER, gridVertices.name());
+    describeInputs(all.first(gridInputCount), 0, sizeof(GridVertex), 0);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.name());
+    describeInputs(all.subspan(gridInputCount), gridInputCount, sizeof(ChunkInstance), 1);
+}
+
+Switches slidingSwitches(std::span<const DrawItem> items, bool stitched) {
     const auto anyOver0 = [](const auto& values) {
         return std::any_of(values.begin(), values.end(), [](auto value) { return value > 0; });
     };
     const auto morphs = [&](const DrawItem& item) { return item.morph > 0 || anyOver0(item.edgeMorph); };
     if (std::any_of(items.begin(), items.end(), morphs))
-        return switchSlide | switchMorph | (stitched ? switchGather : 0);
+        return switchSlide | switchMorph | (stitched ? switchGather : Switches{0});
     const auto moves = [&](const DrawItem& item) { return anyOver0(item.coarserBy); };
-    return stitched && std::any_of(items.begin(), items.end(), moves) ? switchSlide : 0;
+    return stitched && std::any_of(items.begin(), items.end(), moves) ? switchSlide : Switches{0};
 }
 
 }  // namespace planet::gl

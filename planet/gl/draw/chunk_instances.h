@@ -1,4 +1,4 @@
-// What the vertex shader is told of each chunk that is drawn. One thread.
+// The instance data of the chunks that are drawn. One thread.
 #pragma once
 
 #include <array>
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "planet/gl/device/gl_objects.h"
+#include "planet/gl/device/vertex_inputs.h"
 #include "planet/gl/draw/render_settings.h"
+#include "planet/gl/draw/shader_switches.h"
 #include "planet/gl/store/height_pool.h"
 #include "planet/select/lod_types.h"
 
@@ -16,7 +18,8 @@ namespace planet::gl {
 
 // One drawn chunk, as shaders/chunk.vert reads it.
 struct ChunkInstance {
-    std::uint32_t faceAndLevel = 0;  // face + 8 level
+    std::uint16_t face = 0;
+    std::uint16_t level = 0;
     std::uint32_t x = 0;
     std::uint32_t y = 0;
     std::uint32_t slot = 0;                         // packedPlace
@@ -35,7 +38,7 @@ using DrawnSlots = std::unordered_map<std::uint64_t, std::uint32_t>;
 
 class ChunkInstances {
 public:
-    // Of the items, with a tint for each or none, and after them of the chunks that only throw shadows.
+    // Takes the items, with one tint each or none, and after them the chunks that only cast shadows.
     void fill(const PoolLayout& layout, std::span<const DrawItem> items, std::span<const ChunkTint> tints,
               bool stitched, std::span<const DrawItem> shadowCasters);
 
@@ -46,11 +49,13 @@ private:
     DrawnSlots drawnSlots_;
 };
 
-// Tells the vertex array that is bound where shaders/chunk.vert finds its inputs: a GridVertex a vertex, a
-// ChunkInstance an instance.
+// Returns the inputs of shaders/chunk.vert: those of a GridVertex, then those of a ChunkInstance.
+std::span<const VertexInput> chunkInputs();
+
+// Tells the bound vertex array to read them from these buffers.
 void describeChunkVertices(const Buffer& gridVertices, const Buffer& instances);
 
-// The switches for what vertices do beside standing where their heights say.
-int slidingSwitches(std::span<const DrawItem> items, bool stitched);
+// Returns the switches for vertices that do not stay where their heights put them.
+Switches slidingSwitches(std::span<const DrawItem> items, bool stitched);
 
 }  // namespace planet::gl

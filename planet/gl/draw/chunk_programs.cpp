@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "planet/gl/draw/frame_uniforms.h"
-#include "planet/gl/store/air_textures.h"
+#include "planet/gl/draw/chunk_instances.h"
+#include "planet/gl/draw/shader_prologue.h"
 
 namespace planet::gl {
 
@@ -27,79 +27,44 @@ constexpr std::array<std::string_view, 2> faceImageFragmentFiles = {"water.glsl"
 constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
 constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
 
-void connect(const Program& program) {
-    constexpr auto blocks = std::to_array<std::pair<const char*, GLuint>>({{"Frame", frameBinding},
-                                                                           {"Layers", layersBinding},
-                                                                           {"Clipmap", clipmapBinding},
-                                                                           {"Sea", seaBinding},
-                                                                           {"Shadows", shadowsBinding}});
-    for (const auto& [name, binding] : blocks) {
-        const GLuint block = glGetUniformBlockIndex(program.name(), name);
-        if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name(), block, binding);
-    }
-    constexpr auto samplers =
-        std::to_array<std::pair<const char*, GLint>>({{"heightPool", heightUnit},
-                                                      {"colourImage", imageUnit},
-                                                      {"detailNoise", noiseUnit},
-                                                      {"colourTiles", tilesUnit},
-                                                      {"colourPages", pagesUnit},
-                                                      {"colourRoots", rootsUnit},
-                                                      {"clipmapStack", clipmapStackUnit},
-                                                      {"clipmapBase", clipmapBaseUnit},
-                                                      {"shadowMaps", shadowsUnit},
-                                                      {"layerAlbedo", layerAlbedoUnit},
-                                                      {"layerSurface", layerSurfaceUnit},
-                                                      {"normalTiles", normalTilesUnit},
-                                                      {"normalPages", normalPagesUnit},
-                                                      {"normalRoots", normalRootsUnit}});
-    glUseProgram(program.name());
-    for (const auto& [name, unit] : samplers) glUniform1i(glGetUniformLocation(program.name(), name), unit);
-    glUseProgram(0);
-    AirTextures::connect(program.name());
-}
-
 Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles vertexFiles,
-                             ShaderFiles fragmentFiles, int variant = 0) {
+                             ShaderFiles fragmentFiles) {
     const Result<ShaderText> vertex = readShader(folder, vertexFiles);
     if (!vertex) return tl::unexpected(vertex.error());
     const Result<ShaderText> fragment = readShader(folder, fragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());
-    Result<Program> program = linkProgram(*vertex, *fragment, variant);
-    if (program) connect(*program);
-    return program;
+    const std::string prologue = shaderPrologue(0);
+    return linkProgram(*vertex, *fragment, {.prologue = prologue});
 }
 
-// Whether what is bound for the wanted variant is all that another one reads. Tiles and the clipmap share a
-// unit.
-bool hasInputsFor(int drawn, int wanted) {
-    constexpr int reading = switchImage | switchTiles | switchClipmap | switchRamp | switchShadows |
-                            switchNormalTiles | switchPhysicalAir;
-    if ((drawn & ~wanted & reading) != 0) return false;
-    return (drawn & switchTiles) == 0 || ((drawn ^ wanted) & switchClipmap) == 0;
+// Returns whether everything that one variant reads is bound for the other one.
+bool hasInputsFor(Switches drawn, Switches wanted) {
+    constexpr Switches reading = switchImage | switchTiles | switchClipmap | switchRamp | switchShadows |
+                                 switchNormalTiles | switchPhysicalAir;
+    return (drawn & ~wanted & reading) == 0;
 }
 
-// How much less like the wanted variant another one draws. What moves vertices comes first, and what morphs
-// nothing is drawn the same by a program that could.
-int difference(int wanted, int drawn) {
-    constexpr int shape = switchCube | switchSeaSurface;
-    constexpr int slide = switchSlide | switchMorph | switchGather;
-    constexpr int fine = switchLightByVertex | switchDetail | switchFineDetail;
-    const auto count = [](int bits) { return std::popcount(static_cast<unsigned>(bits)); };
-    const int differ = wanted ^ drawn;
-    const int missing = wanted & ~drawn;
-    const int others = differ & ~(shape | slide | fine);
-    return 1000 * count(differ & shape) + 1000 * count(missing & slide) + 10 * count(others) +
-           count(differ & fine) + count(differ & slide);
+// Returns how differently one variant draws from the wanted one. Switches that move vertices weigh most; a
+// program that could morph vertices draws those that do not morph as any other does.
+int difference(Switches wanted, Switches drawn) {
+    constexpr Switches shape = switchCube | switchSeaSurface;
+    constexpr Switches slide = switchSlide | switchMorph | switchGather;
+    constexpr Switches fine = switchLightByVertex | switchDetail | switchFineDetail;
+    const Switches differ = wanted ^ drawn;
+    const Switches missing = wanted & ~drawn;
+    const Switches others = differ & ~(shape | slide | fine);
+    return 1000 * std::popcount(differ & shape) + 1000 * std::popcount(missing & slide) +
+           10 * std::popcount(others) + std::popcount(differ & fine) + std::popcount(differ & slide);
 }
 
 }  // namespace
 
-ProgramKey depthKey(int variant) {
-    return {ProgramUse::Depth, variant & (switchSlide | switchMorph | switchGather | switchSeaSurface)};
+ProgramKey depthKey(Switches switches) {
+    return {ProgramUse::Depth, switches & (switchSlide | switchMorph | switchGather | switchSeaSurface)};
 }
 
 ProgramKey skyKey(bool physicalAir) {
-    return {ProgramUse::Sky, physicalAir ? switchPhysicalAir : 0};
+    return {ProgramUse::Sky, physicalAir ? switchPhysicalAir : Switches{0}};
 }
 
 Result<Program> ChunkPrograms::linked(const Texts& texts, const ProgramKey& key) {
@@ -108,9 +73,10 @@ Result<Program> ChunkPrograms::linked(const Texts& texts, const ProgramKey& key)
     const ShaderText& fragment = sky                            ? texts.skyFragment
                                  : key.use == ProgramUse::Depth ? texts.depthFragment
                                                                 : texts.chunkFragment;
-    Result<Program> program = linkProgram(vertex, fragment, key.variant);
-    if (program) connect(*program);
-    return program;
+    const std::string prologue = shaderPrologue(key.switches);
+    return linkProgram(
+        vertex, fragment,
+        {.prologue = prologue, .inputs = sky ? std::span<const VertexInput>() : chunkInputs()});
 }
 
 Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
@@ -132,7 +98,7 @@ Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
         *text = std::move(*read);
     }
     programs.texts_ = texts;
-    // All variants see the whole text, so when one compiles, others will later.
+    // Programs differ by constants only: if one compiles, so will the others.
     for (const ProgramKey& key : {ProgramKey{}, skyKey(false), skyKey(true)}) {
         Result<Program> program = linked(*texts, key);
         if (!program) return tl::unexpected(program.error());
@@ -150,10 +116,10 @@ Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
 Result<void> ChunkPrograms::reload() {
     Result<ChunkPrograms> programs = build(folder_, worker_);
     if (!programs) return tl::unexpected(programs.error());
-    Result<Program> last = linked(*programs->texts_, {ProgramUse::Chunk, lastVariant_});
+    Result<Program> last = linked(*programs->texts_, {ProgramUse::Chunk, lastSwitches_});
     if (!last) return tl::unexpected(last.error());
-    programs->linked_[{ProgramUse::Chunk, lastVariant_}] = {std::move(*last), true};
-    programs->lastVariant_ = lastVariant_;
+    programs->linked_[{ProgramUse::Chunk, lastSwitches_}] = {std::move(*last), true};
+    programs->lastSwitches_ = lastSwitches_;
     programs->reloads_ = reloads_ + 1;
     *this = std::move(*programs);
     return {};
@@ -165,7 +131,7 @@ const Program& ChunkPrograms::orPlainest(const ProgramKey& key, const Linked& li
 }
 
 const Program& ChunkPrograms::program(const ProgramKey& key) {
-    if (key.use == ProgramUse::Chunk) lastVariant_ = key.variant;
+    if (key.use == ProgramUse::Chunk) lastSwitches_ = key.switches;
     const auto [found, fresh] = linked_.try_emplace(key);
     if (fresh) {
         if (Result<Program> made = linked(*texts_, key)) found->second.program = std::move(*made);
@@ -209,13 +175,13 @@ const Program* ChunkPrograms::ready(const ProgramKey& key) const {
     return &orPlainest(key, found->second);
 }
 
-const Program* ChunkPrograms::nearest(int variant) const {
+const Program* ChunkPrograms::nearest(Switches switches) const {
     const Program* best = nullptr;
     int least = 0;
     for (const auto& [key, linked] : linked_) {
         if (key.use != ProgramUse::Chunk || !linked.drawn || linked.program.name() == 0) continue;
-        if (!hasInputsFor(key.variant, variant)) continue;
-        const int differs = difference(variant, key.variant);
+        if (!hasInputsFor(key.switches, switches)) continue;
+        const int differs = difference(switches, key.switches);
         if (best && differs >= least) continue;
         best = &linked.program;
         least = differs;
@@ -223,10 +189,10 @@ const Program* ChunkPrograms::nearest(int variant) const {
     return best;
 }
 
-Result<Program> ChunkPrograms::capturing(int variant, std::span<const char* const> outputs) const {
-    Result<Program> program = linkProgram(texts_->chunkVertex, texts_->chunkFragment, variant, outputs);
-    if (program) connect(*program);
-    return program;
+Result<Program> ChunkPrograms::capturing(Switches switches, std::span<const char* const> outputs) const {
+    const std::string prologue = shaderPrologue(switches);
+    return linkProgram(texts_->chunkVertex, texts_->chunkFragment,
+                       {.prologue = prologue, .inputs = chunkInputs(), .captured = outputs});
 }
 
 }  // namespace planet::gl

@@ -17,6 +17,7 @@
 #include "planet/gl/device/gpu_memory.h"
 #include "planet/gl/device/gpu_timer.h"
 #include "planet/gl/device/keep_framebuffers.h"
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/device/software_renderer.h"
 #include "planet/gl/draw/chunk_grid.h"
 #include "planet/gl/draw/chunk_instances.h"
@@ -39,7 +40,7 @@ namespace planet::gl {
 
 namespace {
 
-constexpr int checkerSize = 64;  // until pictures are given
+constexpr int checkerSize = 64;  // of the texture layers until pictures are set
 
 Result<void> checkContext() {
     const int version = epoxy_gl_version();
@@ -72,8 +73,8 @@ bool boundDepthIsFloat() {
     return type == GL_FLOAT;
 }
 
-// Light and air are worked out at vertices where cells are small beside their distance, so that air is all
-// but linear across one, and beside the planet, so that the sea's glint is.
+// Light and air are computed at vertices if cells are small compared with their distance, so that air is
+// nearly linear across a cell, and with the planet, so that the sea's glint is.
 constexpr double widestSeenForLightByVertex = 0.05;  // of the distance
 constexpr double widestForLightByVertex = 0.025;     // of the radius
 
@@ -93,20 +94,16 @@ bool cellsAreSmall(const PlanetShape& shape, const View& view, std::span<const D
     return true;
 }
 
-// The variant that follows once chunks begin to morph, or no longer do: a flight goes from one to the other
-// and back.
-int otherSliding(int variant) {
-    if ((variant & switchMorph) != 0) return variant & ~(switchSlide | switchMorph | switchGather);
-    return variant | switchSlide | switchMorph | ((variant & switchSlide) != 0 ? switchGather : 0);
-}
-
-const void* byteOffset(std::size_t offset) {
-    return reinterpret_cast<const void*>(offset);
+// Returns the switches after chunks begin to morph, or stop: a flight alternates between the two.
+Switches otherSliding(Switches switches) {
+    if ((switches & switchMorph) != 0) return switches & ~(switchSlide | switchMorph | switchGather);
+    return switches | switchSlide | switchMorph |
+           ((switches & switchSlide) != 0 ? switchGather : Switches{0});
 }
 
 }  // namespace
 
-// The programs of one picture; null: what it would draw is left out.
+// The programs of one picture; null: that part is not drawn.
 struct DrawnWith {
     const Program* chunk = nullptr;
     const Program* depth = nullptr;
@@ -122,8 +119,8 @@ struct ChunkRenderer::State {
     HeightPool pool;
     std::vector<std::int16_t> highestSteps;  // of each slot
     std::shared_ptr<ChunkPrograms> programs;
-    Program capture;  // made when first asked for, for one variant
-    int captureVariant = 0;
+    Program capture;  // made when first asked for
+    Switches captureSwitches = 0;
     int captureReloads = 0;  // ChunkPrograms::reloads() when it was made
     Texture noise;
     VertexArray chunkArray, skyArray;
@@ -135,15 +132,15 @@ struct ChunkRenderer::State {
     GLsizei allIndexCount = 0;
     ColourImage image;
     std::optional<TilePool> colours;
-    std::optional<ColourClipmap> clipmap;  // of those
+    std::optional<ColourClipmap> clipmap;  // of the pool above
     std::optional<TilePool> normals;
     double normalQuantumM = 1;
     LayerTextures layers;
     AirTextures air;
     bool airInBackground = false;
     std::optional<ShadowMaps> shadows;  // while they are drawn
-    int shadowsAskedPx = 0;             // the maps' size that was last asked for; 0: none are drawn
-    std::vector<std::string> problems;  // not yet told
+    int shadowsAskedPx = 0;             // map size last asked for; 0: no shadows
+    std::vector<std::string> problems;  // not yet reported
     FrameUniforms uniforms{};           // as last filled
     GpuTimer chunksTimer, skyTimer, shadowsTimer;
     std::uint32_t uploads = 0;  // since the last draw
@@ -152,8 +149,8 @@ struct ChunkRenderer::State {
     void makeGrid();
     double highestRadiusM(std::span<const DrawItem> items) const;
     Projection chooseProjection(const View& view, std::span<const DrawItem> items) const;
-    int chooseVariant(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
-                      bool tinted, int more = 0) const;
+    Switches chooseSwitches(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
+                            bool tinted, Switches more = 0) const;
     bool wantsPhysicalAir(const RenderSettings& settings) const;
     bool airIsPhysical(const RenderSettings& settings) const;  // and there are tables for it
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched,
@@ -162,8 +159,8 @@ struct ChunkRenderer::State {
     bool makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items);
     void drawShadows(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                      const Program& program);
-    DrawnWith programsFor(int variant, bool physicalSky) const;
-    DrawnWith programsAtHand(int variant, bool physicalSky) const;
+    DrawnWith programsFor(Switches switches, bool physicalSky) const;
+    DrawnWith programsAtHand(Switches switches, bool physicalSky) const;
     void fillFrame(const View& view, const RenderSettings& settings, ShaderWait wait);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
@@ -191,8 +188,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, L
       seaFrame(makeBuffer()),
       shadowsFrame(makeBuffer()),
       layers(std::move(checker)) {
-    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
+    fillUniforms(frame, uniforms);
     makeGrid();
 }
 
@@ -214,7 +210,7 @@ void ChunkRenderer::State::makeGrid() {
     glBindVertexArray(0);
 }
 
-// Of the highest ground drawn, metres from the planet's centre.
+// Returns the distance of the highest drawn ground from the planet's centre, metres.
 double ChunkRenderer::State::highestRadiusM(std::span<const DrawItem> items) const {
     std::int16_t highest = std::numeric_limits<std::int16_t>::min();
     for (const DrawItem& item : items) highest = std::max(highest, highestSteps[item.slot]);
@@ -227,21 +223,23 @@ Projection ChunkRenderer::State::chooseProjection(const View& view, std::span<co
     return fallbackProjection(view, config.shape.radiusM, highestRadiusM(items));
 }
 
-int ChunkRenderer::State::chooseVariant(const View& view, std::span<const DrawItem> items,
-                                        const RenderSettings& settings, bool tinted, int more) const {
+Switches ChunkRenderer::State::chooseSwitches(const View& view, std::span<const DrawItem> items,
+                                              const RenderSettings& settings, bool tinted,
+                                              Switches more) const {
     const double aboveM = glm::length(view.eyeM) - highestRadiusM(items);
     const double nearestGroundM = std::max(aboveM, 1e-6 * config.shape.radiusM);
-    const int variant = more | switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted,
-                                           nearestGroundM, capabilities.software);
-    const int layersSeen =
+    const Switches switches = more | switchesFor(config.shape, view, settings, coloursDrawn(settings), tinted,
+                                                 nearestGroundM, capabilities.software);
+    const Switches layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
-    constexpr int seenByPixel = switchDetail | switchSeaSurface | switchShadows;
-    const bool byVertex = (variant & switchLighting) != 0 && (variant & seenByPixel) == 0 &&
+    constexpr Switches seenByPixel = switchDetail | switchSeaSurface | switchShadows;
+    const bool byVertex = (switches & switchLighting) != 0 && (switches & seenByPixel) == 0 &&
                           (layersSeen & switchLayers) == 0 && !drawsNormals(settings) &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
-    const bool physicalAir = (variant & switchAir) != 0 && airIsPhysical(settings);
-    return variant | layersSeen | (physicalAir ? switchPhysicalAir : 0) |
-           (byVertex ? switchLightByVertex : 0) | (drawsNormals(settings) ? switchNormalTiles : 0) |
+    const bool physicalAir = (switches & switchAir) != 0 && airIsPhysical(settings);
+    return switches | layersSeen | (physicalAir ? switchPhysicalAir : Switches{0}) |
+           (byVertex ? switchLightByVertex : Switches{0}) |
+           (drawsNormals(settings) ? switchNormalTiles : Switches{0}) |
            slidingSwitches(items, settings.stitched);
 }
 
@@ -259,7 +257,7 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
                        [&](const DrawItem& item) { return item.slot < pool.slotCapacity(); }));
     instanceData.fill(pool.layout(), items, tints, stitched, shadowCasters);
     const std::span<const ChunkInstance> filled = instanceData.all();
-    // A new store each frame, so that the GPU may still read the last one's.
+    // A new store each frame lets the GPU still read the last one.
     const std::size_t needed = filled.size_bytes();
     while (instanceBytes < needed) instanceBytes = std::max<std::size_t>(2 * instanceBytes, 4096);
     glBindBuffer(GL_ARRAY_BUFFER, instances.name());
@@ -275,16 +273,10 @@ void ChunkRenderer::State::fillFrame(const View& view, const RenderSettings& set
                                 settings.light.normals.texelsPerPixel, normalQuantumM},
                                uniforms);
     }
-    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
-    const LayersUniforms layerUniforms =
-        layersUniforms(settings.layers, view, static_cast<double>(uniforms.heights.z), settings.exaggeration,
-                       layers.means());
-    glBindBuffer(GL_UNIFORM_BUFFER, layersFrame.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(layerUniforms), &layerUniforms, GL_STREAM_DRAW);
-    const SeaUniforms sea = seaUniforms(settings.light.sea, view, settings.exaggeration);
-    glBindBuffer(GL_UNIFORM_BUFFER, seaFrame.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(sea), &sea, GL_STREAM_DRAW);
+    fillUniforms(frame, uniforms);
+    fillUniforms(layersFrame, layersUniforms(settings.layers, view, static_cast<double>(uniforms.reliefBoost),
+                                             settings.exaggeration, layers.means()));
+    fillUniforms(seaFrame, seaUniforms(settings.light.sea, view, settings.exaggeration));
     if (!wantsPhysicalAir(settings)) return;
     const bool inBackground = airInBackground && wait == ShaderWait::Never;
     if (const Result<void> followed = air.follow(settings.light.air.settings, inBackground); !followed)
@@ -310,52 +302,41 @@ bool ChunkRenderer::State::drawsNormals(const RenderSettings& settings) const {
 }
 
 void ChunkRenderer::State::bindInputs() const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, frameBinding, frame.name());
-    glBindBufferBase(GL_UNIFORM_BUFFER, layersBinding, layersFrame.name());
-    glBindBufferBase(GL_UNIFORM_BUFFER, seaBinding, seaFrame.name());
-    if (shadows) glBindBufferBase(GL_UNIFORM_BUFFER, shadowsBinding, shadowsFrame.name());
-    glActiveTexture(GL_TEXTURE0 + layerAlbedoUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.albedo());
-    glActiveTexture(GL_TEXTURE0 + layerSurfaceUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.surface());
-    glActiveTexture(GL_TEXTURE0 + imageUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, image.texture());
+    bindUniforms(UniformBlock::Frame, frame);
+    bindUniforms(UniformBlock::Layers, layersFrame);
+    bindUniforms(UniformBlock::Sea, seaFrame);
+    bindTexture(Sampler::heightPool, GL_TEXTURE_2D_ARRAY, pool.texture());
+    bindTexture(Sampler::detailNoise, GL_TEXTURE_3D, noise.name());
+    bindTexture(Sampler::layerAlbedo, GL_TEXTURE_2D_ARRAY, layers.albedo());
+    bindTexture(Sampler::layerSurface, GL_TEXTURE_2D_ARRAY, layers.surface());
+    bindTexture(Sampler::colourImage, GL_TEXTURE_2D_ARRAY, image.texture());
     if (shadows) {
-        glActiveTexture(GL_TEXTURE0 + shadowsUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, shadows->texture());
+        bindUniforms(UniformBlock::Shadows, shadowsFrame);
+        bindTexture(Sampler::shadowMaps, GL_TEXTURE_2D_ARRAY, shadows->texture());
     }
     if (colours) {
-        glActiveTexture(GL_TEXTURE0 + tilesUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, drawsClipmap() ? clipmap->stack() : colours->tiles());
-        glActiveTexture(GL_TEXTURE0 + pagesUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->pages());
-        glActiveTexture(GL_TEXTURE0 + rootsUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, colours->roots());
+        bindTexture(Sampler::colourTiles, GL_TEXTURE_2D_ARRAY, colours->tiles());
+        bindTexture(Sampler::colourPages, GL_TEXTURE_2D_ARRAY, colours->pages());
+        bindTexture(Sampler::colourRoots, GL_TEXTURE_2D_ARRAY, colours->roots());
     }
     if (drawsClipmap()) {
-        glBindBufferBase(GL_UNIFORM_BUFFER, clipmapBinding, clipmapFrame.name());
-        glActiveTexture(GL_TEXTURE0 + clipmapBaseUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, clipmap->base());
+        bindUniforms(UniformBlock::Clipmap, clipmapFrame);
+        bindTexture(Sampler::clipmapStack, GL_TEXTURE_2D_ARRAY, clipmap->stack());
+        bindTexture(Sampler::clipmapBase, GL_TEXTURE_2D_ARRAY, clipmap->base());
     }
     if (normals) {
-        glActiveTexture(GL_TEXTURE0 + normalTilesUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->tiles());
-        glActiveTexture(GL_TEXTURE0 + normalPagesUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->pages());
-        glActiveTexture(GL_TEXTURE0 + normalRootsUnit);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, normals->roots());
+        bindTexture(Sampler::normalTiles, GL_TEXTURE_2D_ARRAY, normals->tiles());
+        bindTexture(Sampler::normalPages, GL_TEXTURE_2D_ARRAY, normals->pages());
+        bindTexture(Sampler::normalRoots, GL_TEXTURE_2D_ARRAY, normals->roots());
     }
-    glActiveTexture(GL_TEXTURE0 + noiseUnit);
-    glBindTexture(GL_TEXTURE_3D, noise.name());
-    glActiveTexture(GL_TEXTURE0 + heightUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, pool.texture());
 }
 
 bool ChunkRenderer::State::drawsShadows(const RenderSettings& settings) const {
     return settings.lighting && !settings.cube && isUsed(settings.light.shadows.use, capabilities.software);
 }
 
-// Whether there are maps to draw shadows with, and ground near enough for them. Maps that are out of use go.
+// Creates the shadow maps if shadows are on and ground is in range; frees them if shadows are off. Returns
+// whether shadows can be drawn.
 bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items) {
     const ShadowDrawing& wanted = settings.light.shadows;
     if (!drawsShadows(settings)) {
@@ -367,7 +348,7 @@ bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::s
         return static_cast<double>(item.distanceM) < wanted.reachM;
     };
     if (!std::any_of(items.begin(), items.end(), isNear)) return false;
-    // Maps that could not be made are not tried again in each frame.
+    // Failed maps are not retried each frame.
     if (shadowsAskedPx != wanted.mapSizePx) {
         shadows.reset();
         shadowsAskedPx = wanted.mapSizePx;
@@ -379,7 +360,7 @@ bool ChunkRenderer::State::makeShadowMaps(const RenderSettings& settings, std::s
     return shadows.has_value();
 }
 
-// The same ground as seen from the sun, once a cascade.
+// Draws the ground as seen from the sun, once per cascade.
 void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawItem> items,
                                        const RenderSettings& settings, const Program& program) {
     double nearestM = settings.light.shadows.reachM;
@@ -388,24 +369,21 @@ void ChunkRenderer::State::drawShadows(const View& view, std::span<const DrawIte
     const ShadowCascades cascades =
         shadowCascades(view, settings.sunDirection, std::max(nearestM, least),
                        std::max(settings.light.shadows.reachM, 4 * least), shadows->sizePx());
-    const ShadowUniforms told = shadowUniforms(cascades, settings.light.shadows.softness, shadows->sizePx());
-    glBindBuffer(GL_UNIFORM_BUFFER, shadowsFrame.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(told), &told, GL_STREAM_DRAW);
+    fillUniforms(shadowsFrame, shadowUniforms(cascades, settings.light.shadows.softness, shadows->sizePx()));
     const KeepFramebuffers keep;
     glUseProgram(program.name());
     glBindVertexArray(chunkArray.name());
-    glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
     for (std::size_t i = 0; i < shadowCascadeCount; ++i) {
         FrameUniforms fromSun = uniforms;
         fromSun.clipFromWorld = cascades[i].clipFromEye;
-        glBufferData(GL_UNIFORM_BUFFER, sizeof(fromSun), &fromSun, GL_STREAM_DRAW);
+        fillUniforms(frame, fromSun);
         shadows->begin(i);
         if (program.name() != 0)
             glDrawElementsInstanced(GL_TRIANGLES, gridIndexCount, GL_UNSIGNED_SHORT, nullptr,
                                     static_cast<GLsizei>(instanceData.all().size()));
     }
     ShadowMaps::end();
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
+    fillUniforms(frame, uniforms);
 }
 
 void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const RenderSettings& settings,
@@ -419,8 +397,9 @@ void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const Ren
     glUseProgram(program ? program->name() : 0);
     glBindVertexArray(chunkArray.name());
     if (chunks > 0 && indexCount > 0) {
+        const auto offset = static_cast<std::size_t>(first) * sizeof(std::uint16_t);
         glDrawElementsInstanced(GL_TRIANGLES, indexCount, GL_UNSIGNED_SHORT,
-                                byteOffset(static_cast<std::size_t>(first) * sizeof(std::uint16_t)), chunks);
+                                reinterpret_cast<const void*>(offset), chunks);
     }
     glDisable(GL_CULL_FACE);
     counters.chunks = static_cast<std::uint32_t>(chunks);
@@ -429,7 +408,7 @@ void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const Ren
     counters.skirtTriangles = (static_cast<std::uint64_t>(indexCount / 3) - ground) * items.size();
 }
 
-// Behind everything, so that only pixels without a chunk are shaded.
+// Draws behind everything, so that only pixels without a chunk are shaded.
 void ChunkRenderer::State::drawSky(const Program& program) const {
     glDepthMask(GL_FALSE);
     glUseProgram(program.name());
@@ -523,8 +502,7 @@ Result<void> ChunkRenderer::moveColourClipmap(const glm::dvec3& eyeM, int finest
         state.clipmap.reset();
         return moved;
     }
-    glBindBuffer(GL_UNIFORM_BUFFER, state.clipmapFrame.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(ClipmapUniforms), &state.clipmap->uniforms(), GL_STREAM_DRAW);
+    fillUniforms(state.clipmapFrame, state.clipmap->uniforms());
     return {};
 }
 
@@ -560,21 +538,21 @@ Result<void> ChunkRenderer::reloadShaders() {
     return state_->programs->reload();
 }
 
-DrawnWith ChunkRenderer::State::programsFor(int variant, bool physicalSky) const {
-    const bool shadowed = (variant & switchShadows) != 0;
-    return {&programs->program({ProgramUse::Chunk, variant}),
-            shadowed ? &programs->program(depthKey(variant)) : nullptr,
+DrawnWith ChunkRenderer::State::programsFor(Switches switches, bool physicalSky) const {
+    const bool shadowed = (switches & switchShadows) != 0;
+    return {&programs->program({ProgramUse::Chunk, switches}),
+            shadowed ? &programs->program(depthKey(switches)) : nullptr,
             &programs->program(skyKey(physicalSky)), false};
 }
 
 // Returns the programs that are ready, and the most similar ones in place of the others, which it orders.
-DrawnWith ChunkRenderer::State::programsAtHand(int variant, bool physicalSky) const {
+DrawnWith ChunkRenderer::State::programsAtHand(Switches switches, bool physicalSky) const {
     programs->takeOrdered();
-    const bool shadowed = (variant & switchShadows) != 0;
-    std::vector<ProgramKey> wanted = {{ProgramUse::Chunk, variant}, skyKey(physicalSky)};
-    if (shadowed) wanted.push_back(depthKey(variant));
-    std::vector<ProgramKey> next = {{ProgramUse::Chunk, otherSliding(variant)}};
-    if (shadowed) next.push_back(depthKey(otherSliding(variant)));
+    const bool shadowed = (switches & switchShadows) != 0;
+    std::vector<ProgramKey> wanted = {{ProgramUse::Chunk, switches}, skyKey(physicalSky)};
+    if (shadowed) wanted.push_back(depthKey(switches));
+    std::vector<ProgramKey> next = {{ProgramUse::Chunk, otherSliding(switches)}};
+    if (shadowed) next.push_back(depthKey(otherSliding(switches)));
     std::optional<DrawingState> state;
     const auto order = [&](const std::vector<ProgramKey>& keys, Urgency urgency) {
         for (const ProgramKey& key : keys) {
@@ -593,7 +571,7 @@ DrawnWith ChunkRenderer::State::programsAtHand(int variant, bool physicalSky) co
     with.standIn = true;
     const bool withoutShadows = shadowed && !with.depth;
     if (!with.chunk || withoutShadows)
-        with.chunk = programs->nearest(withoutShadows ? variant & ~switchShadows : variant);
+        with.chunk = programs->nearest(withoutShadows ? switches & ~switchShadows : switches);
     if (!with.sky) with.sky = programs->ready(skyKey(false));
     return with;
 }
@@ -608,12 +586,12 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.fillInstances(items, tints, settings.stitched, shadowCasters);
     state.fillFrame(view, settings, wait);
     state.bindInputs();
-    const int variant =
-        state.chooseVariant(view, items, settings, !tints.empty(), shadowed ? switchShadows : 0);
+    const Switches switches =
+        state.chooseSwitches(view, items, settings, !tints.empty(), shadowed ? switchShadows : Switches{0});
     const bool physicalSky = state.airIsPhysical(settings);
     const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
     const DrawnWith with =
-        mayStandIn ? state.programsAtHand(variant, physicalSky) : state.programsFor(variant, physicalSky);
+        mayStandIn ? state.programsAtHand(switches, physicalSky) : state.programsFor(switches, physicalSky);
     state.shadowsTimer.begin();
     if (with.depth) state.drawShadows(view, items, settings, *with.depth);
     state.shadowsTimer.end();
@@ -647,14 +625,14 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
                                                                   std::span<const DrawItem> items,
                                                                   const RenderSettings& settings) {
     State& state = *state_;
-    const int variant = state.chooseVariant(view, items, settings, false) & ~switchSeaSurface;
-    if (state.capture.name() == 0 || state.captureVariant != variant ||
+    const Switches switches = state.chooseSwitches(view, items, settings, false) & ~switchSeaSurface;
+    if (state.capture.name() == 0 || state.captureSwitches != switches ||
         state.captureReloads != state.programs->reloads()) {
         const std::array<const char*, 1> captured = {"surface"};
-        Result<Program> program = state.programs->capturing(variant, captured);
+        Result<Program> program = state.programs->capturing(switches, captured);
         if (!program) return tl::unexpected(program.error());
         state.capture = std::move(*program);
-        state.captureVariant = variant;
+        state.captureSwitches = switches;
         state.captureReloads = state.programs->reloads();
     }
     state.fillInstances(items, {}, settings.stitched);

@@ -1,6 +1,5 @@
-// Draws chunks: one static grid, one instanced draw, heights fetched in the vertex shader from one pool.
-// OpenGL 3.3 core is enough. Everything here wants a current context, and the same one throughout; one
-// thread.
+// Draws chunks with one static grid and one instanced draw call; the vertex shader fetches heights from one
+// pool. Needs OpenGL 3.3 core. Wants a current context, and the same one throughout; one thread.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +29,15 @@ namespace planet::gl {
 
 class ChunkPrograms;
 
-// Whether a draw waits for programs that are not ready, or draws with others until they are.
+// Tells whether a draw waits for programs that are not ready or draws with others until they are.
 enum class ShaderWait : std::uint8_t { UntilReady, Never };
 
 struct RendererConfig {
     PlanetShape shape;
     std::uint32_t slotCapacity = 0;      // PagingCounters: the capacity of heights
     std::filesystem::path shaderFolder;  // read instead of the shaders built in; empty: built in
-    // Shared with other renderers, so that none waits for what another one has compiled; the folder is theirs
-    // then. None: the renderer's own.
+    // Shared with other renderers, so that none waits for a program that another one has compiled; replaces
+    // shaderFolder. Null: the renderer has its own.
     std::shared_ptr<ChunkPrograms> programs{};
 };
 
@@ -50,75 +49,71 @@ public:
     ChunkRenderer& operator=(ChunkRenderer&&) noexcept;
     ~ChunkRenderer();
 
-    // chunkVertexCount steps, row by row from the south, into a slot below slotCapacity.
+    // Uploads chunkVertexCount height steps, row by row from the south, into a slot below slotCapacity.
     void upload(std::uint32_t slot, std::span<const std::int16_t> heights);
 
-    // Equirectangular sRGB, 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Keeps what is
-    // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off. On an Error
-    // what there was stays.
+    // Takes equirectangular sRGB, 3 bytes per pixel, row 0 at the north, column 0 at longitude -180. Keeps
+    // the bound framebuffer and the viewport; leaves depth test, culling, blending and scissor off. On an
+    // Error the last image stays.
     Result<void> setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
-    // A pool for the planet's own colours, which then take the image's place; none: the image again. Follow
-    // with all of Planet::takeTileChanges() since beginTilesAnew() or the planet's opening. On an Error
-    // what there was stays.
+    // Makes a pool for the planet's own colours, which then replace the image; none: the image again. Call
+    // followColours() next with all of Planet::takeTileChanges() since beginTilesAnew() or the planet's
+    // opening. On an Error the last pool stays.
     Result<void> setColours(const std::optional<ColourPoolConfig>& config);
     void followColours(std::span<const TileChange> changes);
 
-    // The same colours from a clipmap instead, filled from the pool: windows of so many texels a side that
-    // follow a viewer (planet/surface/colour_clipmap.h). None: from the tiles again, and its memory is free. There
-    // have to be colours; setColours ends it. On an Error there is none.
+    // Draws the pool's colours from a clipmap: windows of sizePx texels a side that follow the viewer
+    // (planet/surface/colour_clipmap.h). None: from the tiles again; frees its memory. Needs a pool;
+    // setColours() removes the clipmap. On an Error there is none.
     Result<void> setColourClipmap(std::optional<int> sizePx);
-    // Puts it around a viewer and fills what that and the changes since bring in: to be called between
-    // followColours and draw. Levels finer than the finest that the view wants are not kept. Keeps what is
-    // bound for drawing and the viewport; leaves depth test, culling, blending and scissor off. On an Error
-    // there is none any more.
+    // Moves the clipmap to the viewer, fills new and changed texels, and drops levels finer than finestLevel.
+    // Call it between followColours() and draw(). Keeps the bound framebuffer and the viewport; leaves depth
+    // test, culling, blending and scissor off. On an Error the clipmap is removed.
     Result<void> moveColourClipmap(const glm::dvec3& eyeM, int finestLevel);
-    const ColourClipmapState* colourClipmap() const;  // null where there is none
-    // The same for tiles of normals, which are drawn as LightDrawing::normals says: follow with all of
-    // Planet::takeTileChanges().
+    const ColourClipmapState* colourClipmap() const;  // null: none
+    // Makes a pool for tiles of normals, which are drawn as LightDrawing::normals says. Call followNormals()
+    // next with all of Planet::takeTileChanges().
     Result<void> setNormals(const std::optional<NormalPoolConfig>& config);
     void followNormals(std::span<const TileChange> changes);
 
-    // The pictures that RenderSettings::layers speaks of, all of one size: a power of two, [8, 4096]. On an
-    // Error those that there were stay.
+    // Sets the pictures that RenderSettings::layers refers to, all of one size: a power of two, [8, 4096]. On
+    // an Error the last ones stay.
     Result<void> setLayers(std::span<const LayerPicture> pictures, int size);
 
-    // Tables of the physical atmosphere where draw() is told ShaderWait::Never: made in the background, for
-    // windows, while the last ones or at first the analytic atmosphere are drawn; or, as from the start,
-    // waited for.
+    // Lets draws with ShaderWait::Never make the tables of the physical atmosphere in the background, while
+    // the last ones, or at first the analytic atmosphere, are drawn. Off at first: draws wait for the tables.
     void setAirInBackground(bool inBackground);
 
-    // A pool of another size; what it held is gone. On an Error the old one stays.
+    // Makes an empty pool of another size. On an Error the old one stays.
     Result<void> setSlotCapacity(std::uint32_t slotCapacity);
-    // The same planet with other heights: exaggeration has changed.
+    // Takes the shape of the same planet after its exaggeration has changed.
     void setShape(const PlanetShape& shape);
 
-    // Compiles the shaders again, from the folder where one was given; on an Error the last good ones go on.
+    // Reads and compiles the shaders again; on an Error the last good ones stay.
     Result<void> reloadShaders();
 
     // Clears the bound framebuffer and fills its lower left view.widthPx x view.heightPx pixels, sky
-    // included. It needs a depth buffer; with reversedZ a float one pays. Leaves depth, culling and clip
-    // control as a new context has them. Skirts are drawn where an item's skirt has a depth. Tints: one an
-    // item, or none. shadowCasters: chunks that are not drawn but throw shadows (shadow_cascades.h); not
-    // looked at where drawsShadows() says no. ShaderWait::Never, where the programs have a worker: the
-    // programs that the settings want are compiled in the background. Until they are ready the most similar
-    // ones draw, or nothing is drawn; RenderCounters::standIn tells.
+    // included. It needs a depth buffer, with reversedZ preferably a float one. Leaves depth, culling and
+    // clip control as a new context has them. Draws the skirts of items whose skirt has a depth. tints: one
+    // per item, or none. shadowCasters: chunks that cast shadows but are not drawn (shadow_cascades.h);
+    // ignored unless drawsShadows(). ShaderWait::Never: if the programs have a worker, it compiles missing
+    // programs in the background. Until they are ready the most similar ones draw, or nothing is drawn;
+    // RenderCounters::standIn reports it.
     void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
               std::span<const ChunkTint> tints = {}, std::span<const DrawItem> shadowCasters = {},
               ShaderWait wait = ShaderWait::UntilReady);
-    // Whether the ground's shadows, or the sea's surface, would be drawn.
     bool drawsShadows(const RenderSettings& settings) const;
     bool drawsSeaSurface(const RenderSettings& settings) const;
-    // What could not be drawn as the settings say since this was asked last, each once.
+    // Returns the reasons why something was not drawn as set since the last call, each once.
     std::vector<std::string> takeProblems();
 
-    // How the last draw's depths come to be, for turning them into metres.
+    // Returns the last draw's projection, to convert depths into metres.
     const Projection& projection() const;
 
-    // The positions that the vertex shader makes of the items' grids, morph and stitched edges included,
-    // skirts and the sea's surface left out, read back: metres from the eye in world axes, chunkVertexCount
-    // for each item. Waits for the GPU; for tests and measuring. Draws nothing, but OpenGL wants a complete
-    // framebuffer bound.
+    // Reads back the vertex positions of the items, with morph and stitched edges, without skirts and the
+    // sea's surface: metres from the eye in world axes, chunkVertexCount for each item. Waits for the GPU;
+    // for tests and measuring. Draws nothing, but OpenGL wants a complete framebuffer bound.
     Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
                                                        const RenderSettings& settings);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 1> lineVertexFiles = {"lines.vert"};
 constexpr std::array<std::string_view, 1> lineFragmentFiles = {"lines.frag"};
 constexpr float faintOpacity = 0.25f;
-constexpr double nearestM = 0.1;  // lines come closer than a classic near plane: depth is clamped there
+constexpr double nearestM = 0.1;  // lines come closer than a non-reversed near plane: depth is clamped there
 
 // One end of a line, as shaders/lines.vert reads it.
 struct LineEnd {
@@ -25,19 +25,12 @@ struct LineEnd {
 };
 static_assert(sizeof(LineEnd) == 16);
 
-void describeVertices(GLuint buffer) {
-    constexpr GLsizei stride = 2 * sizeof(LineEnd);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    for (GLuint attribute = 0; attribute < 4; ++attribute) {
-        const bool isColour = attribute % 2 == 1;
-        const std::size_t offset =
-            attribute / 2 * sizeof(LineEnd) + (isColour ? offsetof(LineEnd, colour) : 0);
-        glVertexAttribPointer(attribute, isColour ? 4 : 3, isColour ? GL_UNSIGNED_BYTE : GL_FLOAT,
-                              isColour ? GL_TRUE : GL_FALSE, stride, reinterpret_cast<const void*>(offset));
-        glEnableVertexAttribArray(attribute);
-        glVertexAttribDivisor(attribute, 1);
-    }
-}
+constexpr auto lineInputs = std::to_array<VertexInput>({
+    {"start", 3, GL_FLOAT, InputKind::Float, offsetof(LineEnd, fromEyeM)},
+    {"startColour", 4, GL_UNSIGNED_BYTE, InputKind::Normalised, offsetof(LineEnd, colour)},
+    {"end", 3, GL_FLOAT, InputKind::Float, sizeof(LineEnd) + offsetof(LineEnd, fromEyeM)},
+    {"endColour", 4, GL_UNSIGNED_BYTE, InputKind::Normalised, sizeof(LineEnd) + offsetof(LineEnd, colour)},
+});
 
 std::vector<LineEnd> relativeTo(const glm::dvec3& eyeM, std::span<const LineVertex> lines) {
     std::vector<LineEnd> ends;
@@ -53,14 +46,15 @@ Result<DebugLines> DebugLines::create() {
     if (!vertex) return tl::unexpected(vertex.error());
     const Result<ShaderText> fragment = readShader({}, lineFragmentFiles);
     if (!fragment) return tl::unexpected(fragment.error());
-    Result<Program> program = linkProgram(*vertex, *fragment);
+    Result<Program> program = linkProgram(*vertex, *fragment, {.inputs = lineInputs});
     if (!program) return tl::unexpected(program.error());
     DebugLines lines;
     lines.program_ = std::move(*program);
     lines.array_ = makeVertexArray();
     lines.vertices_ = makeBuffer();
     glBindVertexArray(lines.array_.name());
-    describeVertices(lines.vertices_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, lines.vertices_.name());
+    describeInputs(lineInputs, 0, 2 * sizeof(LineEnd), 1);
     glBindVertexArray(0);
     return lines;
 }
@@ -76,9 +70,10 @@ void DebugLines::setUniforms(const View& view, const Projection& projection, flo
     const glm::mat4 clipFromWorld = projection.clipFromCamera * glm::dmat4(cameraFromWorldRotation(view));
     const auto place = [&](const char* name) { return glGetUniformLocation(program_.name(), name); };
     glUniformMatrix4fv(place("clipFromWorld"), 1, GL_FALSE, glm::value_ptr(clipFromWorld));
-    glUniform4f(place("screen"), 0.5f * static_cast<float>(view.widthPx),
-                0.5f * static_cast<float>(view.heightPx), 0.5f * widthPx,
-                static_cast<float>(std::min(projection.nearM, nearestM)));
+    glUniform2f(place("halfViewportPx"), 0.5f * static_cast<float>(view.widthPx),
+                0.5f * static_cast<float>(view.heightPx));
+    glUniform1f(place("halfWidthPx"), 0.5f * widthPx);
+    glUniform1f(place("nearestM"), static_cast<float>(std::min(projection.nearM, nearestM)));
 }
 
 void DebugLines::drawPass(GLsizei lineCount, GLenum depthFunction, float opacity) const {
@@ -100,7 +95,7 @@ void DebugLines::draw(const View& view, const Projection& projection, std::span<
     glDisable(GL_FRAMEBUFFER_SRGB);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glEnable(GL_DEPTH_CLAMP);  // what lies beyond the near or far plane is near or far, not absent
+    glEnable(GL_DEPTH_CLAMP);  // lines beyond the near or far plane are drawn at its depth
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
     if (projection.reversedZ) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

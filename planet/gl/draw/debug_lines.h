@@ -13,8 +13,8 @@
 namespace planet::gl {
 
 enum class LineDepth : std::uint8_t {
-    Hidden,  // what stands before them hides them
-    Faint,   // what stands before them lets a quarter of them through
+    Hidden,  // nearer ground hides them
+    Faint,   // a quarter of them shows through nearer ground
     InFront,
 };
 
@@ -22,8 +22,8 @@ class DebugLines {
 public:
     static Result<DebugLines> create();
 
-    // Into the bound framebuffer, with the projection of ChunkRenderer::draw just before. widthPx: [1, 16],
-    // smooth at the sides. Leaves depth test, blending and clip control as a new context has them.
+    // Draws into the bound framebuffer with the projection of the last ChunkRenderer::draw. widthPx: [1, 16],
+    // with smooth sides. Leaves depth test, blending and clip control as a new context has them.
     void draw(const View& view, const Projection& projection, std::span<const LineVertex> lines,
               float widthPx, LineDepth depth);
 

@@ -8,6 +8,7 @@
 
 #include "planet/base/result.h"
 #include "planet/gl/device/render_target.h"
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/draw/chunk_grid.h"
 #include "planet/gl/draw/chunk_instances.h"
 #include "planet/gl/store/shadow_maps.h"
@@ -16,8 +17,6 @@ namespace planet::gl {
 
 namespace {
 
-constexpr GLuint textureUnits = 16;     // the least that OpenGL 3.3 has, and all that are used
-constexpr GLuint uniformBindings = 13;  // likewise, of those numbered in chunk_programs.h
 constexpr std::size_t largestUniformBlock = 16384;
 
 constexpr auto targets =
@@ -25,7 +24,7 @@ constexpr auto targets =
                                               {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
                                               {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D}});
 
-// All zero, for whatever the program reads.
+// Zeros for everything that a program reads.
 struct EmptyInputs {
     Buffer uniforms = makeBuffer();
     Buffer gridVertices = makeBuffer();
@@ -39,7 +38,7 @@ EmptyInputs bindEmptyInputs(ProgramUse use) {
     const std::vector<std::uint8_t> zeros(largestUniformBlock);
     glBindBuffer(GL_UNIFORM_BUFFER, inputs.uniforms.name());
     glBufferData(GL_UNIFORM_BUFFER, largestUniformBlock, zeros.data(), GL_STATIC_DRAW);
-    for (GLuint binding = 0; binding < uniformBindings; ++binding)
+    for (GLuint binding = 0; binding < uniformBlockCount; ++binding)
         glBindBufferBase(GL_UNIFORM_BUFFER, binding, inputs.uniforms.name());
     glBindVertexArray(inputs.vertices.name());
     if (use == ProgramUse::Sky) return inputs;
@@ -75,7 +74,7 @@ DrawingState currentDrawingState(bool reversedZ) {
     GLint samples = 0;
     glGetIntegerv(GL_SAMPLES, &samples);
     state.samples = std::max(samples, 1);
-    for (GLuint unit = 0; unit < textureUnits; ++unit) {
+    for (GLuint unit = 0; unit < samplerCount; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);
         for (const auto& [target, binding] : targets) {
             GLint name = 0;
@@ -108,7 +107,7 @@ void drawNothing(const Program& program, ProgramUse use, const DrawingState& sta
         beginDepthTest(state.reversedZ);
         if (use == ProgramUse::Sky) glDepthMask(GL_FALSE);
     }
-    // All three vertices of chunks are one, so no pixel is covered; of the sky a few are, in the target made
+    // A chunk's three vertices are one, so no pixel is covered; the sky covers a few, of the target made
     // here.
     glUseProgram(program.name());
     if (use == ProgramUse::Sky) {

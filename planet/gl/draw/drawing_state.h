@@ -1,6 +1,6 @@
-// The state of OpenGL that chunks and the sky are drawn with, and how to draw nothing with all of it: drivers
-// make machine code for the state of a program's first draw, which costs some of them far more than linking
-// does. Wants a current context; one thread each.
+// The OpenGL state that chunks and the sky are drawn with. Drivers generate machine code for the state of a
+// program's first draw, which takes some of them far longer than linking: drawNothing makes that draw. Wants
+// a current context; one thread each.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -13,8 +13,8 @@ namespace planet::gl {
 
 enum class ProgramUse { Chunk, Depth, Sky };  // Depth: chunks as the sun sees them
 
-// Depth testing for a picture, and as a new context has it.
 void beginDepthTest(bool reversedZ);
+// Restores the depth test of a new context.
 void endDepthTest(bool reversedZ);
 
 struct BoundTexture {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/sphere/vertex_position.h"
 
 namespace planet::gl {
@@ -13,10 +14,6 @@ namespace {
 
 // Scale heights in the planet's radius: 10 km on Earth, a little over the real 8.4, so that the rim shows.
 constexpr double radiusInScaleHeights = 640;
-
-glm::vec4 padded(const glm::vec3& v) {
-    return {v, 0};
-}
 
 // Relief is too flat to see from high up: slopes are lit as they are near the ground, and up to four times as
 // steep from orbit.
@@ -40,26 +37,24 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
         const FaceReference& reference = frame.faces[static_cast<std::size_t>(face)];
         const FaceAxes& axes = faceAxes(face);
         FaceUniforms& uniforms = all[static_cast<std::size_t>(face)];
-        uniforms.grid = {reference.gridU, reference.gridV, 0, 0};
-        uniforms.coordinates = {reference.u0, reference.v0, 0, 0};
-        uniforms.roots = padded(reference.roots);
-        uniforms.direction = padded(reference.direction);
-        uniforms.origin = padded(reference.originM);
-        uniforms.cubeOrigin =
-            padded(glm::dvec3(cubeHalfM * cubePoint(face, reference.u0, reference.v0) - view.eyeM));
-        uniforms.normal = padded(axes.normal);
-        uniforms.u = padded(axes.u);
-        uniforms.v = padded(axes.v);
+        uniforms.grid = {reference.gridU, reference.gridV};
+        uniforms.coordinates = {reference.u0, reference.v0};
+        uniforms.roots = reference.roots;
+        uniforms.direction = reference.direction;
+        uniforms.originM = reference.originM;
+        uniforms.cubeOriginM = cubeHalfM * cubePoint(face, reference.u0, reference.v0) - view.eyeM;
+        uniforms.normal = axes.normal;
+        uniforms.u = axes.u;
+        uniforms.v = axes.v;
     }
     return all;
 }
 
-// Metres that each octave of the detail's noise covers once, where the heights' samples lie one metre apart:
-// its coarsest waves are about as long as the shortest of the heights.
+// Metres after which each octave of the detail noise repeats, for height samples one metre apart: its
+// coarsest waves are about as long as the shortest of the heights.
 constexpr std::array<double, 3> detailSizes = {8, 1.3, 0.22};
 
-// Turned out of the axes, each octave its own way, so that the ground cuts the noise at odd angles and does
-// not repeat.
+// Rotates each octave its own way, so that the ground cuts the noise at odd angles and shows no repeat.
 glm::dmat3 detailTurn(int octave) {
     const double a = 0.7 + 1.1 * octave;
     const double b = 0.5 + 0.4 * octave;
@@ -72,65 +67,72 @@ double samplesApartM(const PlanetShape& shape) {
     return 1.5 * shape.radiusM / faceCells(shape);
 }
 
-// The eye's place in the noise is worked out in doubles, and only what is behind the point sent on: noise
-// that repeats needs no more, and the planet's centre is too far away for floats.
+// Computes the eye's place in the noise in doubles, as the planet's centre is too far away for floats, and
+// keeps its fraction: the noise repeats.
 void setDetail(const PlanetShape& shape, const View& view, const ColoursDrawn& colours,
                FrameUniforms& uniforms) {
     const double apartM = samplesApartM(shape);
     for (int octave = 0; octave < 3; ++octave) {
         const double sizeM = detailSizes[static_cast<std::size_t>(octave)] * apartM;
         const glm::dmat3 rows = glm::transpose(detailTurn(octave));
+        DetailOctave& detail = uniforms.detail[static_cast<std::size_t>(octave)];
         for (int row = 0; row < 3; ++row) {
             const double eyeAt = glm::dot(rows[row], view.eyeM) / sizeM;
-            uniforms.detailRows[static_cast<std::size_t>(3 * octave + row)] =
-                glm::dvec4(rows[row] / sizeM, eyeAt - std::floor(eyeAt));
+            detail.axes[row] = glm::dvec4(rows[row] / sizeM, 0);
+            detail.eye[row] = toFloat(eyeAt - std::floor(eyeAt));
         }
-        uniforms.detailSizes[octave] = static_cast<float>(sizeM);
+        detail.sizeM = toFloat(sizeM);
     }
     const double imageStep = colours.exist() ? 1.0 / colours.faceSizePx : 0;
-    uniforms.detailPixels = glm::dvec4(apartM * screenScalePx(view),
-                                       1.5 * shape.radiusM * imageStep * screenScalePx(view), imageStep, 0);
+    uniforms.heightStepPxM = toFloat(apartM * screenScalePx(view));
+    uniforms.imageStepPxM = toFloat(1.5 * shape.radiusM * imageStep * screenScalePx(view));
+    uniforms.imageStep = toFloat(imageStep);
 }
 
 double linearFromSrgb(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-// Colours mix as the roots of their light, which is near to how sRGB mixes and cheap to undo.
+// Colours are mixed as square roots of linear light, which is close to mixing in sRGB and cheap to undo.
 void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
     const std::vector<RampStop>& ramp = settings.ramp;
     assert(ramp.size() <= maxRampStops);
     const bool coloursSea = !ramp.empty() && ramp.front().heightM < 0;
-    uniforms.surfacing.x = static_cast<float>(std::clamp(settings.imageOpacity, 0.0, 1.0));
-    uniforms.surfacing.y = coloursSea ? 1 : 0;
+    uniforms.imageOpacity = toFloat(std::clamp(settings.imageOpacity, 0.0, 1.0));
+    uniforms.rampColoursSea = coloursSea ? 1 : 0;
+    uniforms.perRampTopM = toFloat(1 / settings.rampTopM);
     const std::size_t count = std::min(ramp.size(), maxRampStops);
-    uniforms.grid.z = static_cast<int>(count);
+    uniforms.rampStopCount = static_cast<int>(count);
     for (std::size_t i = 0; i < count; ++i) {
         const double startM = ramp[i > 0 ? i - 1 : 0].heightM;
         assert(startM <= ramp[i].heightM);
         for (int channel = 0; channel < 3; ++channel) {
             const double value = std::clamp(static_cast<double>(ramp[i].colour[channel]), 0.0, 1.0);
-            uniforms.rampColours[i][channel] = static_cast<float>(std::sqrt(linearFromSrgb(value)));
+            uniforms.ramp[i].root[channel] = toFloat(std::sqrt(linearFromSrgb(value)));
         }
+        uniforms.ramp[i].startM = toFloat(startM);
         // Two stops at one height are a sharp step.
-        uniforms.rampRises[i] = glm::dvec4(startM, 1 / std::max(ramp[i].heightM - startM, 1e-3), 0, 0);
+        uniforms.ramp[i].perM = toFloat(1 / std::max(ramp[i].heightM - startM, 1e-3));
     }
+}
+
+TileSampling tileSampling(int leafLevel, double anisotropy, double texelsPerPixel) {
+    return {leafLevel, toFloat(anisotropy), toFloat(std::log2(texelsPerPixel))};
 }
 
 }  // namespace
 
 void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUniforms& uniforms) {
-    uniforms.normalLevels = {normals.leafLevel, 0, 0, 0};
-    uniforms.normalFilter = glm::dvec4(normals.anisotropy, std::log2(normals.texelsPerPixel),
-                                       shape.radiusM * shape.quantumM / normals.quantumM, 0);
+    uniforms.normals = tileSampling(normals.leafLevel, normals.anisotropy, normals.texelsPerPixel);
+    uniforms.normalRiseM = toFloat(shape.radiusM * shape.quantumM / normals.quantumM);
 }
 
 bool isSeaSurfaceDrawn(const RenderSettings& settings, bool software) {
     return settings.lighting && !settings.cube && settings.sea && isUsed(settings.light.sea.use, software);
 }
 
-int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
-                const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software) {
+Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
+                     const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software) {
     const bool withImage =
         colours.exist() && settings.surface == SurfaceColour::Image && settings.imageOpacity > 0;
     const bool rampSeen = !withImage || settings.imageOpacity < 1;
@@ -141,16 +143,15 @@ int switchesFor(const PlanetShape& shape, const View& view, const RenderSettings
     const bool fineDetail = detail && stepPx > 200;
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
     const bool tiles = withImage && colours.streamed;
-    return (settings.lighting ? switchLighting : 0) |
-           (isSeaSurfaceDrawn(settings, software) ? switchSeaSurface : 0) |
-           (settings.wireframe ? switchWireframe : 0) | (settings.cube ? switchCube : 0) |
-           (withImage ? switchImage : 0) | (tiles ? switchTiles : 0) |
-           (tiles && colours.fromClipmap ? switchClipmap : 0) | (settings.sea ? switchSea : 0) |
-           (air ? switchAir : 0) | (tinted ? switchTint : 0) |
-           (rampSeen && !settings.ramp.empty() ? switchRamp : 0) |
-           (withImage && rampSeen ? switchImageOverRamp : 0) | (settings.outlines ? switchOutlines : 0) |
-           (settings.skirtPaint != SkirtPaint::AsGround ? switchLoudSkirts : 0) |
-           (detail ? switchDetail : 0) | (fineDetail ? switchFineDetail : 0);
+    const auto when = [](bool isOn, Switches bit) { return isOn ? bit : Switches{0}; };
+    return when(settings.lighting, switchLighting) | when(air, switchAir) | when(settings.cube, switchCube) |
+           when(detail, switchDetail) | when(fineDetail, switchFineDetail) | when(withImage, switchImage) |
+           when(tiles, switchTiles) | when(tiles && colours.fromClipmap, switchClipmap) |
+           when(rampSeen && !settings.ramp.empty(), switchRamp) |
+           when(withImage && rampSeen, switchImageOverRamp) | when(settings.sea, switchSea) |
+           when(isSeaSurfaceDrawn(settings, software), switchSeaSurface) | when(tinted, switchTint) |
+           when(settings.wireframe, switchWireframe) | when(settings.outlines, switchOutlines) |
+           when(settings.skirtPaint != SkirtPaint::AsGround, switchLoudSkirts);
 }
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
@@ -160,33 +161,42 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     const double cubeHalfM = shape.radiusM / std::sqrt(3.0);
     const double tanX = std::tan(view.horizontalFovRad / 2);
     const double tanY = tanX * view.heightPx / view.widthPx;
-    const bool atmosphere = settings.atmosphere && !settings.cube;
+    const double eyeRadiusM = glm::length(view.eyeM);
 
     FrameUniforms uniforms{};
     uniforms.faces = faceUniforms(frame, view, cubeHalfM);
     uniforms.clipFromWorld = projection.clipFromCamera * glm::dmat4(cameraFromWorldRotation(view));
-    uniforms.eye = padded(view.eyeM);
-    uniforms.sun = padded(glm::normalize(settings.sunDirection));
-    uniforms.rayForward = padded(-view.back);
-    uniforms.rayRight = padded(tanX * view.right);
-    uniforms.rayUp = padded(tanY * view.up);
-    uniforms.planet = glm::dvec4(shape.radiusM, shape.quantumM, frame.referenceRadiusM, cubeHalfM);
-    uniforms.heights =
-        glm::dvec4(shape.baseHeightM, 1 / settings.rampTopM, reliefBoost(shape, view), settings.seaLevelM);
-    const double eyeRadiusM = glm::length(view.eyeM);
-    uniforms.atmosphere = glm::dvec4(radiusInScaleHeights, radiusInScaleHeights / shape.radiusM, atmosphere,
-                                     nearness(shape, eyeRadiusM));
-    const double eyeHeight = std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radiusInScaleHeights;
-    uniforms.eyeUp = glm::dvec4(eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0), eyeHeight);
-    uniforms.screen = glm::dvec4(2 * tanX / view.widthPx, projection.reversedZ ? 0 : 1, 0, 0);
-    uniforms.grid = {frame.referenceStep, shape.chunkCellsLog2, 0, 0};
+    uniforms.eyeM = view.eyeM;
+    uniforms.sun = glm::normalize(settings.sunDirection);
+    uniforms.rayForward = -view.back;
+    uniforms.rayRight = tanX * view.right;
+    uniforms.rayUp = tanY * view.up;
+    uniforms.pixelRad = toFloat(2 * tanX / view.widthPx);
+    uniforms.skyDepth = projection.reversedZ ? 0 : 1;
+
+    uniforms.radiusM = toFloat(shape.radiusM);
+    uniforms.referenceRadiusM = toFloat(frame.referenceRadiusM);
+    uniforms.cubeHalfM = toFloat(cubeHalfM);
+    uniforms.quantumM = toFloat(shape.quantumM);
+    uniforms.referenceStep = frame.referenceStep;
+    uniforms.baseHeightM = toFloat(shape.baseHeightM);
+    uniforms.seaLevelM = toFloat(settings.seaLevelM);
+    uniforms.seaRiseM =
+        toFloat(settings.seaLevelM - (shape.baseHeightM + frame.referenceStep * shape.quantumM));
+    uniforms.chunkCellsLog2 = shape.chunkCellsLog2;
+    uniforms.reliefBoost = toFloat(reliefBoost(shape, view));
+    uniforms.fill = toFloat(settings.light.fill);
+
+    uniforms.eyeUp = eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0);
+    uniforms.eyeScaleHeights = toFloat(std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radiusInScaleHeights);
+    uniforms.radiusScaleHeights = radiusInScaleHeights;
+    uniforms.scaleHeightsPerM = toFloat(radiusInScaleHeights / shape.radiusM);
+    uniforms.drawsAtmosphere = settings.atmosphere && !settings.cube ? 1 : 0;
+    uniforms.nearGround = toFloat(nearness(shape, eyeRadiusM));
+
     setDetail(shape, view, colours, uniforms);
     setRamp(settings, uniforms);
-    uniforms.surfacing.z =
-        static_cast<float>(settings.seaLevelM - (shape.baseHeightM + frame.referenceStep * shape.quantumM));
-    uniforms.surfacing.w = static_cast<float>(settings.light.fill);
-    uniforms.colouring = {colours.leafLevel, 0, 0, 0};
-    uniforms.colourFilter = glm::dvec4(colours.anisotropy, std::log2(colours.texelsPerPixel), 0, 0);
+    uniforms.colours = tileSampling(colours.leafLevel, colours.anisotropy, colours.texelsPerPixel);
     return uniforms;
 }
 

@@ -6,16 +6,16 @@
 #include <glm/common.hpp>
 #include <vector>
 
-#include "planet/gl/draw/frame_uniforms.h"
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/surface/layer_noise.h"
 
 namespace planet::gl {
 
 namespace {
 
-glm::vec4 linesOf(const SoftRange& range, const SoftRange& all) {
+LineUniforms linesOf(const SoftRange& range, const SoftRange& all) {
     const RangeLines lines = rangeLines(range, all);
-    return glm::dvec4(lines.lowest, lines.rise, lines.highest, lines.fall);
+    return {toFloat(lines.lowest), toFloat(lines.rise), toFloat(lines.highest), toFloat(lines.fall)};
 }
 
 glm::vec3 linearFromSrgb(const glm::vec3& colour) {
@@ -25,12 +25,10 @@ glm::vec3 linearFromSrgb(const glm::vec3& colour) {
     return {channel(colour.r), channel(colour.g), channel(colour.b)};
 }
 
-// Where the eye is in cells so many a metre: the cell in whole numbers, and the place in it.
-void setNoise(const View& view, double cellsPerM, std::size_t at, LayersUniforms& uniforms) {
+NoiseOctave noiseOctave(const View& view, double cellsPerM) {
     const glm::dvec3 place = view.eyeM * cellsPerM;
     const glm::dvec3 cell = glm::floor(place);
-    uniforms.noiseCells[at] = glm::ivec4(glm::ivec3(latticeCell(cell)), 0);
-    uniforms.noiseInside[at] = glm::dvec4(place - cell, cellsPerM);
+    return {glm::ivec3(latticeCell(cell)), toFloat(cellsPerM), place - cell};
 }
 
 // Layers whose noise is of one size share its field.
@@ -41,7 +39,7 @@ int fieldOf(double sizeM, const View& view, std::vector<double>& sizes, LayersUn
     sizes.push_back(sizeM);
     double cellsPerM = 1 / sizeM;
     for (std::size_t octave = 0; octave < layerNoiseShares.size(); ++octave, cellsPerM *= layerNoiseOctave)
-        setNoise(view, cellsPerM, layerNoiseShares.size() * field + octave, uniforms);
+        uniforms.noise[layerNoiseShares.size() * field + octave] = noiseOctave(view, cellsPerM);
     return static_cast<int>(field);
 }
 
@@ -51,23 +49,23 @@ int sliceOf(const LayerDrawing& drawing, std::size_t layer, std::size_t slices) 
     return there && layerProblem(drawing.set.layers[layer]).empty() ? picture + 1 : 0;
 }
 
-// What repeats needs only its remainder, which doubles give: floats are too coarse for the planet's radius.
+// Keeps the fraction of the eye's place, computed in doubles: floats are too coarse for the planet's radius.
 void setRepeats(const View& view, double scaleM, std::size_t at, LayersUniforms& uniforms) {
     double repeatM = scaleM;
     for (std::size_t level = 0; level < layerRepeatLevels; ++level, repeatM *= layerRepeatLevelStep) {
         const glm::dvec3 place = view.eyeM / repeatM;
-        uniforms.repeatPlaces[at * layerRepeatLevels + level] =
-            glm::dvec4(place - glm::floor(place), 1 / repeatM);
+        uniforms.repeats[at * layerRepeatLevels + level] = {place - glm::floor(place), toFloat(1 / repeatM)};
     }
 }
 
 }  // namespace
 
-int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM) {
+Switches layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM) {
     if (drawing.set.layers.empty()) return 0;
     const bool wanted = isUsed(drawing.use, software);
     const bool seen = wanted && drawing.opacity > 0 && nearestGroundM < drawing.endM;
-    return (seen ? switchLayers : 0) | (drawing.preview != LayerPreview::Off ? switchLayerPreview : 0);
+    return (seen ? switchLayers : Switches{0}) |
+           (drawing.preview != LayerPreview::Off ? switchLayerPreview : Switches{0});
 }
 
 LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, double reliefBoost,
@@ -81,7 +79,7 @@ LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, dou
         if (!isDrawn(drawing.set, i)) continue;
         const TextureLayer& layer = drawing.set.layers[i];
         const auto at = static_cast<std::size_t>(drawn);
-        LayerUniform& uniform = uniforms.layers[at];
+        LayerUniforms& uniform = uniforms.layers[at];
         const int slice = sliceOf(drawing, i, means.size());
         const glm::vec3 tint = slice == 0 ? glm::vec3(1) : linearFromSrgb(layer.tint);
         const bool noisy = layer.noiseAmount > 0 && layer.noiseSizeM > 0;
@@ -89,25 +87,35 @@ LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, dou
         uniform.heightLines = linesOf(layer.heightM, allHeightsM);
         uniform.slopeLines = linesOf(layer.slopeDeg, allSlopesDeg);
         uniform.latitudeLines = linesOf(layer.latitudeDeg, allLatitudesDeg);
-        uniform.tint = glm::vec4(tint, std::clamp(layer.opacity, 0.0, 1.0));
-        uniform.noise = glm::dvec4(noisy ? layer.noiseAmount : 0, field, i % 4, slice);
+        uniform.tint = tint;
+        uniform.opacity = toFloat(std::clamp(layer.opacity, 0.0, 1.0));
+        uniform.noiseAmount = noisy ? toFloat(layer.noiseAmount) : 0;
+        uniform.noiseField = field;
+        uniform.noiseComponent = static_cast<int>(i % 4);
+        uniform.slice = slice;
         const double scaleM = std::max(layer.scaleM, 0.01);
         const glm::vec3 mean = static_cast<std::size_t>(slice) < means.size()
                                    ? means[static_cast<std::size_t>(slice)]
                                    : glm::vec3(1);
-        uniform.mean = glm::vec4(mean * tint, scaleM);
+        uniform.mean = mean * tint;
+        uniform.repeatM = toFloat(scaleM);
         setRepeats(view, scaleM, at, uniforms);
         if (static_cast<int>(i) == drawing.previewed) previewed = drawn;
         ++drawn;
     }
     const double sharpness = drawing.set.blend == LayerBlend::Height ? blendSharpness(drawing.set) : 0;
-    uniforms.counts = {drawn, static_cast<int>(noiseSizes.size()), previewed,
-                       drawing.preview == LayerPreview::Mask ? 1 : 0};
-    uniforms.mix = glm::dvec4(drawing.beginM, 1 / std::max(drawing.endM - drawing.beginM, 1e-3),
-                              std::clamp(drawing.opacity, 0.0, 1.0), sharpness);
-    uniforms.truth =
-        glm::dvec4(1 / exaggeration, 1 / (reliefBoost * exaggeration),
-                   std::clamp(drawing.colourBelow, 0.0, 1.0), layerRepeatPx / screenScalePx(view));
+    uniforms.count = drawn;
+    uniforms.noiseFieldCount = static_cast<int>(noiseSizes.size());
+    uniforms.previewed = previewed;
+    uniforms.previewsMask = drawing.preview == LayerPreview::Mask ? 1 : 0;
+    uniforms.fadeBeginM = toFloat(drawing.beginM);
+    uniforms.perFadeM = toFloat(1 / std::max(drawing.endM - drawing.beginM, 1e-3));
+    uniforms.opacity = toFloat(std::clamp(drawing.opacity, 0.0, 1.0));
+    uniforms.sharpness = toFloat(sharpness);
+    uniforms.trueHeight = toFloat(1 / exaggeration);
+    uniforms.trueSlope = toFloat(1 / (reliefBoost * exaggeration));
+    uniforms.colourBelow = toFloat(std::clamp(drawing.colourBelow, 0.0, 1.0));
+    uniforms.repeatRad = toFloat(layerRepeatPx / screenScalePx(view));
     return uniforms;
 }
 

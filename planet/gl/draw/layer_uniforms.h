@@ -1,45 +1,61 @@
-// What shaders/layers.glsl is told once a frame, in the layout of its uniform block. Pure functions, any
-// thread.
+// The uniform block of shaders/layers.glsl, which describes its members. Pure functions, any thread.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 
-#include "planet/sphere/planet_shape.h"
+#include "planet/gl/draw/shader_switches.h"
 #include "planet/sphere/view.h"
 #include "planet/surface/layer_drawing.h"
 
 namespace planet::gl {
 
 inline constexpr std::size_t layerRepeatLevels = 10;
-inline constexpr double layerRepeatLevelStep = 3.2360680;  // as the shader's
-// A repeat of the textures covers at least so many pixels, as long as larger repeats are left.
+inline constexpr double layerRepeatLevelStep = 3.2360680;  // irrational: the repeats of two levels never meet
+// A repeat of the textures covers at least as many pixels, as long as larger repeats are left.
 inline constexpr double layerRepeatPx = 320;
 
-// std140: only members of 16 bytes.
-struct LayerUniform {
-    glm::vec4 heightLines, slopeLines, latitudeLines, tint, noise, mean;
+// Members have std140's offsets, since every vec3 is aligned to 16 bytes.
+struct alignas(16) LineUniforms {
+    float lowest, rise, highest, fall;
 };
+
+struct LayerUniforms {
+    LineUniforms heightLines, slopeLines, latitudeLines;
+    alignas(16) glm::vec3 tint;
+    float opacity;
+    alignas(16) glm::vec3 mean;
+    float repeatM, noiseAmount;
+    int noiseField, noiseComponent, slice;
+};
+
+struct NoiseOctave {
+    alignas(16) glm::ivec3 cell;
+    float cellsPerM;
+    alignas(16) glm::vec3 inside;
+};
+
+struct RepeatUniforms {
+    alignas(16) glm::vec3 eye;
+    float perM;
+};
+
 struct LayersUniforms {
-    glm::ivec4 counts;
-    glm::vec4 mix, truth;
-    std::array<LayerUniform, maxLayers> layers;
-    std::array<glm::ivec4, 3 * maxLayers> noiseCells;  // an octave each
-    std::array<glm::vec4, 3 * maxLayers> noiseInside;
-    std::array<glm::vec4, maxLayers * layerRepeatLevels> repeatPlaces;
+    int count, noiseFieldCount, previewed, previewsMask;
+    float fadeBeginM, perFadeM, opacity, sharpness, trueHeight, trueSlope, colourBelow, repeatRad;
+    std::array<LayerUniforms, maxLayers> layers;
+    std::array<NoiseOctave, 3 * maxLayers> noise;
+    std::array<RepeatUniforms, maxLayers * layerRepeatLevels> repeats;
 };
-static_assert(sizeof(LayerUniform) == 6 * 16 &&
-              sizeof(LayersUniforms) == (3 + 6 * 8 + 2 * 24 + 8 * layerRepeatLevels) * 16);
 
-// The switches of shaders/frame.glsl for layers. software: Automatic leaves them off.
-int layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM);
+// Returns the switches for layers. software: Automatic leaves them off.
+Switches layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM);
 
-// reliefBoost: by how much slopes are lit steeper than they are drawn, >= 1. exaggeration: of the heights
-// drawn, > 0; layers' ranges mean true heights and slopes. means: linear albedo of each
-// slice of the textures, the checker's first.
+// reliefBoost: how many times steeper slopes are lit than drawn, >= 1. exaggeration: of the drawn heights, >
+// 0; the ranges of layers are true heights and slopes. means: mean linear albedo of each slice of the
+// textures, the checker's first.
 LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, double reliefBoost,
                               double exaggeration, std::span<const glm::vec3> means);
 

@@ -4,16 +4,17 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "planet/gl/device/shader_inputs.h"
+
 namespace planet::gl {
 
 namespace {
 
 constexpr double longestWaveM = 110;
 constexpr double shortestWaveM = 1.3;
-// Of the variance of all slopes; the rest are ripples that no pixel ever shows.
-constexpr double shareOfWaves = 0.3;
+constexpr double shareOfWaves = 0.3;  // of the variance of all slopes; the rest are ripples below any pixel
 
-// Vectors all around, so that on any side of the planet some run along its surface.
+// Returns directions all around, so that on any side of the planet some run along its surface.
 glm::dvec3 waveDirection(std::size_t wave) {
     const double turn = 2.399963 * static_cast<double>(wave) + 0.4;  // the golden angle
     const double z = 2 * std::fmod(0.5 + 0.618034 * static_cast<double>(wave), 1.0) - 1;
@@ -21,10 +22,12 @@ glm::dvec3 waveDirection(std::size_t wave) {
     return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-// And its phase at the eye, worked out in doubles.
-glm::vec4 waveVector(double lengthM, std::size_t wave, const glm::dvec3& eyeM) {
-    const glm::dvec3 k = 2 * std::numbers::pi / lengthM * waveDirection(wave);
-    return glm::dvec4(k, std::remainder(glm::dot(k, eyeM), 2 * std::numbers::pi));
+glm::dvec3 waveVector(double lengthM, std::size_t wave) {
+    return 2 * std::numbers::pi / lengthM * waveDirection(wave);
+}
+
+float phaseAt(const glm::dvec3& eyeM, const glm::dvec3& vector) {
+    return toFloat(std::remainder(glm::dot(vector, eyeM), 2 * std::numbers::pi));
 }
 
 }  // namespace
@@ -40,18 +43,21 @@ glm::dvec3 waterExtinction(double clarityM) {
 SeaUniforms seaUniforms(const SeaDrawing& sea, const View& view, double exaggeration) {
     SeaUniforms uniforms{};
     const double variance = seaSlopeVariance(sea.windMps);
-    // A sine's slope has half the square of its largest as variance, and two thirds of vectors so spread lie
-    // along a surface.
+    // The variance of a sine's slope is half the square of its largest, and two thirds of vectors so spread
+    // lie along a surface.
     const double slope = sea.waves * std::sqrt(2 * 1.5 * shareOfWaves * variance / seaWaveCount);
     for (std::size_t i = 0; i < seaWaveCount; ++i) {
         const double place = (static_cast<double>(i) + 0.5 * std::sin(7.0 * static_cast<double>(i))) /
                              static_cast<double>(seaWaveCount - 1);
         const double lengthM = longestWaveM * std::pow(shortestWaveM / longestWaveM, place);
-        uniforms.waves[i] = waveVector(lengthM, i, view.eyeM);
-        uniforms.bends[i] = waveVector(11 * lengthM, i + seaWaveCount, view.eyeM);
+        const glm::dvec3 vector = waveVector(lengthM, i);
+        const glm::dvec3 bendVector = waveVector(11 * lengthM, i + seaWaveCount);
+        uniforms.waves[i] = {vector, phaseAt(view.eyeM, vector), bendVector, phaseAt(view.eyeM, bendVector)};
     }
-    uniforms.water = glm::dvec4(waterExtinction(sea.clarityM), 1 / exaggeration);
-    uniforms.roughness = glm::dvec4(variance, slope, 0, 0);
+    uniforms.extinction = waterExtinction(sea.clarityM);
+    uniforms.perExaggeration = toFloat(1 / exaggeration);
+    uniforms.slopeVariance = toFloat(variance);
+    uniforms.waveSlope = toFloat(slope);
     return uniforms;
 }
 

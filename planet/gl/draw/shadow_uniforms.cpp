@@ -2,6 +2,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "planet/gl/device/shader_inputs.h"
+
 namespace planet::gl {
 
 ShadowUniforms shadowUniforms(const ShadowCascades& cascades, double softness, int mapSizePx) {
@@ -9,10 +11,11 @@ ShadowUniforms shadowUniforms(const ShadowCascades& cascades, double softness, i
     const glm::dmat4 textureFromClip =
         glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.5)), glm::dvec3(0.5));
     for (std::size_t i = 0; i < shadowCascadeCount; ++i) {
-        uniforms.places[i] = textureFromClip * cascades[i].clipFromEye;
-        uniforms.texels[i] = glm::dvec4(cascades[i].texelM, cascades[i].endM, 0, 0);
+        uniforms.cascades[i] = {textureFromClip * cascades[i].clipFromEye, toFloat(cascades[i].texelM),
+                                toFloat(cascades[i].endM)};
     }
-    uniforms.filter = glm::dvec4(softness, 1.0 / mapSizePx, 0, 0);
+    uniforms.softness = toFloat(softness);
+    uniforms.texelSize = toFloat(1.0 / mapSizePx);
     return uniforms;
 }
 

@@ -209,16 +209,6 @@ bool isHidden(const CrackPixel& pixel, const Pass& asSet, std::size_t at, const 
     return !isNearer(pixel.wallM, shownM, projection);
 }
 
-std::vector<std::uint8_t> maskOf(const CrackMap& map, bool leaksOnly) {
-    const auto width = static_cast<std::size_t>(map.widthPx);
-    std::vector<std::uint8_t> mask(width * static_cast<std::size_t>(map.heightPx), 0);
-    for (const CrackPixel& pixel : map.pixels) {
-        if (leaksOnly && !pixel.leaks) continue;
-        mask[static_cast<std::size_t>(pixel.y) * width + static_cast<std::size_t>(pixel.x)] = 1;
-    }
-    return mask;
-}
-
 }  // namespace
 
 double innerShellDepthM(const ChunkTree& tree) {
@@ -267,14 +257,6 @@ Result<CrackMap> measureCracks(ChunkRenderer& renderer, const View& view, const 
     if (Result<void> leaks = findLeaks(renderer, view, ground, *map); !leaks)
         return tl::unexpected(leaks.error());
     return map;
-}
-
-std::vector<std::uint8_t> crackMask(const CrackMap& map) {
-    return maskOf(map, false);
-}
-
-std::vector<std::uint8_t> leakMask(const CrackMap& map) {
-    return maskOf(map, true);
 }
 
 }  // namespace planet::gl

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/device/shader_source.h"
 
 namespace planet::gl {
@@ -73,13 +74,9 @@ Result<PictureComparer> PictureComparer::create() {
     return comparer;
 }
 
-void PictureComparer::drawTriangle(const Program& program, GLuint textureA, GLuint textureB) const {
-    glUniform1i(place(program, "pictureA"), 0);
-    glUniform1i(place(program, "pictureB"), 1);
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, textureB);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, textureA);
+void PictureComparer::drawTriangle(GLuint textureA, GLuint textureB) const {
+    bindTexture(Sampler::pictureA, GL_TEXTURE_2D, textureA);
+    bindTexture(Sampler::pictureB, GL_TEXTURE_2D, textureB);
     glDisable(GL_FRAMEBUFFER_SRGB);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
@@ -87,20 +84,20 @@ void PictureComparer::drawTriangle(const Program& program, GLuint textureA, GLui
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
     glUseProgram(0);
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, 0);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, 0);
+    bindTexture(Sampler::pictureA, GL_TEXTURE_2D, 0);
+    bindTexture(Sampler::pictureB, GL_TEXTURE_2D, 0);
 }
 
 void PictureComparer::draw(GLuint textureA, GLuint textureB, int widthPx, int heightPx,
                            const PictureMix& mix) const {
     glViewport(0, 0, widthPx, heightPx);
     glUseProgram(mix_.name());
-    glUniform3i(place(mix_, "columns"), mix.border, mix.shiftA, mix.shiftB);
+    glUniform1i(place(mix_, "border"), mix.border);
+    glUniform1i(place(mix_, "shiftA"), mix.shiftA);
+    glUniform1i(place(mix_, "shiftB"), mix.shiftB);
     glUniform1i(place(mix_, "difference"), mix.difference ? 1 : 0);
     glUniform1f(place(mix_, "gain"), mix.gain);
-    drawTriangle(mix_, textureA, textureB);
+    drawTriangle(textureA, textureB);
 }
 
 void PictureComparer::fitCounts(int widthPx, int heightPx) {
@@ -125,7 +122,7 @@ PictureDifference PictureComparer::count(GLuint textureA, GLuint textureB, int w
     glViewport(0, 0, countsWidth_, countsHeight_);
     glUseProgram(count_.name());
     glUniform1i(place(count_, "blockSize"), blockSize);
-    drawTriangle(count_, textureA, textureB);
+    drawTriangle(textureA, textureB);
     std::vector<GLuint> counts(2 * static_cast<std::size_t>(countsWidth_) *
                                static_cast<std::size_t>(countsHeight_));
     glReadPixels(0, 0, countsWidth_, countsHeight_, GL_RG_INTEGER, GL_UNSIGNED_INT, counts.data());

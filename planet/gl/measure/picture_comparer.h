@@ -1,5 +1,5 @@
-// Two pictures of the same size in one, to see how they differ, and how much they do in numbers. Wants a
-// current context; one thread.
+// Draws two pictures of the same size into one and counts how much they differ. Wants a current context; one
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace planet::gl {
 
-// Which columns of the result show which columns of A or B, unscaled: each column x < border shows A's
-// x + shiftA, each other one B's x + shiftB. Or the difference of the two, and nothing of the rest.
+// Columns x < border of the result show A's column x + shiftA, the others B's column x + shiftB, unscaled; or
+// all show the difference.
 struct PictureMix {
     int border = 0;  // [0, width]
     int shiftA = 0;
@@ -20,14 +20,14 @@ struct PictureMix {
 
     bool operator==(const PictureMix&) const = default;
 };
-// Full pictures, the left one up to a share of the width, [0, 1].
+// Shows A up to a share of the width, [0, 1], and B beyond.
 PictureMix wipeMix(int widthPx, double share);
-// The middle half of each, so that pixels keep their size: A's on the left.
+// Shows the middle half of each, so that pixels keep their size: A's on the left.
 PictureMix sideBySideMix(int widthPx);
 PictureMix onlyMix(int widthPx, bool showsB);
 PictureMix differenceMix(double gain);
 
-// The column of A, or of B where the mix shows that, that a place in the mixed picture shows.
+// Returns the column of A or B that a column of the result shows.
 double pictureColumn(const PictureMix& mix, double columnPx);
 
 struct PictureDifference {
@@ -41,21 +41,21 @@ class PictureComparer {
 public:
     static Result<PictureComparer> create();
 
-    // Into the bound framebuffer, which is as large as the two RGBA8 textures. Sets the viewport.
+    // Draws into the bound framebuffer, which is as large as the two RGBA8 textures. Sets the viewport.
     void draw(GLuint textureA, GLuint textureB, int widthPx, int heightPx, const PictureMix& mix) const;
 
-    // Counted by the GPU, and waited for. Leaves another framebuffer bound, and sets the viewport.
+    // Counts on the GPU and waits. Leaves another framebuffer bound and sets the viewport.
     PictureDifference count(GLuint textureA, GLuint textureB, int widthPx, int heightPx);
 
 private:
     PictureComparer() = default;
-    void drawTriangle(const Program& program, GLuint textureA, GLuint textureB) const;
+    void drawTriangle(GLuint textureA, GLuint textureB) const;
     void fitCounts(int widthPx, int heightPx);
 
     Program mix_;
     Program count_;
     VertexArray noVertices_;
-    Texture counts_;  // one texel a block of pixels
+    Texture counts_;  // one texel per block of pixels
     Framebuffer counted_;
     int countsWidth_ = 0;
     int countsHeight_ = 0;

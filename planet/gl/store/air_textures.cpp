@@ -11,24 +11,20 @@
 #include <utility>
 
 #include "planet/gl/device/gpu_memory.h"
+#include "planet/gl/device/shader_inputs.h"
 
 namespace planet::gl {
 
 namespace {
 
-constexpr GLuint airBinding = 5;
-constexpr GLint transmittanceUnit = 10;
-constexpr GLint glowUnit = 11;
-constexpr GLint skyUnit = 12;
-
-// Light of a white level square below the sun, near to what the thin atmosphere has at noon: with it the tone
-// mapping shows the ground by day as bright in both. The sun above the air is a little warmer than a screen's
-// white.
+// Light of a white level square below the sun. It is close to the analytic atmosphere's at noon, so that the
+// tone mapping shows the ground by day equally bright in both. The sun above the air is a little warmer than
+// a screen's white.
 constexpr double noonLight = 3.6;
 constexpr glm::dvec3 sunColour(1.03, 1, 0.955);
 
-// Pictures are exposed as people would: less from space, where the ground comes with all of the air's light
-// over it, and more at dusk.
+// Pictures from space, where all of the air's light lies over the ground, are exposed less, and those at dusk
+// more.
 constexpr double spaceExposure = 0.6;
 constexpr double duskExposure = 6;
 
@@ -69,25 +65,36 @@ AirUniforms airUniforms(const AirTables& tables, const AirDrawing& drawing, cons
     const double kmPerM = airRadiusKm / radiusM;
     const double eyeRadiusM = glm::length(eyeM);
     const glm::dvec3 up = eyeRadiusM > 0 ? eyeM / eyeRadiusM : glm::dvec3(1, 0, 0);
-    const double farthestKm = std::sqrt(air.topKm * (2 * airRadiusKm + air.topKm));
-    AirUniforms uniforms;
-    uniforms.molecules = glm::dvec4(air.rayleigh, 1 / air.rayleighHeightKm);
-    uniforms.haze = glm::dvec4(air.hazeScattered, air.hazeTaken, 1 / air.hazeHeightKm, air.forward);
-    uniforms.ozone = glm::dvec4(air.ozone, 1 / air.ozoneHalfKm);
-    uniforms.shape = glm::dvec4(airRadiusKm, air.topKm, kmPerM, air.ozoneMiddleKm);
     const double eyeKm = std::max(eyeRadiusM - radiusM, 0.0) * kmPerM;
     const double exposure = noonLight * drawing.exposure * exposureAt(eyeKm, glm::dot(up, sun));
-    uniforms.sun = glm::dvec4(exposure * sunColour, std::clamp(drawing.steps, 4, 64));
-    uniforms.eye = glm::dvec4(up, eyeKm);
-    uniforms.sizes =
-        glm::dvec4(tables.transmittance.width, tables.transmittance.height, tables.glow.width, farthestKm);
-    uniforms.skySizes = glm::dvec4(tables.sky.width, tables.sky.height, tables.sky.depth, 0);
+    AirUniforms uniforms{};
+    uniforms.rayleigh = air.rayleigh;
+    uniforms.perRayleighHeight = toFloat(1 / air.rayleighHeightKm);
+    uniforms.ozone = air.ozone;
+    uniforms.perOzoneHalf = toFloat(1 / air.ozoneHalfKm);
+    uniforms.ozoneMiddleKm = toFloat(air.ozoneMiddleKm);
+    uniforms.hazeScattered = toFloat(air.hazeScattered);
+    uniforms.hazeTaken = toFloat(air.hazeTaken);
+    uniforms.perHazeHeight = toFloat(1 / air.hazeHeightKm);
+    uniforms.forward = toFloat(air.forward);
+    uniforms.radiusKm = toFloat(airRadiusKm);
+    uniforms.topKm = toFloat(air.topKm);
+    uniforms.farthestKm = toFloat(std::sqrt(air.topKm * (2 * airRadiusKm + air.topKm)));
+    uniforms.kmPerM = toFloat(kmPerM);
+    uniforms.light = exposure * sunColour;
+    uniforms.steps = toFloat(std::clamp(drawing.steps, 4, 64));
+    uniforms.eyeUp = up;
+    uniforms.eyeKm = toFloat(eyeKm);
+    uniforms.skySize = {tables.sky.width, tables.sky.height, tables.sky.depth};
+    uniforms.glowSize = toFloat(tables.glow.width);
+    uniforms.transmittanceSize = {tables.transmittance.width, tables.transmittance.height};
     return uniforms;
 }
 
 AirTextures::AirTextures() : frame_(makeBuffer()) {}
 
-// They are the same for every planet, so that one that takes another's place need not wait for them.
+// Keeps the last tables: they are the same for every planet, so a planet that replaces another need not wait
+// for them.
 AirTextures::Made AirTextures::made(const AirSettings& settings) {
     static std::mutex guard;
     static std::optional<Made> last;
@@ -142,26 +149,11 @@ Result<void> AirTextures::follow(const AirSettings& settings, bool inBackground)
 
 void AirTextures::bind(const AirDrawing& drawing, const glm::dvec3& eyeM, double radiusM,
                        const glm::dvec3& sun) const {
-    const AirUniforms uniforms = airUniforms(tables_, drawing, eyeM, radiusM, sun);
-    glBindBuffer(GL_UNIFORM_BUFFER, frame_.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, airBinding, frame_.name());
-    glActiveTexture(GL_TEXTURE0 + transmittanceUnit);
-    glBindTexture(GL_TEXTURE_2D, transmittance_.name());
-    glActiveTexture(GL_TEXTURE0 + glowUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, glow_.name());
-    glActiveTexture(GL_TEXTURE0 + skyUnit);
-    glBindTexture(GL_TEXTURE_3D, sky_.name());
-}
-
-void AirTextures::connect(GLuint program) {
-    const GLuint block = glGetUniformBlockIndex(program, "Air");
-    if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, airBinding);
-    glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "airTransmittance"), transmittanceUnit);
-    glUniform1i(glGetUniformLocation(program, "airGlow"), glowUnit);
-    glUniform1i(glGetUniformLocation(program, "airSky"), skyUnit);
-    glUseProgram(0);
+    fillUniforms(frame_, airUniforms(tables_, drawing, eyeM, radiusM, sun));
+    bindUniforms(UniformBlock::Air, frame_);
+    bindTexture(Sampler::airTransmittance, GL_TEXTURE_2D, transmittance_.name());
+    bindTexture(Sampler::airGlow, GL_TEXTURE_2D_ARRAY, glow_.name());
+    bindTexture(Sampler::airSky, GL_TEXTURE_3D, sky_.name());
 }
 
 }  // namespace planet::gl

@@ -1,11 +1,11 @@
-// The physical atmosphere on the GPU: its tables as textures, and what shaders/air.glsl is told once a frame.
+// The physical atmosphere on the GPU: its tables as textures, and the uniform block of shaders/air.glsl.
 // Wants a current context, and the same one throughout; one thread.
 #pragma once
 
 #include <cstddef>
 #include <future>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
 
 #include "planet/base/result.h"
@@ -15,11 +15,22 @@
 
 namespace planet::gl {
 
-// std140: only members of 16 bytes.
+// Members have std140's offsets, since every vec3 is aligned to 16 bytes; shaders/air.glsl describes them.
 struct AirUniforms {
-    glm::vec4 molecules, haze, ozone, shape, sun, eye, sizes, skySizes;
+    alignas(16) glm::vec3 rayleigh;
+    float perRayleighHeight;
+    alignas(16) glm::vec3 ozone;
+    float perOzoneHalf, ozoneMiddleKm;
+    float hazeScattered, hazeTaken, perHazeHeight, forward;
+    float radiusKm, topKm, farthestKm, kmPerM;
+    alignas(16) glm::vec3 light;
+    float steps;
+    alignas(16) glm::vec3 eyeUp;
+    float eyeKm;
+    alignas(16) glm::vec3 skySize;
+    float glowSize;
+    glm::vec2 transmittanceSize;
 };
-static_assert(sizeof(AirUniforms) == 8 * 16);
 
 // eyeM: metres from the planet's centre. sun: unit.
 AirUniforms airUniforms(const AirTables& tables, const AirDrawing& drawing, const glm::dvec3& eyeM,
@@ -29,16 +40,14 @@ class AirTextures {
 public:
     AirTextures();
 
-    // The tables for these settings. In the background: what there was stays, at first nothing, until the new
-    // ones have come; else it waits. The Error, once: the context has no memory for them, and
-    // what there was stays.
+    // Makes the tables for these settings. In the background the last tables, at first none, stay until the
+    // new ones are ready; else it waits. Reports once as an Error that the context has no memory for them;
+    // the last ones stay.
     Result<void> follow(const AirSettings& settings, bool inBackground);
-    // Whether there is anything to bind.
     bool exist() const { return transmittance_.name() != 0; }
 
-    // To the uniform block and the texture units below.
+    // Fills the uniform block, and binds it and the tables.
     void bind(const AirDrawing& drawing, const glm::dvec3& eyeM, double radiusM, const glm::dvec3& sun) const;
-    static void connect(GLuint program);
 
     const AirTables& tables() const { return tables_; }
     const AirFigures& figures() const { return figures_; }
@@ -54,7 +63,7 @@ private:
 
     AirTables tables_;
     AirSettings settings_;                // of the tables
-    std::optional<AirSettings> refused_;  // for whose tables there was no memory
+    std::optional<AirSettings> refused_;  // there was no memory for their tables
     AirFigures figures_;
     Texture transmittance_, glow_, sky_;
     Buffer frame_;

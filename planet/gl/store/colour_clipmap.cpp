@@ -9,16 +9,12 @@
 #include <utility>
 
 #include "planet/gl/device/gpu_memory.h"
+#include "planet/gl/device/shader_inputs.h"
 
 namespace planet::gl {
 
 namespace {
 
-// Of the fill program.
-constexpr GLint fillTilesUnit = 3;
-constexpr GLint fillPagesUnit = 4;
-
-// The Error names what there is no room for.
 Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float anisotropy) {
     GLint largest = 0;
     GLint most = 0;
@@ -46,7 +42,7 @@ Result<Texture> makeLayers(const glm::ivec2& size, int layers, GLint wrap, float
                     layers, size.x, size.y));
 }
 
-// What filling changes of the context, put back when it ends.
+// Restores the framebuffer and the viewport after filling.
 class DrawingKept {
 public:
     DrawingKept() {
@@ -59,7 +55,6 @@ public:
         glDisable(GL_FRAMEBUFFER_SRGB);
         glUseProgram(0);
         glBindVertexArray(0);
-        glActiveTexture(GL_TEXTURE0);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(framebuffer_));
         glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
     }
@@ -96,10 +91,10 @@ Result<void> ColourClipmap::makeBase() {
     return {};
 }
 
-// At least one layer, so that there is something to bind.
+// Makes at least one layer, so that there is a texture to bind.
 Result<void> ColourClipmap::makeStack(int layers) {
     const glm::ivec2 size = layers > 0 ? glm::ivec2(windows_.layout().sizePx) : glm::ivec2(1);
-    stack_ = Texture();  // the old one first, so that both never stand side by side
+    stack_ = Texture();  // frees the old one first, so that both never take memory at once
     stackLayers_ = 0;
     Result<Texture> made = makeLayers(size, std::max(layers, 1), GL_REPEAT, anisotropy_);
     if (!made) return tl::unexpected(made.error());
@@ -129,7 +124,7 @@ Result<void> ColourClipmap::move(const glm::dvec3& eyeM, int finestLevel, const 
     if (windows_.layerCount() > stackLayers_) {
         const Result<void> made = makeStack(windows_.layerCount());
         if (!made) return tl::unexpected(made.error());
-        // What was stored went with the old stack; the whole levels are filled once more.
+        // The old stack's texels are lost; this also fills the whole levels again.
         windows_.forget();
         updates = windows_.move(centre, finestLevel);
     }
@@ -147,15 +142,14 @@ void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const TilePool&
     glEnable(GL_FRAMEBUFFER_SRGB);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     glBindVertexArray(noVertices_.name());
-    glActiveTexture(GL_TEXTURE0 + fillTilesUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, pool.tiles());
-    glActiveTexture(GL_TEXTURE0 + fillPagesUnit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, pool.pages());
+    bindTexture(Sampler::colourTiles, GL_TEXTURE_2D_ARRAY, pool.tiles());
+    bindTexture(Sampler::colourPages, GL_TEXTURE_2D_ARRAY, pool.pages());
     glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "colourTiles"), fillTilesUnit);
-    glUniform1i(glGetUniformLocation(program, "colourPages"), fillPagesUnit);
-    const GLint firstTexel = glGetUniformLocation(program, "firstTexel");
-    const GLint filled = glGetUniformLocation(program, "filled");
+    const auto place = [&](const char* name) { return glGetUniformLocation(program, name); };
+    glUniform1i(place("leafLevel"), layout.leafLevel);
+    const GLint firstTexel = place("firstTexel");
+    const GLint face = place("face");
+    const GLint level = place("level");
     const auto draw = [&](const TexelRect& texels, int column, int row) {
         glUniform2i(firstTexel, texels.x - column, texels.y - row);
         glViewport(column, row, texels.width, texels.height);
@@ -166,7 +160,8 @@ void ColourClipmap::fill(std::span<const ClipmapUpdate> updates, const TilePool&
         const int layer = whole ? static_cast<int>(update.face) : windows_.layerOf(update.face, update.level);
         glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
                                   whole ? base_.name() : stack_.name(), 0, layer);
-        glUniform3i(filled, static_cast<int>(update.face), update.level, layout.leafLevel);
+        glUniform1i(face, static_cast<int>(update.face));
+        glUniform1i(level, update.level);
         if (whole) {
             const TexelRect all = faceTexels(update.level);
             const glm::ivec2 corner = clipmapBaseCorner(layout, update.level);
@@ -189,18 +184,18 @@ void ColourClipmap::describe(std::vector<ClipmapUpdate> updates) {
                 static_cast<std::size_t>(face) * (maxColourLevel + 1) + static_cast<std::size_t>(level);
             const bool moves = level > layout.wholeLevel && level <= layout.leafLevel;
             const int layer = moves ? windows_.layerOf(face, level) : -1;
-            // What a face's border or edge has cut off a window does not move the rest.
             const TexelRect texels = moves ? windows_.window(face, level) : TexelRect{};
-            uniforms_.windows[at] = glm::vec4(static_cast<float>(texels.x), static_cast<float>(texels.y),
-                                              static_cast<float>(layer), 0);
+            uniforms_.windows[at] = {{texels.x, texels.y}, layer};
             if (layer >= 0) state_.windows.push_back({face, level, texels});
         }
     }
-    uniforms_.centre = glm::vec4(glm::vec3(centre.cube), 0);
-    uniforms_.up = glm::vec4(glm::abs(glm::vec3(faceAxes(centre.home).normal)), 0);
-    uniforms_.sizes =
-        glm::dvec4(layout.sizePx, clipmapReach(layout), 1 / clipmapFade, windows_.finestLevel());
-    uniforms_.whole = glm::ivec4(layout.wholeLevel, 0, 0, 0);
+    uniforms_.centre = centre.cube;
+    uniforms_.up = glm::abs(faceAxes(centre.home).normal);
+    uniforms_.sizePx = static_cast<float>(layout.sizePx);
+    uniforms_.reach = static_cast<float>(clipmapReach(layout));
+    uniforms_.perFade = static_cast<float>(1 / clipmapFade);
+    uniforms_.finestLevel = windows_.finestLevel();
+    uniforms_.wholeLevel = layout.wholeLevel;
     state_.updatedTexels = 0;
     for (const ClipmapUpdate& update : updates) state_.updatedTexels += update.texels.count();
     state_.updates = std::move(updates);

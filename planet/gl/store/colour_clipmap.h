@@ -1,17 +1,17 @@
 // A clipmap of colours on the GPU, filled from the tiles of a TilePool through its page table, so that it
-// shows what the tiles show: of what is not resident, what lies above.
+// shows what the tiles show: where a tile is not resident, a coarser one.
 //
-// The base: a layer for each face with the levels that are kept whole, the finest in the corner, the others
-// in a row above it. The stack: a window a layer, a texel at its coordinates modulo the size. Both
-// uncompressed: textures that are drawn into cannot be BC1. The stack begins with a layer for each level;
-// where more windows stand, near a face's edge, it is made larger and filled anew, and stays so large.
+// The base has one layer per face for the levels that are kept whole, the finest in the corner, the others in
+// a row above it. The stack has one window per layer; a texel lies at its coordinates modulo the size. Both
+// are uncompressed, since a BC1 texture cannot be drawn into. The stack begins with a layer for each level.
+// Near a face's edge there are more windows: the stack then grows, is filled again, and stays as large.
 //
 // Everything here wants a current context, and the same one throughout; one thread.
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include "planet/base/result.h"
 #include "planet/gl/device/gl_objects.h"
@@ -21,27 +21,35 @@
 
 namespace planet::gl {
 
-// The uniform block of shaders/colour_clipmap.glsl. std140: only members of 16 bytes.
-struct ClipmapUniforms {
-    std::array<glm::vec4, faceCount*(maxColourLevel + 1)> windows;
-    glm::vec4 centre, up, sizes;
-    glm::ivec4 whole;
+struct alignas(16) ClipmapWindow {
+    glm::vec2 first;
+    int layer;
 };
-static_assert(sizeof(ClipmapUniforms) == (66 + 4) * 16);
+
+// The uniform block of shaders/colour_clipmap.glsl, which describes its members. They have std140's offsets,
+// since every vec3 is aligned to 16 bytes.
+struct ClipmapUniforms {
+    std::array<ClipmapWindow, faceCount*(maxColourLevel + 1)> windows;
+    alignas(16) glm::vec3 centre;
+    float sizePx;
+    alignas(16) glm::vec3 up;
+    float reach, perFade;
+    int finestLevel, wholeLevel;
+};
 
 class ColourClipmap {
 public:
-    // Of a pool's colours, in windows of so many pixels, [smallestClipmapPx, largestClipmapPx]. The Error
-    // says what the context cannot hold.
+    // Shows a pool's colours in windows of sizePx texels a side, [smallestClipmapPx, largestClipmapPx]. The
+    // Error says what the context cannot hold.
     static Result<ColourClipmap> create(int sizePx, const TilePool& pool);
 
-    // What the pool has followed.
+    // Takes the changes that the pool has followed.
     void follow(std::span<const TileChange> changes);
 
-    // Puts the windows around the viewer, and fills with fillProgram what that and the changes since bring
-    // in; windows of levels finer than the one wanted go. Keeps what is bound for drawing and the viewport;
-    // leaves depth test, culling, blending and scissor off. An Error says what the context has no room for:
-    // then the windows are no longer to be drawn from.
+    // Moves the windows around the viewer, drops those finer than finestLevel, and fills new and changed
+    // texels with fillProgram. Keeps the bound framebuffer and the viewport; leaves depth test, culling,
+    // blending and scissor off. The Error says what the context has no room for: the clipmap must not be
+    // drawn from then.
     Result<void> move(const glm::dvec3& eyeM, int finestLevel, const TilePool& pool, GLuint fillProgram);
 
     bool isFilled() const { return filled_; }  // false until it is first moved

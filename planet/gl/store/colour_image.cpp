@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planet/gl/device/gpu_memory.h"
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/device/software_renderer.h"
 #include "planet/sphere/cube_sphere.h"
 
@@ -142,7 +143,7 @@ void ColourImage::fill(std::span<const std::uint8_t> rgb, int width, int height,
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, faceSizePx_, faceSizePx_, faceCount, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, nullptr);
     setSampling(GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_EDGE, anisotropyToUse());
-    glBindTexture(GL_TEXTURE_2D, sphereImage.name());
+    bindTexture(Sampler::sphereImage, GL_TEXTURE_2D, sphereImage.name());
     drawFaces(faceProgram, texture_.name(), faceSizePx_);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);

@@ -1,7 +1,7 @@
-// The picture laid over the planet: an array of the six faces, drawn from an equirectangular image. A face's
-// outermost texels have their middles on the cube's edges, so that faces meet without a seam. RGB holds roots
-// of linear light, which filter in 8 bits about as well as sRGB and cost less to decode; alpha is 1 where the
-// image may show water.
+// The colour image over the planet: an array of the six faces, drawn from an equirectangular image. The
+// centres of a face's outermost texels lie on the cube's edges, so that faces meet without a seam. RGB holds
+// square roots of linear light, which filter in 8 bits about as well as sRGB and cost less to decode; alpha
+// is the probability of water, [0, 1].
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ class ColourImage {
 public:
     ColourImage() = default;  // none
 
-    // 3 bytes a pixel, row 0 at the north, column 0 at longitude -180. Halved until the context can hold it.
-    // Draws with the program of shaders/face_image; leaves depth test, culling, blending and scissor off. The
-    // Error says what the context has no memory for.
+    // Takes 3 bytes per pixel, row 0 at the north, column 0 at longitude -180, and halves the image until the
+    // context can hold it. Draws with the program of shaders/face_image; leaves depth test, culling, blending
+    // and scissor off. The Error says what the context has no memory for.
     static Result<ColourImage> create(std::span<const std::uint8_t> rgb, int width, int height,
                                       GLuint faceProgram);
 

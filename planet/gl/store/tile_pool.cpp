@@ -39,8 +39,7 @@ Texture makeArray() {
 std::uint32_t mostColourTiles() {
     GLint layers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-    // As pages name slots.
-    return std::min(static_cast<std::uint32_t>(std::max(layers, 0)), std::uint32_t{1} << 16);
+    return std::min(static_cast<std::uint32_t>(std::max(layers, 0)), noTile);
 }
 
 Result<TilePool> TilePool::create(const ColourPoolConfig& config) {

@@ -1,11 +1,10 @@
-// Tiles of colours or of normals on the GPU, and what the surface finds them by.
+// Tiles of colours or of normals on the GPU, and the page table by which shaders find them (virtual
+// texturing, after Barrett, "Sparse virtual textures", GDC 2008).
 //
-// A pool: a texture array whose layer is a tile's slot. A page table: for each face and level a texel for
-// each tile there would be of that level, which names the finest resident tile over it, itself or one above,
-// or none;
-// so one lookup finds what there is for any place at any level (virtual texturing, after Barrett, "Sparse
-// virtual textures", GDC 2008). And the six roots once more with mipmaps, for a planet that is small in the
-// picture.
+// The pool is a texture array with one tile per layer, its slot. The page table has a texel for each tile
+// that a level could have, which names the finest resident tile over it: itself, one above or none. So one
+// lookup finds the best tile for any place at any level. The six roots also exist with mipmaps, for a planet
+// that is small in the picture.
 //
 // Everything here wants a current context, and the same one throughout; one thread.
 #pragma once
@@ -25,7 +24,10 @@
 
 namespace planet::gl {
 
-// The most tiles that the context can hold in one pool.
+// The slot that a page names where no tile is resident.
+inline constexpr std::uint32_t noTile = 0xFFFF;
+
+// Returns the most tiles that the context can hold in one pool.
 std::uint32_t mostColourTiles();
 
 class TilePool {
@@ -34,20 +36,20 @@ public:
     static Result<TilePool> create(const ColourPoolConfig& config);
     static Result<TilePool> create(const NormalPoolConfig& config);
 
-    // In the order that they came. The first of all changes begin anew.
+    // Takes the changes in their order; the first one resets the pool.
     void follow(std::span<const TileChange> changes);
 
     int leafLevel() const { return leafLevel_; }
     GLuint tiles() const { return tiles_.name(); }
     GLuint pages() const { return pages_.name(); }
     GLuint roots() const { return roots_.name(); }
-    // Whether tiles stay BC1 on the GPU; where the context has none of it they are unpacked.
+    // Returns whether tiles stay BC1 on the GPU; a context without BC1 gets them unpacked.
     bool isCompressed() const { return texels_.isCompressed; }
     float anisotropy() const { return anisotropy_; }  // of its sampler, >= 1
     std::size_t bytes() const;
 
 private:
-    // How the textures hold texels, and how they are given: those of roots may be given another way.
+    // The formats of the textures on the GPU and of the texels uploaded; roots have their own.
     struct Texels {
         GLenum internalFormat = 0;
         GLenum rootsInternalFormat = 0;
@@ -59,9 +61,9 @@ private:
         std::optional<ColourFormat> colours{};  // as the tiles come; none: normals
         const char* name = "";
     };
-    // What a texel of the page table says.
+    // A texel of the page table.
     struct Page {
-        std::uint16_t slot = 0xFFFF;  // none
+        std::uint16_t slot = noTile;
         std::uint16_t level = 0;
     };
 

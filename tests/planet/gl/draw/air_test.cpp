@@ -10,8 +10,10 @@
 #include <random>
 #include <string>
 
+#include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/device/shader_source.h"
 #include "planet/gl/draw/frame_uniforms.h"
+#include "planet/gl/draw/shader_prologue.h"
 #include "tests/planet/gl/gl_test.h"
 #include "tests/planet/gl/test_planet.h"
 
@@ -39,10 +41,10 @@ void main() {
     if (asked == 1) result.rgb = sky.through;
     if (asked == 2) result.rgb = before.scattered;
     if (asked == 3) result.rgb = before.through;
-    if (asked == 4) result.rgb = skyRadianceAlong(ray, airEye.xyz);
+    if (asked == 4) result.rgb = skyRadianceAlong(ray, air.eyeUp);
     if (asked == 5) result.rgb = skyIrradianceAt(high, height);
     if (asked == 6) result.rgb = sunThroughAir(high, height);
-    if (asked == 7) result.rgb = vec3(sunDisk(dot(ray, sun.xyz), 0.001));
+    if (asked == 7) result.rgb = vec3(sunDisk(dot(ray, frame.sun), 0.001));
 }
 )";
 constexpr int askable = 8;
@@ -63,9 +65,7 @@ protected:
         const ShaderText vertex = valueOf(readShader({}, vertexFiles));
         ShaderText fragment = valueOf(readShader({}, fragmentFiles));
         fragment.text += probeMain;
-        program_ = valueOf(linkProgram(vertex, fragment, switchPhysicalAir));
-        glUniformBlockBinding(program_.name(), glGetUniformBlockIndex(program_.name(), "Frame"), 0);
-        AirTextures::connect(program_.name());
+        program_ = valueOf(linkProgram(vertex, fragment, {.prologue = shaderPrologue(switchPhysicalAir)}));
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
         glBindRenderbuffer(GL_RENDERBUFFER, colour_.name());
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, directionsASide, directionsASide);
@@ -80,9 +80,8 @@ protected:
         settings.sunDirection = sun;
         const FrameUniforms uniforms =
             frameUniforms(shape_, view, reversedProjection(view, 0.1), settings, {});
-        glBindBuffer(GL_UNIFORM_BUFFER, frame_.name());
-        glBufferData(GL_UNIFORM_BUFFER, sizeof(uniforms), &uniforms, GL_STREAM_DRAW);
-        glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
+        fillUniforms(frame_, uniforms);
+        bindUniforms(UniformBlock::Frame, frame_);
         EXPECT_TRUE(textures_.follow(drawing_.settings, false));
         textures_.bind(drawing_, eyeM, shape_.radiusM, glm::normalize(sun));
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
@@ -148,7 +147,7 @@ TEST_F(Air, TheShadersLightIsTheLibrarysDoubles) {
     for (const double heightM : {2.0, 20e3, 400e3, 6e7}) {
         const glm::dvec3 eyeM = (shape_.radiusM + heightM) * glm::normalize(glm::dvec3(0.7, 0.3, 0.5));
         const std::vector<glm::vec4> light = ask(0, eyeM, sun, 1), left = ask(1, eyeM, sun, 1);
-        const glm::dvec3 whole(airUniforms(textures_.tables(), drawing_, eyeM, shape_.radiusM, sun).sun);
+        const glm::dvec3 whole(airUniforms(textures_.tables(), drawing_, eyeM, shape_.radiusM, sun).light);
         for (int pixel = 0; pixel < directionsASide * directionsASide; ++pixel) {
             const AirRay ray = rayTowards(directionOf(pixel), eyeM, sun);
             if (nearHorizon(ray)) continue;
@@ -169,7 +168,7 @@ TEST_F(Air, TheShadersLightIsTheLibrarysDoubles) {
 TEST_F(Air, LightBeforeAPointIsTheLibrarysDoubles) {
     const glm::dvec3 sun = glm::normalize(glm::dvec3(0.5, 0.6, 0.3));
     const glm::dvec3 eyeM = (shape_.radiusM + 5000) * glm::normalize(glm::dvec3(0.7, 0.3, 0.5));
-    const glm::dvec3 whole(airUniforms(textures_.tables(), drawing_, eyeM, shape_.radiusM, sun).sun);
+    const glm::dvec3 whole(airUniforms(textures_.tables(), drawing_, eyeM, shape_.radiusM, sun).light);
     for (const double distanceM : {10.0, 5e3, 2e5}) {
         const std::vector<glm::vec4> light = ask(2, eyeM, sun, distanceM),
                                      left = ask(3, eyeM, sun, distanceM);
@@ -247,7 +246,7 @@ TEST_F(Air, TheSunsDiskIsAsLargeAsTheSun) {
 TEST_F(Air, ExposureIsOneNearGroundByDayLessFromSpaceMoreAtDusk) {
     const AirTables tables = makeAirTables(atmosphereOf({}));
     const auto light = [&](double heightM, const glm::dvec3& sun) {
-        return airUniforms(tables, drawing_, {0, 0, shape_.radiusM + heightM}, shape_.radiusM, sun).sun.g;
+        return airUniforms(tables, drawing_, {0, 0, shape_.radiusM + heightM}, shape_.radiusM, sun).light.g;
     };
     const float noon = light(2, {0, 0, 1});
     EXPECT_EQ(light(2000, glm::normalize(glm::dvec3(1, 0, 0.3))), noon);

@@ -1,0 +1,13 @@
+// The text in front of every chunk, sky and clipmap shader: constants that GLSL and C++ share.
+#pragma once
+
+#include <string>
+
+#include "planet/gl/draw/shader_switches.h"
+
+namespace planet::gl {
+
+// Declares each switch as a constant bool of its name, and the C++ constants that shaders need under theirs.
+std::string shaderPrologue(Switches on);
+
+}  // namespace planet::gl
