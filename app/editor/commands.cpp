@@ -457,22 +457,14 @@ void CommandHandler::operator()(const ui::GoBackToPop& command) const {
     inspect(editor, {event->view.eyeM, event->view.right, event->view.back}, event->view);
 }
 
-template <class... Kinds>
-void obeyOne(const CommandHandler& handler, const ui::Command& command, ui::CommandKindList<Kinds...>) {
-    const auto obeyed = [&handler](const auto* ofKind) {
-        if (ofKind) handler(*ofKind);
-        return ofKind != nullptr;
-    };
-    (obeyed(command.as<Kinds>()) || ...);
-}
-
 }  // namespace
 
 void obey(const ui::Commands& commands, Window& window, Session& session, Editor& editor, Log& log) {
     const CommandHandler handler{window, session, editor, log};
     // Asked for anew each frame that the pointer is on a chunk.
     editor.focus.hovered.reset();
-    for (const ui::Command& command : commands) obeyOne(handler, command, ui::CommandKinds{});
+    for (const ui::Command& command : commands)
+        std::visit([&](const auto& ofFeature) { std::visit(handler, ofFeature); }, command.feature());
 }
 
 void keepScreenshot(const Window& window, const Session& session, Editor& editor, const Log& log) {
