@@ -80,19 +80,20 @@ int runWindow(Window& window, const AppOptions& options, DataSet data, const Ope
     window.setTitle(fmt::format("{} - Worldy", sourceName(data.source)));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data), options.shaderFolder, log);
-    session.shaderWorker = window.makeShaderWorker();
-    Editor editor = openEditor(open.settings, log);
-    editor.itemMapFile = options.itemMapFile;
+    session.shaders.worker = window.makeShaderWorker();
+    Editor editor(open.settings, log);
+    editor.keepItemMap(options.itemMapFile);
     auto last = std::chrono::steady_clock::now();
     while (!window.closing()) {
         const auto now = std::chrono::steady_clock::now();
-        runFrame(window, session, editor, log, std::chrono::duration<double>(now - last).count());
+        editor.runFrame(window, session, std::chrono::duration<double>(now - last).count());
         last = now;
     }
-    endFlights(session, editor, log);
-    editor.settings.windowWidthPx = static_cast<int>(window.width());
-    editor.settings.windowHeightPx = static_cast<int>(window.height());
-    saveIfChanged(open, editor.settings, log);
+    editor.endFlights(session);
+    Settings settings = editor.settings();
+    settings.windowWidthPx = static_cast<int>(window.width());
+    settings.windowHeightPx = static_cast<int>(window.height());
+    saveIfChanged(open, settings, log);
     if (shownScene(session)) return exitOk;
     if (session.bake) return exitCancelled;
     if (!session.problem) return exitOk;

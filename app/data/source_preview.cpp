@@ -168,34 +168,35 @@ std::optional<Result<PreviewPicture>> PreviewJob::takeResult() {
     return std::exchange(result_, std::nullopt);
 }
 
-void requestPreview(PreviewDesk& desk, const PreviewRequest& request) {
-    desk.next = request;
-    if (desk.job) desk.job->cancel();
+void requestPreview(SourcePreviewer& previewer, const PreviewRequest& request) {
+    previewer.next = request;
+    if (previewer.job) previewer.job->cancel();
 }
 
-void advancePreview(PreviewDesk& desk) {
-    if (desk.job) {
-        std::optional<Result<PreviewPicture>> result = desk.job->takeResult();
+void advancePreview(SourcePreviewer& previewer) {
+    if (previewer.job) {
+        std::optional<Result<PreviewPicture>> result = previewer.job->takeResult();
         if (!result) return;
-        desk.job.reset();
+        previewer.job.reset();
         const bool cancelled = !*result && result->error().kind == planet::ErrorKind::Cancelled;
-        desk.problem = *result || cancelled ? std::string() : result->error().message;
+        previewer.problem = *result || cancelled ? std::string() : result->error().message;
         if (*result) {
-            desk.shown = std::move(**result);
-            desk.texture = planet::gl::makeTexture();
-            glBindTexture(GL_TEXTURE_2D, desk.texture.name());
+            previewer.shown = std::move(**result);
+            previewer.texture = planet::gl::makeTexture();
+            glBindTexture(GL_TEXTURE_2D, previewer.texture.name());
             glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
             glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, previewSidePx, previewSidePx, 0, GL_RGBA,
-                         GL_UNSIGNED_BYTE, desk.shown->rgba.data());
+                         GL_UNSIGNED_BYTE, previewer.shown->rgba.data());
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
             glBindTexture(GL_TEXTURE_2D, 0);
-            desk.shown->rgba.clear();
+            previewer.shown->rgba.clear();
         }
     }
-    if (desk.next) desk.job = std::make_unique<PreviewJob>(*std::exchange(desk.next, std::nullopt));
+    if (previewer.next)
+        previewer.job = std::make_unique<PreviewJob>(*std::exchange(previewer.next, std::nullopt));
 }
 
 }  // namespace worldy

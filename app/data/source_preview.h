@@ -57,15 +57,15 @@ private:
 
 // One picture at a time; what is asked meanwhile takes the place of what was asked before. All calls from the
 // thread of the GL context.
-struct PreviewDesk {
+struct SourcePreviewer {
     std::unique_ptr<PreviewJob> job;
     std::optional<PreviewRequest> next;
     std::optional<PreviewPicture> shown;  // without its pixels, which are the texture's
     planet::gl::Texture texture;
     std::string problem;
 };
-void requestPreview(PreviewDesk& desk, const PreviewRequest& request);
+void requestPreview(SourcePreviewer& previewer, const PreviewRequest& request);
 // At a frame's start. Leaves no texture bound to the active unit.
-void advancePreview(PreviewDesk& desk);
+void advancePreview(SourcePreviewer& previewer);
 
 }  // namespace worldy

@@ -1,8 +1,6 @@
 #include "app/editor/allocations.h"
 
 #include "app/base/process_memory.h"
-#include "app/editor/editor_state.h"
-#include "app/editor/session.h"
 #include "planet/planet_tools.h"
 
 namespace worldy {
@@ -23,22 +21,20 @@ void add(const Scene& scene, ui::Allocations& held) {
     held.rememberedEnds += planet.inspect().pagingHistory().size();
 }
 
-std::size_t jobsOf(const Session& session, const Editor& editor) {
+std::size_t jobsOf(const Session& session) {
     std::size_t jobs = session.ending.size();
     jobs += session.bake && session.bake->job;
     jobs += session.estimate.job != nullptr;
     jobs += session.preview.job != nullptr;
-    jobs += editor.errors.job != nullptr;
-    jobs += editor.compare.job != nullptr;
-    jobs += editor.sweep.job != nullptr;
     return jobs;
 }
 
 }  // namespace
 
-ui::Allocations countAllocations(const Session& session, const Editor& editor) {
+ui::Allocations countAllocations(const AllocationSources& sources) {
+    const Session& session = sources.session;
     ui::Allocations held;
-    held.atS = editor.timeS;
+    held.atS = sources.timeS;
     held.residentBytes = residentProcessBytes();
     held.heapBytes = heapBytesInUse();
     held.openFiles = openFileHandles();
@@ -46,24 +42,21 @@ ui::Allocations countAllocations(const Session& session, const Editor& editor) {
     held.objects = planet::gl::countObjects();
     if (session.open) add(session.open->scene, held);
     if (session.previous) add(session.previous->scene, held);
-    if (editor.compare.other) add(editor.compare.other->planet.scene, held);
-    held.targetBytes = gpuBytes(editor.viewport) + gpuBytes(editor.compare);
-    held.logLines = editor.logLines.size();
-    held.frameSamples = editor.history.size();
-    if (editor.desk.recorder) held.recordedBytes = editor.desk.recorder->encoded().bytes();
-    held.jobs = jobsOf(session, editor);
+    if (sources.other) add(*sources.other, held);
+    held.targetBytes = sources.targetBytes;
+    held.logLines = sources.logLines;
+    held.frameSamples = sources.frameSamples;
+    held.recordedBytes = sources.recordedBytes;
+    held.jobs = jobsOf(session) + sources.jobs;
     return held;
 }
 
-void watchAllocations(const Session& session, Editor& editor) {
-    const bool lookedAt = editor.settings.workspace.panels[static_cast<std::size_t>(PanelId::Frame)].shown;
-    ui::AllocationsView& view = editor.allocations;
-    if (!view.now && shownScene(session)) {
-        view.now = view.mark = countAllocations(session, editor);
-        return;
-    }
-    if (lookedAt && view.now && editor.timeS - view.now->atS >= everyS)
-        view.now = countAllocations(session, editor);
+void watchAllocations(const AllocationSources& sources, bool panelShown, bool mark,
+                      ui::AllocationsView& view) {
+    if (mark || (!view.now && shownScene(sources.session)))
+        view.now = view.mark = countAllocations(sources);
+    else if (panelShown && view.now && sources.timeS - view.now->atS >= everyS)
+        view.now = countAllocations(sources);
 }
 
 }  // namespace worldy

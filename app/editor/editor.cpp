@@ -2,17 +2,17 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/base/process_memory.h"
 #include "app/base/stopwatch.h"
-#include "app/data/recent_files.h"
 #include "app/editor/allocations.h"
-#include "app/editor/commands.h"
-#include "app/editor/editor_actions.h"
+#include "app/editor/bake_controller.h"
 #include "app/editor/editor_panels.h"
-#include "app/editor/editor_planet.h"
 #include "app/editor/item_map_file.h"
+#include "app/editor/overloaded.h"
+#include "app/editor/pictures.h"
 #include "app/editor/shortcuts.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/status_bar.h"
@@ -21,91 +21,273 @@ namespace worldy {
 
 namespace {
 
-constexpr double historyS = 10;
-
-void remember(const FrameStats& stats, Editor& editor) {
-    editor.stats = smoothed(editor.stats, stats);
-    editor.history.push_back({editor.timeS, stats});
-    while (editor.history.front().timeS < editor.timeS - historyS) editor.history.pop_front();
-}
-
-}  // namespace
-
-Editor openEditor(const Settings& settings, const Log& log) {
-    Editor editor;
-    editor.settings = settings;
-    editor.bookmarks = loadBookmarks(bookmarksFile());
-    if (!editor.bookmarks.problem.empty()) log->warn("{}", editor.bookmarks.problem);
-    editor.flights = availableFlights();
-    editor.desk = openFlightDesk(recordingsFolder());
-    editor.recent = loadRecentFiles(recentFilesFile());
-    editor.recentShown = shownRecentFiles(editor.recent);
-    return editor;
-}
-
-void endFlights(Session& session, Editor& editor, const Log& log) {
-    Scene* scene = shownScene(session);
-    endReplay(editor, scene);
-    stopRecording(editor.desk, scene ? scene->planet.get() : nullptr, log);
-}
-
-void runFrame(Window& window, Session& session, Editor& editor, Log& log, double secondsSinceLast) {
-    editor.timeS += secondsSinceLast;
-    window.setTheme(editor.settings.workspace.theme, editor.settings.workspace.scale);
-    // While there is only a bake to be seen, the cores have better things to do than to draw the same bar
-    // again; and while a sweep measures frame times, than to disturb them. Input is answered at once.
-    window.beginFrame(shownScene(session) && !editor.sweep.job ? 0 : 0.05);
-    const float pixelRatio = window.pixelRatio();
-    const ui::Layout layout = ui::layoutOf(window.width(), window.height(), editor.settings.workspace,
-                                           ui::menuBarHeight(), ui::statusBarHeight(), ui::unitPx());
-    layOut(editor.viewport, layout.viewport, editor.settings.view.camera.observer);
-    std::vector<ui::ItemPlace> items;
-    ui::collectItems(editor.itemMapFile.empty() ? nullptr : &items);
-
-    ui::Commands commands;
-    // Where the panel was in the frame before, if it was drawn at all.
-    const bool dropsAreColours = std::exchange(editor.panels.bake.colour.takesDrops, false);
+// Asks for what was dropped onto the window: the Bake panel's image of colours while that panel was drawn in
+// the frame before with its field for it, else files to open.
+void takeDrops(const Window& window, ui::BakePanelState& panel, ui::Commands& commands) {
+    const bool dropsAreColours = std::exchange(panel.colour.takesDrops, false);
     for (const std::filesystem::path& file : window.droppedFiles()) {
         if (dropsAreColours)
             commands.push_back(ui::ChooseColourImage{file});
         else
             commands.push_back(ui::OpenFile{file});
     }
-    advanceSession(session, editor.settings.view, log);
-    if (followOpening(session, editor)) {
-        if (const auto saved = saveRecentFiles(editor.recent, recentFilesFile()); !saved)
-            log->error("{}", saved.error().message);
-    }
-    advanceSweep(editor.sweep, log);
-    reloadChangedShaders(session, log);
+}
+
+}  // namespace
+
+Editor::Editor(const Settings& settings, Log& log)
+    : log_(log), notices_{log}, files_(openFileController()), layers_(openLayers()) {
+    settings_.settings = settings;
+    camera_.bookmarks = loadBookmarks(bookmarksFile());
+    if (!camera_.bookmarks.problem.empty()) log->warn("{}", camera_.bookmarks.problem);
+    camera_.flights = availableFlights();
+    recording_ = openRecordings(recordingsFolder());
+}
+
+CameraContext Editor::cameraContext(const Scene* scene) {
+    return {scene, settings_.settings, instruments_.pops.side, frames_.stepOnce,
+            recording_.replay ? &recording_.replay->controls : nullptr};
+}
+
+ReplayContext Editor::replayContext() {
+    return {settings_.settings, camera_, paging_, frames_, instruments_, compare_};
+}
+
+WindowContent Editor::windowContent(const Session& session) const {
+    return {session, settings_.settings, camera_, compare_, viewport_};
+}
+
+void Editor::endFlights(Session& session) {
+    Scene* scene = shownScene(session);
+    endReplay(recording_, scene, replayContext());
+    stopRecording(recording_, scene ? scene->planet.get() : nullptr, log_);
+}
+
+void Editor::runFrame(Window& window, Session& session, double secondsSinceLast) {
+    Workspace& workspace = settings_.settings.workspace;
+    notices_.timeS = frames_.timeS += secondsSinceLast;
+    window.setTheme(workspace.theme, workspace.scale);
+    // Frames wait for input while there is only a bake to be seen, which needs the cores more, and while a
+    // sweep measures frame times, which they would disturb.
+    window.beginFrame(shownScene(session) && !sweep_.job ? 0 : 0.05);
+    const float pixelRatio = window.pixelRatio();
+    const ui::Layout layout = ui::layoutOf(window.width(), window.height(), workspace, ui::menuBarHeight(),
+                                           ui::statusBarHeight(), ui::unitPx());
+    layOut(viewport_, layout.viewport, settings_.settings.view.camera.observer, pixelRatio);
+    std::vector<ui::ItemPlace> items;
+    ui::collectItems(window_.itemMapFile.empty() ? nullptr : &items);
+
+    ui::Commands commands;
+    takeDrops(window, window_.panels.bake, commands);
+    advanceSession(session, settings_.settings.view, log_);
+    advanceFiles(files_, session, notices_);
+    advanceSweep(sweep_, log_);
+    reloadChangedShaders(session, log_);
     FrameStats stats;
-    if (Scene* scene = shownScene(session))
-        stats = runPlanet(*scene, pixelRatio, editor, log, secondsSinceLast, commands);
+    if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, secondsSinceLast, commands);
 
     const Stopwatch panelWatch;
-    log.moveNewLines(editor.logLines);
-    const ViewSettings before = editor.settings.view;
-    const ui::EditorView view = gatherView(session, editor);
-    drawPanels(session, view, layout, pixelRatio, editor, commands);
-    obeyShortcuts(window.pressedKeys(),
-                  {view, editor.settings.view, editor.settings.workspace, editor.menu, commands});
+    log_.moveNewLines(window_.logLines);
+    const ViewSettings before = settings_.settings.view;
+    const ui::EditorView shown = view(session);
+    drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
+               commands);
+    obeyShortcuts(window.pressedKeys(), {shown, settings_.settings.view, workspace, window_.menu, commands});
     // A replay's settings are not the user's.
-    if (!editor.desk.replay)
-        editor.undo.record(before, editor.settings.view, ImGui::IsAnyItemActive(), editor.timeS);
-    obey(commands, window, session, editor, log);
+    if (!replaying())
+        settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);
+    execute(commands, window, session);
     stats.panelsMs = panelWatch.elapsedMs();
     ui::collectItems(nullptr);
 
-    window.endFrame([&] { keepScreenshot(window, session, editor, log); });
+    window.endFrame([&] { keepScreenshot(window_, window, windowContent(session), notices_); });
     stats.panelsGpuMs = window.panelsGpuMs();
     stats.presentMs = window.presentMs();
     stats.frameMs = 1000 * secondsSinceLast;
     stats.processBytes = residentProcessBytes();
-    remember(stats, editor);
-    watchAllocations(session, editor);
-    ++editor.frames;
-    if (!editor.itemMapFile.empty())
-        writeItemMap(editor.itemMapFile, items, countersOf(session, editor, stats, window.queuedInput()));
+    finishFrame(frames_, stats);
+    watchAllocations(session);
+    ++frames_.frame;
+    if (window_.itemMapFile.empty()) return;
+    const CounterSources sources{session, frames_, camera_, chunks_.focus, recording_, sweep_, compare_};
+    writeItemMap(window_.itemMapFile, items, countersOf(sources, stats, window.queuedInput()));
+}
+
+// Another planet has taken the place of the last one: the camera stays where it makes sense, measurements do
+// not.
+void Editor::meetPlanet(Scene& scene) {
+    if (scene.identity == frames_.lastScene) return;
+    // Both are about the planet that they began with, which may be gone.
+    stopRecording(recording_, nullptr, log_);
+    endReplay(recording_, nullptr, replayContext());
+    scene.planet->tools().keepMoves(false);
+    worldy::meetPlanet(camera_, scene.planet->tree().shape.radiusM);
+    forgetPlanet(instruments_);
+    frames_.lastScene = scene.identity;
+    frames_.history.clear();
+    frames_.stepOnce = true;  // something has to be chosen for it
+}
+
+// Runs the planet's part of a frame: cameras move, chunks are chosen and loaded, pictures are drawn. Returns
+// what it counted and timed. Appends what the pointer does to chunks.
+FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& commands) {
+    const ViewSettings& settings = settings_.settings.view;
+    meetPlanet(scene);
+    // A frame that is paused steps nothing, but draws.
+    scene.drawCpuMs = 0;
+    scene.drawn = {};
+    viewport_.shaderWait =
+        window_.screenshotPending ? planet::gl::ShaderWait::UntilReady : planet::gl::ShaderWait::Never;
+    if (!replaying()) giveSettings(recording_, scene, settings, paging_.paused, log_);
+    placeCameras(camera_, scene, viewport_, settings_.settings);
+    const FrameStep step = takeStep(frames_, seconds);
+    movePlanet(scene, step);
+    advanceErrorMeter(*scene.planet, frames_.frame, frames_.timeS, instruments_.errors);
+    stepCompared(compare_,
+                 {scene, settings, camera_.lodView, mainView(camera_, viewport_, settings.camera),
+                  frames_.timeS, frames_.frame, camera_.jumped, step.goesOn, paging_.paused},
+                 log_);
+    const Stopwatch watch;
+    drawPictures(scene);
+    advanceInstruments(
+        instruments_,
+        {scene, viewport_.main, settings_.settings, chunks_.focus, frames_.frame, frames_.timeS}, log_,
+        commands);
+    if (isShown(settings_.settings.workspace, PanelId::Surface))
+        readLayers(layers_, scene, viewport_.main, settings.surface);
+    pick(viewport_.main, scene, 0, commands);
+    pick(viewport_.observer, scene, observerSelection(scene, viewport_, settings.camera), commands);
+    FrameStats stats = statsOf(scene);
+    stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
+    stats.targetBytes = gpuBytes(viewport_) + gpuBytes(compare_);
+    return stats;
+}
+
+void Editor::movePlanet(Scene& scene, const FrameStep& step) {
+    if (step.goesOn)
+        moveCameras(camera_, scene, viewport_, settings_.settings.view.camera, replaying(), step.seconds,
+                    log_);
+    if (replaying()) {
+        replayFrame(recording_, scene, replayContext(), step.goesOn ? step.seconds : 0, log_);
+    } else if (step.goesOn) {
+        chooseChunks(scene, step);
+        if (recordFrame(recording_, *scene.planet, log_)) camera_.flights = availableFlights();
+    }
+}
+
+void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
+    const ViewSettings& settings = settings_.settings.view;
+    Pops& pops = instruments_.pops;
+    followCamera(camera_, viewport_, settings.camera, std::max(frames_.timeS - pops.meter.lastTimeS(), 0.0));
+    if (observerChooses(viewport_, settings.camera))
+        stepScene(scene, camera_.lodView, observerView(camera_, viewport_, settings.camera), settings,
+                  step.elapsedS);
+    else
+        stepScene(scene, camera_.lodView, settings, step.elapsedS);
+    instruments_.changes.add(scene.planet->selection(), frames_.timeS);
+    measurePops(scene, mainView(camera_, viewport_, settings.camera), frames_.timeS, camera_.jumped, pops);
+}
+
+void Editor::drawPictures(Scene& scene) {
+    const ViewSettings& settings = settings_.settings.view;
+    const PictureInput input{scene, settings, camera_, chunks_.focus};
+    drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), log_);
+    const bool counting = settings.compare.mode == CompareMode::Difference ||
+                          isShown(settings_.settings.workspace, PanelId::Compare);
+    drawCompared(compare_, viewport_, settings, chunks_.focus, counting && !scene.drawn.standIn, log_);
+    drawObserverPicture(viewport_, input, instruments_.errors, log_);
+}
+
+// Gathers what panels may read. Points into the session and the controllers; holds for the frame.
+ui::EditorView Editor::view(Session& session) {
+    const ViewSettings& settings = settings_.settings.view;
+    const Scene* scene = shownScene(session);
+    ui::EditorView view{.planet = scene && camera_.rig ? scene->planet.get() : nullptr,
+                        .stats = frames_.stats,
+                        .history = frames_.history,
+                        .changes = instruments_.changes,
+                        .log = window_.logLines};
+    view.renderView = viewport_.main.view;
+    view.framesPaused = frames_.paused;
+    view.timeS = frames_.timeS;
+    view.pagingPaused = paging_.paused;
+    view.focus = chunks_.focus;
+    fillView(camera_, scene, view);
+    fillView(settings_, view);
+    fillView(instruments_, scene, settings, frames_.frame, view);
+    view.data = dataViewOf(session, files_.recentShown);
+    view.bake = bakeViewOf(session);
+    view.recording = recordingViewOf(recording_, settings);
+    view.sweep = sweepViewOf(sweep_);
+    view.compare = compareViewOf(compare_, session, settings, frames_.stats, viewport_.main.view);
+    view.layers = layersViewOf(layers_, scene, settings.surface.layers);
+    return view;
+}
+
+void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
+    // Asked for in each frame that the pointer is on a chunk.
+    chunks_.focus.hovered.reset();
+    for (const ui::Command& command : commands) execute(command, window, session);
+}
+
+void Editor::execute(const ui::Command& command, const Window& window, Session& session) {
+    Scene* const scene = shownScene(session);
+    ViewSettings& settings = settings_.settings.view;
+    const CameraContext camera = cameraContext(scene);
+    ui::Commands next;
+    std::visit(
+        Overloaded{
+            [&](const ui::ChunkCommand& c) { worldy::execute(chunks_, c, scene, camera_, settings.camera); },
+            [&](const ui::CameraCommand& c) { worldy::execute(camera_, c, camera, notices_); },
+            [&](const ui::PagingCommand& c) {
+                Recorder* const recorder = recording_.recorder ? &*recording_.recorder : nullptr;
+                worldy::execute(paging_, c, scene, recorder, replaying(), log_);
+            },
+            [&](const ui::FrameCommand& c) { worldy::execute(frames_, c); },
+            [&](const ui::FileCommand& c) {
+                worldy::execute(files_, c, {session, settings_, camera_, replaying()}, notices_, next);
+            },
+            [&](const ui::BakeCommand& c) { worldy::execute(session, c, window_.panels.bake, log_); },
+            [&](const ui::SettingsCommand& c) { worldy::execute(settings_, c, replaying(), notices_); },
+            [&](const ui::WindowCommand& c) {
+                worldy::execute(window_, c, window, windowContent(session), notices_);
+            },
+            [&](const ui::LayerCommand& c) {
+                worldy::execute(layers_, c, settings_, scene, replaying(), notices_);
+            },
+            [&](const ui::InstrumentCommand& c) {
+                worldy::execute(instruments_, c,
+                                {scene, settings, viewport_.main.view, chunks_.focus, camera_, camera},
+                                notices_);
+            },
+            [&](const ui::RecordingCommand& c) {
+                worldy::execute(recording_, c, scene, replayContext(), notices_);
+            },
+            [&](const ui::SweepCommand& c) { worldy::execute(sweep_, c, session, settings, notices_); },
+            [&](const ui::CompareCommand& c) {
+                const planet::View* const view = camera_.rig ? &viewport_.main.view : nullptr;
+                worldy::execute(compare_, c, {session, settings_, view, frames_.stepOnce, replaying()},
+                                notices_);
+            },
+        },
+        command.feature());
+    for (const ui::Command& one : next) execute(one, window, session);
+}
+
+void Editor::watchAllocations(const Session& session) {
+    const AllocationSources sources{
+        .session = session,
+        .other = compare_.other ? &compare_.other->planet.scene : nullptr,
+        .timeS = frames_.timeS,
+        .targetBytes = gpuBytes(viewport_) + gpuBytes(compare_),
+        .logLines = window_.logLines.size(),
+        .frameSamples = frames_.history.size(),
+        .recordedBytes = recording_.recorder ? recording_.recorder->encoded().bytes() : 0,
+        .jobs = std::size_t{instruments_.errors.job != nullptr} +
+                std::size_t{compare_.flight.job != nullptr} + std::size_t{sweep_.job != nullptr}};
+    const bool wanted = isShown(settings_.settings.workspace, PanelId::Frame);
+    worldy::watchAllocations(sources, wanted, std::exchange(instruments_.markAllocations, false),
+                             instruments_.allocations);
 }
 
 }  // namespace worldy

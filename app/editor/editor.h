@@ -1,20 +1,74 @@
-// Runs the editor: opens its state, and runs the frames of the window. Main thread.
+// The editor in its window: one controller a feature, and the order in which they take part in a frame. Main
+// thread.
 #pragma once
 
+#include <filesystem>
+
 #include "app/base/log.h"
-#include "app/editor/editor_state.h"
+#include "app/editor/camera_controller.h"
+#include "app/editor/chunk_controller.h"
+#include "app/editor/compare_controller.h"
+#include "app/editor/file_controller.h"
+#include "app/editor/frame_controller.h"
+#include "app/editor/instruments_controller.h"
+#include "app/editor/layer_controller.h"
+#include "app/editor/notices.h"
+#include "app/editor/paging_controller.h"
+#include "app/editor/recording_controller.h"
 #include "app/editor/session.h"
+#include "app/editor/settings_controller.h"
+#include "app/editor/sweep_controller.h"
+#include "app/editor/viewport.h"
 #include "app/editor/window.h"
-#include "app/settings/settings.h"
+#include "app/editor/window_controller.h"
 
 namespace worldy {
 
-Editor openEditor(const Settings& settings, const Log& log);
+// Owns no window and no planet.
+class Editor {
+public:
+    Editor(const Settings& settings, Log& log);
 
-// Saves the recording and ends the replay. To be called before the window closes.
-void endFlights(Session& session, Editor& editor, const Log& log);
+    const Settings& settings() const { return settings_.settings; }
+    // Writes where controls are into a file after each frame.
+    void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
 
-// Runs one frame: input, planet, panels, and the commands that they gave. secondsSinceLast: >= 0.
-void runFrame(Window& window, Session& session, Editor& editor, Log& log, double secondsSinceLast);
+    // Runs one frame: input, planet, panels, and the commands that they gave. secondsSinceLast: >= 0.
+    void runFrame(Window& window, Session& session, double secondsSinceLast);
+    // Saves the recording and ends the replay. To be called before the window closes.
+    void endFlights(Session& session);
+
+private:
+    bool replaying() const { return recording_.replay.has_value(); }
+    CameraContext cameraContext(const Scene* scene);
+    ReplayContext replayContext();
+    WindowContent windowContent(const Session& session) const;
+
+    void meetPlanet(Scene& scene);
+    FrameStats runPlanet(Scene& scene, double seconds, ui::Commands& commands);
+    void movePlanet(Scene& scene, const FrameStep& step);
+    void chooseChunks(Scene& scene, const FrameStep& step);
+    void drawPictures(Scene& scene);
+    ui::EditorView view(Session& session);
+    void execute(const ui::Command& command, const Window& window, Session& session);
+    void execute(const ui::Commands& commands, const Window& window, Session& session);
+    void watchAllocations(const Session& session);
+
+    Log& log_;
+    Notices notices_;
+    Viewport viewport_;
+    SettingsController settings_;
+    CameraController camera_;
+    ChunkController chunks_;
+    PagingController paging_;
+    FrameController frames_;
+    FileController files_;
+    WindowController window_;
+    LayerController layers_;
+    InstrumentsController instruments_;
+    RecordingController recording_;
+    SweepController sweep_;
+    CompareController compare_;
+};
 
 }  // namespace worldy

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "app/base/text.h"
-#include "app/editor/instrument_views.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
@@ -40,20 +39,21 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
         picture.pointer.positionPx.x = planet::gl::pictureColumn(picture.mix, picture.pointer.positionPx.x);
 }
 
-void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor, ui::Commands& commands) {
-    Viewport& viewport = editor.viewport;
-    CompareKnobs& compare = editor.settings.view.compare;
+void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewport& viewport,
+                     ui::Commands& commands) {
+    const float pixelRatio = viewport.pixelRatio;
+    CompareKnobs& compare = settings.compare;
     const bool wiping = view.compare.on && compare.mode == CompareMode::Wipe;
     pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
     if (viewport.main.shown()) {
-        if (view.planet) ui::viewportOverlay(view, editor.settings.view, viewport.main.rect);
+        if (view.planet) ui::viewportOverlay(view, settings, viewport.main.rect);
         ImGui::End();
         if (view.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
     }
     pictureWindow("observer", viewport.observer, pixelRatio);
     if (viewport.observer.shown()) {
         if (view.planet) {
-            ui::observerOverlay(view, editor.settings.view, viewport.observer.view, viewport.observer.rect);
+            ui::observerOverlay(view, settings, viewport.observer.view, viewport.observer.rect);
         }
         ImGui::End();
     }
@@ -70,9 +70,9 @@ ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorVi
 }
 
 // While there is no planet: the bake that it needs, or why there is none.
-void emptyViewport(const Session& session, const ui::EditorView& view, const ui::Rect& rect, Editor& editor,
-                   ui::Commands& commands) {
-    editor.viewport.main.pointer = editor.viewport.observer.pointer = {};
+void emptyViewport(const Session& session, const ui::EditorView& view, const ui::Rect& rect,
+                   Viewport& viewport, ui::Commands& commands) {
+    viewport.main.pointer = viewport.observer.pointer = {};
     ui::beginFixedWindow("viewport", rect);
     ImGui::End();
     const ui::BakeWindowCommands asked = ui::bakeWindow(bakeWindowInputOf(session, view), rect);
@@ -82,67 +82,24 @@ void emptyViewport(const Session& session, const ui::EditorView& view, const ui:
 
 }  // namespace
 
-ui::EditorView gatherView(Session& session, Editor& editor) {
-    ui::EditorView view{.planet = nullptr,
-                        .stats = editor.stats,
-                        .history = editor.history,
-                        .changes = editor.changes,
-                        .log = editor.logLines};
-    const Scene* scene = shownScene(session);
-    if (scene && editor.rig) {
-        view.planet = scene->planet.get();
-        view.cracks = cracksViewOf(editor.cracks, *scene, editor.viewport.main.view, editor.settings.view);
-        view.camera = cameraViewOf(*editor.rig, groundBelow(*scene, editor.rig->camera.eyeM),
-                                   editor.bookmarks.list, editor.flights);
-        view.camera.seaSurfaceM = scene->seaSurfaceM;
-    }
-    view.lodView = editor.lodView;
-    view.renderView = editor.viewport.main.view;
-    view.lodFrozen = editor.lodFrozen;
-    view.inspecting = editor.beforeInspection.has_value();
-    view.framesPaused = editor.framesPaused;
-    view.pagingPaused = editor.pagingPaused;
-    view.timeS = editor.timeS;
-    view.focus = editor.focus;
-    view.data = dataViewOf(session, editor.recentShown);
-    view.bake = bakeViewOf(session);
-    view.presets = editor.presets.views(editor.settings.view);
-    if (view.planet) view.pops = popsViewOf(editor.pops);
-    view.probe = editor.probe;
-    view.errors = errorsViewOf(editor.errors, editor.frames);
-    view.recording = recordingViewOf(editor.desk, editor.settings.view);
-    view.sweep = sweepViewOf(editor.sweep);
-    view.compare =
-        compareViewOf(editor.compare, session, editor.settings.view, editor.stats, editor.viewport.main.view);
-    view.layers = layersViewOf(editor.layers, scene, editor.settings.view.surface.layers);
-    view.light.costs = editor.costs.costs;
-    view.light.measured = editor.costs.meter ? editor.costs.meter->share() : 1;
-    if (scene) view.light.turnedDown = scene->turnedDown;
-    view.light.software = scene && scene->renderer.chunks().capabilities().software;
-    if (scene) view.light.air = scene->renderer.chunks().airFigures();
-    view.allocations = editor.allocations;
-    view.undoName = editor.undo.undoName();
-    view.redoName = editor.undo.redoName();
-    return view;
-}
-
-void drawPanels(const Session& session, const ui::EditorView& view, const ui::Layout& layout,
-                float pixelRatio, Editor& editor, ui::Commands& commands) {
-    Workspace& workspace = editor.settings.workspace;
-    ViewSettings& settings = editor.settings.view;
-    ui::menuBar(view, editor.menu, workspace, settings, commands);
+void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands) {
+    const ui::EditorView& view = context.view;
+    const ui::Rect& middle = context.layout.viewport;
+    Workspace& workspace = context.settings.workspace;
+    ViewSettings& settings = context.settings.view;
+    ui::menuBar(view, window.menu, workspace, settings, commands);
     if (view.planet)
-        viewportWindows(view, pixelRatio, editor, commands);
+        viewportWindows(view, settings, context.viewport, commands);
     else
-        emptyViewport(session, view, layout.viewport, editor, commands);
+        emptyViewport(context.session, view, middle, context.viewport, commands);
     for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom}) {
-        ui::drawDock(dock, layout, view, editor.panels, workspace, settings, commands);
+        ui::drawDock(dock, context.layout, view, window.panels, workspace, settings, commands);
     }
-    ui::statusBar(view, settings, layout.statusBar);
-    ui::helpWindows(editor.menu);
-    ui::confirmationLine(editor.confirmation, editor.timeS, layout.viewport);
-    ui::openDialog(editor.openDialog, commands);
-    ui::messageBox(editor.message, commands);
+    ui::statusBar(view, settings, context.layout.statusBar);
+    ui::helpWindows(window.menu);
+    ui::confirmationLine(context.notices.confirmation, context.notices.timeS, middle);
+    ui::openDialog(context.openDialog, commands);
+    ui::messageBox(context.notices.message, commands);
 }
 
 }  // namespace worldy

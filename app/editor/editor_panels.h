@@ -1,19 +1,28 @@
-// The panels' part of a frame of the window: what they may read is gathered, and they are drawn around the
-// pictures.
+// Draws the panels around the planet's pictures.
+#pragma once
 
-#include "app/editor/editor_state.h"
+#include "app/editor/notices.h"
 #include "app/editor/session.h"
+#include "app/editor/viewport.h"
+#include "app/editor/window_controller.h"
+#include "app/settings/settings.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 #include "ui/model/layout.h"
-#pragma once
+#include "ui/shell/open_dialog.h"
 
 namespace worldy {
 
-// Points into the session and the editor; holds for the frame.
-ui::EditorView gatherView(Session& session, Editor& editor);
-
-void drawPanels(const Session& session, const ui::EditorView& view, const ui::Layout& layout,
-                float pixelRatio, Editor& editor, ui::Commands& commands);
+// The state that the panels show and edit.
+struct PanelContext {
+    const Session& session;
+    const ui::EditorView& view;
+    const ui::Layout& layout;
+    Settings& settings;
+    Viewport& viewport;
+    ui::OpenDialogState& openDialog;
+    Notices& notices;
+};
+void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands);
 
 }  // namespace worldy

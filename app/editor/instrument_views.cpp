@@ -32,16 +32,16 @@ ui::PopsView popsViewOf(const Pops& pops) {
             .problem = pops.problem};
 }
 
-ui::SourcePreview previewViewOf(const PreviewDesk& desk) {
+ui::SourcePreview previewViewOf(const SourcePreviewer& previewer) {
     ui::SourcePreview view;
-    view.working = desk.job || desk.next;
-    view.problem = desk.problem;
-    if (!desk.shown) return view;
-    view.texture = reinterpret_cast<void*>(static_cast<std::intptr_t>(desk.texture.name()));
-    view.shown = desk.shown->request;
-    view.lowM = desk.shown->lowM;
-    view.highM = desk.shown->highM;
-    view.seconds = desk.shown->seconds;
+    view.working = previewer.job || previewer.next;
+    view.problem = previewer.problem;
+    if (!previewer.shown) return view;
+    view.texture = reinterpret_cast<void*>(static_cast<std::intptr_t>(previewer.texture.name()));
+    view.shown = previewer.shown->request;
+    view.lowM = previewer.shown->lowM;
+    view.highM = previewer.shown->highM;
+    view.seconds = previewer.shown->seconds;
     return view;
 }
 

@@ -15,6 +15,6 @@ ui::CracksView cracksViewOf(const CrackInstrument& instrument, const Scene& scen
                             const ViewSettings& settings);
 ui::ErrorsView errorsViewOf(const ErrorMeter& meter, std::uint64_t frame);
 ui::PopsView popsViewOf(const Pops& pops);
-ui::SourcePreview previewViewOf(const PreviewDesk& desk);
+ui::SourcePreview previewViewOf(const SourcePreviewer& previewer);
 
 }  // namespace worldy

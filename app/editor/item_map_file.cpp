@@ -10,17 +10,22 @@
 
 namespace worldy {
 
-std::vector<Counter> countersOf(const Session& session, const Editor& editor, const FrameStats& stats,
+std::vector<Counter> countersOf(const CounterSources& sources, const FrameStats& stats,
                                 std::size_t queuedInput) {
+    const Session& session = sources.session;
+    const CameraController& camera = sources.camera;
+    const RecordingController& recording = sources.recording;
+    const SweepController& sweep = sources.sweep;
+    const CompareController& compare = sources.compare;
     const planet::PagingCounters& paging = stats.paging;
     const planet::SelectionCounters& selection = stats.selection;
     std::vector<Counter> counters;
     const auto add = [&](const std::string& name, const auto& value) {
         counters.push_back({name, fmt::format("{}", value)});
     };
-    add("frame", editor.frames);
+    add("frame", sources.frames.frame);
     add("queued_input", queuedInput);
-    const FrameStats* const b = editor.compare.other ? &editor.compare.other->stats : nullptr;
+    const FrameStats* const b = compare.other ? &compare.other->stats : nullptr;
     add("stand_in", stats.render.standIn || (b && b->render.standIn) ? 1 : 0);
     add("drawn", selection.drawn);
     add("triangles", stats.selection.triangles());
@@ -42,26 +47,25 @@ std::vector<Counter> countersOf(const Session& session, const Editor& editor, co
     add("failed_for_good", paging.failedForGood());
     add("awaiting_retry", paging.awaitingRetry());
     add("colour_tiles", paging[planet::BlockKind::Colours].resident);
-    add("selected", editor.focus.selected ? planet::toString(*editor.focus.selected) : std::string("none"));
-    if (const Scene* scene = shownScene(session); scene && editor.rig) {
+    add("selected", sources.focus.selected ? planet::toString(*sources.focus.selected) : std::string("none"));
+    if (const Scene* scene = shownScene(session); scene && camera.rig) {
         const double radiusM = scene->planet->tree().shape.radiusM;
-        add("camera", cameraText(roundedPose(poseOf(editor.rig->camera, radiusM))));
+        add("camera", cameraText(roundedPose(poseOf(camera.rig->camera, radiusM))));
         add("chunk_size", planet::chunkSize(scene->planet->tree().shape));
         add("file", scene->planet->file().name());
     }
-    add("lod_frozen", editor.lodFrozen ? 1 : 0);
-    add("recorded", editor.desk.recorder ? editor.desk.recorder->encoded().frames() : 0);
-    add("replayed", editor.desk.replay ? editor.desk.replay->replay.next() : 0);
-    add("different", editor.desk.replay ? editor.desk.replay->replay.framesDifferent() : 0);
-    const CompareDesk& compare = editor.compare;
+    add("lod_frozen", camera.lodFrozen ? 1 : 0);
+    add("recorded", recording.recorder ? recording.recorder->encoded().frames() : 0);
+    add("replayed", recording.replay ? recording.replay->replay.next() : 0);
+    add("different", recording.replay ? recording.replay->replay.framesDifferent() : 0);
     add("compared", compare.other ? 1 : 0);
     add("triangles_b", compare.other ? compare.other->stats.selection.triangles() : 0);
     add("pixels_differ", compare.difference ? static_cast<long long>(compare.difference->pixels) : -1);
-    add("compare_flown", compare.flown ? 1 : 0);
+    add("compare_flown", compare.flight.last ? 1 : 0);
     add("baking", session.bake ? 1 : 0);
-    add("sweeping", editor.sweep.job ? 1 : 0);
-    add("swept", editor.sweep.table ? editor.sweep.table->points.size() : 0);
-    add("suggested", editor.sweep.suggestions.size());
+    add("sweeping", sweep.job ? 1 : 0);
+    add("swept", sweep.table ? sweep.table->points.size() : 0);
+    add("suggested", sweep.suggestions.size());
     return counters;
 }
 

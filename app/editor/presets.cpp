@@ -58,11 +58,11 @@ Result<void> checkPresetName(std::string_view name) {
     return {};
 }
 
-PresetShelf::PresetShelf(PresetFolders folders) : folders_(std::move(folders)) {
+PresetLibrary::PresetLibrary(PresetFolders folders) : folders_(std::move(folders)) {
     reload();
 }
 
-void PresetShelf::reload() {
+void PresetLibrary::reload() {
     presets_.clear();
     viewsOf_.reset();
     readFolder(folders_.shipped, true);
@@ -72,7 +72,7 @@ void PresetShelf::reload() {
     });
 }
 
-void PresetShelf::readFolder(const fs::path& folder, bool shipped) {
+void PresetLibrary::readFolder(const fs::path& folder, bool shipped) {
     std::error_code status;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
         const std::string file = entry.path().filename().string();
@@ -88,7 +88,7 @@ void PresetShelf::readFolder(const fs::path& folder, bool shipped) {
     }
 }
 
-std::span<const ui::PresetView> PresetShelf::views(const ViewSettings& now) {
+std::span<const ui::PresetView> PresetLibrary::views(const ViewSettings& now) {
     if (viewsOf_ == now) return views_;
     viewsOf_ = now;
     views_.clear();
@@ -103,14 +103,14 @@ std::span<const ui::PresetView> PresetShelf::views(const ViewSettings& now) {
     return views_;
 }
 
-const PresetShelf::Preset* PresetShelf::find(std::string_view name) const {
+const PresetLibrary::Preset* PresetLibrary::find(std::string_view name) const {
     const auto found = std::find_if(presets_.begin(), presets_.end(), [&](const Preset& preset) {
         return lowered(preset.name) == lowered(name);
     });
     return found == presets_.end() ? nullptr : &*found;
 }
 
-Result<const PresetShelf::Preset*> PresetShelf::existing(std::string_view name) const {
+Result<const PresetLibrary::Preset*> PresetLibrary::existing(std::string_view name) const {
     const auto found = std::find_if(presets_.begin(), presets_.end(),
                                     [&](const Preset& preset) { return preset.name == name; });
     if (found != presets_.end()) return &*found;
@@ -118,7 +118,7 @@ Result<const PresetShelf::Preset*> PresetShelf::existing(std::string_view name) 
                                         folders_.own.string(), folders_.shipped.string()));
 }
 
-Result<ViewSettings> PresetShelf::load(std::string_view name, const ViewSettings& now) const {
+Result<ViewSettings> PresetLibrary::load(std::string_view name, const ViewSettings& now) const {
     // Resetting works without the data folder too.
     if (name == defaultPreset && !find(name)) return ViewSettings{};
     return existing(name).and_then([&](const Preset* preset) {
@@ -126,7 +126,7 @@ Result<ViewSettings> PresetShelf::load(std::string_view name, const ViewSettings
     });
 }
 
-Result<void> PresetShelf::save(std::string_view name, const ViewSettings& settings) {
+Result<void> PresetLibrary::save(std::string_view name, const ViewSettings& settings) {
     if (Result<void> good = checkPresetName(name); !good) return good;
     const Preset* present = find(name);
     if (present && present->shipped)
@@ -143,7 +143,7 @@ Result<void> PresetShelf::save(std::string_view name, const ViewSettings& settin
     return written;
 }
 
-Result<void> PresetShelf::remove(std::string_view name) {
+Result<void> PresetLibrary::remove(std::string_view name) {
     const Result<const Preset*> preset = existing(name);
     if (!preset) return tl::unexpected(preset.error());
     if ((*preset)->shipped) {

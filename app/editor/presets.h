@@ -29,9 +29,9 @@ inline constexpr std::string_view defaultPreset = "default";
 planet::Result<void> checkPresetName(std::string_view name);
 
 // All presets, read once. Call reload() after files may have changed.
-class PresetShelf {
+class PresetLibrary {
 public:
-    explicit PresetShelf(PresetFolders folders);
+    explicit PresetLibrary(PresetFolders folders);
 
     void reload();
 

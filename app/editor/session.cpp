@@ -59,16 +59,17 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
 
 Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ViewSettings& settings,
                               const Log& log) {
-    if (!session.programs) {
-        Result<ChunkPrograms> programs = ChunkPrograms::build(session.shaderFolder, session.shaderWorker);
+    if (!session.shaders.programs) {
+        Result<ChunkPrograms> programs = ChunkPrograms::build(session.shaders.folder, session.shaders.worker);
         if (!programs) return tl::unexpected(programs.error());
-        session.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
+        session.shaders.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
     }
     const bool sameColour = data.colourImage == session.colourFile;
     std::optional<Picture> fresh = sameColour ? std::nullopt : readColour(data.colourImage, log);
     const std::optional<Picture>& colour = sameColour ? session.colour : fresh;
     Result<Scene> scene = openScene(
-        {data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr, session.programs}, settings);
+        {data.chunkFile, session.shaders.folder, colour ? &*colour : nullptr, session.shaders.programs},
+        settings);
     if (!scene) return tl::unexpected(scene.error());
     if (!sameColour) session.colour = std::move(fresh);
     session.colourFile = data.colourImage;
@@ -238,8 +239,8 @@ bool samePlace(const fs::path& a, const fs::path& b) {
 Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log) {
     Session session;
     session.data = std::move(data);
-    session.shaderFolder = shaderFolder;
-    if (!shaderFolder.empty()) session.shadersChanged = newestIn(shaderFolder);
+    session.shaders.folder = shaderFolder;
+    if (!shaderFolder.empty()) session.shaders.changed = newestIn(shaderFolder);
     if (session.data.needsBake) startBake(session, log);
     return session;
 }
@@ -377,7 +378,8 @@ Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const
         colour = session.colour;
     }
     Result<Scene> scene = openScene(
-        {data.chunkFile, session.shaderFolder, colour ? &*colour : nullptr, session.programs}, settings);
+        {data.chunkFile, session.shaders.folder, colour ? &*colour : nullptr, session.shaders.programs},
+        settings);
     if (!scene) return tl::unexpected(scene.error());
     return openedAs(data, std::move(*scene));
 }
@@ -473,13 +475,13 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
 }
 
 void reloadChangedShaders(Session& session, const Log& log) {
-    if (!session.open || session.shaderFolder.empty()) return;
-    const fs::file_time_type newest = newestIn(session.shaderFolder);
-    if (newest == session.shadersChanged) return;
-    session.shadersChanged = newest;
+    if (!session.open || session.shaders.folder.empty()) return;
+    const fs::file_time_type newest = newestIn(session.shaders.folder);
+    if (newest == session.shaders.changed) return;
+    session.shaders.changed = newest;
     const Result<void> reloaded = session.open->scene.renderer.chunks().reloadShaders();
     if (reloaded)
-        log->info("Shaders of {} reloaded", session.shaderFolder.string());
+        log->info("Shaders of {} reloaded", session.shaders.folder.string());
     else
         log->error("{}", reloaded.error().message);
 }

@@ -50,15 +50,19 @@ struct SessionEstimate {
     std::string problem;
 };
 
-struct Session {
-    DataSet data;                        // what is shown, or is to be
-    std::filesystem::path shaderFolder;  // empty: the shaders built in
-    std::filesystem::file_time_type shadersChanged{};
-    // Compiles shaders off the frame; null: frames wait for them.
-    std::shared_ptr<planet::gl::GlWorker> shaderWorker;
-    // The session's planets share these programs, so opening another planet compiles nothing. Null until the
-    // first planet is opened.
+struct SessionShaders {
+    std::filesystem::path folder;  // empty: the built-in shaders
+    std::filesystem::file_time_type changed{};
+    std::shared_ptr<planet::gl::GlWorker>
+        worker;  // compiles shaders off the frame; null: frames wait for them
+    // Shared by the session's planets, so opening another one compiles nothing. Null until the first one is
+    // opened.
     std::shared_ptr<planet::gl::ChunkPrograms> programs;
+};
+
+struct Session {
+    DataSet data;  // what is shown, or is to be
+    SessionShaders shaders;
     std::optional<Picture> colour;
     std::filesystem::path colourFile;              // where it comes from
     std::optional<OpenPlanet> open;                // none until the first data set is there
@@ -70,7 +74,7 @@ struct Session {
     std::optional<planet::Error> bakeProblem;      // why the last bake came to nothing
     std::optional<planet::BakeReport> bakeReport;  // of the last bake
     SessionEstimate estimate;
-    PreviewDesk preview;
+    SourcePreviewer preview;
     std::vector<World> worlds = worldy::worlds();
 };
 

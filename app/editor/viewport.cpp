@@ -37,7 +37,8 @@ planet::gl::DebugLines* linesOf(Viewport& viewport, const Log& log) {
 
 }  // namespace
 
-void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer) {
+void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer, float pixelRatio) {
+    viewport.pixelRatio = pixelRatio;
     viewport.main.rect = viewport.observer.rect = {};
     switch (observer) {
         case ObserverMode::Off:

@@ -41,12 +41,13 @@ struct Viewport {
     PlanetPicture observer;
     std::optional<planet::gl::DebugLines> lines{};
     bool linesFailed = false;  // told once
+    float pixelRatio = 1;      // of the window's units
     // Pictures are drawn in each frame, so one may show other settings until its shaders are compiled; not
     // one that is kept.
     planet::gl::ShaderWait shaderWait = planet::gl::ShaderWait::Never;
 };
 
-void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer);
+void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer, float pixelRatio);
 
 // Also of a picture that is not shown: the lod view goes on while the observer is alone.
 PixelSize pixelSizeOf(const ui::Rect& rect, float pixelRatio);

@@ -1,14 +1,15 @@
-// What panels, menus and keys ask the application to do. They append; the application obeys after all panels
-// have been drawn (app/editor/commands.cpp has one function a command).
+// The commands that panels, menus and keys give the application: a struct each, a std::variant a feature, and
+// Command for any of them. The application executes them after all panels are drawn, each feature in its
+// controller (app/editor/..._controller.cpp, which does not compile without a function for each).
 #pragma once
 
-#include <any>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "app/data/bake_request.h"
@@ -34,6 +35,7 @@ struct SelectChunk {
 struct LookAtChunk {  // moves the camera to where the chunk is drawn, selected or not
     planet::ChunkId id;
 };
+using ChunkCommand = std::variant<HoverChunk, SelectChunk, LookAtChunk>;
 
 // Cameras.
 struct FreezeLod {
@@ -69,6 +71,9 @@ struct MoveFlight {  // to a time, seconds
 struct PauseFlight {
     bool paused = false;
 };
+using CameraCommand =
+    std::variant<FreezeLod, MoveCamera, InspectPlace, EndInspection, ResetCamera, KeepCameraAsStart,
+                 AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight>;
 
 // Paging.
 struct PausePaging {
@@ -79,20 +84,25 @@ struct DropAll {};
 struct RetryFailed {
     std::optional<planet::BlockId> block{};  // or all
 };
+using PagingCommand = std::variant<PausePaging, LoadOne, DropAll, RetryFailed>;
 
 // Frames.
 struct PauseFrames {  // nothing moves, is chosen or loaded but by StepFrame
     bool paused = false;
 };
 struct StepFrame {};
+using FrameCommand = std::variant<PauseFrames, StepFrame>;
 
-// Data.
+// Files.
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
     std::filesystem::path file;
 };
 struct AskForFile {};         // shows the dialog that asks for a file to open
-struct AskForColourImage {};  // the same for the Bake panel's image of colours
-struct ChooseColourImage {    // puts it into the Bake panel
+struct AskForColourImage {};  // shows the same dialog for the Bake panel's image of colours
+using FileCommand = std::variant<OpenFile, AskForFile, AskForColourImage>;
+
+// Bakes.
+struct ChooseColourImage {  // puts the image into the Bake panel
     std::filesystem::path file;
 };
 struct StartBake {
@@ -110,6 +120,8 @@ struct ShowPreviousBake {
     bool shown = false;
 };
 struct DismissPreviousBake {};
+using BakeCommand = std::variant<ChooseColourImage, StartBake, BakeAgain, EstimateBake, CancelBake,
+                                 PreviewSource, ShowPreviousBake, DismissPreviousBake>;
 
 // Settings.
 struct Undo {};
@@ -123,6 +135,9 @@ struct LoadPreset {
 struct DeletePreset {
     std::string name;
 };
+using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset>;
+
+// The window.
 struct CopyCommandLine {};
 struct CopyText {
     std::string text;
@@ -131,6 +146,7 @@ struct TakeScreenshot {
     bool withPanels = false;
 };
 struct Quit {};
+using WindowCommand = std::variant<CopyCommandLine, CopyText, TakeScreenshot, Quit>;
 
 // Texture layers.
 struct LoadLayerSet {
@@ -140,14 +156,14 @@ struct SaveLayerSet {  // as one of the user's own
     std::string name;
 };
 struct ReloadLayerTextures {};
-struct MarkAllocations {};  // what is held from now on is compared with what is held now
-struct TryCostlyParts {};   // those that were turned down
+using LayerCommand = std::variant<LoadLayerSet, SaveLayerSet, ReloadLayerTextures>;
 
 // Instruments.
+struct MarkAllocations {};     // compares allocations with those of now from here on
+struct TryCostlyParts {};      // turns the features on again that were too slow
 struct MeasureCracks {};       // of the view as it is
 struct MeasureCosts {};        // of the parts of the picture
 struct FindSmallestSkirts {};  // that leave none of the cracks measured open
-// Pops.
 struct MeasurePops {
     bool on = true;
 };
@@ -163,6 +179,9 @@ struct MeasureErrors {};  // the true error of what is drawn now, in the backgro
 struct KeepMeasuringErrors {
     bool on = false;
 };
+using InstrumentCommand =
+    std::variant<MarkAllocations, TryCostlyParts, MeasureCracks, MeasureCosts, FindSmallestSkirts,
+                 MeasurePops, ClearPops, GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors>;
 
 // Recorded flights.
 struct StartRecording {  // the planet starts anew; no name: the next free one
@@ -185,6 +204,8 @@ struct SetReplay {
     ReplayControls controls;
 };
 struct StopReplay {};  // gives back what was before
+using RecordingCommand = std::variant<StartRecording, StopRecording, DeleteRecording, StartReplay, MoveReplay,
+                                      MoveReplayTo, SetReplay, StopReplay>;
 
 // Sweeps over the planet that is shown.
 struct StartSweep {  // in the background; or looks for a tau, where the request has a goal
@@ -197,6 +218,7 @@ struct SaveSweep {  // table and plot, beside the screenshots
 struct OpenSweptChunks {  // shows the chunks of a size that the last sweep has flown
     int chunkSize = 33;
 };
+using SweepCommand = std::variant<StartSweep, CancelSweep, SaveSweep, OpenSweptChunks>;
 
 // Comparing. What is shown is A; B is a second planet.
 struct StartCompare {  // or takes another B
@@ -213,41 +235,59 @@ struct CompareOverFlight {
     int moments = 12;  // of it, [1, 100000]
 };
 struct CancelCompareFlight {};
+using CompareCommand = std::variant<StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
+                                    CancelCompareFlight>;
 
-template <class... Kinds>
-struct CommandKindList {};
+using FeatureCommand = std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand,
+                                    BakeCommand, SettingsCommand, WindowCommand, LayerCommand,
+                                    InstrumentCommand, RecordingCommand, SweepCommand, CompareCommand>;
 
-// All there are. app/editor/commands.cpp does not compile without a function for each.
-using CommandKinds = CommandKindList<
-    HoverChunk, SelectChunk, LookAtChunk, FreezeLod, MoveCamera, InspectPlace, EndInspection, ResetCamera,
-    KeepCameraAsStart, AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight,
-    PausePaging, LoadOne, DropAll, RetryFailed, PauseFrames, StepFrame, OpenFile, AskForFile, StartBake,
-    BakeAgain, EstimateBake, CancelBake, ShowPreviousBake, DismissPreviousBake, Undo, Redo, SavePreset,
-    LoadPreset, DeletePreset, CopyCommandLine, CopyText, TakeScreenshot, Quit, MeasureCracks, MeasureCosts,
-    FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors,
-    StartRecording, StopRecording, DeleteRecording, StartReplay, MoveReplay, MoveReplayTo, SetReplay,
-    StopReplay, StartSweep, CancelSweep, SaveSweep, OpenSweptChunks, StartCompare, StopCompare, SwapCompare,
-    MeasureCompare, CompareOverFlight, CancelCompareFlight, LoadLayerSet, SaveLayerSet, ReloadLayerTextures,
-    PreviewSource, AskForColourImage, ChooseColourImage, TryCostlyParts, MarkAllocations>;
+// FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
+template <class Kind, class Features>
+struct FindFeature;
+template <class Kind, class... Kinds, class... Features>
+struct FindFeature<Kind, std::variant<std::variant<Kinds...>, Features...>>
+    : std::conditional_t<(std::is_same_v<Kind, Kinds> || ...), std::type_identity<std::variant<Kinds...>>,
+                         FindFeature<Kind, std::variant<Features...>>> {};
+template <class Kind>
+struct FindFeature<Kind, std::variant<>> {};
+template <class Kind>
+using FeatureOf = typename FindFeature<Kind, FeatureCommand>::type;
 
-template <class Kind, class... Kinds>
-constexpr bool isOneOf(CommandKindList<Kinds...>) {
-    return (std::is_same_v<Kind, Kinds> || ...);
-}
-
-// One of any kind. Not a variant of them: whoever makes one would have the compiler write out for all kinds
-// what moves and ends them, for longer than it takes to compile the rest of a panel.
+// A command of any feature. commands.cpp has what moves and destroys it, so that a file that gives commands
+// compiles only the variants of the features that it names.
 class Command {
 public:
-    template <class Kind>
-    requires(isOneOf<Kind>(CommandKinds{})) Command(Kind command) : held_(std::move(command)) {}
+    template <class Kind, class Feature = FeatureOf<Kind>>
+    Command(Kind command) : Command(Feature(std::move(command))) {}
+    Command(ChunkCommand command);
+    Command(CameraCommand command);
+    Command(PagingCommand command);
+    Command(FrameCommand command);
+    Command(FileCommand command);
+    Command(BakeCommand command);
+    Command(SettingsCommand command);
+    Command(WindowCommand command);
+    Command(LayerCommand command);
+    Command(InstrumentCommand command);
+    Command(RecordingCommand command);
+    Command(SweepCommand command);
+    Command(CompareCommand command);
+    Command(Command&&) noexcept;
+    Command& operator=(Command&&) noexcept;
+    ~Command();
 
-    // Null where it is of another kind.
+    const FeatureCommand& feature() const { return feature_; }
+
+    // Returns null if the command is of another kind.
     template <class Kind>
-    requires(isOneOf<Kind>(CommandKinds{})) const Kind* as() const { return std::any_cast<Kind>(&held_); }
+    const Kind* as() const {
+        const auto* feature = std::get_if<FeatureOf<Kind>>(&feature_);
+        return feature ? std::get_if<Kind>(feature) : nullptr;
+    }
 
 private:
-    std::any held_;
+    FeatureCommand feature_;
 };
 using Commands = std::vector<Command>;
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/editor/instrument_views.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/synthetic_source.h"
-#include "app/editor/instrument_views.h"
 
 namespace worldy {
 namespace {
@@ -77,45 +77,45 @@ TEST(SourcePreview, ACancelledOneEndsAsSuch) {
     EXPECT_EQ(asked, 3);
 }
 
-class PreviewDeskTest : public test::SessionTest {
+class SourcePreviewerTest : public test::SessionTest {
 protected:
-    static bool advanceUntilDrawn(PreviewDesk& desk) {
+    static bool advanceUntilDrawn(SourcePreviewer& previewer) {
         for (int i = 0; i < 4000; ++i) {
-            advancePreview(desk);
-            if (!previewViewOf(desk).working) return true;
+            advancePreview(previewer);
+            if (!previewViewOf(previewer).working) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
         return false;
     }
 };
 
-TEST_F(PreviewDeskTest, TheLastThatWasAskedIsShownInATexture) {
-    PreviewDesk desk;
-    requestPreview(desk, requestOf("noise:fbm,seed=1"));
-    advancePreview(desk);
-    EXPECT_TRUE(previewViewOf(desk).working);
-    EXPECT_EQ(previewViewOf(desk).texture, nullptr);
-    requestPreview(desk, requestOf("noise:fbm,seed=2"));
-    requestPreview(desk, requestOf("noise:fbm,seed=3"));
-    ASSERT_TRUE(advanceUntilDrawn(desk));
-    const ui::SourcePreview view = previewViewOf(desk);
+TEST_F(SourcePreviewerTest, TheLastThatWasAskedIsShownInATexture) {
+    SourcePreviewer previewer;
+    requestPreview(previewer, requestOf("noise:fbm,seed=1"));
+    advancePreview(previewer);
+    EXPECT_TRUE(previewViewOf(previewer).working);
+    EXPECT_EQ(previewViewOf(previewer).texture, nullptr);
+    requestPreview(previewer, requestOf("noise:fbm,seed=2"));
+    requestPreview(previewer, requestOf("noise:fbm,seed=3"));
+    ASSERT_TRUE(advanceUntilDrawn(previewer));
+    const ui::SourcePreview view = previewViewOf(previewer);
     EXPECT_NE(view.texture, nullptr);
     EXPECT_EQ(view.shown->source, "noise:fbm,seed=3");
     EXPECT_LT(view.lowM, view.highM);
     EXPECT_EQ(view.problem, "");
 }
 
-TEST_F(PreviewDeskTest, ABadSourceIsToldAndTheLastPictureStays) {
-    PreviewDesk desk;
-    requestPreview(desk, requestOf("noise:midpoint"));
-    ASSERT_TRUE(advanceUntilDrawn(desk));
-    requestPreview(desk, requestOf("/nonexistent/elevation.tif"));
-    ASSERT_TRUE(advanceUntilDrawn(desk));
-    EXPECT_THAT(previewViewOf(desk).problem, ::testing::HasSubstr("/nonexistent/elevation.tif"));
-    EXPECT_EQ(previewViewOf(desk).shown->source, "noise:midpoint");
-    requestPreview(desk, requestOf("noise:fbm"));
-    ASSERT_TRUE(advanceUntilDrawn(desk));
-    EXPECT_EQ(previewViewOf(desk).problem, "");
+TEST_F(SourcePreviewerTest, ABadSourceIsToldAndTheLastPictureStays) {
+    SourcePreviewer previewer;
+    requestPreview(previewer, requestOf("noise:midpoint"));
+    ASSERT_TRUE(advanceUntilDrawn(previewer));
+    requestPreview(previewer, requestOf("/nonexistent/elevation.tif"));
+    ASSERT_TRUE(advanceUntilDrawn(previewer));
+    EXPECT_THAT(previewViewOf(previewer).problem, ::testing::HasSubstr("/nonexistent/elevation.tif"));
+    EXPECT_EQ(previewViewOf(previewer).shown->source, "noise:midpoint");
+    requestPreview(previewer, requestOf("noise:fbm"));
+    ASSERT_TRUE(advanceUntilDrawn(previewer));
+    EXPECT_EQ(previewViewOf(previewer).problem, "");
 }
 
 }  // namespace

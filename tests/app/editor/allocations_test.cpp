@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "app/editor/allocations.h"
-#include "app/editor/editor_state.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/panel_fixture.h"
 #include "ui/panels/frame/allocation_table.h"
@@ -96,13 +95,16 @@ class Counting : public test::SessionTest {};
 
 TEST_F(Counting, WhatASessionHoldsIsCountedByKind) {
     Session session = sessionOf(bakeTo("a.chk", {.faceSize = 65, .chunkSize = 17}));
-    Editor editor;
-    watchAllocations(session, editor);
-    EXPECT_FALSE(editor.allocations.now);  // no planet yet
+    ui::AllocationsView allocations;
+    const auto watch = [&](double timeS, bool panelShown = true, bool mark = false) {
+        watchAllocations({.session = session, .timeS = timeS}, panelShown, mark, allocations);
+    };
+    watch(0);
+    EXPECT_FALSE(allocations.now);  // no planet yet
     ASSERT_TRUE(advanceUntil(session, [&] { return session.open.has_value(); }));
-    watchAllocations(session, editor);
-    ASSERT_TRUE(editor.allocations.now);
-    const ui::Allocations first = *editor.allocations.now;
+    watch(0);
+    ASSERT_TRUE(allocations.now);
+    const ui::Allocations first = *allocations.now;
     EXPECT_EQ(first.planets, 1u);
     EXPECT_EQ(first.chunks, 6u);
     EXPECT_GT(first.openFiles, 3u);
@@ -116,19 +118,17 @@ TEST_F(Counting, WhatASessionHoldsIsCountedByKind) {
     startBake(session, requestFor(writeSource(), 33), log_);
     ASSERT_TRUE(advanceUntilQuiet(session));
     ASSERT_TRUE(session.previous) << (session.bakeProblem ? session.bakeProblem->message : "");
-    editor.timeS = 0.5;
-    watchAllocations(session, editor);
-    EXPECT_EQ(editor.allocations.now->planets, 1u);
-    editor.timeS = 1.5;
-    editor.settings.workspace.panels[static_cast<std::size_t>(PanelId::Frame)].shown = false;
-    watchAllocations(session, editor);
-    EXPECT_EQ(editor.allocations.now->planets, 1u);  // nobody looks
-    editor.settings.workspace.panels[static_cast<std::size_t>(PanelId::Frame)].shown = true;
-    watchAllocations(session, editor);
-    EXPECT_EQ(editor.allocations.now->planets, 2u);
-    EXPECT_EQ(editor.allocations.now->openFiles, first.openFiles + 1);
-    EXPECT_GT(editor.allocations.now->objects.buffers, first.objects.buffers);
-    EXPECT_EQ(editor.allocations.mark.planets, 1u);
+    watch(0.5);
+    EXPECT_EQ(allocations.now->planets, 1u);
+    watch(1.5, false);
+    EXPECT_EQ(allocations.now->planets, 1u);  // nobody looks
+    watch(1.5);
+    EXPECT_EQ(allocations.now->planets, 2u);
+    EXPECT_EQ(allocations.now->openFiles, first.openFiles + 1);
+    EXPECT_GT(allocations.now->objects.buffers, first.objects.buffers);
+    EXPECT_EQ(allocations.mark.planets, 1u);
+    watch(1.6, false, true);
+    EXPECT_EQ(allocations.mark.planets, 2u);
 }
 
 }  // namespace

@@ -39,49 +39,49 @@ struct Presets : testing::Test {
         std::filesystem::create_directories(folders.own);
         std::ofstream(folders.own / file) << text;
     }
-    std::vector<std::string> names(PresetShelf& shelf) const {
+    std::vector<std::string> names(PresetLibrary& library) const {
         std::vector<std::string> all;
-        for (const ui::PresetView& view : shelf.views({})) all.push_back(view.name);
+        for (const ui::PresetView& view : library.views({})) all.push_back(view.name);
         return all;
     }
 };
 
 TEST_F(Presets, WhatIsSavedIsListedAndLoadedAgain) {
-    PresetShelf shelf(folders);
-    EXPECT_THAT(names(shelf), ElementsAre("default", "no morph"));
-    const planet::Result<void> saved = shelf.save("Mein Eis ä", someView());
+    PresetLibrary library(folders);
+    EXPECT_THAT(names(library), ElementsAre("default", "no morph"));
+    const planet::Result<void> saved = library.save("Mein Eis ä", someView());
     ASSERT_TRUE(saved) << saved.error().message;
-    ASSERT_TRUE(shelf.save("a first one", {}));
-    EXPECT_THAT(names(shelf), ElementsAre("default", "no morph", "a first one", "Mein Eis ä"));
-    EXPECT_EQ(shelf.load("Mein Eis ä", {}), someView());
-    PresetShelf another(folders);
+    ASSERT_TRUE(library.save("a first one", {}));
+    EXPECT_THAT(names(library), ElementsAre("default", "no morph", "a first one", "Mein Eis ä"));
+    EXPECT_EQ(library.load("Mein Eis ä", {}), someView());
+    PresetLibrary another(folders);
     EXPECT_EQ(another.load("Mein Eis ä", {}), someView());
 }
 
 TEST_F(Presets, APresetChangesOnlyWhatItHolds) {
-    PresetShelf shelf(folders);
+    PresetLibrary library(folders);
     ViewSettings wanted = someView();
     wanted.lod.morph = false;
-    EXPECT_EQ(shelf.load("no morph", someView()), wanted);
-    EXPECT_EQ(shelf.load("default", someView()), ViewSettings{});
+    EXPECT_EQ(library.load("no morph", someView()), wanted);
+    EXPECT_EQ(library.load("default", someView()), ViewSettings{});
 }
 
 TEST_F(Presets, TheDefaultCanBeLoadedWhereItsFileIsNot) {
-    PresetShelf shelf({folder / "none", folder / "none either"});
-    EXPECT_EQ(shelf.load("default", someView()), ViewSettings{});
-    EXPECT_FALSE(shelf.load("no morph", someView()));
+    PresetLibrary library({folder / "none", folder / "none either"});
+    EXPECT_EQ(library.load("default", someView()), ViewSettings{});
+    EXPECT_FALSE(library.load("no morph", someView()));
 }
 
 TEST_F(Presets, DifferencesAreThoseFromTheSettingsAsTheyAre) {
-    PresetShelf shelf(folders);
-    const auto of = [&](const ViewSettings& now) { return shelf.views(now)[1].differences; };
+    PresetLibrary library(folders);
+    const auto of = [&](const ViewSettings& now) { return library.views(now)[1].differences; };
     ASSERT_EQ(of(someView()).size(), 1u);
     EXPECT_EQ(of(someView())[0].setting, "lod.morph");
     EXPECT_EQ(of(someView())[0].here, "true");
     EXPECT_EQ(of(someView())[0].there, "false");
-    EXPECT_EQ(shelf.views(someView())[0].differences.size(), 2u);
-    EXPECT_THAT(of(*shelf.load("no morph", {})), IsEmpty());
-    EXPECT_EQ(shelf.views({})[0].shipped, true);
+    EXPECT_EQ(library.views(someView())[0].differences.size(), 2u);
+    EXPECT_THAT(of(*library.load("no morph", {})), IsEmpty());
+    EXPECT_EQ(library.views({})[0].shipped, true);
 }
 
 TEST_F(Presets, BadFilesAreListedWithTheirProblemAndCannotBeLoaded) {
@@ -89,77 +89,77 @@ TEST_F(Presets, BadFilesAreListedWithTheirProblemAndCannotBeLoaded) {
     writeOwn("notes.txt", "no preset");
     writeOwn(".hidden.toml", "");
     std::filesystem::create_directories(folders.own / "folder.toml");
-    PresetShelf shelf(folders);
-    EXPECT_THAT(names(shelf), ElementsAre("default", "no morph", "broken", "folder"));
-    EXPECT_THAT(shelf.views({})[2].problem, HasSubstr("broken.toml: line 2: lod.tau_px is 1000"));
-    EXPECT_NE(shelf.views({})[3].problem, "");
-    EXPECT_EQ(shelf.views({})[0].problem, "");
-    EXPECT_THAT(shelf.load("broken", {}).error().message, HasSubstr("lod.tau_px is 1000"));
-    EXPECT_THAT(shelf.load("none", {}).error().message,
+    PresetLibrary library(folders);
+    EXPECT_THAT(names(library), ElementsAre("default", "no morph", "broken", "folder"));
+    EXPECT_THAT(library.views({})[2].problem, HasSubstr("broken.toml: line 2: lod.tau_px is 1000"));
+    EXPECT_NE(library.views({})[3].problem, "");
+    EXPECT_EQ(library.views({})[0].problem, "");
+    EXPECT_THAT(library.load("broken", {}).error().message, HasSubstr("lod.tau_px is 1000"));
+    EXPECT_THAT(library.load("none", {}).error().message,
                 HasSubstr("unknown preset \"none\"; expected one in "));
-    EXPECT_TRUE(shelf.remove("broken"));
+    EXPECT_TRUE(library.remove("broken"));
     EXPECT_FALSE(std::filesystem::exists(folders.own / "broken.toml"));
 }
 
 TEST_F(Presets, ShippedOnesCanNeitherBeDeletedNorWrittenOver) {
-    PresetShelf shelf(folders);
-    EXPECT_THAT(shelf.remove("default").error().message, HasSubstr("cannot be deleted"));
-    EXPECT_THAT(shelf.save("default", someView()).error().message,
+    PresetLibrary library(folders);
+    EXPECT_THAT(library.remove("default").error().message, HasSubstr("cannot be deleted"));
+    EXPECT_THAT(library.save("default", someView()).error().message,
                 HasSubstr("built-in preset has that name"));
-    EXPECT_THAT(shelf.save("Default", someView()).error().message,
+    EXPECT_THAT(library.save("Default", someView()).error().message,
                 HasSubstr("built-in preset has that name"));
     EXPECT_TRUE(std::filesystem::exists(folders.shipped / "default.toml"));
     EXPECT_FALSE(std::filesystem::exists(folders.own / "default.toml"));
 }
 
 TEST_F(Presets, OwnOnesAreWrittenOverAndDeleted) {
-    PresetShelf shelf(folders);
-    ASSERT_TRUE(shelf.save("mine", {}));
-    ASSERT_TRUE(shelf.save("Mine", someView()));
-    EXPECT_THAT(names(shelf), ElementsAre("default", "no morph", "mine"));
-    EXPECT_EQ(shelf.load("mine", {}), someView());
-    EXPECT_TRUE(shelf.remove("mine"));
-    EXPECT_THAT(names(shelf), ElementsAre("default", "no morph"));
-    EXPECT_FALSE(shelf.remove("mine"));
+    PresetLibrary library(folders);
+    ASSERT_TRUE(library.save("mine", {}));
+    ASSERT_TRUE(library.save("Mine", someView()));
+    EXPECT_THAT(names(library), ElementsAre("default", "no morph", "mine"));
+    EXPECT_EQ(library.load("mine", {}), someView());
+    EXPECT_TRUE(library.remove("mine"));
+    EXPECT_THAT(names(library), ElementsAre("default", "no morph"));
+    EXPECT_FALSE(library.remove("mine"));
 }
 
 TEST_F(Presets, fileThatIsNoPresetIsNotWrittenOver) {
     writeOwn("flight.toml", "[[key]]\ntime_s = 0\n");
-    PresetShelf shelf(folders);
-    EXPECT_THAT(shelf.save("flight", someView()).error().message,
+    PresetLibrary library(folders);
+    EXPECT_THAT(library.save("flight", someView()).error().message,
                 HasSubstr("flight.toml: exists and is not a preset; expected another name"));
     EXPECT_EQ(tests::contentOf(folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
 }
 
 TEST_F(Presets, AFileThatHidesBehindAShippedNameIsToldAsAProblem) {
     writeOwn("Default.toml", "[lod]\ntau_px = 9\n");
-    PresetShelf shelf(folders);
-    EXPECT_EQ(shelf.load("default", someView()), ViewSettings{});
-    EXPECT_THAT(shelf.views({})[2].problem, HasSubstr("rename the file"));
+    PresetLibrary library(folders);
+    EXPECT_EQ(library.load("default", someView()), ViewSettings{});
+    EXPECT_THAT(library.views({})[2].problem, HasSubstr("rename the file"));
 }
 
 TEST_F(Presets, NamesThatAreNoFileNamesAreRefusedAndWriteNothing) {
-    PresetShelf shelf(folders);
+    PresetLibrary library(folders);
     for (const std::string& name :
          {std::string(), std::string("../evil"), std::string("a/b"), std::string("a\\b"),
           std::string(".hidden"), std::string(".."), std::string(" x"), std::string("x "), std::string("x."),
           std::string("a\nb"), std::string("nul\0", 4), std::string("a:b"), std::string("caf\xe9"),
           std::string(61, 'x')}) {
         EXPECT_FALSE(checkPresetName(name)) << name;
-        EXPECT_FALSE(shelf.save(name, {})) << name;
+        EXPECT_FALSE(library.save(name, {})) << name;
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "config"));
     EXPECT_FALSE(std::filesystem::exists(folder / "evil.toml"));
-    EXPECT_THAT(shelf.save("a/b", {}).error().message, HasSubstr("\"a/b\" is not a valid preset name"));
+    EXPECT_THAT(library.save("a/b", {}).error().message, HasSubstr("\"a/b\" is not a valid preset name"));
     for (const char* name : {"a", "crack hunting 2", "tau 0.5 (fine)", "Erde ä"})
         EXPECT_TRUE(checkPresetName(name)) << name;
 }
 
 TEST(ShippedPresets, AllCanBeReadAndChangeSomethingAndTheDefaultHoldsEverything) {
     const std::filesystem::path data = std::filesystem::path(WORLDY_SOURCE_DIR) / "data" / "presets";
-    PresetShelf shelf({data, "/nonexistent"});
+    PresetLibrary library({data, "/nonexistent"});
     std::vector<std::string> names;
-    for (const ui::PresetView& view : shelf.views({})) {
+    for (const ui::PresetView& view : library.views({})) {
         names.push_back(view.name);
         EXPECT_EQ(view.problem, "");
         EXPECT_TRUE(checkPresetName(view.name));

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/editor/sweep_desk.h"
+#include "app/editor/sweep_controller.h"
 #include "tests/app/session_fixture.h"
 
 namespace worldy {
@@ -54,12 +54,12 @@ protected:
     }
 
     // False if it does not end.
-    bool advanceUntilDone(SweepDesk& desk) const {
-        for (int i = 0; i < 60'000 && desk.job; ++i) {
+    bool advanceUntilDone(SweepController& controller) const {
+        for (int i = 0; i < 60'000 && controller.job; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            advanceSweep(desk, log_);
+            advanceSweep(controller, log_);
         }
-        return !desk.job;
+        return !controller.job;
     }
 
     // With a planet of 17 vertices a side that is open.
@@ -194,35 +194,35 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
     Session session = openSession(writeSource());
     ASSERT_TRUE(shownPlanet(session));
     ASSERT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
-    SweepDesk desk;
+    SweepController controller;
     SweepRequest asked = request();
     asked.chunkSizes = {17, 33};
-    startSweep(desk, shownPlanet(session), asked, settings_, log_);
-    ASSERT_TRUE(desk.job) << desk.problem;
-    EXPECT_TRUE(sweepViewOf(desk).running);
-    ASSERT_TRUE(advanceUntilDone(desk));
-    EXPECT_EQ(desk.problem, "");
-    ASSERT_TRUE(desk.table);
-    EXPECT_TRUE(desk.table->whole);
-    ASSERT_EQ(desk.table->points.size(), 8u);
-    EXPECT_EQ(desk.table->points[0].chunkSize, 17);
+    startSweep(controller, shownPlanet(session), asked, settings_, log_);
+    ASSERT_TRUE(controller.job) << controller.problem;
+    EXPECT_TRUE(sweepViewOf(controller).running);
+    ASSERT_TRUE(advanceUntilDone(controller));
+    EXPECT_EQ(controller.problem, "");
+    ASSERT_TRUE(controller.table);
+    EXPECT_TRUE(controller.table->whole);
+    ASSERT_EQ(controller.table->points.size(), 8u);
+    EXPECT_EQ(controller.table->points[0].chunkSize, 17);
     EXPECT_EQ(filesInCache(), 2u);
     // By the name that the command line knows it by.
     const auto usual = findDataSet(folder_ / "slope.pgm", {.chunkSize = 17});
     ASSERT_TRUE(usual);
     EXPECT_FALSE(usual->needsBake);
 
-    openSweptChunks(desk, 17, session, settings_, log_);
+    openSweptChunks(controller, 17, session, settings_, log_);
     EXPECT_FALSE(session.bake);
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
     EXPECT_TRUE(session.previous);
     EXPECT_TRUE(bakeViewOf(session).canBake);
-    openSweptChunks(desk, 33, session, settings_, log_);
+    openSweptChunks(controller, 33, session, settings_, log_);
     EXPECT_FALSE(session.bake);
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
     // One that is gone is baked anew.
     std::filesystem::remove(usual->chunkFile);
-    openSweptChunks(desk, 17, session, settings_, log_);
+    openSweptChunks(controller, 17, session, settings_, log_);
     EXPECT_TRUE(session.bake);
     ASSERT_TRUE(advanceUntilQuiet(session));
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
@@ -230,66 +230,66 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
 
 TEST_F(Sweeping, AFileOfUnknownSourceIsSweptInItsOwnChunksAlone) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
-    SweepDesk desk;
+    SweepController controller;
     SweepRequest asked = request();
     asked.chunkSizes = {33};
-    startSweep(desk, shownPlanet(session), asked, settings_, log_);
-    EXPECT_FALSE(desk.job);
-    EXPECT_THAT(sweepViewOf(desk).problem, HasSubstr("own.chk"));
-    EXPECT_THAT(sweepViewOf(desk).problem, HasSubstr("its own chunk size of 17"));
+    startSweep(controller, shownPlanet(session), asked, settings_, log_);
+    EXPECT_FALSE(controller.job);
+    EXPECT_THAT(sweepViewOf(controller).problem, HasSubstr("own.chk"));
+    EXPECT_THAT(sweepViewOf(controller).problem, HasSubstr("its own chunk size of 17"));
     asked.chunkSizes = {17};
-    startSweep(desk, shownPlanet(session), asked, settings_, log_);
-    EXPECT_TRUE(desk.job);
-    EXPECT_EQ(desk.problem, "");
+    startSweep(controller, shownPlanet(session), asked, settings_, log_);
+    EXPECT_TRUE(controller.job);
+    EXPECT_EQ(controller.problem, "");
 }
 
 TEST_F(Sweeping, GoesOnWhenItsPlanetIsClosedAndItsFileIsGone) {
     const auto file = bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17});
-    SweepDesk desk;
+    SweepController controller;
     {
         Session session = openSession(file);
-        startSweep(desk, shownPlanet(session), request(), settings_, log_);
-        ASSERT_TRUE(desk.job);
-        while (desk.job && desk.job->progress().tauPx == 0 && desk.table->points.empty())
-            advanceSweep(desk, log_);
+        startSweep(controller, shownPlanet(session), request(), settings_, log_);
+        ASSERT_TRUE(controller.job);
+        while (controller.job && controller.job->progress().tauPx == 0 && controller.table->points.empty())
+            advanceSweep(controller, log_);
     }
     std::filesystem::remove(file);
-    ASSERT_TRUE(advanceUntilDone(desk));
-    EXPECT_EQ(desk.problem, "");
-    EXPECT_EQ(desk.table->points.size(), 4u);
+    ASSERT_TRUE(advanceUntilDone(controller));
+    EXPECT_EQ(controller.problem, "");
+    EXPECT_EQ(controller.table->points.size(), 4u);
 }
 
 TEST_F(Sweeping, CancelledKeepsItsPointsButPassesForNoWholeTable) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
-    SweepDesk desk;
+    SweepController controller;
     SweepRequest asked = request();
     asked.tausPx.assign(30, 1.0);
-    startSweep(desk, shownPlanet(session), asked, settings_, log_);
-    while (desk.table->points.empty()) advanceSweep(desk, log_);
-    EXPECT_FALSE(saveSweep(desk, SweepCost::Triangles, folder_.path())) << "while it runs";
-    cancelSweep(desk);
-    ASSERT_TRUE(advanceUntilDone(desk));
-    EXPECT_EQ(desk.problem, "The sweep was cancelled.");
-    EXPECT_FALSE(desk.table->whole);
-    EXPECT_LT(desk.table->points.size(), 60u);
-    EXPECT_FALSE(saveSweep(desk, SweepCost::Triangles, folder_.path()));
+    startSweep(controller, shownPlanet(session), asked, settings_, log_);
+    while (controller.table->points.empty()) advanceSweep(controller, log_);
+    EXPECT_FALSE(saveSweep(controller, SweepCost::Triangles, folder_.path())) << "while it runs";
+    cancelSweep(controller);
+    ASSERT_TRUE(advanceUntilDone(controller));
+    EXPECT_EQ(controller.problem, "The sweep was cancelled.");
+    EXPECT_FALSE(controller.table->whole);
+    EXPECT_LT(controller.table->points.size(), 60u);
+    EXPECT_FALSE(saveSweep(controller, SweepCost::Triangles, folder_.path()));
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
         EXPECT_NE(entry.path().extension(), ".csv");
 }
 
 TEST_F(Sweeping, AWholeTableIsSavedThreeTimesUnderOneName) {
     Session session = openSession(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}));
-    SweepDesk desk;
-    startSweep(desk, shownPlanet(session), request(), settings_, log_);
-    ASSERT_TRUE(advanceUntilDone(desk));
-    auto saved = saveSweep(desk, SweepCost::MemoryMiB, folder_.path());
+    SweepController controller;
+    startSweep(controller, shownPlanet(session), request(), settings_, log_);
+    ASSERT_TRUE(advanceUntilDone(controller));
+    auto saved = saveSweep(controller, SweepCost::MemoryMiB, folder_.path());
     ASSERT_TRUE(saved) << saved.error().message;
     EXPECT_TRUE(readPicture(*saved));
     std::filesystem::path table = *saved;
     std::ifstream csv(table.replace_extension(".csv"));
     EXPECT_EQ(std::count(std::istreambuf_iterator(csv), {}, '\n'), 5);
     EXPECT_TRUE(std::filesystem::exists(table.replace_extension(".json")));
-    EXPECT_FALSE(saveSweep(desk, SweepCost::MemoryMiB, folder_ / "no such folder"));
+    EXPECT_FALSE(saveSweep(controller, SweepCost::MemoryMiB, folder_ / "no such folder"));
 }
 
 TEST_F(Sweeping, HasNoPartInOverlaysNorInABadDisk) {

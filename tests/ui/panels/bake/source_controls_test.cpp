@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <variant>
 
 #include "app/data/worlds.h"
@@ -186,7 +187,7 @@ TEST_F(BakePanelSource, ASourceThatIsNotThereCannotBeBaked) {
     frame();
     Commands all;
     window_.click("/Bake again", 0.5f, [&] {
-        for (const Command& command : frame()) all.push_back(command);
+        for (Command& command : frame()) all.push_back(std::move(command));
     });
     for (const Command& command : all) EXPECT_FALSE(command.as<StartBake>());
     view_.data.chunkFile = "/cache/other.chk";
@@ -194,7 +195,7 @@ TEST_F(BakePanelSource, ASourceThatIsNotThereCannotBeBaked) {
     frame();
     frame();
     window_.click("/Bake again", 0.5f, [&] {
-        for (const Command& command : frame()) all.push_back(command);
+        for (Command& command : frame()) all.push_back(std::move(command));
     });
     EXPECT_TRUE(
         std::any_of(all.begin(), all.end(), [](const Command& command) { return command.as<StartBake>(); }));

@@ -1,5 +1,5 @@
 // The window's comparison, without a window.
-#include "app/editor/compare_desk.h"
+#include "app/editor/compare_controller.h"
 
 #include <gmock/gmock.h>
 
@@ -13,9 +13,9 @@ namespace {
 using testing::HasSubstr;
 using With = ui::StartCompare::With;
 
-class CompareDeskTest : public test::SessionTest {
+class CompareControllerTest : public test::SessionTest {
 protected:
-    CompareDeskTest() {
+    CompareControllerTest() {
         settings_.lod.fadeS = 0;
         settings_.surface.detail = false;
         viewport_.main.rect = {0, 0, 200, 120};
@@ -28,7 +28,7 @@ protected:
         return session;
     }
     planet::Result<void> start(Session& session, const ui::StartCompare& wanted = {}) {
-        return startCompare(desk_, session, shelf_, settings_, wanted);
+        return startCompare(controller_, session, library_, settings_, wanted);
     }
     // A frame of the window, everything loaded.
     void frame(Session& session) {
@@ -37,32 +37,34 @@ protected:
             {.longitudeDeg = 10, .altitudeM = 2e6, .pitchDeg = -60}, 6'371'000, 1.0, 200, 120);
         settleScene(a, view, settings_, 60);
         const CompareFrame now{a, settings_, view, view, timeS_ += 0.1, ++frames_};
-        stepCompared(desk_, now, log_);
-        if (desk_.other) settleScene(desk_.other->planet.scene, view, desk_.other->settings, 60);
+        stepCompared(controller_, now, log_);
+        if (controller_.other)
+            settleScene(controller_.other->planet.scene, view, controller_.other->settings, 60);
         drawPicture(viewport_, viewport_.main, a, settings_, {.view = view}, log_);
-        drawCompared(desk_, viewport_, settings_, {}, true, log_);
+        drawCompared(controller_, viewport_, settings_, {}, true, log_);
     }
     ui::CompareView shown(Session& session) {
-        return compareViewOf(desk_, session, settings_, statsOf(*shownScene(session)), viewport_.main.view);
+        return compareViewOf(controller_, session, settings_, statsOf(*shownScene(session)),
+                             viewport_.main.view);
     }
     std::vector<std::uint8_t> picture() const { return viewport_.main.shownTarget()->readRgb(); }
 
-    PresetShelf shelf_{{folder_ / "shipped", folder_ / "own"}};
+    PresetLibrary library_{{folder_ / "shipped", folder_ / "own"}};
     Viewport viewport_;
-    CompareDesk desk_;
+    CompareController controller_;
     double timeS_ = 0;
     std::uint64_t frames_ = 0;
 };
 
-TEST_F(CompareDeskTest, withEqualSettingsNoPixelDiffersInAnyMode) {
+TEST_F(CompareControllerTest, withEqualSettingsNoPixelDiffersInAnyMode) {
     Session session = sessionOfSlope();
     ASSERT_TRUE(start(session));
     settings_.compare.mode = CompareMode::Wipe;
     frame(session);
-    ASSERT_TRUE(desk_.difference);
-    EXPECT_EQ(desk_.difference->pixels, 0u);
-    EXPECT_EQ(desk_.difference->largestSteps, 0);
-    EXPECT_EQ(desk_.difference->of, 200u * 120u);
+    ASSERT_TRUE(controller_.difference);
+    EXPECT_EQ(controller_.difference->pixels, 0u);
+    EXPECT_EQ(controller_.difference->largestSteps, 0);
+    EXPECT_EQ(controller_.difference->of, 200u * 120u);
     EXPECT_EQ(picture(), viewport_.main.target->readRgb());
     settings_.compare.mode = CompareMode::Flip;
     settings_.compare.showB = true;
@@ -72,7 +74,7 @@ TEST_F(CompareDeskTest, withEqualSettingsNoPixelDiffersInAnyMode) {
     EXPECT_EQ(sideNames(shown(session))[1], "B, equal settings");
 }
 
-TEST_F(CompareDeskTest, aChangedSettingChangesAAloneUntilTheyAreSwapped) {
+TEST_F(CompareControllerTest, aChangedSettingChangesAAloneUntilTheyAreSwapped) {
     Session session = sessionOfSlope();
     settings_.lod.tauPx = 0.5;
     ASSERT_TRUE(start(session));
@@ -84,44 +86,44 @@ TEST_F(CompareDeskTest, aChangedSettingChangesAAloneUntilTheyAreSwapped) {
     EXPECT_EQ(sideNames(view)[0], "A  " + ui::inFont("Tolerance τ 16"));
     EXPECT_LT(*view.now[0].triangles, *view.now[1].triangles);
     EXPECT_GT(*view.now[0].worstEpsPx, *view.now[1].worstEpsPx);
-    EXPECT_GT(desk_.difference->pixels, 0u);
+    EXPECT_GT(controller_.difference->pixels, 0u);
 
-    settings_ = swapCompared(desk_, session, settings_, log_);
+    settings_ = swapCompared(controller_, session, settings_, log_);
     EXPECT_EQ(settings_.lod.tauPx, 0.5);
-    EXPECT_EQ(desk_.other->settings.lod.tauPx, 16);
+    EXPECT_EQ(controller_.other->settings.lod.tauPx, 16);
     // The camera and how the two are shown stay as they are.
     settings_.compare.mode = CompareMode::Difference;
     settings_.camera.fovDeg = 77;
-    settings_ = swapCompared(desk_, session, settings_, log_);
+    settings_ = swapCompared(controller_, session, settings_, log_);
     EXPECT_EQ(settings_.compare.mode, CompareMode::Difference);
     EXPECT_EQ(settings_.camera.fovDeg, 77);
 }
 
-TEST_F(CompareDeskTest, anotherFileAsBIsSwappedWithItsSettings) {
+TEST_F(CompareControllerTest, anotherFileAsBIsSwappedWithItsSettings) {
     Session session = sessionOfSlope();
     const auto coarse = bakeTo("coarse.chk", {.faceSize = 33, .chunkSize = 33});
     ASSERT_TRUE(start(session, {With::File, {}, coarse}));
     frame(session);
     EXPECT_EQ(shown(session).fileB, coarse);
     const planet::Planet* before = session.open->scene.planet.get();
-    settings_ = swapCompared(desk_, session, settings_, log_);
+    settings_ = swapCompared(controller_, session, settings_, log_);
     EXPECT_EQ(session.data.chunkFile, coarse);
-    EXPECT_EQ(desk_.other->planet.scene.planet.get(), before);
+    EXPECT_EQ(controller_.other->planet.scene.planet.get(), before);
     frame(session);
-    EXPECT_TRUE(desk_.other);
+    EXPECT_TRUE(controller_.other);
     EXPECT_EQ(shown(session).fileA, coarse);
 }
 
-TEST_F(CompareDeskTest, whatCannotBeBIsToldAndNothingChanges) {
+TEST_F(CompareControllerTest, whatCannotBeBIsToldAndNothingChanges) {
     Session session = sessionOfSlope();
     const auto problemOf = [&](const ui::StartCompare& wanted) {
         const auto started = start(session, wanted);
         EXPECT_FALSE(started);
-        EXPECT_FALSE(desk_.other);
-        EXPECT_EQ(shown(session).problem, desk_.problem);
+        EXPECT_FALSE(controller_.other);
+        EXPECT_EQ(shown(session).problem, controller_.problem);
         frame(session);
         EXPECT_EQ(viewport_.main.instead, nullptr);
-        return desk_.problem;
+        return controller_.problem;
     };
     EXPECT_THAT(problemOf({With::File, {}, folder_ / "none.chk"}), HasSubstr("none.chk"));
     EXPECT_THAT(problemOf({With::Preset, "nobody", {}}), HasSubstr("nobody"));
@@ -133,42 +135,42 @@ TEST_F(CompareDeskTest, whatCannotBeBIsToldAndNothingChanges) {
     EXPECT_THAT(problemOf({With::File, {}, folder_ / "junk.chk"}), HasSubstr("junk.chk"));
     // What is compared already goes on.
     ASSERT_TRUE(start(session));
-    EXPECT_EQ(desk_.problem, "");
+    EXPECT_EQ(controller_.problem, "");
     EXPECT_FALSE(start(session, {With::Preset, "nobody", {}}));
-    EXPECT_TRUE(desk_.other);
+    EXPECT_TRUE(controller_.other);
 }
 
-TEST_F(CompareDeskTest, endingGivesEverythingBack) {
+TEST_F(CompareControllerTest, endingGivesEverythingBack) {
     Session session = sessionOfSlope();
     ASSERT_TRUE(start(session));
     frame(session);
     EXPECT_NE(viewport_.main.instead, nullptr);
-    EXPECT_GT(gpuBytes(desk_), 200u * 120u * 4u);
-    stopCompare(desk_);
+    EXPECT_GT(gpuBytes(controller_), 200u * 120u * 4u);
+    stopCompare(controller_);
     frame(session);
     EXPECT_EQ(viewport_.main.instead, nullptr);
-    EXPECT_EQ(gpuBytes(desk_), 0u);
+    EXPECT_EQ(gpuBytes(controller_), 0u);
     EXPECT_FALSE(shown(session).on);
 }
 
-TEST_F(CompareDeskTest, aPlanetOfAnotherRadiusEndsIt) {
+TEST_F(CompareControllerTest, aPlanetOfAnotherRadiusEndsIt) {
     Session session = sessionOfSlope();
     ASSERT_TRUE(start(session));
     frame(session);
     ASSERT_TRUE(openFile(session, bakeTo("moon.chk", {.faceSize = 33, .chunkSize = 33, .radiusM = 1e6}),
                          settings_, log_));
     frame(session);
-    EXPECT_FALSE(desk_.other);
-    EXPECT_THAT(desk_.problem, HasSubstr("radius"));
+    EXPECT_FALSE(controller_.other);
+    EXPECT_THAT(controller_.problem, HasSubstr("radius"));
 }
 
-TEST_F(CompareDeskTest, aMeasuredViewHasErrorsAndCracksOfBothUntilItIsAnother) {
+TEST_F(CompareControllerTest, aMeasuredViewHasErrorsAndCracksOfBothUntilItIsAnother) {
     Session session = sessionOfSlope();
     ASSERT_TRUE(start(session));
     settings_.lod.tauPx = 16;
     frame(session);
     EXPECT_FALSE(shown(session).now[0].worstErrorPx);
-    ASSERT_TRUE(measureCompared(desk_, *shownScene(session), settings_, viewport_.main.view));
+    ASSERT_TRUE(measureCompared(controller_, *shownScene(session), settings_, viewport_.main.view));
     ASSERT_TRUE(advanceUntil(session, [&] {
         frame(session);
         return !shown(session).measuring;
@@ -182,13 +184,13 @@ TEST_F(CompareDeskTest, aMeasuredViewHasErrorsAndCracksOfBothUntilItIsAnother) {
     EXPECT_TRUE(shown(session).stale);
 }
 
-TEST_F(CompareDeskTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
+TEST_F(CompareControllerTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
     Session session = sessionOfSlope();
     ASSERT_TRUE(start(session));
     settings_.lod.tauPx = 16;
     frame(session);
     const auto missing =
-        compareFlight(desk_, session, settings_, viewport_.main.view, {folder_ / "none.toml", 2});
+        compareFlight(controller_, session, settings_, viewport_.main.view, {folder_ / "none.toml", 2});
     EXPECT_FALSE(missing);
     EXPECT_THAT(shown(session).flight.problem, HasSubstr("none.toml"));
     std::ofstream(folder_ / "down.toml")
@@ -196,26 +198,26 @@ TEST_F(CompareDeskTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
            "heading_deg = 0\npitch_deg = -80\n[[key]]\ntime_s = 0.2\nlatitude_deg = 0\nlongitude_deg = 10\n"
            "altitude_m = 2e6\nheading_deg = 0\npitch_deg = -80\n";
     const ui::CompareOverFlight wanted{folder_ / "down.toml", 2};
-    ASSERT_TRUE(compareFlight(desk_, session, settings_, viewport_.main.view, wanted));
+    ASSERT_TRUE(compareFlight(controller_, session, settings_, viewport_.main.view, wanted));
     EXPECT_TRUE(shown(session).flight.running);
     ASSERT_TRUE(advanceUntil(session, [&] {
         frame(session);
-        return !desk_.job;
+        return !controller_.flight.job;
     }));
-    ASSERT_TRUE(desk_.flown) << desk_.flownProblem;
-    EXPECT_LT(*(*desk_.flown)[0].triangles, *(*desk_.flown)[1].triangles);
+    ASSERT_TRUE(controller_.flight.last) << controller_.flight.problem;
+    EXPECT_LT(*(*controller_.flight.last)[0].triangles, *(*controller_.flight.last)[1].triangles);
     EXPECT_THAT(shown(session).flight.lastName,
                 HasSubstr("Down, 2 sample frames. A: Tolerance τ 16. B: Tolerance τ 2"));
 
-    ASSERT_TRUE(
-        compareFlight(desk_, session, settings_, viewport_.main.view, {folder_ / "down.toml", 100'000}));
-    desk_.job->cancel();
+    ASSERT_TRUE(compareFlight(controller_, session, settings_, viewport_.main.view,
+                              {folder_ / "down.toml", 100'000}));
+    controller_.flight.job->cancel();
     EXPECT_TRUE(shown(session).flight.stopping);
     ASSERT_TRUE(advanceUntil(session, [&] {
         frame(session);
-        return !desk_.job;
+        return !controller_.flight.job;
     }));
-    EXPECT_FALSE(desk_.flown);
+    EXPECT_FALSE(controller_.flight.last);
     EXPECT_EQ(shown(session).flight.problem, "Cancelled.");
 }
 

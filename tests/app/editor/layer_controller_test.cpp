@@ -1,4 +1,4 @@
-#include "app/editor/layer_desk.h"
+#include "app/editor/layer_controller.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,56 +30,56 @@ void writePng(const fs::path& file, int width, int height, int channels, std::ui
         throw std::runtime_error("no picture");
 }
 
-TEST(LayerDesk, ListsShippedSetsFirstAndSavesOnesOwn) {
+TEST(LayerController, ListsShippedSetsFirstAndSavesOnesOwn) {
     const tests::TemporaryFolder folder;
-    LayerDesk desk = openLayerDesk({shippedLayers(), folder.path() / "own"});
-    ASSERT_EQ(desk.sets.size(), 2u);
-    EXPECT_EQ(desk.sets[0].name, "earth");
-    EXPECT_TRUE(desk.sets[1].shipped);
+    LayerController controller = openLayers({shippedLayers(), folder.path() / "own"});
+    ASSERT_EQ(controller.sets.size(), 2u);
+    EXPECT_EQ(controller.sets[0].name, "earth");
+    EXPECT_TRUE(controller.sets[1].shipped);
     LayerSettings layers;
     layers.file = (shippedLayers() / "earth.toml").string();
     layers.set.layers.resize(3);
-    ASSERT_TRUE(saveAs(desk, "mine", layers));
-    ASSERT_EQ(desk.sets.size(), 3u);
-    EXPECT_EQ(desk.sets[2].name, "mine");
+    ASSERT_TRUE(saveAs(controller, "mine", layers));
+    ASSERT_EQ(controller.sets.size(), 3u);
+    EXPECT_EQ(controller.sets[2].name, "mine");
     EXPECT_EQ(fs::path(layers.file), folder.path() / "own" / "mine.toml");
     EXPECT_TRUE(fs::exists(layerFolderOf(layers.file) / layers.set.layers[1].albedo));
     LayerSettings loaded;
-    ASSERT_TRUE(loadInto(desk, layers.file, loaded));
+    ASSERT_TRUE(loadInto(controller, layers.file, loaded));
     EXPECT_EQ(loaded.set, layers.set);
     EXPECT_EQ(loaded.file, layers.file);
 }
 
-TEST(LayerDesk, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
+TEST(LayerController, WhatCannotBeReadOrWrittenIsToldAndChangesNothing) {
     const tests::TemporaryFolder folder;
-    LayerDesk desk = openLayerDesk({shippedLayers(), folder.path()});
+    LayerController controller = openLayers({shippedLayers(), folder.path()});
     LayerSettings layers;
     std::ofstream(folder.path() / "broken.toml") << "[[layer]\n";
-    EXPECT_FALSE(loadInto(desk, folder.path() / "broken.toml", layers));
-    EXPECT_THAT(desk.setProblem, HasSubstr("broken.toml: line 1"));
+    EXPECT_FALSE(loadInto(controller, folder.path() / "broken.toml", layers));
+    EXPECT_THAT(controller.setProblem, HasSubstr("broken.toml: line 1"));
     EXPECT_EQ(layers, LayerSettings{});
-    EXPECT_FALSE(saveAs(desk, "earth", layers));
-    EXPECT_THAT(desk.setProblem, HasSubstr("is built-in"));
-    EXPECT_FALSE(saveAs(desk, "a/b", layers));
+    EXPECT_FALSE(saveAs(controller, "earth", layers));
+    EXPECT_THAT(controller.setProblem, HasSubstr("is built-in"));
+    EXPECT_FALSE(saveAs(controller, "a/b", layers));
     EXPECT_EQ(layers, LayerSettings{});
-    fs::create_directories(desk.folders.own);
-    std::ofstream(desk.folders.own / "flight.toml") << "[[key]]\ntime_s = 0\n";
-    EXPECT_FALSE(saveAs(desk, "flight", layers));
-    EXPECT_THAT(desk.setProblem, HasSubstr("flight.toml: exists and is not a layer set"));
-    EXPECT_EQ(tests::contentOf(desk.folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
-    ASSERT_TRUE(saveAs(desk, "fine", layers));
-    EXPECT_EQ(desk.setProblem, "");
+    fs::create_directories(controller.folders.own);
+    std::ofstream(controller.folders.own / "flight.toml") << "[[key]]\ntime_s = 0\n";
+    EXPECT_FALSE(saveAs(controller, "flight", layers));
+    EXPECT_THAT(controller.setProblem, HasSubstr("flight.toml: exists and is not a layer set"));
+    EXPECT_EQ(tests::contentOf(controller.folders.own / "flight.toml"), "[[key]]\ntime_s = 0\n");
+    ASSERT_TRUE(saveAs(controller, "fine", layers));
+    EXPECT_EQ(controller.setProblem, "");
 }
 
-TEST(LayerDesk, TheReadoutFollowsTheLayersWhileThePointerIsAway) {
-    LayerDesk desk;
-    desk.under = ui::LayerReadout{{{0, 0, 6.371e6}, 51, 0, 90}, {}};
+TEST(LayerController, TheReadoutFollowsTheLayersWhileThePointerIsAway) {
+    LayerController controller;
+    controller.under = ui::LayerReadout{{{0, 0, 6.371e6}, 51, 0, 90}, {}};
     LayerSettings layers;
     layers.set = planet::twoLayerHeightBlend();
-    EXPECT_NEAR(layersViewOf(desk, nullptr, layers).under->weights[1], 0.2, 1e-12);
+    EXPECT_NEAR(layersViewOf(controller, nullptr, layers).under->weights[1], 0.2, 1e-12);
     layers.set.layers[1].muted = true;
-    EXPECT_EQ(layersViewOf(desk, nullptr, layers).under->weights[1], 0);
-    EXPECT_EQ(layersViewOf(desk, nullptr, layers).under->weights[0], 1);
+    EXPECT_EQ(layersViewOf(controller, nullptr, layers).under->weights[1], 0);
+    EXPECT_EQ(layersViewOf(controller, nullptr, layers).under->weights[0], 1);
 }
 
 TEST(LayerPictures, AreReadEnlargedToTheLargest) {

@@ -1,0 +1,212 @@
+#include "app/editor/camera_controller.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "app/editor/overloaded.h"
+#include "app/scene/observer.h"
+
+namespace worldy {
+
+namespace {
+
+planet::View viewOfPicture(const Camera& camera, const PlanetPicture& picture, const PlanetPicture& other,
+                           float pixelRatio, const CameraSettings& settings) {
+    // A picture that is not shown has the other's size: the LOD view goes on while the observer is alone.
+    const PixelSize size = pixelSizeOf(picture.shown() ? picture.rect : other.rect, pixelRatio);
+    return viewOf(camera, glm::radians(settings.fovDeg), size.width, size.height);
+}
+
+struct CameraHandler {
+    CameraController& camera;
+    const CameraContext& context;
+    Notices& notices;
+
+    CameraSettings& settings() const { return context.settings.view.camera; }
+    bool isThere() const { return context.scene && camera.rig; }
+    double radiusM() const { return context.scene->planet->tree().shape.radiusM; }
+    void moveTo(const planet::CameraPose& pose) const {
+        if (context.scene) moveCamera(camera, cameraFromPose(pose, radiusM()), settings());
+    }
+
+    void operator()(const ui::FreezeLod& command) const {
+        if (mayChange("Settings", context.replay != nullptr, notices.log))
+            freezeLod(camera, command.frozen, context.popSide);
+    }
+    void operator()(const ui::MoveCamera& command) const { moveTo(command.pose); }
+    void operator()(const ui::InspectPlace& command) const {
+        if (isThere()) inspect(camera, cameraFromPose(command.pose, radiusM()), command.lodView, context);
+    }
+    void operator()(const ui::EndInspection&) const { endInspection(camera, context); }
+    void operator()(const ui::ResetCamera&) const {
+        if (context.scene) moveTo(startPose(context.settings.camera, radiusM()));
+    }
+    void operator()(const ui::KeepCameraAsStart&) const {
+        if (!isThere()) return;
+        context.settings.camera = poseOf(camera.rig->camera, radiusM());
+        confirm(notices, "Future sessions start here");
+    }
+    void operator()(const ui::AddBookmark& command) const {
+        if (!isThere()) return;
+        const planet::CameraPose pose = poseOf(camera.rig->camera, radiusM());
+        if (succeeded(notices, addBookmark(camera.bookmarks, command.name, pose),
+                      "The bookmark was not added"))
+            confirm(notices, fmt::format("Bookmark {} added", command.name));
+    }
+    void operator()(const ui::RemoveBookmark& command) const {
+        if (succeeded(notices, removeBookmark(camera.bookmarks, command.name),
+                      "The bookmark was not removed"))
+            confirm(notices, fmt::format("Bookmark {} removed", command.name));
+    }
+    void operator()(const ui::SetSpeedFactor& command) const {
+        if (camera.rig) camera.rig->speedFactor = std::clamp(command.factor, minSpeedFactor, maxSpeedFactor);
+    }
+    void operator()(const ui::StartFlight& command) const {
+        if (camera.rig)
+            succeeded(notices, startFlight(*camera.rig, command.file, settings()),
+                      "The flight cannot be followed");
+    }
+    void operator()(const ui::MoveFlight& command) const {
+        if (camera.rig) moveFlight(*camera.rig, command.timeS);
+    }
+    void operator()(const ui::PauseFlight& command) const {
+        if (camera.rig) pauseFlight(*camera.rig, command.paused);
+    }
+};
+
+}  // namespace
+
+void execute(CameraController& camera, const ui::CameraCommand& command, const CameraContext& context,
+             Notices& notices) {
+    std::visit(CameraHandler{camera, context, notices}, command);
+}
+
+void inspect(CameraController& camera, const Camera& place, const planet::View& lodView,
+             const CameraContext& context) {
+    if (!camera.beforeInspection)
+        camera.beforeInspection = BeforeInspection{camera.rig->camera, camera.lodView, camera.lodFrozen,
+                                                   context.replay && context.replay->playing};
+    context.popSide = PopSide::Live;
+    placeRig(*camera.rig, place, context.settings.view.camera);
+    if (context.replay) {
+        context.replay->playing = false;
+        return;
+    }
+    camera.lodFrozen = true;
+    if (camera.lodView == lodView) return;
+    camera.lodView = lodView;
+    context.stepOnce = true;  // paused frames choose for it too
+}
+
+void endInspection(CameraController& camera, const CameraContext& context) {
+    const std::optional<BeforeInspection> before = std::exchange(camera.beforeInspection, std::nullopt);
+    if (!before) return;
+    context.popSide = PopSide::Live;
+    moveCamera(camera, before->camera, context.settings.view.camera);
+    if (context.replay) {
+        context.replay->playing = before->replayPlaying;
+        return;
+    }
+    camera.lodView = before->lodView;
+    camera.lodFrozen = before->lodFrozen;
+    context.stepOnce = true;
+}
+
+void freezeLod(CameraController& camera, bool frozen, PopSide& popSide) {
+    camera.lodFrozen = frozen;
+    camera.beforeInspection.reset();  // the user takes over from here
+    if (!frozen) popSide = PopSide::Live;
+}
+
+void moveCamera(CameraController& camera, const Camera& place, CameraSettings& settings) {
+    if (camera.rig) placeRig(*camera.rig, place, settings);
+}
+
+void meetPlanet(CameraController& camera, double radiusM) {
+    camera.beforeInspection.reset();
+    if (radiusM != camera.radiusM) {
+        camera.rig.reset();
+        camera.observer.reset();
+    }
+    camera.radiusM = radiusM;
+}
+
+void placeCameras(CameraController& camera, const Scene& scene, const Viewport& viewport,
+                  const Settings& settings) {
+    if (!camera.rig) {
+        const double radiusM = scene.planet->tree().shape.radiusM;
+        camera.rig.emplace();
+        camera.rig->camera = cameraFromPose(startPose(settings.camera, radiusM), radiusM);
+    }
+    if (camera.observer || !viewport.observer.shown()) return;
+    camera.observer.emplace();
+    camera.observer->camera = observerStart(mainView(camera, viewport, settings.view.camera),
+                                            groundBelow(scene, camera.rig->camera.eyeM));
+}
+
+void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewport, CameraSettings& settings,
+                 bool replaying, double seconds, const Log& log) {
+    const Surroundings around = surroundingsOf(scene);
+    const KeyInput keys = readKeys();
+    camera.rig->speedFactor =
+        std::clamp(camera.rig->speedFactor * std::pow(1.5, keys.speedSteps), minSpeedFactor, maxSpeedFactor);
+    // The keys go to the picture that the pointer is on.
+    const bool observing =
+        viewport.observer.shown() && (viewport.observer.pointer.over || !viewport.main.shown());
+    planet::Result<void> moved;
+    if (!replaying)
+        moved = advanceRig(*camera.rig, around, mainView(camera, viewport, settings), viewport.main.pointer,
+                           observing ? HeldKeys() : keys.held, seconds, settings);
+    if (!moved) log->error("{}", moved.error().message);
+
+    if (!viewport.observer.shown()) return;
+    camera.observer->speedFactor = camera.rig->speedFactor;
+    // Cannot fail: it follows no flight.
+    static_cast<void>(advanceRig(*camera.observer, around, observerView(camera, viewport, settings),
+                                 viewport.observer.pointer, observing ? keys.held : HeldKeys(), seconds,
+                                 camera.observerControls));
+}
+
+void followCamera(CameraController& camera, const Viewport& viewport, const CameraSettings& settings,
+                  double passedS) {
+    const glm::dvec3 fromM = camera.lodView.eyeM;
+    const bool placed = takeJump(*camera.rig);
+    if (!camera.lodFrozen) camera.lodView = mainView(camera, viewport, settings);
+    const glm::dvec3& toM = camera.lodView.eyeM;
+    camera.jumped = toM != fromM && (placed || isCameraJump(fromM, toM, camera.radiusM, passedS));
+}
+
+planet::View mainView(const CameraController& camera, const Viewport& viewport,
+                      const CameraSettings& settings) {
+    return viewOfPicture(camera.rig->camera, viewport.main, viewport.observer, viewport.pixelRatio, settings);
+}
+
+planet::View observerView(const CameraController& camera, const Viewport& viewport,
+                          const CameraSettings& settings) {
+    return viewOfPicture(camera.observer->camera, viewport.observer, viewport.main, viewport.pixelRatio,
+                         settings);
+}
+
+bool observerChooses(const Viewport& viewport, const CameraSettings& settings) {
+    return viewport.observer.shown() && settings.observerOwnLod;
+}
+
+std::size_t observerSelection(const Scene& scene, const Viewport& viewport, const CameraSettings& settings) {
+    return observerChooses(viewport, settings) && scene.planet->views().size() > 1 ? 1 : 0;
+}
+
+void fillView(const CameraController& camera, const Scene* scene, ui::EditorView& view) {
+    view.lodView = camera.lodView;
+    view.lodFrozen = camera.lodFrozen;
+    view.inspecting = camera.beforeInspection.has_value();
+    if (!scene || !camera.rig) return;
+    view.camera = cameraViewOf(*camera.rig, groundBelow(*scene, camera.rig->camera.eyeM),
+                               camera.bookmarks.list, camera.flights);
+    view.camera.seaSurfaceM = scene->seaSurfaceM;
+}
+
+}  // namespace worldy

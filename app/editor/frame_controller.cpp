@@ -1,0 +1,36 @@
+#include "app/editor/frame_controller.h"
+
+#include <utility>
+
+#include "app/editor/overloaded.h"
+
+namespace worldy {
+
+namespace {
+
+constexpr double historyS = 10;
+
+}  // namespace
+
+void execute(FrameController& frames, const ui::FrameCommand& command) {
+    std::visit(Overloaded{
+                   [&](const ui::PauseFrames& pause) { frames.paused = pause.paused; },
+                   [&](const ui::StepFrame&) { frames.paused = frames.stepOnce = true; },
+               },
+               command);
+}
+
+FrameStep takeStep(FrameController& frames, double secondsSinceLast) {
+    const bool single = std::exchange(frames.stepOnce, false);
+    if (!frames.paused) return {true, secondsSinceLast, std::nullopt};
+    constexpr double stepS = 1.0 / 60;
+    return {single, stepS, stepS};
+}
+
+void finishFrame(FrameController& frames, const FrameStats& stats) {
+    frames.stats = smoothed(frames.stats, stats);
+    frames.history.push_back({frames.timeS, stats});
+    while (frames.history.front().timeS < frames.timeS - historyS) frames.history.pop_front();
+}
+
+}  // namespace worldy

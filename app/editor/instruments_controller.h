@@ -1,0 +1,65 @@
+// Measures the planet in the window: allocations, LOD changes, pops, probed vertices, cracks, costs and true
+// errors. Wants the window's GL context current. Main thread.
+#pragma once
+
+#include "app/editor/camera_controller.h"
+#include "app/editor/notices.h"
+#include "app/editor/viewport.h"
+#include "app/measure/cracks.h"
+#include "app/measure/error_job.h"
+#include "app/measure/pops.h"
+#include "app/measure/surface_costs.h"
+#include "app/scene/overlay_lines.h"
+#include "app/settings/settings.h"
+#include "planet/measure/lod_changes.h"
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace worldy {
+
+struct InstrumentsController {
+    ui::AllocationsView allocations;
+    bool markAllocations = false;  // with the next count, at this frame's end
+    planet::LodChanges changes;
+    Pops pops;
+    ui::ProbeView probe;
+    CrackInstrument cracks;
+    CostInstrument costs;
+    ErrorMeter errors;
+};
+
+// The parts of other features that commands to instruments use and change.
+struct InstrumentContext {
+    Scene* scene;  // null while no planet is open
+    ViewSettings& settings;
+    const planet::View& view;  // of the main picture
+    ChunkFocus& focus;
+    CameraController& camera;
+    const CameraContext& cameraContext;
+};
+void execute(InstrumentsController& instruments, const ui::InstrumentCommand& command,
+             const InstrumentContext& context, Notices& notices);
+
+// Another planet is shown: nothing is known of it.
+void forgetPlanet(InstrumentsController& instruments);
+
+// Call once the frame's pictures are drawn: goes on with what is measured over several frames, and turns off
+// features that are too slow.
+struct DrawnFrame {
+    Scene& scene;
+    const PlanetPicture& picture;  // the main one
+    const Settings& settings;
+    const ChunkFocus& focus;
+    std::uint64_t frame = 0;
+    double timeS = 0;
+};
+void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& drawn, const Log& log,
+                        ui::Commands& commands);
+
+// scene: null while no planet is shown. view: of the main picture. Holds until the instruments change.
+void fillView(const InstrumentsController& instruments, const Scene* scene, const ViewSettings& settings,
+              std::uint64_t frame, ui::EditorView& view);
+
+bool isShown(const Workspace& workspace, PanelId panel);
+
+}  // namespace worldy

@@ -1,0 +1,52 @@
+#include "app/editor/notices.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/flight/flight_record.h"
+
+namespace worldy {
+
+void show(Notices& notices, const std::string& text) {
+    notices.confirmation = {text, notices.timeS + confirmationS};
+}
+
+void confirm(Notices& notices, const std::string& text) {
+    confirm(notices, text, text);
+}
+
+void confirm(Notices& notices, const std::string& text, const std::string& logged) {
+    notices.log->info("{}", logged);
+    show(notices, text);
+}
+
+void tellError(Notices& notices, ui::Message message) {
+    notices.log->error("{}", message.text);
+    notices.message = std::move(message);
+}
+
+bool succeeded(Notices& notices, const planet::Result<void>& result, const std::string& failed) {
+    if (!result) tellError(notices, {failed, result.error().message, ""});
+    return result.has_value();
+}
+
+ui::Message openingFailed(const std::filesystem::path& file, const planet::Error& error) {
+    return {fmt::format("{} cannot be opened", file.filename().string()), error.message,
+            fmt::format("The open planet is kept. Fix the file or open another: a "
+                        "chunk file (.chk), an elevation image, a cube face, settings (.toml), a recorded "
+                        "flight ({}) or one of Worldy's own screenshots (.png).",
+                        recordedFlightEnding),
+            true};
+}
+
+void tellCannotOpen(Notices& notices, const std::filesystem::path& file, const planet::Error& error) {
+    tellError(notices, openingFailed(file, error));
+}
+
+bool mayChange(const char* what, bool replaying, const Log& log) {
+    if (replaying) log->warn("{} cannot be changed during a replay", what);
+    return !replaying;
+}
+
+}  // namespace worldy

@@ -1,0 +1,59 @@
+#include "app/editor/pictures.h"
+
+#include <vector>
+
+#include "app/editor/compare_controller.h"
+#include "app/scene/observer.h"
+#include "app/scene/overlay_colours.h"
+#include "app/scene/overlay_lines.h"
+
+namespace worldy {
+
+namespace {
+
+std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
+                                           const ViewSettings& settings, const ErrorMeter& errors) {
+    return chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
+                      errors.last ? &*errors.last : nullptr);
+}
+
+}  // namespace
+
+void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsController& instruments,
+                     bool comparing, const Log& log) {
+    Scene& scene = input.scene;
+    const ViewSettings settings = comparing ? comparedSettings(input.settings) : input.settings;
+    PictureContent content;
+    content.view = mainView(input.camera, viewport, input.settings.camera);
+    viewport.main.view = content.view;
+    if (!viewport.main.shown()) return;
+    const std::optional<KeptPicture> kept = keptPicture(scene.planet->tree(), instruments.pops);
+    if (kept) content.kept = KeptItems{kept->selection.draw, kept->stitched};
+    const planet::Selection& shown = kept ? kept->selection : scene.planet->selection();
+    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, instruments.errors);
+    content.tints = tints;
+    content.hiddenLines = linesOver(scene, shown, content.view, settings);
+    content.frontLines = focusLines(scene.planet->tree(), input.focus, content.view);
+    drawPicture(viewport, viewport.main, scene, settings, content, log);
+}
+
+void drawObserverPicture(Viewport& viewport, const PictureInput& input, const ErrorMeter& errors,
+                         const Log& log) {
+    if (!viewport.observer.shown()) return;
+    Scene& scene = input.scene;
+    const ViewSettings& settings = input.settings;
+    PictureContent content;
+    content.view = observerView(input.camera, viewport, settings.camera);
+    content.selection = observerSelection(scene, viewport, settings.camera);
+    const planet::Selection& shown = scene.planet->selection(content.selection);
+    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, errors);
+    content.tints = tints;
+    content.hiddenLines = linesOver(scene, shown, content.view, settings);
+    content.frontLines =
+        observerLines(*scene.planet, input.camera.lodView, settings.camera, input.focus.selected);
+    const planet::Lines focus = focusLines(scene.planet->tree(), input.focus, content.view);
+    content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());
+    drawPicture(viewport, viewport.observer, scene, settings, content, log);
+}
+
+}  // namespace worldy

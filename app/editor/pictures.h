@@ -1,0 +1,24 @@
+// Draws the planet's pictures of a frame: the main one and the observer's. Wants the window's GL context
+// current.
+#pragma once
+
+#include "app/editor/camera_controller.h"
+#include "app/editor/instruments_controller.h"
+#include "app/editor/viewport.h"
+
+namespace worldy {
+
+struct PictureInput {
+    Scene& scene;
+    const ViewSettings& settings;
+    const CameraController& camera;
+    const ChunkFocus& focus;
+};
+// Draws the frame before or after a pop instead where the user has asked for it. comparing: without the fill
+// light, as B.
+void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsController& instruments,
+                     bool comparing, const Log& log);
+void drawObserverPicture(Viewport& viewport, const PictureInput& input, const ErrorMeter& errors,
+                         const Log& log);
+
+}  // namespace worldy

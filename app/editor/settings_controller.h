@@ -1,0 +1,31 @@
+// The settings, their history and the presets. Main thread.
+#pragma once
+
+#include <string>
+
+#include "app/editor/notices.h"
+#include "app/editor/presets.h"
+#include "app/editor/undo.h"
+#include "app/settings/settings.h"
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace worldy {
+
+struct SettingsController {
+    Settings settings;
+    UndoHistory undo;
+    PresetLibrary presets{presetFolders()};
+};
+
+// Settings stay as they are while a replay runs, which restores them at its end.
+void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,
+             Notices& notices);
+
+// Replaces the view settings in a step of their history. name: as the undo menu shows it, "preset popping".
+void replaceView(SettingsController& controller, ViewSettings settings, std::string name);
+
+// Holds until the presets change.
+void fillView(SettingsController& controller, ui::EditorView& view);
+
+}  // namespace worldy

@@ -1,0 +1,222 @@
+#include "app/editor/sweep_controller.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+#include "app/base/output_file.h"
+#include "app/base/places.h"
+#include "app/data/write_check.h"
+#include "app/editor/overloaded.h"
+#include "app/flight/flight_path.h"
+#include "app/flight/flight_path_file.h"
+#include "app/measure/sweep_plot.h"
+#include "app/settings/screenshot.h"
+
+namespace worldy {
+
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Result;
+
+// Those of the open planet's bake. A bake by the defaults has brothers by the defaults: other sizes then have
+// the names by which worldy sweep and opening the source know them too.
+planet::BakeSettings bakeSettingsOf(const OpenPlanet& open) {
+    planet::BakeSettings usual;
+    usual.chunkSize = open.baked.settings.chunkSize;
+    const fs::path byDefault =
+        cachedBakeOf(open.baked.source, usual, open.baked.sourceSettings, open.data.bakedColour);
+    return byDefault == open.data.chunkFile ? usual : open.baked.settings;
+}
+
+Result<SweptFile> sweptFileOf(const OpenPlanet& open, int chunkSize) {
+    const int own = planet::chunkSize(open.scene.planet->tree().shape);
+    if (!planet::heightSourceExists(open.baked.source)) {
+        if (chunkSize == own) return SweptFile{own, open.data.chunkFile, false, open.baked.settings};
+        return planet::badInput(
+            fmt::format("{}: its source is missing, so only its own chunk size of {} can be swept; open the "
+                        "source instead",
+                        open.data.chunkFile.string(), own));
+    }
+    planet::BakeSettings settings = bakeSettingsOf(open);
+    settings.chunkSize = chunkSize;
+    if (chunkSize == own) return SweptFile{own, open.data.chunkFile, false, settings};
+    const Result<DataSet> data =
+        findDataSet(open.baked.source, settings, open.baked.sourceSettings, sweptColour);
+    if (!data) return tl::unexpected(data.error());
+    return SweptFile{chunkSize, data->chunkFile, data->needsBake, settings};
+}
+
+std::string messageOf(const planet::Error& error, const SweepController& controller) {
+    if (error.kind != planet::ErrorKind::Cancelled) return error.message;
+    return controller.suggesting ? "The search was cancelled." : "The sweep was cancelled.";
+}
+
+void takeWhatCame(SweepController& controller) {
+    if (!controller.suggesting) {
+        const std::vector<SweepPoint> points = controller.job->takePoints();
+        controller.table->points.insert(controller.table->points.end(), points.begin(), points.end());
+        return;
+    }
+    const std::vector<SweepSuggestion> found = controller.job->takeSuggestions();
+    controller.suggestions.insert(controller.suggestions.end(), found.begin(), found.end());
+}
+
+}  // namespace
+
+Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const SweepRequest& request,
+                              const ViewSettings& settings) {
+    SweepPlan plan{.source = open.baked.source,
+                   .sourceSettings = open.baked.sourceSettings,
+                   .files = {},
+                   .flight = request.flight,
+                   .tausPx = request.tausPx,
+                   .metrics = request.metrics,
+                   .frames = request.frames,
+                   .goal = request.goal,
+                   .size = {request.widthPx, request.heightPx},
+                   .view = settings};
+    std::vector<int> sizes = request.chunkSizes;
+    if (sizes.empty()) sizes.push_back(planet::chunkSize(open.scene.planet->tree().shape));
+    for (const int size : sizes) {
+        Result<SweptFile> file = sweptFileOf(open, size);
+        if (!file) return tl::unexpected(file.error());
+        plan.files.push_back(std::move(*file));
+    }
+    return plan;
+}
+
+void startSweep(SweepController& controller, const OpenPlanet* open, const SweepRequest& request,
+                const ViewSettings& settings, const Log& log) {
+    if (!open || controller.job) return;
+    controller.problem.clear();
+    // Before anything is baked for it.
+    const Result<FlightPath> path = loadFlightPath(request.flight);
+    Result<SweepPlan> plan =
+        path ? sweepPlanOf(*open, request, settings) : Result<SweepPlan>(tl::unexpected(path.error()));
+    if (!plan) {
+        controller.problem = plan.error().message;
+        log->error("{}", controller.problem);
+        return;
+    }
+    controller.suggesting = request.goal.has_value();
+    if (controller.suggesting) {
+        controller.suggestions.clear();
+    } else {
+        controller.table = SweepTable{.request = request,
+                                      .flight = path->name,
+                                      .source = open->data.source,
+                                      .points = {},
+                                      .whole = false};
+        controller.files = plan->files;
+        controller.bakeSource = plan->source;
+        controller.sourceSettings = plan->sourceSettings;
+    }
+    log->info("{} over {}", controller.suggesting ? "Searching for a tolerance" : "Sweeping", path->name);
+    controller.job = std::make_unique<SweepJob>(std::move(*plan));
+}
+
+void cancelSweep(SweepController& controller) {
+    if (controller.job) controller.job->cancel();
+}
+
+void advanceSweep(SweepController& controller, const Log& log) {
+    if (!controller.job) return;
+    const std::optional<Result<void>> result = controller.job->takeResult();
+    takeWhatCame(controller);
+    if (!result) return;
+    controller.job.reset();
+    if (!controller.suggesting) controller.table->whole = result->has_value();
+    if (*result) {
+        log->info("{}", controller.suggesting
+                            ? std::string("Found a tolerance")
+                            : fmt::format("Measured {} settings", controller.table->points.size()));
+        return;
+    }
+    controller.problem = messageOf(result->error(), controller);
+    const bool cancelled = result->error().kind == planet::ErrorKind::Cancelled;
+    log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
+}
+
+void openSweptChunks(const SweepController& controller, int chunkSize, Session& session,
+                     const ViewSettings& settings, const Log& log) {
+    const auto file = std::find_if(controller.files.begin(), controller.files.end(),
+                                   [&](const SweptFile& swept) { return swept.chunkSize == chunkSize; });
+    if (file == controller.files.end()) return;
+    BakeRequest request;
+    request.source = controller.bakeSource;
+    request.sourceSettings = controller.sourceSettings;
+    request.settings = file->bake;
+    openBake(session, request, file->chunkFile, settings, log);
+}
+
+Result<fs::path> saveSweep(const SweepController& controller, SweepCost cost, const fs::path& folder) {
+    if (!controller.table || !controller.table->whole)
+        return planet::badInput("There is no completed sweep to save");
+    std::vector<SweepPoint> points = controller.table->points;
+    markFront(points, cost);
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    const Result<fs::path> picture = newScreenshotFile(folder, local);
+    if (!picture) return picture;
+    fs::path table = *picture, report = *picture;
+    table.replace_extension(".csv");
+    report.replace_extension(".json");
+    Result<void> written = checkKinds({{table, OutputKind::Csv}, {report, OutputKind::Json}});
+    if (written) written = writeTextFile(table, sweepCsv(points));
+    if (written) {
+        const std::string json =
+            sweepJson(points, controller.table->source.string(), controller.table->flight, cost);
+        written = writeTextFile(report, json);
+    }
+    if (written) {
+        written = plotSweep(points, cost, controller.table->flight).and_then([&](const Picture& plot) {
+            return writePicture(plot, *picture);
+        });
+    }
+    if (written) return picture;
+    std::error_code status;
+    fs::remove(*picture, status);  // else an empty file would be left
+    return tl::unexpected(written.error());
+}
+
+void execute(SweepController& controller, const ui::SweepCommand& command, Session& session,
+             const ViewSettings& settings, Notices& notices) {
+    std::visit(Overloaded{
+                   [&](const ui::StartSweep& sweep) {
+                       startSweep(controller, shownPlanet(session), sweep.request, settings, notices.log);
+                   },
+                   [&](const ui::CancelSweep&) { cancelSweep(controller); },
+                   [&](const ui::SaveSweep& save) {
+                       const Result<fs::path> plot = saveSweep(controller, save.cost, picturesFolder());
+                       if (!plot)
+                           return tellError(notices, {"The sweep was not saved", plot.error().message, ""});
+                       confirm(
+                           notices, fmt::format("Sweep saved: {} (.png, .csv, .json)", plot->stem().string()),
+                           fmt::format("Sweep saved: {}, with its table as .csv and .json", plot->string()));
+                   },
+                   [&](const ui::OpenSweptChunks& open) {
+                       openSweptChunks(controller, open.chunkSize, session, settings, notices.log);
+                   },
+               },
+               command);
+}
+
+ui::SweepView sweepViewOf(const SweepController& controller) {
+    ui::SweepView view;
+    view.table = controller.table ? &*controller.table : nullptr;
+    view.suggestions = controller.suggestions;
+    view.problem = controller.problem;
+    if (!controller.job) return view;
+    view.running = true;
+    view.suggesting = controller.suggesting;
+    view.cancelling = controller.job->cancelling();
+    view.progress = controller.job->progress();
+    return view;
+}
+
+}  // namespace worldy

@@ -1,0 +1,85 @@
+#include "app/editor/window_controller.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/editor/overloaded.h"
+#include "app/settings/screenshot.h"
+#include "app/settings/settings_text.h"
+#include "app/settings/shot_line.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+// Returns the command line that repeats the main picture; needs a planet.
+std::string lineOf(const WindowContent& content) {
+    const planet::View& view = content.viewport.main.view;
+    const OpenPlanet& open = *shownPlanet(content.session);
+    const double radiusM = open.scene.planet->tree().shape.radiusM;
+    return shotLine(open.data.chunkFile, planet::poseFromView(view, radiusM), {view.widthPx, view.heightPx},
+                    content.settings.view, content.session.colourFile);
+}
+
+void copyCommandLine(const Window& window, const WindowContent& content, Notices& notices) {
+    if (!shownScene(content.session) || !content.camera.rig) return;
+    const std::string line = lineOf(content);
+    window.setClipboard(line);
+    notices.log->info("Copied: {}", line);
+    show(notices, "Command line copied");
+}
+
+// Returns true while a picture is drawn by other shaders than its settings ask for.
+bool showsStandIn(const WindowContent& content) {
+    const Scene* const scene = shownScene(content.session);
+    const auto& other = content.compare.other;
+    return (scene && scene->drawn.standIn) || (other && other->planet.scene.drawn.standIn);
+}
+
+ScreenshotNote noteOf(const WindowContent& content) {
+    ScreenshotNote note;
+    note.version = WORLDY_VERSION;
+    note.settings = settingsText(content.settings);
+    const OpenPlanet* open = shownPlanet(content.session);
+    if (!open || !content.camera.rig) return note;
+    note.camera = poseOf(content.camera.rig->camera, open->scene.planet->tree().shape.radiusM);
+    note.dataSet = open->data.source;
+    note.shotLine = lineOf(content);
+    return note;
+}
+
+}  // namespace
+
+void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
+             const WindowContent& content, Notices& notices) {
+    std::visit(Overloaded{
+                   [&](const ui::CopyCommandLine&) { copyCommandLine(window, content, notices); },
+                   [&](const ui::CopyText& text) { window.setClipboard(text.text); },
+                   [&](const ui::TakeScreenshot& screenshot) { controller.screenshotPending = screenshot; },
+                   [&](const ui::Quit&) { window.close(); },
+               },
+               command);
+}
+
+void keepScreenshot(WindowController& controller, const Window& window, const WindowContent& content,
+                    Notices& notices) {
+    if (!controller.screenshotPending || showsStandIn(content)) return;
+    const bool withPanels = std::exchange(controller.screenshotPending, std::nullopt)->withPanels;
+    const Viewport& viewport = content.viewport;
+    const PlanetPicture& shown = viewport.main.shown() ? viewport.main : viewport.observer;
+    const planet::gl::RenderTarget* target = shown.shownTarget();
+    if (!withPanels && !target) return;
+    const Picture picture =
+        withPanels ? window.readPicture() : Picture{target->widthPx(), target->heightPx(), target->readRgb()};
+    const Result<std::filesystem::path> file = writeNewScreenshot(picture, noteOf(content));
+    if (file)
+        confirm(notices, fmt::format("Screenshot: {}", file->filename().string()),
+                fmt::format("Screenshot: {}", file->string()));
+    else
+        tellError(notices, {"The screenshot was not saved", file.error().message, ""});
+}
+
+}  // namespace worldy

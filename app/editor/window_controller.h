@@ -1,0 +1,46 @@
+// The window's own state: panels, menus, screenshots, and the log that is shown. Main thread.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+
+#include "app/base/log_lines.h"
+#include "app/editor/camera_controller.h"
+#include "app/editor/compare_controller.h"
+#include "app/editor/notices.h"
+#include "app/editor/session.h"
+#include "app/editor/viewport.h"
+#include "app/editor/window.h"
+#include "app/settings/settings.h"
+#include "ui/model/commands.h"
+#include "ui/shell/menu_bar.h"
+#include "ui/shell/panels.h"
+
+namespace worldy {
+
+struct WindowController {
+    ui::PanelStates panels;
+    ui::MenuState menu;
+    std::deque<LogLine> logLines;
+    std::optional<ui::TakeScreenshot> screenshotPending;  // until a frame is drawn as it is set
+    std::filesystem::path itemMapFile;                    // for the positions of controls; empty: not written
+};
+
+// The content of the window that a screenshot shows and its command line repeats.
+struct WindowContent {
+    const Session& session;
+    const Settings& settings;
+    const CameraController& camera;
+    const CompareController& compare;
+    const Viewport& viewport;
+};
+void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
+             const WindowContent& content, Notices& notices);
+
+// Writes the screenshot that was asked for, if any, into a new file, with the settings that made it. Call
+// with the frame drawn but not yet shown. Waits for a frame that shows what the settings ask for.
+void keepScreenshot(WindowController& controller, const Window& window, const WindowContent& content,
+                    Notices& notices);
+
+}  // namespace worldy

@@ -1,0 +1,48 @@
+// The list of recent files.
+#include "app/editor/file_controller.h"
+
+#include <gtest/gtest.h>
+
+namespace worldy {
+namespace {
+
+struct FileControllerTest : testing::Test {
+    const Log log_;
+    Notices notices_{log_};
+    FileController files_;
+    Session session_;
+};
+
+TEST_F(FileControllerTest, AFileIsRecentOnceItIsOpenAndNotBefore) {
+    files_.opening = "/maps/good.tif";
+    session_.bake.emplace();
+    EXPECT_FALSE(followOpening(files_, session_, notices_));
+    EXPECT_TRUE(files_.recent.empty());
+    session_.bake.reset();
+    EXPECT_TRUE(followOpening(files_, session_, notices_));
+    EXPECT_EQ(files_.recent, (std::vector<std::filesystem::path>{"/maps/good.tif"}));
+    EXPECT_FALSE(followOpening(files_, session_, notices_));
+}
+
+TEST_F(FileControllerTest, AFileThatCannotBeBakedIsNotRecent) {
+    files_.opening = "/maps/bad.tif";
+    session_.problem = planet::Error{planet::ErrorKind::BadInput, "/maps/bad.tif: truncated or damaged"};
+    EXPECT_FALSE(followOpening(files_, session_, notices_));
+    EXPECT_TRUE(files_.recent.empty());
+    EXPECT_FALSE(files_.opening);
+    EXPECT_TRUE(notices_.message.title.empty());  // the viewport says so, since no planet is open
+}
+
+TEST_F(FileControllerTest, aRecordedFlightIsReplayed) {
+    SettingsController settings;
+    CameraController camera;
+    ui::Commands next;
+    execute(files_, ui::OpenFile{std::string("canyon") + recordedFlightEnding}, {session_, settings, camera},
+            notices_, next);
+    ASSERT_EQ(next.size(), 1u);
+    EXPECT_TRUE(next[0].as<ui::StartReplay>());
+    EXPECT_FALSE(files_.opening);
+}
+
+}  // namespace
+}  // namespace worldy
