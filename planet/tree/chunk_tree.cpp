@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "planet/base/try.h"
 #include "planet/sphere/geometric_error.h"
 #include "planet/tree/node_groups.h"
 
@@ -54,14 +55,15 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
     return {};
 }
 
-// A_l + A_l+1 + ... down to the leaves' parents: 0 at a leaf.
+// Returns A_l + A_l+1 + ... down to the leaves' parents; 0 at a leaf.
 double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
     double sum = 0;
     for (int level = fromLevel; level < leafLevel(shape); ++level) sum += curvatureErrorM(shape, level);
     return sum;
 }
 
-// What follows from the node's directions, its stored steps and metrics, and the tree's exaggeration.
+// Sets the values that follow from the node's directions, its stored steps and metrics, and the tree's
+// exaggeration.
 void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     const PlanetShape& shape = tree.shape;
     const double lowM = heightM(shape, node.minStep);
@@ -106,8 +108,8 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     return node;
 }
 
-// Where a ray from the planet's centre meets a triangle's plane, and how far inside the triangle: the least
-// of the three barycentric coordinates there, negative outside.
+// The point where a ray from the planet's centre meets the plane of a triangle. inside: the least of its
+// three barycentric coordinates, negative outside the triangle.
 struct TriangleHit {
     double radiusM = 0;
     double inside = -std::numeric_limits<double>::infinity();
@@ -127,7 +129,8 @@ TriangleHit hitTriangle(const glm::dvec3& direction, const glm::dvec3& a, const 
     return {radiusM, std::min({alongAb, alongAc, 1 - alongAb - alongAc})};
 }
 
-// The better of a cell's two triangles; the diagonal runs from (west, south) to (east, north).
+// Returns the hit that lies further inside its triangle, of the two triangles of a cell. The diagonal runs
+// from (west, south) to (east, north).
 TriangleHit hitCell(const PlanetShape& shape, const ChunkNode& node, int column, int row,
                     const glm::dvec3& direction) {
     const FaceSquare square = faceSquareOf(node.id);
@@ -175,9 +178,7 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
         const ChunkId id{face, 0, 0, 0};
         constexpr float anyM = std::numeric_limits<float>::max();
         const Limits limits{minStep, maxStep, anyM, anyM};
-        if (auto checked = checkChunk(shape, roots[index], id, limits); !checked) {
-            return tl::unexpected(std::move(checked.error()));
-        }
+        TRY(checkChunk(shape, roots[index], id, limits));
         tree.nodes.push_back(makeNode(tree, std::move(roots[index]), noNode, index));
     }
     tree.residentChunks = faceCount;
@@ -218,8 +219,7 @@ Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
     const Limits limits{above.minStep, above.maxStep, above.storedDeltaCM, above.storedDeltaTightM};
     for (int q = 0; q < quadrantCount; ++q) {
         const ChunkData& data = children[static_cast<std::size_t>(q)];
-        if (auto checked = checkChunk(tree.shape, data, childOf(above.id, q), limits); !checked)
-            return checked;
+        TRY(checkChunk(tree.shape, data, childOf(above.id, q), limits));
     }
     return {};
 }
@@ -240,28 +240,12 @@ NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, q
 }
 
 void removeChildren(ChunkTree& tree, NodeIndex parent) {
-    ChunkNode& above = tree.nodes[parent];
-    assert(above.childrenState == ChildrenState::Resident);
-    const NodeIndex first = above.firstChild;
-    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
-        assert(tree.nodes[child].childrenState != ChildrenState::Resident);
-        tree.nodes[child] = ChunkNode{};
-    }
-    tree.freeGroups.push_back(first);
-    above.firstChild = noNode;
-    changeState(above.childrenState, ChildrenState::Absent);
+    freeGroup(tree, parent);
     tree.residentChunks -= quadrantCount;
 }
 
 NodeIndex findNode(const ChunkTree& tree, const ChunkId& id) {
-    auto index = static_cast<NodeIndex>(id.face);
-    for (int level = 1; level <= id.level; ++level) {
-        const ChunkNode& node = tree.nodes[index];
-        if (node.childrenState != ChildrenState::Resident) return noNode;
-        const int below = id.level - level;
-        index = node.firstChild + ((id.x >> below) & 1) + 2 * ((id.y >> below) & 1);
-    }
-    return index;
+    return findResident(tree, id);
 }
 
 void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, const ChunkNode&)>& visit) {
@@ -319,7 +303,7 @@ double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
 }
 
 std::size_t chunkBytesCpu(const PlanetShape& shape) {
-    // The heights' vector and the counts of those who share it lie in one allocation beside them.
+    // The vector of heights and its reference counts lie in another allocation.
     constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
     return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
            sharing;

@@ -92,7 +92,7 @@ void chunkFiles(const fs::path& folder) {
     baked("two_levels_of_colours.chk", 17, ColourFormat::Bc1, 513);
     Bytes old = read(folder / "heights.chk");
     constexpr std::size_t versionAt = 8;
-    test::putAt(std::span(old), versionAt, oldestChunkFileVersion);
+    test::putAt(std::span(old), versionAt, chunkFileVersion - 1);
     test::resealHeader(old);
     write(folder / "version_2.chk", old);
 }
