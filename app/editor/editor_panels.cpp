@@ -20,7 +20,7 @@ namespace {
 
 // wiped: null, or what its divider changes.
 void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
-                   CompareKnobs* wiped = nullptr) {
+                   CompareSettings* wiped = nullptr) {
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
@@ -42,7 +42,7 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
 
 void viewportWindows(const ui::EditorView& view, float pixelRatio, Editor& editor, ui::Commands& commands) {
     Viewport& viewport = editor.viewport;
-    CompareKnobs& compare = editor.settings.view.compare;
+    CompareSettings& compare = editor.settings.view.compare;
     const bool wiping = view.compare.on && compare.mode == CompareMode::Wipe;
     pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
     if (viewport.main.shown()) {

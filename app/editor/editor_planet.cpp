@@ -142,7 +142,6 @@ void record(planet::Planet& planet, Editor& editor, const Log& log) {
 // Settings that choose and load come from the recording alone; the others may be changed meanwhile.
 void holdRecordedSettings(const ViewSettings& recorded, ViewSettings& settings) {
     settings.lod = recorded.lod;
-    settings.seams = recorded.seams;
     settings.paging = recorded.paging;
     settings.overlay.cube = recorded.overlay.cube;
     settings.surface.exaggeration = recorded.surface.exaggeration;
@@ -166,7 +165,7 @@ void replay(Scene& scene, Editor& editor, const Log& log, double seconds) {
         },
         [&](const ViewSettings& recorded, bool pagingPaused) {
             const CameraSettings camera = editor.settings.view.camera;
-            const CompareKnobs compare = editor.settings.view.compare;
+            const CompareSettings compare = editor.settings.view.compare;
             editor.settings.view = recorded;
             editor.settings.view.camera = camera;
             editor.settings.view.compare = compare;
@@ -249,7 +248,7 @@ void probe(const Scene& scene, Editor& editor) {
     const planet::Planet& planet = *scene.planet;
     const ProbeInput input{planet.tree(), planet.selection(), picture.view,
                            scene.renderer.chunks().projection(),
-                           editor.settings.view.seams.mode == planet::SeamMode::Stitched};
+                           editor.settings.view.lod.seams == planet::SeamMode::Stitched};
     editor.probe.overGround = false;
     if (picture.shown() && picture.pointer.over) {
         const std::optional<planet::SurfaceHit> hit =
@@ -338,7 +337,7 @@ FrameStats runPlanet(Scene& scene, float pixelRatio, Editor& editor, Log& log, d
     drawCompared(editor.compare, editor.viewport, editor.settings.view, editor.focus,
                  counting && !scene.drawn.standIn, log);
     drawObserverPicture(scene, pixelRatio, editor, log);
-    const CrackKnobs& cracks = editor.settings.view.cracks;
+    const CrackSettings& cracks = editor.settings.view.cracks;
     const auto every = static_cast<std::uint64_t>(cracks.everyFrames);
     if (cracks.live && editor.frames % every == 0) commands.emplace_back(ui::MeasureCracks{});
     measureCosts(scene, editor.costs);

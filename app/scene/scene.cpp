@@ -134,21 +134,9 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& s
 }
 
 planet::LodSettings lodSettingsOf(const ViewSettings& settings) {
-    planet::LodSettings lod;
-    lod.metric = settings.lod.metric;
-    lod.tauPx = settings.lod.tauPx;
-    lod.hysteresis = settings.lod.hysteresis;
-    lod.maxLevel = settings.lod.maxLevel;
-    // Bounds are those of the sphere; on the cube they would cut away what is in view.
-    lod.frustumCulling = settings.lod.frustumCulling && !settings.overlay.cube;
-    lod.horizonCulling = settings.lod.horizonCulling && !settings.overlay.cube;
-    lod.morph = settings.lod.morph;
-    lod.morphRange = settings.lod.morphRange;
-    lod.fadeS = settings.lod.fadeS;
-    lod.seams = settings.seams.mode;
-    lod.skirtDepth = settings.seams.depth;
-    lod.skirtDepthM = settings.seams.skirtDepthM;
-    lod.skirtFactor = settings.seams.skirtFactor;
+    planet::LodSettings lod = settings.lod;
+    // Bounds are those of the sphere, so culling would remove visible parts of the cube.
+    if (settings.overlay.cube) lod.frustumCulling = lod.horizonCulling = false;
     return lod;
 }
 
@@ -203,7 +191,7 @@ planet::gl::RenderSettings renderSettingsOf(const ViewSettings& settings, const 
     render.wireframe = overlay.wireframe;
     render.outlines = overlay.outlines;
     render.skirtPaint = overlay.skirtPaint;
-    render.stitched = settings.seams.mode == planet::SeamMode::Stitched;
+    render.stitched = settings.lod.seams == planet::SeamMode::Stitched;
     render.cube = overlay.cube;
     render.atmosphere = surface.atmosphere && !overlay.cube;
     render.lighting = surface.lighting;
@@ -257,7 +245,7 @@ void drawScene(Scene& scene, const planet::View& renderView, const ViewSettings&
                std::size_t selection, std::span<const planet::gl::ChunkTint> tints,
                planet::gl::ShaderWait wait) {
     drawItems(scene, renderView, settings, scene.planet->selection(selection).draw,
-              settings.seams.mode == planet::SeamMode::Stitched, tints, wait);
+              settings.lod.seams == planet::SeamMode::Stitched, tints, wait);
 }
 
 void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings& asked,
