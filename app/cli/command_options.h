@@ -71,8 +71,7 @@ planet::Result<void> checkSpellings(std::span<const char* const> arguments);
 
 // Add an option or a flag that sets a setting. The help, the range and the errors of an option are those of the schema.
 // A flag sets the assignments.
-CLI::Option& addSettingOption(CLI::App& command, const char* option, const Field& field,
-                              ViewTexts& view);
+CLI::Option& addSettingOption(CLI::App& command, const char* option, const Field& field, ViewTexts& view);
 CLI::Option& addSettingFlag(CLI::App& command, const char* flag, std::vector<std::string> assignments,
                             const char* help, ViewTexts& view);
 // Returns a validator that accepts the values of a setting.

@@ -65,6 +65,7 @@ TEST_F(SettingControlsTest, aListHasTheLabelsOfTheEnumerators) {
     const auto frame = [&] { window_.frame([&] { control(settings_.overlay.colourBy); }); };
     frame();
     window_.click("/overlay.colour_by", 0.5f, frame);
+    frame();
     EXPECT_TRUE(window_.isShown("Colour by: load order"));
     window_.click("Colour by: load order", 0.5f, frame);
     EXPECT_EQ(settings_.overlay.colourBy, ColourBy::LoadOrder);
