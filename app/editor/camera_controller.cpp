@@ -7,7 +7,6 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "app/editor/overloaded.h"
 #include "app/scene/observer.h"
 
 namespace worldy {

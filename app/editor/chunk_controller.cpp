@@ -5,7 +5,6 @@
 
 #include "app/editor/overloaded.h"
 #include "planet/measure/pick.h"
-#include "planet/planet_tools.h"
 
 namespace worldy {
 

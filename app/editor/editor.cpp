@@ -14,6 +14,7 @@
 #include "app/editor/overloaded.h"
 #include "app/editor/pictures.h"
 #include "app/editor/shortcuts.h"
+#include "planet/planet_tools.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/status_bar.h"
 

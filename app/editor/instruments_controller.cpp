@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "app/editor/instrument_views.h"
-#include "app/editor/overloaded.h"
 #include "app/measure/probe.h"
 #include "planet/measure/pick.h"
 

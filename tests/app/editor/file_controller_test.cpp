@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/flight/flight_record.h"
+
 namespace worldy {
 namespace {
 

@@ -6,7 +6,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <sstream>
 
 #include "app/flight/selection_hash.h"
 #include "tests/app/session_fixture.h"

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <utility>
-#include <variant>
 
 #include "app/data/worlds.h"
 #include "tests/support/panel_fixture.h"
