@@ -6,7 +6,6 @@
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/draw/chunk_instances.h"
@@ -39,9 +38,10 @@ struct Member {
     Member {                                    \
 #member, offsetof(Type, member), inside \
     }
-#define STRUCTS(Type, member, inside)                                                           \
-    Member {                                                                                    \
-#member, offsetof(Type, member), inside, Type{}.member.size(), sizeof(Type{}.member[0]) \
+#define STRUCTS(Type, member, inside)                                                         \
+    Member {                                                                                  \
+#member, offsetof(Type, member), inside, std::tuple_size_v < decltype(Type::member)>, \
+            sizeof(decltype(Type::member)::value_type)                                        \
     }
 
 const std::vector<Member> faceMembers = {
