@@ -31,7 +31,7 @@ Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& call
         return systemError(path, "cannot be written");
     }
     if (S_ISREG(there.st_mode)) return {};
-    return ioError(path.string() + ": is a folder or a device; name a file");
+    return ioError(path.string() + ": is a folder or a device; expected a file");
 }
 
 // Returns false if the last writer has renamed or removed the file that is now locked.

@@ -80,7 +80,7 @@ Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path, const FileC
     if (uninterrupted([&] { return calls.fstat(file->descriptor(), &status); }) != 0)
         return ioError(fmt::format("{}: cannot be read: {}", file->name(), lastSystemError()));
     if (!S_ISREG(status.st_mode))
-        return badInput(fmt::format("{}: not a file; name a baked chunk file", file->name()));
+        return badInput(fmt::format("{}: is not a file; expected a baked chunk file", file->name()));
     return open(file->name(), static_cast<std::uint64_t>(status.st_size),
                 [file](std::uint64_t offset, std::span<std::byte> out) { return file->read(offset, out); });
 }

@@ -70,15 +70,15 @@ int pngBits(const std::filesystem::path& path) {
 Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec, bool colour) {
     const std::string file = path.string();
     if (colour && (spec.nchannels < 1 || spec.nchannels > 4)) {
-        return badInput(fmt::format("{}: expected a grey or an RGB image, found {} channels ({})", file,
+        return badInput(fmt::format("{}: has {} channels ({}); expected a grey or an RGB image", file,
                                     spec.nchannels, channelNames(spec)));
     }
     if (!colour && spec.nchannels != 1) {
-        return badInput(fmt::format("{}: expected one grey channel, found {} ({})", file, spec.nchannels,
-                                    channelNames(spec)));
+        return badInput(fmt::format("{}: has {} channels ({}); expected one grey channel", file,
+                                    spec.nchannels, channelNames(spec)));
     }
     if (spec.deep || spec.depth > 1) {
-        return badInput(fmt::format("{}: expected a flat image, found a deep or volume image", file));
+        return badInput(fmt::format("{}: is a deep or volume image; expected a flat image", file));
     }
     if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
         return badInput(fmt::format("{}: is {} x {} samples; expected [1, {}] per side", file, spec.width,
@@ -163,7 +163,7 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
     if (!reader) {
         OIIO::geterror();  // about its plug-ins or its decoders; kept for the next failure if nobody takes it
         return badInput(fmt::format(
-            "{}: not an image that can be read; expected GeoTIFF, TIFF, PNG, JPEG or another image format",
+            "{}: is not a readable image; expected GeoTIFF, TIFF, PNG, JPEG or another image format",
             path.string()));
     }
     TRY_ASSIGN(auto layout, layoutOf(path, reader->spec(), colourChannel.has_value()));

@@ -26,31 +26,33 @@ struct Limits {
 Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const ChunkId& id,
                         const Limits& limits) {
     const std::string name = toString(id);
-    if (data.id != id) return badInput(fmt::format("chunk {}: got chunk {}", name, toString(data.id)));
+    if (data.id != id)
+        return badInput(fmt::format("chunk {}: id: {} is wrong; expected {}", name, toString(data.id), name));
     if (data.heights.size() != static_cast<std::size_t>(chunkVertexCount(shape))) {
-        return badInput(
-            fmt::format("chunk {}: {} heights, not {}", name, data.heights.size(), chunkVertexCount(shape)));
+        return badInput(fmt::format("chunk {}: {} heights; expected {}", name, data.heights.size(),
+                                    chunkVertexCount(shape)));
     }
     if (!(data.deltaCM >= 0 && data.deltaCM <= limits.deltaCM)) {
-        return badInput(
-            fmt::format("chunk {}: delta_c {} m is not within [0, {}]", name, data.deltaCM, limits.deltaCM));
+        return badInput(fmt::format("chunk {}: delta_c: {} m is out of range; expected [0, {}] m", name,
+                                    data.deltaCM, limits.deltaCM));
     }
     const float mostTightM = std::min(data.deltaCM, limits.deltaTightM);
     if (!(data.deltaTightM >= 0 && data.deltaTightM <= mostTightM)) {
-        return badInput(fmt::format("chunk {}: a tight metric of {} m is not within [0, {}]", name,
+        return badInput(fmt::format("chunk {}: tight metric: {} m is out of range; expected [0, {}] m", name,
                                     data.deltaTightM, mostTightM));
     }
     if (data.minStep > data.maxStep || data.minStep < limits.minStep || data.maxStep > limits.maxStep) {
-        return badInput(fmt::format("chunk {}: steps from {} to {} are not within [{}, {}]", name,
-                                    data.minStep, data.maxStep, limits.minStep, limits.maxStep));
+        return badInput(fmt::format("chunk {}: extremes: steps {} to {} are out of range; expected [{}, {}]",
+                                    name, data.minStep, data.maxStep, limits.minStep, limits.maxStep));
     }
     const auto [lowest, highest] = std::minmax_element(data.heights.begin(), data.heights.end());
     if (*lowest < data.minStep || *highest > data.maxStep) {
-        return badInput(fmt::format("chunk {}: heights from step {} to {} are not within its [{}, {}]", name,
-                                    *lowest, *highest, data.minStep, data.maxStep));
+        return badInput(
+            fmt::format("chunk {}: heights: steps {} to {} are out of range; expected its extremes, [{}, {}]",
+                        name, *lowest, *highest, data.minStep, data.maxStep));
     }
     if (id.level >= leafLevel(shape) && data.children.exists()) {
-        return badInput(fmt::format("chunk {}: children below the finest level", name));
+        return badInput(fmt::format("chunk {}: has children below the finest level; expected none", name));
     }
     return {};
 }
