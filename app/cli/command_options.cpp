@@ -7,9 +7,7 @@
 #include <bit>
 #include <charconv>
 #include <functional>
-#include <utility>
 
-#include "app/measure/sweep_points.h"
 #include "app/settings/setting_value.h"
 #include "app/settings/view_options.h"
 

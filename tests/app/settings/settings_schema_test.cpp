@@ -1,9 +1,11 @@
 #include "app/settings/settings_schema.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -12,7 +14,6 @@
 
 #include "app/cli/command_options.h"
 #include "app/cli/settings_command.h"
-#include "app/settings/setting_value.h"
 #include "app/settings/settings_text.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/kit/setting_controls.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "tests/support/panel_fixture.h"
-#include "ui/model/font_symbols.h"
 
 namespace worldy::ui {
 namespace {

@@ -1,7 +1,6 @@
 #include "ui/panels/light/air_controls.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include "app/base/text.h"
 #include "ui/kit/feature_control.h"

@@ -1,7 +1,5 @@
 #include "ui/panels/light/light_panel.h"
 
-#include <imgui.h>
-
 #include "ui/kit/feature_control.h"
 #include "ui/kit/widgets.h"
 #include "ui/panels/light/air_controls.h"
