@@ -1,6 +1,6 @@
 // worldy audit: whether thresholds mean what they say. Settles at each view, measures the true error of every
-// drawn chunk (planet/measure/true_error.h) beside the bound of what is drawn, and counts what is over it. Needs no
-// GL.
+// drawn chunk (planet/measure/true_error.h) beside the bound of what is drawn, and counts what is over it.
+// Needs no GL.
 #pragma once
 
 #include <filesystem>

@@ -57,7 +57,7 @@ Result<OpenPlanet> openFor(const ui::StartCompare& wanted, const Session& sessio
     return openBeside(session, shownPlanet(session)->data, settings);
 }
 
-// Of the planet; a drawn picture stretches nothing.
+// Returns the planet's radius, metres. Vertical exaggeration does not change it.
 double radiusOf(const Scene& scene) {
     return scene.planet->tree().shape.radiusM;
 }
@@ -92,7 +92,7 @@ planet::gl::PictureMix mixOf(const CompareKnobs& knobs, int widthPx) {
     return {};
 }
 
-// What both pictures are mixed into, and by.
+// Creates the comparer and the render target that both pictures are mixed into, unless they exist.
 Result<void> prepareMixing(CompareController& controller, const planet::gl::RenderTarget& like) {
     if (!controller.comparer) {
         Result<planet::gl::PictureComparer> comparer = planet::gl::PictureComparer::create();

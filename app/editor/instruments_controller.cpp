@@ -145,8 +145,4 @@ void fillView(const InstrumentsController& instruments, const Scene* scene, cons
     view.light.air = scene->renderer.chunks().airFigures();
 }
 
-bool isShown(const Workspace& workspace, PanelId panel) {
-    return workspace.panels[static_cast<std::size_t>(panel)].shown;
-}
-
 }  // namespace worldy

@@ -60,6 +60,4 @@ void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& dr
 void fillView(const InstrumentsController& instruments, const Scene* scene, const ViewSettings& settings,
               std::uint64_t frame, ui::EditorView& view);
 
-bool isShown(const Workspace& workspace, PanelId panel);
-
 }  // namespace worldy

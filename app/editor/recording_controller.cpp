@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// So long may a frame of the window be busy with replaying, so that it can still be used.
+// The most time per frame that replaying may take, so that the window stays responsive.
 constexpr double busyMs = 25;
 
 bool hasFlight(const RecordingController& controller, const std::string& name) {
@@ -78,7 +78,7 @@ Result<void> rewind(RunningReplay& running, Scene& scene) {
     ViewSettings settings;
     for (const CalledInFlight& called : running.replay.record().frames[0].calls)
         static_cast<void>(applyFlightSettings(called.settings, settings));
-    // What was refused before is refused again rather than passed over, and then the planet stays as it is.
+    // Paging settings that were refused before are tried again, so that the replay reports the refusal.
     scene.refusedPaging.reset();
     if (Result<void> applied = applyLiveSettings(scene, settings, false, timeOf(running)); !applied)
         return applied;
@@ -242,7 +242,7 @@ BeforeReplay stopReplay(RecordingController& controller, Scene* scene) {
 
 Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
                            const ReplayWatcher& watcher) {
-    // What is drawn is counted from here, as it is from a step of the scene.
+    // A step of the scene resets these counters too.
     scene.drawCpuMs = 0;
     scene.drawn = {};
     FlightReplay& replay = running.replay;

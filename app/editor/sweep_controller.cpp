@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// Those of the open planet's bake. A bake by the defaults has brothers by the defaults: other sizes then have
-// the names by which worldy sweep and opening the source know them too.
+// Returns the settings of the open planet's bake. If they are the defaults, other chunk sizes are baked by
+// the defaults too, so that their files have the names that `worldy sweep` and opening the source look for.
 planet::BakeSettings bakeSettingsOf(const OpenPlanet& open) {
     planet::BakeSettings usual;
     usual.chunkSize = open.baked.settings.chunkSize;

@@ -1,5 +1,5 @@
-// What a setting costs, and how true what it shows is, over a flight: settled at some moments of it, evenly
-// spread, so that the figures are those of the setting and not of the disk.
+// Measures the cost of a setting and its true error over a flight. The planet is settled at each of some
+// evenly spaced sample frames, so that the figures are those of the setting and not of the disk.
 #pragma once
 
 #include <functional>

@@ -11,14 +11,15 @@
 
 namespace worldy {
 
-// Holds the smallest skirts that leave no pixel uncovered, found by bisection. Each value is the upper end of an
-// interval 0.5 % wide.
+// Holds the smallest skirts that leave no pixel uncovered, found by bisection. Each value is the upper end of
+// an interval 0.5 % wide.
 struct SmallestSkirts {
     double depthM = 0;  // the same depth for all chunks
     double factor = 0;  // multiplies the automatic depth; infinity: no factor up to 1000 suffices
 };
 
-// Holds the cracks of one view. Chunks are named by id, so that the measurement stays valid after they are evicted.
+// Holds the cracks of one view. Chunks are named by id, so that the measurement stays valid after they are
+// evicted.
 struct CrackMeasurement {
     planet::View view;
     planet::View lodView;  // the view that chose the drawn chunks; differs from view while LOD is frozen
@@ -33,8 +34,8 @@ struct CrackMeasurement {
     double tookMs = 0;
 };
 
-// Returns why there are crack pixels although no gap is 0.5 mm wide; empty if there are no crack pixels or a gap
-// is that wide.
+// Returns why there are crack pixels although no gap is 0.5 mm wide; empty if there are no crack pixels or a
+// gap is that wide.
 inline const char* roundingNote(std::size_t crackPixels, double worstGapM) {
     return crackPixels > 0 && worstGapM < 0.0005
                ? "All gaps are below 0.5 mm: cracks at T-junctions come from rounding."

@@ -27,8 +27,8 @@ inline constexpr int mostPopsFrames = 10'000'000;
 // Told again and again what share of a flight is done, [0, 1]; false ends it with an Error of kind Cancelled.
 using PopsFlightWatch = std::function<bool(double share)>;
 
-// stepS: of the flight's time between two frames, > 0. software: the CPU draws, and a sea that is Automatic is
-// not drawn as water. The Error says what could not be loaded.
+// stepS: of the flight's time between two frames, > 0. software: the CPU draws, and a sea that is Automatic
+// is not drawn as water. The Error says what could not be loaded.
 planet::Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
                                       const ViewSettings& settings, const PictureSize& size, double stepS,
                                       bool software, const PopsFlightWatch& goOn);

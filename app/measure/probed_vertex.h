@@ -5,8 +5,8 @@
 
 namespace worldy {
 
-// Holds the smallest distance of two surfaces that the depth buffer can separate, in metres. A value is infinity
-// where the buffer cannot separate any.
+// Holds the smallest distance of two surfaces that the depth buffer can separate, in metres. A value is
+// infinity where the buffer cannot separate any.
 struct DepthSteps {
     double aheadM = 0;  // distance along the view direction
     double reversedFloatM = 0;

@@ -39,7 +39,7 @@ struct SweepProgress {
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
     double tauPx = 0;                          // 0 before the first flight
     std::optional<planet::BakeProgress> bake;  // set while a bake is running
-    std::optional<double> leftS;               // estimate in seconds; empty before the first sample frame is done
+    std::optional<double> leftS;  // estimate in seconds; empty before the first sample frame is done
 };
 
 }  // namespace worldy

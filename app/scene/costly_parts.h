@@ -25,8 +25,8 @@ struct TurnedDown {
     bool has(CostlyPart part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-// Holds the time of the picture without and with one part, drawn in turn: medians of the rounds, in ms. The picture
-// without the part shows only the lit ground.
+// Holds the time of the picture without and with one part, drawn in turn: medians of the rounds, in ms. The
+// picture without the part shows only the lit ground.
 struct PartCost {
     std::string part;
     double withoutMs = 0;

@@ -36,9 +36,9 @@ Picture readPicture(const Offscreen& offscreen);
 
 // The view from a pose, once everything for it is loaded. Its selection does not depend on earlier views:
 // hysteresis and fades begin without a memory. What is resident stays, and with it a small budget and the
-// height of the ground may still depend on earlier views; PlanetTools::startAnew() excludes that too. A camera
-// below the ground is lifted above it. goOn is called several times a second; when it returns false, the view
-// is left unsettled.
+// height of the ground may still depend on earlier views; PlanetTools::startAnew() excludes that too. A
+// camera below the ground is lifted above it. goOn is called several times a second; when it returns false,
+// the view is left unsettled.
 struct SettledView {
     planet::View view;
     planet::CameraPose pose;

@@ -59,7 +59,8 @@ struct Field {
 // Grouped by table, in the order of the file. They point into the settings.
 std::vector<Field> fieldsOf(Settings& settings);
 
-// Of ViewSettings, what a preset holds; the others are the data set, the camera and the window.
+// Returns true if the table belongs to ViewSettings, which presets hold. The others hold the data set, the
+// camera and the window.
 bool isViewTable(std::string_view table);
 
 // The field of that name, or of the name that it had in former versions; null where there is none.

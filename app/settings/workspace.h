@@ -24,8 +24,8 @@ constexpr std::array<PanelPlace, panelCount> firstPlaces() {
 
 enum class Theme : std::uint8_t { Dark, Light };
 
-// Holds the arrangement of the window. It is kept between runs. Sizes are in units of a 13 px font, so that they fit
-// any monitor.
+// Holds the arrangement of the window. It is kept between runs. Sizes are in units of a 13 px font, so that
+// they fit any monitor.
 struct Workspace {
     double leftWidth = 300;     // [160, 1000]
     double rightWidth = 310;    // [160, 1000]
@@ -38,5 +38,9 @@ struct Workspace {
 
     bool operator==(const Workspace&) const = default;
 };
+
+inline bool isShown(const Workspace& workspace, PanelId panel) {
+    return workspace.panels[static_cast<std::size_t>(panel)].shown;
+}
 
 }  // namespace worldy

@@ -1,5 +1,5 @@
-// Checks who knows whom: .ci/layers itself, outside headers in the sources' include lines, and the symbols that the
-// built libraries ask others for.
+// Checks who knows whom: .ci/layers itself, outside headers in the sources' include lines, and the symbols
+// that the built libraries ask others for.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Draws one panel into a PNG, without a window:
 //     panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]
-// To look at what a change does to a panel. PANEL is a key of app/settings/panel_list.h, as "quadtree"; with failing
-// some blocks cannot be read; ITEM is what ui/kit/item_map.h calls it, and is clicked before.
+// To look at what a change does to a panel. PANEL is a key of app/settings/panel_list.h, as "quadtree"; with
+// failing some blocks cannot be read; ITEM is what ui/kit/item_map.h calls it, and is clicked before.
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 

@@ -19,7 +19,8 @@ struct Column {
 
 // Returns whether the current window is wide enough for columns side by side, each as wide as it needs.
 bool hasWideRoom(std::span<const Column> columns = {});
-// Divides a width among columns by their shares, pixels; each gets at least what it needs if all of that fits.
+// Divides a width among columns by their shares, pixels; each gets at least what it needs if all of that
+// fits.
 std::vector<float> sideBySideWidths(std::span<const Column> columns, float width);
 // Side by side each column scrolls by itself and fills the height that is left.
 void drawColumns(const char* id, std::span<const Column> columns);

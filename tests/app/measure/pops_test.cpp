@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "app/base/plot_scale.h"
+#include "app/editor/instrument_views.h"
 #include "planet/planet_tools.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "tests/support/sudden_lod.h"
 #include "ui/shell/panels.h"
-#include "app/editor/instrument_views.h"
 
 namespace worldy {
 namespace {

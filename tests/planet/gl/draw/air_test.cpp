@@ -392,8 +392,8 @@ TEST_F(AirPicture, NoPixelIsBlackByDayWhereverTheEyeIs) {
     }
 }
 
-// Rays that fall from the eye to a black plateau beyond the horizon rise again before they end, behind some 100 km of
-// air: all of it is bright.
+// Rays that fall from the eye to a black plateau beyond the horizon rise again before they end, behind some
+// 100 km of air: all of it is bright.
 TEST_F(AirPicture, AnalyticAirLiesBeforeHighGroundAtTheHorizonToo) {
     TestPlanet plateau({}, 384);
     plateau.addLevel(3, [](const glm::dvec3& d) { return d.y > 0.015 ? 8000.0 : 0.0; });
