@@ -7,7 +7,6 @@
 #include <bit>
 #include <charconv>
 
-#include "app/measure/sweep_points.h"
 #include "app/settings/view_options.h"
 
 namespace worldy {

@@ -12,7 +12,6 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
-#include "ui/model/recording_view.h"
 
 namespace worldy::ui {
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "app/scene/overlay_colours.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/chunk_labels.h"
