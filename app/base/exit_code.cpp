@@ -29,7 +29,7 @@ int reportError(const planet::Error& error) {
 void occupyStandardStreams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-        // The mode is the wrong one, so that text written to a closed stream is an error and not lost.
+        // The opposite mode makes writing to a closed stream an error instead of losing the text.
         ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
 }
@@ -46,7 +46,7 @@ int afterStandardOutput(int exitCode) {
     flushStandardOutput();
     if (std::ferror(stdout) == 0 && outputError == 0) return exitCode;
     const std::string why =
-        outputError == 0 ? std::string("a write failed") : std::generic_category().message(outputError);
+        outputError == 0 ? "a write failed" : std::generic_category().message(outputError);
     const int failed =
         reportError({planet::ErrorKind::Io,
                      fmt::format("standard output: cannot be written: {}; output truncated", why)});

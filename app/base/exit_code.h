@@ -1,4 +1,4 @@
-// What the program ends with, and how it says why.
+// The exit codes of the program and its error output.
 #pragma once
 
 #include "planet/base/result.h"
@@ -6,24 +6,24 @@
 namespace worldy {
 
 inline constexpr int exitOk = 0;
-inline constexpr int exitCheckFailed = 1;  // what was to be checked is there and wrong
+inline constexpr int exitCheckFailed = 1;  // the checked data is readable and wrong
 inline constexpr int exitBadInput = 2;     // bad input, or reading or writing failed
 inline constexpr int exitCancelled = 130;
 
-// Writes "worldy: message" to stderr; the code that the program must end with.
+// Writes "worldy: message" to stderr. Returns the exit code.
 int reportError(const planet::Error& error);
 
-// Opens /dev/null in the place of each standard stream that is closed. Else the next file that is opened
-// would take its number, and with it the text that is meant for the terminal.
+// Opens /dev/null in the place of each closed standard stream. Otherwise the next opened file would take its
+// descriptor and receive the text for the terminal.
 void occupyStandardStreams();
 
-// Flushes standard output, and keeps the reason if that fails for afterStandardOutput. Use it in place of
-// std::fflush, which leaves the reason to whatever fails next.
+// Flushes standard output and keeps the errno of a failure for afterStandardOutput. Use it instead of
+// std::fflush.
 void flushStandardOutput();
-// Keeps an errno for the same, of a write to standard output that has just failed.
+// Keeps the errno of a failed write to standard output for afterStandardOutput.
 void keepOutputError(int error);
 
-// Flushes standard output. Returns exitCode, or where text was lost writes why to stderr and returns
+// Flushes standard output and returns exitCode. If text was lost, writes the reason to stderr and returns
 // exitBadInput instead of exitOk and exitCheckFailed. Call last.
 int afterStandardOutput(int exitCode);
 

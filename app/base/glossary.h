@@ -1,7 +1,5 @@
-// The terms for what Worldy counts and measures: one name for one thing, the same in the window, in JSON and
-// in CSV. app/README.md holds the same table. Before a key, "worst_" and "p99_" stand for the largest value
-// and the 99th percentile over all drawn chunks, "mean_" and "most_" for the mean and the largest value over
-// the sample frames of a flight.
+// The terms for the quantities that Worldy counts and measures: one name per quantity in the window, in JSON
+// and in CSV. app/README.md holds the same table and explains the prefixes of keys.
 #pragma once
 
 #include <array>

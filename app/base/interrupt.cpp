@@ -7,7 +7,7 @@ namespace worldy {
 
 namespace {
 
-// A signal handler has nothing but globals to write to.
+// A signal handler can only write to globals.
 std::atomic<bool> interruptSeen{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

@@ -1,9 +1,9 @@
-// Ctrl-C as a question that a long piece of work asks now and then.
+// Lets long work poll for Ctrl-C.
 #pragma once
 
 namespace worldy {
 
-// While one lives, SIGINT and SIGTERM set a flag instead of ending the program. One at a time.
+// While it exists, SIGINT and SIGTERM set a flag instead of ending the program. Only one may exist at a time.
 class InterruptWatch {
 public:
     InterruptWatch();

@@ -1,4 +1,4 @@
-// The log: to the terminal, and into the lines that the log panel shows.
+// The log, which writes to the terminal and keeps lines for the log panel.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -12,7 +12,7 @@
 
 namespace worldy {
 
-// Writing is safe from any thread; moveNewLines is for the one that shows them.
+// Any thread may write; one thread calls moveNewLines.
 class Log {
 public:
     Log();
@@ -20,7 +20,7 @@ public:
     spdlog::logger& operator*() const { return *logger_; }
     spdlog::logger* operator->() const { return logger_.get(); }
 
-    // Appends what was logged since the last call, and forgets the oldest lines beyond keptLines.
+    // Appends the lines logged since the last call and removes the oldest beyond keptLines.
     void moveNewLines(std::deque<LogLine>& lines);
 
     static constexpr std::size_t keptLines = 2000;

@@ -1,4 +1,4 @@
-// Lines of the log, as the log panel shows them.
+// Log lines for the log panel.
 #pragma once
 
 #include <cstdint>

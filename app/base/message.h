@@ -1,4 +1,4 @@
-// Messages to the user beside a command's report.
+// Messages to the user on standard error.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 
 namespace worldy {
 
-// Writes to standard error, any thread. Text that cannot be written is dropped: fmt::print would throw, and a
-// full disk behind a log must not end a bake.
+// Writes to standard error, from any thread. Text that cannot be written is dropped: fmt::print would throw,
+// and a full disk behind a redirected log must not end a bake.
 template <typename... Arguments>
 void printMessage(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     const std::string text = fmt::format(format, std::forward<Arguments>(arguments)...);

@@ -18,7 +18,7 @@ namespace {
 constexpr int maxSidePx = 32768;
 
 tl::unexpected<planet::Error> notAnImage(const std::filesystem::path& file) {
-    OIIO::geterror();  // kept for the next failure if nobody takes it
+    OIIO::geterror();  // discards the pending error, which would otherwise be reported by the next failure
     return planet::badInput(
         fmt::format("{}: cannot be read as an image; expected a JPEG, PNG or TIFF picture", file.string()));
 }
@@ -37,7 +37,8 @@ planet::Result<Picture> readPicture(const std::filesystem::path& file) {
     const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
     std::vector<std::uint8_t> samples(pixels * static_cast<std::size_t>(channels));
     if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, samples.data())) {
-        return planet::badInput(fmt::format("{}: is damaged: {}", file.string(), input->geterror()));
+        return planet::badInput(
+            fmt::format("{}: is damaged: {}; expected a complete picture", file.string(), input->geterror()));
     }
     if (channels == 3) return Picture{spec.width, spec.height, std::move(samples)};
     Picture picture{spec.width, spec.height, {}};
@@ -81,7 +82,7 @@ planet::Result<Picture> readPlanetPicture(const std::filesystem::path& file) {
     if (!tags) return tl::unexpected(tags.error());
     const auto placement = planet::placementOf(file.string(), picture->width, picture->height, *tags);
     if (placement) return placedPicture(*picture, *placement);
-    // Without tags a picture of another shape is stretched over the planet.
+    // A picture without tags is stretched over the planet, whatever its shape.
     if (!tags->placement) return picture;
     return tl::unexpected(placement.error());
 }
@@ -102,8 +103,7 @@ planet::Result<void> writePicture(const Picture& picture, const std::filesystem:
             !output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !output->close()) {
             const std::string why = output ? output->geterror() : OIIO::geterror();
             return planet::ioError(
-                fmt::format("{}: cannot be written; expected a writable folder that exists and a name ending "
-                            "in .png ({})",
+                fmt::format("{}: cannot be written: {}; expected a name ending in .png in a writable folder",
                             file.string(), why));
         }
         return {};

@@ -1,4 +1,4 @@
-// Colour pictures: reading what lies over a planet, writing what was seen.
+// Reads and writes 8-bit colour pictures.
 #pragma once
 
 #include <cstdint>
@@ -18,28 +18,28 @@ struct Picture {
     std::vector<std::uint8_t> rgb;  // sRGB, row 0 at the top
 };
 
-// Any image that OpenImageIO reads; grey becomes colour, alpha is left out.
+// Reads any image that OpenImageIO can read. Grey becomes RGB, alpha is dropped.
 planet::Result<Picture> readPicture(const std::filesystem::path& file);
 
-// A picture of a whole planet, moved to pixel centres from longitude -180 to 180: its GeoTIFF tags or its
-// size tell where it lies (planet/source/image_placement.h). One without tags may have any shape. The Error of a
-// region or of another projection says what was found.
+// Reads a picture of a whole planet and resamples it to pixel centres from longitude -180 to 180. GeoTIFF
+// tags or the size say where its samples lie (planet/source/image_placement.h). A picture without tags may
+// have any shape. A region or another projection is an Error.
 planet::Result<Picture> readPlanetPicture(const std::filesystem::path& file);
 
-// The same picture with its samples at pixel centres from longitude -180 to 180, bilinear in between.
+// Returns the picture resampled bilinearly to pixel centres from longitude -180 to 180.
 Picture placedPicture(const Picture& picture, const planet::ImagePlacement& placement);
 
-// A text kept in a picture's file: in a PNG a tEXt chunk of that keyword, 1 to 79 bytes.
+// A text stored in the picture's file; in a PNG it is a tEXt chunk. The keyword has [1, 79] bytes.
 struct PictureText {
     std::string keyword;
     std::string text;
 };
 
-// Written under a temporary name, then renamed. The file's ending chooses the format.
+// Writes the file atomically. Its extension chooses the format.
 planet::Result<void> writePicture(const Picture& picture, const std::filesystem::path& file,
                                   std::span<const PictureText> texts = {});
 
-// The text of a keyword without reading the picture; empty where there is none.
+// Returns the text of a keyword without reading the pixels; empty if there is none.
 planet::Result<std::string> readPictureText(const std::filesystem::path& file, const std::string& keyword);
 
 }  // namespace worldy

@@ -16,14 +16,14 @@ fs::path homeFolder() {
     return home && *home ? home : "/tmp";
 }
 
-// The XDG base directory specification: relative paths in these variables are to be ignored.
+// The XDG base directory specification ignores relative paths in these variables.
 fs::path userFolder(const char* variable, const char* belowHome) {
     const char* given = std::getenv(variable);
     return given && fs::path(given).is_absolute() ? fs::path(given) : homeFolder() / belowHome;
 }
 
-// Of user-dirs.dirs, a line XDG_PICTURES_DIR="$HOME/Bilder" or with an absolute path; empty where there is
-// none. The shell's escapes are left as they are: such a folder is not found, and the next choice is taken.
+// Returns the folder of a line XDG_PICTURES_DIR="$HOME/Bilder" in user-dirs.dirs; empty if there is none.
+// Shell escapes are not resolved: such a folder is not found, and the next choice is taken.
 fs::path picturesOfDesktop() {
     constexpr std::string_view start = "XDG_PICTURES_DIR=\"";
     constexpr std::string_view home = "$HOME/";

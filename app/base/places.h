@@ -1,4 +1,5 @@
-// The folders and files that Worldy finds by itself. Any thread, while the environment does not change.
+// The folders and files that Worldy finds without being told. Any thread, while the environment does not
+// change.
 #pragma once
 
 #include <filesystem>

@@ -14,7 +14,7 @@ double roundedTop(double largest) {
     if (!(largest > 0) || !std::isfinite(largest)) return 1;
     const double power = std::pow(10.0, std::floor(std::log10(largest)));
     for (const double step : {1.0, 2.0, 5.0}) {
-        // A value that is a step but for rounding must not go up to the next.
+        // The tolerance keeps a rounded value from moving up to the next step.
         if (largest <= step * power * (1 + 1e-9)) return step * power;
     }
     return 10 * power;
@@ -55,7 +55,7 @@ std::vector<float> summed(std::span<const std::span<const float>> rows) {
 
 namespace {
 
-// Of a decade: the wider the axis, the fewer.
+// Returns the ticks of a decade. A wider axis has fewer of them.
 std::vector<double> roundSteps(double ratio) {
     if (ratio > 500) return {1};
     if (ratio > 5) return {1, 2, 5};

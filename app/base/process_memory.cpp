@@ -41,7 +41,7 @@ std::size_t heapBytesInUse() {
 
 std::size_t openFileHandles() {
     const std::size_t entries = entriesOf("/proc/self/fd");
-    return entries > 0 ? entries - 1 : 0;  // one is the folder itself, open to be read
+    return entries > 0 ? entries - 1 : 0;  // one of them is the folder itself
 }
 
 std::size_t runningThreads() {

@@ -1,19 +1,19 @@
-// What the whole program takes, as the system sees it.
+// The resources of the whole process, as the system reports them. 0 means that the system does not report a
+// number.
 #pragma once
 
 #include <cstddef>
 
 namespace worldy {
 
-// Resident memory, bytes; 0 where the system does not tell.
 std::size_t residentProcessBytes();
 
-// Bytes that the heap has handed out and not got back, those of the standard library's allocator alone; 0
-// where it does not tell, as under a sanitizer that brings its own.
+// Returns the bytes allocated from the C library's heap; 0 under a sanitizer with its own allocator.
 std::size_t heapBytesInUse();
 
-// Files, sockets and pipes that are open, and threads; 0 where the system does not tell.
+// Returns the number of open files, sockets and pipes.
 std::size_t openFileHandles();
+
 std::size_t runningThreads();
 
 }  // namespace worldy

@@ -19,8 +19,8 @@ std::string jsonText(const nlohmann::ordered_json& report);
 
 // The destination of a command's report.
 struct ReportTo {
-    bool json = false;             // printed as JSON, in place of the tables
-    std::filesystem::path file{};  // written there as JSON too; empty: nowhere
+    bool json = false;             // prints JSON instead of tables
+    std::filesystem::path file{};  // also receives the JSON; empty: no file
 };
 // Prints and writes the report as `to` says. The Error names the file that cannot be written.
 planet::Result<void> writeReport(const ReportTo& to, const nlohmann::ordered_json& report);

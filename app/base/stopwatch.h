@@ -1,4 +1,4 @@
-// Measures wall time.
+// Measures wall time from its construction.
 #pragma once
 
 #include <chrono>

@@ -13,7 +13,7 @@ namespace worldy {
 
 namespace {
 
-// Three significant digits, without a fraction from 100 on.
+// Returns three significant digits, and no fraction from 100 on.
 std::string threeDigits(double value) {
     const double size = std::abs(value);
     return fmt::format("{:.{}f}", value, size >= 99.95 ? 0 : size >= 9.995 ? 1 : 2);
@@ -83,14 +83,19 @@ std::string placeText(double latitudeDeg, double longitudeDeg, int decimals) {
                        latitudeDeg < 0 ? "S" : "N", std::abs(longitude), decimals, longitude < 0 ? "W" : "E");
 }
 
-std::string shortNumberText(const std::string& value) {
+std::optional<double> numberFromText(std::string_view text) {
     double number = 0;
-    const char* end = value.data() + value.size();
-    const auto [last, error] = std::from_chars(value.data(), end, number);
-    if (error != std::errc() || last != end || !std::isfinite(number)) return value;
-    if (number == 0 || number == std::trunc(number)) return value;
-    const int decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(number)))), 0, 12);
-    std::string text = fmt::format("{:.{}f}", number, decimals);
+    const char* end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && last == end && std::isfinite(number) ? std::optional(number)
+                                                                        : std::nullopt;
+}
+
+std::string shortNumberText(const std::string& value) {
+    const std::optional<double> number = numberFromText(value);
+    if (!number || *number == std::trunc(*number)) return value;
+    const int decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(std::abs(*number)))), 0, 12);
+    std::string text = fmt::format("{:.{}f}", *number, decimals);
     if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
     if (text.ends_with('.')) text.pop_back();
     return text;
@@ -110,7 +115,7 @@ std::string millisecondsText(double milliseconds) {
 }
 
 std::string pixelsText(double pixels, const char* unit) {
-    // The eye is inside the bounds, where the distance is only kept from being 0.
+    // The eye is inside the bounds, where the distance is clamped to a tiny value.
     if (pixels >= 1e6) return std::string("> 1 M") + unit;
     if (pixels >= 10'000) return countText(pixels) + unit;
     const int digits = pixels >= 9.95 || pixels == 0 ? 0 : pixels >= 0.095 ? 1 : 2;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace worldy {
@@ -22,30 +23,14 @@ tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, std::stri
         fmt::format("{}: {} is {}; {}", placeOf(file, node), name, shownValue(node), right));
 }
 
-// Bytes that follow a first byte in UTF-8, and the least code point that may need as many; no count where
-// the byte is none to begin with.
-struct Utf8Start {
-    int following = -1;
-    std::uint32_t bits = 0;
-    std::uint32_t least = 0;
-};
-Utf8Start utf8Start(unsigned char byte) {
-    if (byte < 0x80) return {0, byte, 0};
-    if ((byte & 0xE0u) == 0xC0u) return {1, byte & 0x1Fu, 0x80};
-    if ((byte & 0xF0u) == 0xE0u) return {2, byte & 0x0Fu, 0x800};
-    if ((byte & 0xF8u) == 0xF0u) return {3, byte & 0x07u, 0x10000};
-    return {};
-}
-
-// A key's parts become tables in one another, and are let go of one in another too: a million of them would
-// overflow the stack. All dots of a line are counted, since a part in quotes may hold anything but a line's
-// end.
+// The parts of a dotted key become nested tables. Parsing and destroying a million of them would overflow the
+// stack. All dots of a line are counted, because a quoted part may contain anything but a newline.
 constexpr std::size_t mostDotsALine = 5000;
 
-// The first line with more, 0 where there is none. A row of dots counts as one.
+// Returns the first line with more dots, 0 if there is none. Consecutive dots count as one.
 std::size_t lineOfEndlessKey(std::string_view text) {
     std::size_t line = 1, dots = 0;
-    char before = 0;  // but spaces
+    char before = 0;  // last character that is not a space or tab
     for (const char letter : text) {
         if (letter == '.' && before != '.' && ++dots > mostDotsALine) return line;
         if (letter != ' ' && letter != '\t') before = letter;
@@ -64,18 +49,12 @@ std::string textOf(const NumberRange& range) {
 }
 
 bool isUtf8(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const Utf8Start start = utf8Start(static_cast<unsigned char>(text[i++]));
-        if (start.following < 0 || i + static_cast<std::size_t>(start.following) > text.size()) return false;
-        std::uint32_t point = start.bits;
-        for (int k = 0; k < start.following; ++k) {
-            const auto byte = static_cast<unsigned char>(text[i++]);
-            if ((byte & 0xC0u) != 0x80u) return false;
-            point = (point << 6) | (byte & 0x3Fu);
-        }
-        if (point < start.least || point > 0x10FFFF || (point >= 0xD800 && point < 0xE000)) return false;
+    try {
+        nlohmann::json(text).dump();  // throws on text that is not UTF-8
+        return true;
+    } catch (const nlohmann::json::exception&) {
+        return false;
     }
-    return true;
 }
 
 std::string shownValue(const toml::node& node) {
@@ -92,7 +71,7 @@ std::string placeOf(const std::filesystem::path& file, const toml::node& node) {
 planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) {
-        return planet::ioError(fmt::format("{}: no such file; give the path of a TOML file", path.string()));
+        return planet::ioError(fmt::format("{}: no such file; expected a TOML file", path.string()));
     }
     if (const std::uintmax_t bytes = std::filesystem::file_size(path, status);
         !status && bytes > mostTomlBytes) {
@@ -103,7 +82,7 @@ planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
     std::stringstream text;
     text << stream.rdbuf();
     if (!stream)
-        return planet::ioError(fmt::format("{}: cannot be read; check its permissions", path.string()));
+        return planet::ioError(fmt::format("{}: cannot be read; expected a readable file", path.string()));
     return parseTomlText(text.str(), path);
 }
 
@@ -115,7 +94,7 @@ planet::Result<toml::table> parseTomlText(std::string_view text, const std::file
     try {
         return toml::parse(text, place.string());
     } catch (const toml::parse_error& error) {
-        return planet::badInput(fmt::format("{}: line {}: not TOML: {}; see toml.io for the syntax",
+        return planet::badInput(fmt::format("{}: line {}: not TOML: {}; expected the syntax of toml.io",
                                             place.string(), error.source().begin.line, error.description()));
     }
 }

@@ -1,4 +1,4 @@
-// Reading TOML with errors that name the file, the line, the key and what would be right.
+// Reads TOML. Each Error names the file, the line, the key and the expected value.
 #pragma once
 
 #include <toml++/toml.h>
@@ -17,24 +17,24 @@ struct NumberRange {
     std::string_view unit;  // "px"; may be empty
 };
 
-// A file of at most 16 MiB.
+// Reads a file of at most 16 MiB.
 planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path);
-// The same of text; place stands for the file's name in errors.
+// Parses text. place stands for the file name in errors.
 planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place);
 
-// Well-formed, as TOML has to be.
+// Returns true if the text is well-formed UTF-8, as TOML requires.
 bool isUtf8(std::string_view text);
 
-// A value for a message, cut short.
+// Returns a value for a message, truncated to 60 bytes.
 std::string shownValue(const toml::node& node);
 
-// "settings.toml: line 3"; without the line where the node was not read from a text.
+// Returns "settings.toml: line 3", without the line if the node was not parsed from text.
 std::string placeOf(const std::filesystem::path& file, const toml::node& node);
 
-// "[0.1, 64] px".
+// Returns "[0.1, 64] px".
 std::string textOf(const NumberRange& range);
 
-// A finite number of the range, integers included.
+// Reads a finite number in the range; integers are numbers too.
 planet::Result<double> readNumber(const std::filesystem::path& file, std::string_view name,
                                   const toml::node& node, const NumberRange& range);
 planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std::string_view name,

@@ -23,6 +23,7 @@
 #include "app/scene/camera_control.h"
 #include "app/scene/frame_report.h"
 #include "app/scene/scene.h"
+#include "app/scene/scene_settings.h"
 #include "planet/base/percentile.h"
 #include "planet/planet.h"
 #include "planet/planet_tools.h"

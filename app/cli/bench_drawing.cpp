@@ -8,6 +8,7 @@
 
 #include "app/cli/bench_parts.h"
 #include "app/scene/scene.h"
+#include "app/scene/scene_settings.h"
 #include "app/settings/camera_text.h"
 #include "planet/gl/device/gl_objects.h"
 #include "planet/gl/device/offscreen_context.h"

@@ -15,7 +15,7 @@
 #include "app/flight/flight_path_file.h"
 #include "app/measure/pops_flight.h"
 #include "app/scene/frame_report.h"
-#include "app/scene/scene.h"
+#include "app/scene/scene_settings.h"
 #include "planet/base/percentile.h"
 
 namespace worldy {

@@ -1,6 +1,7 @@
 #include "app/data/bake_job.h"
 
 #include <functional>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -27,7 +28,8 @@ Result<planet::BakeEstimate> estimate(const std::filesystem::path& source,
     return planet::estimateBake(*heights, settings, goOn, &*colours);
 }
 
-// The same source, that keeps the first Error of its own: a bake's may be about anything.
+// Returns the source with a sampling function that keeps the source's first Error, to tell it from the bake's
+// other Errors.
 planet::ColourSource watched(const planet::ColourSource& source, std::mutex& mutex, std::string& problem) {
     planet::ColourSource same = source;
     same.sample = [&source, &mutex, &problem](const planet::SampleTile& tile, std::span<glm::vec3> out) {
@@ -64,37 +66,35 @@ Result<planet::BakeReport> bakeWithColour(const planet::HeightSource& heights,
 
 BakeJob::BakeJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
                  planet::BakeSettings settings, std::filesystem::path output, JobColour colour)
-    : thread_([this, source = std::move(source), sourceSettings = std::move(sourceSettings),
-               settings = std::move(settings), output = std::move(output),
-               colour = std::move(colour)] { run(source, sourceSettings, settings, output, colour); }) {}
+    : job_([this, source = std::move(source), sourceSettings = std::move(sourceSettings),
+            settings = std::move(settings), output = std::move(output),
+            colour = std::move(colour)](const std::stop_token& stop) {
+          return run(stop, source, sourceSettings, settings, output, colour);
+      }) {}
 
-BakeJob::~BakeJob() {
-    cancel();
-    thread_.join();
-}
-
-void BakeJob::run(const std::filesystem::path& source, const planet::HeightSourceSettings& sourceSettings,
-                  const planet::BakeSettings& settings, const std::filesystem::path& output,
-                  const JobColour& colour) {
-    const auto onProgress = [this](const planet::BakeProgress& progress) {
+Result<planet::BakeReport> BakeJob::run(const std::stop_token& stop, const std::filesystem::path& source,
+                                        const planet::HeightSourceSettings& sourceSettings,
+                                        const planet::BakeSettings& settings,
+                                        const std::filesystem::path& output, const JobColour& colour) {
+    const auto onProgress = [&](const planet::BakeProgress& progress) {
         const std::lock_guard lock(mutex_);
         progress_ = progress;
-        return !cancelled_.load();
+        return !stop.stop_requested();
     };
     std::string colourProblem;
     CommandFiles files;
     addSource(files, source);
     addSource(files, colour.image);
     files.outputs = {{output, OutputKind::ChunkFile}};
-    planet::Result<planet::BakeReport> result =
+    Result<planet::BakeReport> result =
         checkNotInputs(files)
             .and_then([&] { return planet::openHeightSource(source, sourceSettings); })
             .and_then([&](const planet::HeightSource& heights) {
                 return bakeWithColour(heights, settings, output, onProgress, colour, colourProblem);
             });
     const std::lock_guard lock(mutex_);
-    result_ = std::move(result);
     colourProblem_ = std::move(colourProblem);
+    return result;
 }
 
 std::string BakeJob::colourProblem() const {
@@ -107,38 +107,11 @@ planet::BakeProgress BakeJob::progress() const {
     return progress_;
 }
 
-void BakeJob::cancel() {
-    cancelled_ = true;
-}
-
-bool BakeJob::cancelling() const {
-    return cancelled_;
-}
-
-std::optional<planet::Result<planet::BakeReport>> BakeJob::takeResult() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
-}
-
 EstimateJob::EstimateJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
                          planet::BakeSettings settings, std::filesystem::path colour)
-    : thread_([this, source = std::move(source), sourceSettings = std::move(sourceSettings),
-               settings = std::move(settings), colour = std::move(colour)] {
-          const auto goOn = [this] { return !cancelled_.load(); };
-          planet::Result<planet::BakeEstimate> result =
-              estimate(source, sourceSettings, settings, colour, goOn);
-          const std::lock_guard lock(mutex_);
-          result_ = std::move(result);
+    : Job([source = std::move(source), sourceSettings = std::move(sourceSettings),
+           settings = std::move(settings), colour = std::move(colour)](const std::stop_token& stop) {
+          return estimate(source, sourceSettings, settings, colour, [&] { return !stop.stop_requested(); });
       }) {}
-
-EstimateJob::~EstimateJob() {
-    cancel();
-    thread_.join();
-}
-
-std::optional<planet::Result<planet::BakeEstimate>> EstimateJob::takeResult() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
-}
 
 }  // namespace worldy

@@ -21,6 +21,17 @@ std::string progressText(const planet::BakeProgress& progress, double share) {
                        durationText(progress.remainingS));
 }
 
+// Calls bake with a callback that shows the progress and returns false once the bake is interrupted.
+template <class Bake>
+planet::Result<planet::BakeReport> withProgress(const Bake& bake) {
+    const InterruptWatch watch;
+    TerminalProgress line;
+    return bake([&](const planet::BakeProgress& progress) {
+        line.show(progress);
+        return !watch.interrupted();
+    });
+}
+
 }  // namespace
 
 TerminalProgress::TerminalProgress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
@@ -49,29 +60,19 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,
                                                   const planet::ColourSource* colour) {
-    const InterruptWatch watch;
-    TerminalProgress line;
-    const auto show = [&](const planet::BakeProgress& progress) {
-        line.show(progress);
-        return !watch.interrupted();
-    };
-    return planet::bake(source, settings, output, show, colour);
+    return withProgress([&](const planet::BakeProgressCallback& show) {
+        return planet::bake(source, settings, output, show, colour);
+    });
 }
 
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,
                                                   const JobColour& colour) {
-    const InterruptWatch watch;
     std::string problem;
-    planet::Result<planet::BakeReport> report = [&] {
-        TerminalProgress line;
-        const auto show = [&](const planet::BakeProgress& progress) {
-            line.show(progress);
-            return !watch.interrupted();
-        };
+    planet::Result<planet::BakeReport> report = withProgress([&](const planet::BakeProgressCallback& show) {
         return bakeWithColour(source, settings, output, show, colour, problem);
-    }();
+    });
     if (!problem.empty()) printMessage("worldy: {}; baked without colours\n", problem);
     if (report && !report->colourNotice.empty()) printMessage("worldy: {}\n", report->colourNotice);
     return report;

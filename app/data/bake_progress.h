@@ -1,4 +1,4 @@
-// A bake's progress on the terminal.
+// Shows the progress of a bake on the terminal.
 #pragma once
 
 #include "app/data/bake_job.h"
@@ -6,7 +6,7 @@
 
 namespace worldy {
 
-// Where stderr is a terminal, one line that is written over; elsewhere a line for every tenth.
+// Writes to stderr: on a terminal one line that is updated, otherwise one line per tenth.
 class TerminalProgress {
 public:
     TerminalProgress();
@@ -22,12 +22,13 @@ private:
     int tenthsShown_ = 0;
 };
 
-// Bakes with progress on the terminal until it ends or is interrupted.
+// Bakes with progress on the terminal, until the bake ends or is interrupted.
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,
                                                   const planet::ColourSource* colour = nullptr);
-// Bakes with the colours of an image. Prints its notice, and why it failed where it may fail.
+// Also takes the colours of an image. Prints the colour notice of the bake, and why an image that may fail
+// did fail.
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,

@@ -22,8 +22,8 @@ struct PreviewRequest {
     planet::HeightSourceSettings sourceSettings;
     double radiusM = 6'371'000;
     planet::Face face = planet::Face::PosX;
-    int zoomLog2 = 0;  // 0: the whole face; each more halves the square's side; [0, 14]
-    double u = 0;      // centre of the square, [-1, 1]; the square is moved so that it lies on the face
+    int zoomLog2 = 0;  // [0, 14]; 0: the whole face; each step halves the side of the square
+    double u = 0;      // centre of the square, [-1, 1]; moved so that the square lies on the face
     double v = 0;
 };
 

@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a. Names a file; nothing relies on it being hard to forge.
+// FNV-1a. It only names a file, so it need not resist forgery.
 std::uint64_t hashOf(const std::string& text) {
     std::uint64_t hash = 0xCBF29CE484222325u;
     for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3u;
     return hash;
 }
 
-// A file's name holds 255 bytes, and the source's own may fill them. Cuts no UTF-8 letter in two.
+// Truncates a name to 80 bytes, because a file name has at most 255. Does not split a UTF-8 character.
 std::string shortened(const std::string& name) {
     std::size_t length = std::min<std::size_t>(name.size(), 80);
     while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0u) == 0x80u)
@@ -34,10 +34,11 @@ std::string shortened(const std::string& name) {
     return name.substr(0, length);
 }
 
-// What a bake of the Earth that comes with Worldy says of its source.
+// The source that a bake of the built-in Earth names.
 constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
 
-// A file tells the name of the image that its colours were made of, and not where it lay.
+// Returns colourImage if its name is that of the image that the colours were baked from. A chunk file does
+// not store the folder of the image.
 fs::path bakedColourOf(const fs::path& chunkFile, const fs::path& colourImage) {
     if (colourImage.empty()) return {};
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
@@ -46,7 +47,8 @@ fs::path bakedColourOf(const fs::path& chunkFile, const fs::path& colourImage) {
     return isIt ? colourImage : fs::path();
 }
 
-// Empty for the defaults, so that their bakes keep their names. Memory for the source changes nothing.
+// Returns an empty identity for default settings, so that their bakes keep their names. The memory limit of
+// the source does not change a bake.
 std::string identityOf(const planet::HeightSourceSettings& settings) {
     const auto text = [](const planet::HeightSourceSettings& s) {
         return fmt::format(" s{} {} {} {} {} {} {} {} {}", s.metresPerUnit.value_or(1), s.offsetM.value_or(0),
@@ -55,13 +57,14 @@ std::string identityOf(const planet::HeightSourceSettings& settings) {
     };
     std::string identity = text(settings);
     if (identity == text({})) identity.clear();
-    // They override what the file says; the text has them where nothing is given, too.
+    // An explicit 1 or 0 overrides the tags of the file, and the text above does not tell it from an unset
+    // one.
     if (settings.metresPerUnit == 1) identity += " unit 1";
     if (settings.offsetM == 0) identity += " offset 0";
     return identity;
 }
 
-// Path, size and time of change of each.
+// Returns the path, size and modification time of each file.
 std::string identityOf(const std::vector<fs::path>& files) {
     std::string identity;
     for (const fs::path& file : files) {
@@ -73,14 +76,14 @@ std::string identityOf(const std::vector<fs::path>& files) {
     return identity;
 }
 
-// Empty without colours, so that bakes without keep their names.
+// Returns an empty identity without colours, so that bakes without colours keep their names.
 std::string identityOf(const fs::path& colour, const planet::ColourBakeSettings& settings) {
     if (colour.empty()) return {};
     return fmt::format(" colours {} {}{}", static_cast<int>(settings.format), settings.faceSize.value_or(0),
                        identityOf(planet::heightSourceFiles(colour).files));
 }
 
-// Whether a file and its root chunks can be read: what a planet needs to open.
+// Returns true if the file and its root chunks are readable, so that a planet can open it.
 bool opensWhole(const fs::path& chunkFile) {
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
     return file && std::all_of(planet::allFaces.begin(), planet::allFaces.end(),
@@ -89,7 +92,6 @@ bool opensWhole(const fs::path& chunkFile) {
 
 }  // namespace
 
-// A bake of our own Earth keeps its colours wherever it was written to; so does one of any image with detail.
 fs::path colourImageOf(const fs::path& chunkFile) {
     const fs::path beside = colourImageBeside(chunkFile);
     if (!beside.empty()) return beside;
@@ -115,7 +117,7 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
     identity += identityOf(sourceSettings);
     const planet::HeightSourceFiles sourceFiles = planet::heightSourceFiles(source);
     identity += identityOf(sourceFiles.files);
-    identity += " placed, scaled";  // bakes made before an image's tags and sidecars were read are not taken
+    identity += " placed, scaled";  // excludes older bakes, which ignored the tags and sidecars of images
     if (planet::isTerrainText(source))
         identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
     identity += identityOf(colour, settings.colour);
@@ -128,13 +130,12 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
     const planet::Result<NamedSource> source = sourceNamed(named, settings);
     if (!source) return tl::unexpected(source.error());
     if (planet::isTerrainText(source->source)) {
-        // A bad text says itself what would be right.
         if (const auto good = planet::terrainFromText(source->source); !good)
             return tl::unexpected(good.error());
     } else if (planet::heightSourceFiles(source->source).files.empty()) {
         return planet::badInput(
             fmt::format("{}: no such file; expected a chunk file (.chk), an elevation image, one of six cube "
-                        "faces, a terrain as noise:ridged or a preset as preset:moon",
+                        "faces, terrain such as noise:ridged, or a preset such as preset:moon",
                         named.string()));
     } else if (named.extension() == ".chk") {
         DataSet set{.source = named, .chunkFile = named, .colourImage = colourImageOf(named)};

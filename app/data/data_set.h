@@ -1,4 +1,4 @@
-// From what the user names to the chunk file that holds it.
+// Resolves the name that a user gives to a source and its chunk file.
 #pragma once
 
 #include <filesystem>
@@ -13,35 +13,35 @@
 namespace worldy {
 
 struct DataSet {
-    std::filesystem::path source;       // a chunk file, an elevation image, cube faces or a terrain's text
-    std::filesystem::path chunkFile;    // the source itself, or its bake in the cache folder
-    std::filesystem::path colourImage;  // colour.jpg or colour.png beside the source, or our Earth's for its
-                                        // bakes; empty if none
+    std::filesystem::path source;     // a chunk file, an elevation image, cube faces or the text of a terrain
+    std::filesystem::path chunkFile;  // the source itself, or its bake in the cache folder
+    std::filesystem::path colourImage;  // the image to draw; empty if there is none
     bool needsBake = false;
-    planet::BakeSettings settings{};      // what it is to be baked with
-    std::filesystem::path bakedColour{};  // the image of its tiles of colour; empty: none. Of a chunk file
-                                          // that is opened by itself: where it is known where it lies
+    planet::BakeSettings settings{};  // settings for the bake
+    std::filesystem::path
+        bakedColour{};  // the image of the colour tiles; empty if there is none or, for a chunk
+                        // file that was opened directly, if the image is not found
 };
 
-// A world's name stands for its source, its radius and its face size. The Error says that nothing is there. A
-// bake in the cache that cannot be opened is baked again.
-// colour: the image that its tiles of colour are baked from, empty for none; where not given, the colour
-// image beside the source, if any.
+// Finds the data set of a file, a terrain or a preset. A preset also sets the radius and the face size. A
+// cached bake that cannot be opened needs a new bake. colour is the image for the colour tiles, empty for
+// none; if it is not given, the image beside the source is used, if there is one. Nothing to open is an
+// Error.
 planet::Result<DataSet> findDataSet(const std::filesystem::path& named, const planet::BakeSettings& settings,
                                     const planet::HeightSourceSettings& sourceSettings = {},
                                     const std::optional<std::filesystem::path>& colour = std::nullopt);
 
-// Returns the colour image that a chunk file is drawn with: that beside it, that beside the image that its
-// detail was added to, or our Earth's for its bakes. Empty if there is none.
+// Returns the colour image that a chunk file is drawn with: the one beside it, the one beside the image that
+// its detail was added to, or that of the built-in Earth for its bakes. Empty if there is none.
 std::filesystem::path colourImageOf(const std::filesystem::path& chunkFile);
 
-// What a chunk file was made from, where it says so in a way that it can be made again: a terrain's text.
-// Empty otherwise.
+// Returns the text of the terrain that a chunk file was baked from, so that it can be baked again; otherwise
+// empty.
 std::filesystem::path sourceOf(const planet::ChunkFileInfo& info);
 
-// Where the bake of a source is kept. The name carries a hash of the source's path, size and time of change,
-// of all six faces where it has them, of a terrain's text, of a colour image in the same way, and of all
-// settings that change the file, so that a changed source is baked anew.
+// Returns the path of a bake in the cache. Its name contains a hash of the path, size and modification time
+// of all source files and of the colour image, of the text of a terrain, and of all settings that change the
+// file, so that a changed source is baked again.
 std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const planet::BakeSettings& settings,
                                    const planet::HeightSourceSettings& sourceSettings = {},
                                    const std::filesystem::path& colour = {});

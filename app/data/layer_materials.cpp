@@ -23,13 +23,14 @@ Result<void> writeTexture(const fs::path& file, std::span<const std::uint8_t> by
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
         OIIO::ImageSpec spec(size, size, channels, OIIO::TypeDesc::UINT8);
         spec.attribute("png:compressionLevel", 9);
-        // The fourth channel is relief: colour must not be multiplied by it.
+        // The fourth channel is relief, so colour must not be multiplied by it.
         spec.attribute("oiio:UnassociatedAlpha", 1);
         if (output && output->open(temporary.string(), spec) &&
             output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close())
             return {};
         const std::string why = output ? output->geterror() : OIIO::geterror();
-        return planet::ioError(fmt::format("{}: cannot be written ({})", file.string(), why));
+        return planet::ioError(
+            fmt::format("{}: cannot be written: {}; expected a writable folder", file.string(), why));
     });
 }
 
@@ -48,8 +49,8 @@ Result<void> makeLayers(const MakeLayersOptions& options) {
     std::error_code status;
     fs::create_directories(options.output, status);
     if (status) {
-        return planet::ioError(
-            fmt::format("{}: no such folder can be made: {}", options.output.string(), status.message()));
+        return planet::ioError(fmt::format("{}: cannot be created: {}; expected the name of a folder",
+                                           options.output.string(), status.message()));
     }
     for (std::size_t i = 0; i < planet::materialNames.size(); ++i) {
         if (Result<void> made = writeMaterial(options, static_cast<planet::Material>(i)); !made) return made;

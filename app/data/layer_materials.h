@@ -1,4 +1,4 @@
-// worldy make-layers: the materials that come with Worldy, and the sets that use them, into a folder.
+// The command make-layers, which writes the built-in materials and the layer sets that use them.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 namespace worldy {
 
 struct MakeLayersOptions {
-    std::filesystem::path output;  // a folder, made where it is missing
+    std::filesystem::path output;  // a folder; created if it does not exist
     int texels = planet::shippedMaterialSize;
     std::uint32_t seed = planet::shippedMaterialSeed;
     bool json = false;
 };
 
-// Six materials of three PNG files each, earth.toml and two_layer_height_blend.toml.
+// Writes six materials of three PNG files each, earth.toml and two_layer_height_blend.toml.
 planet::Result<void> makeLayers(const MakeLayersOptions& options);
 
 }  // namespace worldy

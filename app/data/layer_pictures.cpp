@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+
 #include "planet/gl/store/layer_textures.h"
 
 namespace worldy {
@@ -31,11 +32,11 @@ struct Texels {
 
 Result<Texels> readTexels(const fs::path& file) {
     OIIO::ImageSpec asStored;
-    // Alpha is relief: colour must not be multiplied by it.
+    // Alpha is relief, so colour must not be multiplied by it.
     asStored.attribute("oiio:UnassociatedAlpha", 1);
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string(), &asStored);
     if (!input) {
-        OIIO::geterror();  // kept for the next failure if nobody takes it
+        OIIO::geterror();  // discards the pending error
         return planet::badInput(
             fmt::format("{}: cannot be read as an image; expected a PNG texture", file.string()));
     }
@@ -50,11 +51,12 @@ Result<Texels> readTexels(const fs::path& file) {
     const auto side = static_cast<std::size_t>(spec.width);
     texels.bytes.resize(side * side * static_cast<std::size_t>(spec.nchannels));
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, texels.bytes.data()))
-        return planet::badInput(fmt::format("{}: is damaged: {}", file.string(), input->geterror()));
+        return planet::badInput(
+            fmt::format("{}: is damaged: {}; expected a complete picture", file.string(), input->geterror()));
     return texels;
 }
 
-// Four channels are laid out as the renderer wants them by pick(texels, texel).
+// Returns four channels per texel; pick(texels, i) returns those of one texel.
 template <class Pick>
 std::vector<std::uint8_t> laidOut(const Texels& texels, const Pick& pick) {
     const std::size_t count = static_cast<std::size_t>(texels.size) * static_cast<std::size_t>(texels.size);
@@ -131,7 +133,7 @@ void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, L
         pictures.files.push_back(filesOf(layer));
         Result<LayerTexels> texels = readLayerTexels(pictures.folder, filesOf(layer));
         pictures.problems.push_back(texels ? std::string() : texels.error().message);
-        // In its place, so that the others keep their numbers; it is not drawn.
+        // The placeholder keeps the indices of the other pictures; it is not drawn.
         read.push_back(texels ? std::move(*texels) : LayerTexels{8, planet::gl::checkerPicture(8)});
         pictures.colours.push_back(meanColour(read.back().picture));
         pictures.size = std::max(pictures.size, read.back().size);
@@ -147,7 +149,7 @@ void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, L
 }  // namespace
 
 Result<LayerTexels> readLayerTexels(const fs::path& folder, const LayerFiles& files) {
-    if (files[0].empty()) return planet::badInput("no albedo is named; expected the path of a PNG texture");
+    if (files[0].empty()) return planet::badInput("albedo: is empty; expected the path of a PNG texture");
     std::array<Texels, 3> read;
     read[1] = {1, 3, {128, 128, 255}};
     read[2] = {1, 1, {230}};

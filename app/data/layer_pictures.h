@@ -1,5 +1,5 @@
-// The textures of layers, from files to the GPU. What is missing or wrong is told once and drawn as a checker
-// pattern; the rest goes on.
+// Loads the textures of layers from files to the GPU. A missing or wrong texture is reported once and drawn
+// as a checkerboard; the other layers are drawn normally.
 #pragma once
 
 #include <array>
@@ -14,41 +14,40 @@
 
 namespace worldy {
 
-// Albedo, normal, roughness, as a layer names them.
+// The paths of albedo, normal and roughness, as a layer names them.
 using LayerFiles = std::array<std::string, 3>;
 
-// One layer's textures, enlarged to the same size: that of the largest of them. Each must be square and a
-// power of two a side, [8, 4096]; an alpha of the albedo is its relief, else it is even. The Error names the
-// file, what is wrong and what would be right.
+// The textures of one layer, enlarged to the size of the largest. Each must be square with a power-of-two
+// side in [8, 4096]. The alpha of the albedo is the relief; without alpha the relief is flat.
 struct LayerTexels {
     int size = 0;
     planet::gl::LayerPicture picture;
 };
 planet::Result<LayerTexels> readLayerTexels(const std::filesystem::path& folder, const LayerFiles& files);
-// To a larger power of two, between texels in straight lines, around the edges.
+// Enlarges the textures bilinearly to a larger power of two, wrapping around the edges.
 LayerTexels enlarged(const LayerTexels& texels, int size);
 
-// What a renderer holds of a set, and what is wrong with it.
+// The pictures of a layer set that a renderer holds, and their problems.
 struct LayerPictures {
     std::filesystem::path folder;
-    std::vector<LayerFiles> files;      // read, each once
-    std::vector<std::string> problems;  // of each; empty: it is there
-    std::vector<glm::vec3> colours;     // of each, the albedo on average, sRGB
-    int size = 0;                       // of all of them on the GPU, texels a side
-    std::vector<std::string> told;      // what was last told
-    std::vector<std::string> untold;    // since
+    std::vector<LayerFiles> files;      // the files read, each once
+    std::vector<std::string> problems;  // one per element of files; empty: no problem
+    std::vector<glm::vec3> colours;     // mean albedo of each, sRGB
+    int size = 0;                       // side of all pictures on the GPU, texels
+    std::vector<std::string> told;      // problems of the layers at the last fitLayerPictures
+    std::vector<std::string> untold;    // messages not yet reported
 };
 
-// Reads what the set names and the renderer does not hold yet. Cheap where nothing has changed. All pictures
-// get the size of the largest, since an array's slices must.
+// Reads the textures that the renderer does not hold yet. Cheap if nothing has changed. All pictures get the
+// size of the largest, because they are slices of a texture array.
 void fitLayerPictures(const planet::LayerSet& set, const std::filesystem::path& folder,
                       planet::gl::ChunkRenderer& renderer, LayerPictures& pictures);
 
-// Which picture each layer is drawn with; -1: the checker pattern.
+// Returns the index of each layer's picture; -1: the checkerboard.
 std::vector<int> picturesOf(const planet::LayerSet& set, const LayerPictures& pictures);
-// Each layer's colour on average; none before it has been read.
+// Returns the mean colour of each layer; grey before it has been read.
 std::vector<glm::vec3> coloursOf(const planet::LayerSet& set, const LayerPictures& pictures);
-// What is wrong with each layer, its ranges or its textures; empty: nothing.
+// Returns the problem of each layer, with its ranges or its textures; empty if there is none.
 std::vector<std::string> problemsOf(const planet::LayerSet& set, const LayerPictures& pictures);
 
 }  // namespace worldy

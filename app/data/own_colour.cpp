@@ -8,7 +8,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file that detail is added to; of other sources themselves.
+// Returns the file that detail is added to, or the source itself if it is a file; empty for terrain without a
+// file.
 fs::path fileUnder(const fs::path& source) {
     if (!planet::isTerrainText(source)) return source;
     const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);

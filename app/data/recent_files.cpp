@@ -1,9 +1,7 @@
 #include "app/data/recent_files.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -27,7 +25,7 @@ bool isThere(const fs::path& path) {
     return !planet::heightSourceFiles(path).files.empty();
 }
 
-// A name of its own, which means the same in every folder.
+// Returns true for a name that is not a path, and so means the same in every folder.
 bool isName(const fs::path& path) {
     return isWorldName(path) || planet::isTerrainText(path);
 }
@@ -39,14 +37,8 @@ fs::path recentFilesFile() {
 }
 
 std::vector<fs::path> loadRecentFiles(const fs::path& file) {
-    std::error_code status;
     std::vector<fs::path> recent;
-    if (!fs::is_regular_file(file, status)) return recent;  // a pipe would never end
-    std::string text(mostListBytes, '\0');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    std::istringstream lines(text);
+    std::istringstream lines(startOfFile(file, mostListBytes));
     for (std::string line; recent.size() < maxRecentFiles && std::getline(lines, line);) {
         const fs::path path = line;
         const bool good = line.find('\0') == std::string::npos && (path.is_absolute() || isName(path));

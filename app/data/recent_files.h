@@ -1,4 +1,4 @@
-// The files opened last, kept between sessions: one absolute path a line, newest first.
+// The recently opened files, kept between sessions: one absolute path per line, newest first.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,20 @@ namespace worldy {
 
 inline constexpr std::size_t maxRecentFiles = 10;
 
-// recent.txt in the config folder.
+// Returns recent.txt in the config folder.
 std::filesystem::path recentFilesFile();
 
-// What is no absolute path in the file is left out, and so is what is over its first 64 KiB; empty where
-// there is no file.
+// Loads the absolute paths in the first 64 KiB of a file; other lines are ignored. Empty if there is no file.
 std::vector<std::filesystem::path> loadRecentFiles(const std::filesystem::path& file);
 
-// Puts a path first, made absolute and without "..", and nowhere else.
+// Moves a path to the front, made absolute and without "..".
 void addRecentFile(std::vector<std::filesystem::path>& recent, const std::filesystem::path& opened);
 
-// Those that are there now; one on a disk that is away comes back with it. For cube faces named by their
-// common stem, one of the faces counts.
+// Returns the files that exist now; one on a removed disk reappears with the disk. For cube faces named by
+// their common stem, one existing face suffices.
 std::vector<std::filesystem::path> shownRecentFiles(const std::vector<std::filesystem::path>& recent);
 
-// Paths with a line break in them are left out. Makes the file's folder.
+// Saves all paths without a line break in them. Creates the folder of the file.
 planet::Result<void> saveRecentFiles(const std::vector<std::filesystem::path>& recent,
                                      const std::filesystem::path& file);
 

@@ -31,7 +31,8 @@ World world(const char* name, const char* title, const char* about, std::string 
 std::vector<World> worlds() {
     const double earthRadiusM = planet::BakeSettings{}.radiusM;
     const std::string earth = earthElevation().string();
-    // The grid is twice as fine as the image's own samples, so from step to step it shows half their relief.
+    // The grid is twice as fine as the samples of the image, so a step of the grid has half the relief of a
+    // sample.
     const planet::DetailTerrain detail{.strength = 2};
     return {
         world("earth", "Earth", "Built-in elevation and bathymetry, 5 arcmin.", earth, earthRadiusM,

@@ -1,4 +1,4 @@
-// Worlds to bake by name: the sources that come with Worldy. "preset:moon" stands wherever a source does.
+// The built-in worlds. A name such as "preset:moon" can be given wherever a source can.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace worldy {
 
-// Describes a source that comes with Worldy.
+// Describes a built-in world.
 struct World {
     std::string name;   // "earth-amplified"
     std::string title;  // "Earth amplified"
@@ -18,16 +18,16 @@ struct World {
     BakeRequest request;  // source, radius, face size and colours
 };
 
-// The Earth, the Earth with detail, a moon, a ridged world; each with its radius and a face size.
+// Returns the Earth, the Earth with detail, a moon, and a ridged world.
 std::vector<World> worlds();
 
-// Whether it is meant as one of them: "preset:NAME".
+// Returns true for a path of the form "preset:NAME", even if there is no such world.
 bool isWorldName(const std::filesystem::path& path);
-// The Error names the nearest.
+// An unknown name is an Error that lists all names.
 planet::Result<World> worldNamed(const std::filesystem::path& name);
 
-// What is baked where a source and settings are named: a world's source, and its radius and face size in
-// place of the usual ones; others as they are.
+// Replaces the name of a world by its source, and a default radius and an unset face size by those of the
+// world. Returns other sources unchanged.
 struct NamedSource {
     std::filesystem::path source;
     planet::BakeSettings settings;

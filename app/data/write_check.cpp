@@ -2,15 +2,13 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <cstring>
-#include <fstream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "app/base/output_file.h"
 #include "app/data/data_set.h"
 #include "app/data/own_colour.h"
 #include "app/data/worlds.h"
@@ -29,22 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// Identifies a file by device and inode, so that two names of one file are equal.
-struct FileIdentity {
-    dev_t device = 0;
-    ino_t inode = 0;
-
-    bool operator==(const FileIdentity&) const = default;
-};
-
-// None of a file that is not there.
-std::optional<FileIdentity> fileIdentityOf(const fs::path& path) {
-    struct stat status {};
-    if (path.empty() || ::stat(path.c_str(), &status) != 0) return std::nullopt;
-    return FileIdentity{status.st_dev, status.st_ino};
-}
-
-// The files in a folder, or the path itself.
+// Returns all files below a folder, or the path itself if it is not a folder.
 std::vector<fs::path> filesIn(const fs::path& path) {
     std::error_code status;
     if (!fs::is_directory(path, status)) return {path};
@@ -55,36 +38,25 @@ std::vector<fs::path> filesIn(const fs::path& path) {
     return files;
 }
 
-// Empty for what is not a regular file: opening a pipe would wait for its writer.
-std::string startOf(const fs::path& file, std::size_t bytes) {
-    std::error_code status;
-    if (!fs::is_regular_file(file, status)) return {};
-    std::string start(bytes, '\0');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(start.data(), static_cast<std::streamsize>(bytes));
-    start.resize(static_cast<std::size_t>(stream.gcount()));
-    return start;
-}
-
 constexpr std::size_t lookedAtBytes = 4096;
 
-// The file may be of any version.
+// Returns true for a chunk file of any version.
 bool isChunkFile(const fs::path& file) {
     constexpr std::size_t magicBytes = 8;
     const auto header = planet::headerBytes({}, 0);
-    const std::string start = startOf(file, magicBytes);
+    const std::string start = startOfFile(file, magicBytes);
     return start.size() == magicBytes && std::memcmp(start.data(), header.data(), magicBytes) == 0;
 }
 
 // Every report begins with its schema_version (report.h).
 bool isJson(const fs::path& file) {
-    std::string start = startOf(file, lookedAtBytes);
+    std::string start = startOfFile(file, lookedAtBytes);
     std::erase_if(start, [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; });
     return start.starts_with("{\"schema_version\":");
 }
 
 bool isCsv(const fs::path& file) {
-    return startOf(file, lookedAtBytes).starts_with("schema_version,");
+    return startOfFile(file, lookedAtBytes).starts_with("schema_version,");
 }
 
 bool hasGeoTags(const fs::path& file) {
@@ -95,7 +67,7 @@ bool hasGeoTags(const fs::path& file) {
 bool isOwnPicture(const fs::path& file) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.string());
-    OIIO::geterror();  // kept for the next failure if nobody takes it
+    OIIO::geterror();  // discards the pending error
     if (!input || !output) return false;
     const OIIO::ImageSpec& spec = input->spec();
     return spec.nchannels == 3 && spec.format == OIIO::TypeDesc::UINT8 &&
@@ -120,7 +92,7 @@ bool isOfKind(const fs::path& file, OutputKind kind) {
         case OutputKind::Preset:
             return loadViewPart(file).has_value();
         case OutputKind::ItemMap:
-            return startOf(file, 8) == "counter/";
+            return startOfFile(file, 8) == "counter/";
     }
     return false;
 }
@@ -147,9 +119,10 @@ std::string_view nameOf(OutputKind kind) {
     return "";
 }
 
-Result<void> checkApart(const fs::path& output, const FileIdentity& identity, const fs::path& input) {
+Result<void> checkApart(const fs::path& output, const fs::path& input) {
+    std::error_code status;
     for (const fs::path& file : filesIn(input)) {
-        if (fileIdentityOf(file) != identity) continue;
+        if (!fs::equivalent(file, output, status)) continue;
         if (file == output) {
             return planet::badInput(fmt::format(
                 "{}: is an input of this command and cannot be its output; expected another output file",
@@ -162,7 +135,7 @@ Result<void> checkApart(const fs::path& output, const FileIdentity& identity, co
     return {};
 }
 
-// A link that leads nowhere is in the way of a folder.
+// Checks that a folder can be created. A dangling link of that name prevents it.
 Result<void> checkFolderCanBeMade(const fs::path& folder) {
     std::error_code status;
     fs::path there = fs::absolute(folder, status);
@@ -170,11 +143,11 @@ Result<void> checkFolderCanBeMade(const fs::path& folder) {
         there = there.parent_path();
     if (fs::is_directory(there, status)) return planet::checkWritable(there / "file");
     return planet::badInput(fmt::format(
-        "{}: {} {}; expected a folder, or a name that is free", folder.string(), there.string(),
-        fs::exists(there, status) ? "is not a folder" : "is a link to a folder that is not there"));
+        "{}: {} {}; expected a folder or an unused name", folder.string(), there.string(),
+        fs::exists(there, status) ? "is not a folder" : "is a link to a folder that does not exist"));
 }
 
-// The name without links, of files that are not there yet too.
+// Returns the path with all links resolved, even if the file does not exist.
 fs::path canonicalOf(const fs::path& path) {
     std::error_code status;
     const fs::path absolute = fs::absolute(path, status);
@@ -207,11 +180,10 @@ Result<void> checkNotInputs(const CommandFiles& files) {
             return planet::badInput(fmt::format("{}: is the name of two outputs; expected a file for each",
                                                 output->path.string()));
         }
-        const std::optional<FileIdentity> identity = fileIdentityOf(output->path);
-        if (!identity) continue;
+        std::error_code status;
+        if (!fs::exists(output->path, status)) continue;
         for (const fs::path& input : files.inputs) {
-            if (input.empty()) continue;
-            if (Result<void> apart = checkApart(output->path, *identity, input); !apart) return apart;
+            if (Result<void> apart = checkApart(output->path, input); !apart) return apart;
         }
     }
     return {};
@@ -238,7 +210,7 @@ Result<void> checkPlaces(const std::vector<OutputFile>& outputs) {
             willBeMade ? checkFolderCanBeMade(folder) : planet::checkWritable(output.path);
         if (!writable) return writable;
         if (output.kind == OutputKind::Picture && !OIIO::ImageOutput::create(output.path.string())) {
-            OIIO::geterror();  // kept for the next failure if nobody takes it
+            OIIO::geterror();  // discards the pending error
             return planet::badInput(
                 fmt::format("{}: the extension names no picture format; expected a name "
                             "ending in .png, .jpg or .tif",

@@ -1,11 +1,11 @@
-// Figures of one flight at one setting.
+// The figures of one flight with one set of settings.
 #pragma once
 
 #include <cstdint>
 
 namespace worldy {
 
-// Holds the cost of a setting and its error, over the sample frames of a flight.
+// The cost and the error over the sample frames of a flight.
 struct FlightFigures {
     int frames = 0;
     double meanGroundTriangles = 0;
@@ -20,7 +20,7 @@ struct FlightFigures {
     double worstMeasuredPx = 0;    // true error, as if the view faced it (planet/measure/true_error.h)
     double p99MeasuredPx = 0;      // over all chunks of all frames
     double worstScreenPx = 0;      // in the projected image
-    std::uint64_t violations = 0;  // chunks whose true error is over the drawn bound
+    std::uint64_t violations = 0;  // chunks whose true error exceeds the drawn bound
     std::uint64_t bytesRead = 0;   // from the chunk file, starting with the six root chunks
 
     bool operator==(const FlightFigures&) const = default;

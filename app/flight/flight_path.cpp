@@ -27,7 +27,7 @@ glm::dvec3 slerp(const glm::dvec3& from, const glm::dvec3& to, double t) {
     return glm::normalize((std::sin((1 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle));
 }
 
-// The tangent vector at a place whose great circle leads to another, as long as the arc.
+// Returns the tangent vector at `from` of the great circle to `to`, as long as the arc.
 glm::dvec3 arcTowards(const glm::dvec3& from, const glm::dvec3& to) {
     const glm::dvec3 along = to - glm::dot(from, to) * from;
     const double sine = glm::length(along);
@@ -41,12 +41,12 @@ glm::dvec3 along(const glm::dvec3& from, const glm::dvec3& arc) {
     return std::cos(angle) * from + std::sin(angle) * (arc / angle);
 }
 
-// Of the whole way, or of what lies between jumps.
+// Returns true for the first and last key of the flight and of each part between jumps.
 bool isEnd(const std::vector<FlightKey>& keys, std::size_t i) {
     return i == 0 || i + 1 == keys.size() || keys[i].jumpedTo || keys[i + 1].jumpedTo;
 }
 
-// Returns the velocity over the ground at a key, radians a second; 0 at the ends. It is at most three times
+// Returns the velocity over the ground at a key, radians per second; 0 at the ends. It is at most three times
 // the mean speed of the slower span beside the key, the bound of monotone cubics (Fritsch and Carlson, 1980),
 // so the camera stands still between two keys at one place.
 glm::dvec3 velocityAt(const std::vector<FlightKey>& keys, std::size_t i) {
@@ -61,8 +61,8 @@ glm::dvec3 velocityAt(const std::vector<FlightKey>& keys, std::size_t i) {
     return speed > mostSpeed ? mostSpeed / speed * velocity : velocity;
 }
 
-// A Catmull-Rom curve as cubic Bezier arcs on the sphere, built by de Casteljau's scheme from great-circle
-// steps (Shoemake, "Animating rotation with quaternion curves", 1985).
+// Evaluates a Catmull-Rom curve as cubic Bezier arcs on the sphere, built by de Casteljau's scheme from
+// great-circle steps (Shoemake, "Animating rotation with quaternion curves", 1985).
 glm::dvec3 directionAt(const std::vector<FlightKey>& keys, std::size_t i, double t) {
     const double third = (keys[i + 1].timeS - keys[i].timeS) / 3;
     const glm::dvec3 a = directionOf(keys[i]);
@@ -75,7 +75,7 @@ glm::dvec3 directionAt(const std::vector<FlightKey>& keys, std::size_t i, double
 
 using ValueOfKey = std::function<double(std::size_t)>;
 
-// Slope at a key that lets no cubic overshoot it (Fritsch and Butland, 1984).
+// Returns a slope at a key with which no cubic overshoots it (Fritsch and Butland, 1984).
 double slopeAt(const std::vector<FlightKey>& keys, const ValueOfKey& value, std::size_t i) {
     if (isEnd(keys, i)) return 0;
     const double before = (value(i) - value(i - 1)) / (keys[i].timeS - keys[i - 1].timeS);
@@ -133,8 +133,9 @@ Result<int> flightViews(const FlightPath& path, double stepS, int most) {
     return static_cast<int>(steps) + 1;
 }
 
-FlightFrames evenFrames(const FlightPath& path, int count) {
-    return {path.keys.front().timeS, count > 1 ? durationS(path) / (count - 1) : 0, count};
+FlightFrames framesOf(const FlightPath& path, int count, double stepS) {
+    if (stepS == 0 && count > 1) stepS = durationS(path) / (count - 1);
+    return {path.keys.front().timeS, stepS, count};
 }
 
 Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& sampling, int most) {
@@ -142,11 +143,11 @@ Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& samp
         const int count = sampling.frames.value_or(1);
         if (count > most)
             return planet::badInput(
-                fmt::format("--frames: {} are too many; expected at most {}", count, most));
-        return evenFrames(path, count);
+                fmt::format("--frames: {} is too large; expected at most {}", count, most));
+        return framesOf(path, count);
     }
     return flightViews(path, *sampling.stepS, most).map([&](int count) {
-        return FlightFrames{path.keys.front().timeS, *sampling.stepS, count};
+        return framesOf(path, count, *sampling.stepS);
     });
 }
 
@@ -159,7 +160,7 @@ Pose poseAt(const FlightPath& path, double timeS) {
     const double share = (time - keys[i].timeS) / (keys[i + 1].timeS - keys[i].timeS);
     const double t = keys[i + 1].jumpedTo ? std::floor(share) : share;
 
-    // Headings counted on from key to key, each the shorter way from the one before.
+    // Headings are unwrapped, so that each turns the shorter way from the one before.
     std::vector<double> headings = {keys.front().pose.headingDeg};
     for (std::size_t k = 1; k < keys.size(); ++k) {
         headings.push_back(headings.back() + degreesBetween(headings.back(), keys[k].pose.headingDeg));

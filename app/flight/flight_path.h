@@ -1,4 +1,4 @@
-// A flight: camera keys, and a smooth path through them. Pure functions, any thread.
+// A flight: camera keys and a smooth path through them. Pure functions, any thread.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,8 +14,7 @@ namespace worldy {
 struct FlightKey {
     double timeS = 0;  // strictly increasing from key to key
     planet::CameraPose pose;
-    bool jumpedTo =
-        false;  // the pose of the key before is held until then, and the camera is put here at once
+    bool jumpedTo = false;  // the camera holds the pose of the key before until timeS, then jumps here
 };
 
 struct FlightPath {
@@ -37,8 +36,8 @@ bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM
 // Returns true if the path jumps at a time in (fromS, toS].
 bool jumpsBetween(const FlightPath& path, double fromS, double toS);
 
-// Returns the number of views of a flight, one every stepS seconds from its first key to its last. The Error
-// is that of --step-s: more than `most` views.
+// Returns the number of views of a flight, one every stepS seconds from its first key to its last. More than
+// `most` views are an Error of --step-s.
 planet::Result<int> flightViews(const FlightPath& path, double stepS, int most);
 
 // The times at which a command samples a flight: either a number of frames, spread evenly from the first key
@@ -49,15 +48,16 @@ struct FlightSampling {
 };
 struct FlightFrames {
     double startS = 0;
-    double stepS = 0;  // 0 where there is one frame
+    double stepS = 0;  // 0 if there is one frame
     int count = 1;
 
     double timeS(int frame) const { return startS + frame * stepS; }
 };
-// Chooses the frames. The Error is that of --frames or --step-s: more than `most` frames.
+// Chooses the frames. More than `most` frames are an Error of --frames or --step-s.
 planet::Result<FlightFrames> framesOf(const FlightPath& path, const FlightSampling& sampling, int most);
-FlightFrames evenFrames(const FlightPath& path, int count);
-inline constexpr int mostFlightViews = 100'000;  // each of which is settled and measured
+// Returns `count` frames, one every stepS seconds, or evenly spread over the flight if stepS is 0.
+FlightFrames framesOf(const FlightPath& path, int count, double stepS = 0);
+inline constexpr int mostFlightViews = 100'000;  // most views that are settled and measured
 
 // Returns the pose at a time, held at the ends. Over the ground it follows great-circle arcs blended to a
 // smooth curve; altitude goes by its logarithm and, like heading and pitch, never overshoots a key; heading

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <string>
 #include <vector>
 
+#include "app/base/output_file.h"
 #include "app/base/toml_file.h"
 
 namespace worldy {
@@ -63,21 +63,21 @@ Result<FlightKey> readKey(const fs::path& file, std::size_t number, const toml::
             continue;
         }
         return planet::badInput(fmt::format(
-            "{}: key {}: {:.40} is not known; a key has time_s, latitude_deg, longitude_deg, altitude_m, "
-            "heading_deg, pitch_deg and, optional, jump",
+            "{}: key {}: {:.40} is unknown; expected time_s, latitude_deg, longitude_deg, altitude_m, "
+            "heading_deg, pitch_deg and, optionally, jump",
             placeOf(file, node), number, name.str()));
     }
     return key;
 }
 
-// The great circle between opposite places is not defined, and near that it swings about.
+// The great circle between opposite places is undefined, and it is unstable close to that.
 constexpr double maxStepDeg = 170;
 
 Result<void> checkOrder(const fs::path& file, const toml::table& table, const FlightPath& path,
                         const FlightKey& next) {
     if (path.keys.empty()) {
         if (!next.jumpedTo) return {};
-        return planet::badInput(fmt::format("{}: key 1: jump is true; expected false, no key is before it",
+        return planet::badInput(fmt::format("{}: key 1: jump is true without a key before it; expected false",
                                             placeOf(file, table)));
     }
     const std::size_t number = path.keys.size() + 1;
@@ -90,10 +90,9 @@ Result<void> checkOrder(const fs::path& file, const toml::table& table, const Fl
     const double cosine = glm::dot(directionOf(last), directionOf(next));
     const double stepDeg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
     if (stepDeg > maxStepDeg && !next.jumpedTo) {
-        return planet::badInput(
-            fmt::format("{}: key {}: lies {:.0f}° from key {}; expected a key between them, so that "
-                        "no step is over {}, or jump = true",
-                        placeOf(file, table), number, stepDeg, number - 1, maxStepDeg));
+        return planet::badInput(fmt::format(
+            "{}: key {}: is {:.0f}° from key {}; expected at most {}° between keys, or jump = true",
+            placeOf(file, table), number, stepDeg, number - 1, maxStepDeg));
     }
     return {};
 }
@@ -125,7 +124,7 @@ Result<FlightPath> flightPathOf(const fs::path& file, const toml::table& documen
             if (Result<void> read = readKeys(file, *node.as_array(), path); !read)
                 return tl::unexpected(read.error());
         } else {
-            return planet::badInput(fmt::format("{}: {:.40} is not known; expected name and [[key]] tables",
+            return planet::badInput(fmt::format("{}: {:.40} is unknown; expected name and [[key]] tables",
                                                 placeOf(file, node), key.str()));
         }
     }
@@ -141,19 +140,8 @@ constexpr double leastGapS = 0.1;
 planet::CameraPose flownPose(const FlightRecord& record, std::size_t frame) {
     planet::CameraPose pose =
         planet::poseFromView(record.frames[frame].views[0].view, record.data.shape.radiusM);
-    pose.altitudeM = std::max(pose.altitudeM, 1.0);  // the least that a flight may have
+    pose.altitudeM = std::max(pose.altitudeM, 1.0);  // the lowest altitude of a flight
     return pose;
-}
-
-// Returns true for a file whose beginning no text has. A pipe is not opened: that would wait for its writer.
-bool isBinary(const fs::path& file) {
-    std::error_code status;
-    if (!fs::is_regular_file(file, status)) return false;
-    std::string start(4096, ' ');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(stream.gcount()));
-    return start.find('\0') != std::string::npos;
 }
 
 bool isJump(const FlightRecord& record, std::size_t frame) {
@@ -194,7 +182,8 @@ Result<FlightPath> loadFlightPath(const fs::path& file) {
         return loadFlightRecord(file).and_then(
             [&](const FlightRecord& record) { return pathOf(record, file); });
     }
-    if (isBinary(file)) {
+    // Text contains no NUL.
+    if (startOfFile(file, 4096).find('\0') != std::string::npos) {
         return planet::badInput(
             fmt::format("{}: is not a flight; expected a flight (.toml or .flight)", file.string()));
     }

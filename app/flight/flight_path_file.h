@@ -1,5 +1,4 @@
-// Reading flights: camera keys in a TOML file, or the camera's path of a recorded flight. Pure functions but
-// for reading files; any thread.
+// Reads flights: camera keys in a TOML file, or the path of the camera in a recorded flight. Any thread.
 //
 //     name = "Orbit to ground"
 //     [[key]]
@@ -23,12 +22,11 @@ namespace worldy {
 // Reads a TOML file of keys, or the path of a recorded .flight (app/flight/flight_record.h). The Error names
 // the file, the key's number from 1 and the expected value.
 planet::Result<FlightPath> loadFlightPath(const std::filesystem::path& file);
-// Does the same for a TOML file's text; place stands for the file's name in errors.
+// Reads the text of a TOML file. place stands for the file name in errors.
 planet::Result<FlightPath> flightPathFromText(std::string_view text, const std::filesystem::path& place);
 
-// Returns the path of a record's camera, for cameras that follow flights: at most ten keys per second, and at
-// least two. Where the camera jumped, because of a bookmark, say, the path jumps too, with a key on either
-// side.
+// Returns the path of the camera in a recorded flight, with at least two keys and at most ten per second. If
+// the camera jumped, for example to a bookmark, the path jumps too, with a key on either side.
 planet::Result<FlightPath> pathOf(const FlightRecord& record, const std::filesystem::path& file);
 
 }  // namespace worldy

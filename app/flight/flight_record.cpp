@@ -40,11 +40,11 @@ constexpr std::size_t mostBytesOfText = 1 << 16;
 constexpr int mostSidePx = 1 << 16;
 constexpr int compressionLevel = 9;
 
-// Of an arrival: Failed by bad data.
+// The outcome of an arrival that failed because of bad data.
 constexpr std::uint8_t badDataOutcome = 4;
 static_assert(badDataOutcome > static_cast<std::uint8_t>(planet::PagingOutcome::Cancelled));
 
-// What of a frame is not as in the one before.
+// Flags for the parts of a frame that differ from the frame before.
 constexpr int callsPart = 1, viewsPart = 2, drawnPart = 4, movesPart = 8, hashPart = 16;
 
 void putVarint(ByteWriter& out, std::uint64_t value) {
@@ -68,10 +68,11 @@ void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
     for (const ChunkId& id : ids) putId(out, id);
 }
 
-// A block of colours has the levels above those of chunks.
+// The levels of colour blocks are stored after those of chunks.
 constexpr int firstColourLevel = planet::maxLevel + 1;
 static_assert(firstColourLevel + planet::maxColourLevel < 32);
-// One of normals has a face that there is not, and its own in the level's place; its level follows.
+// A block of normals is stored with an invalid face; its own face takes the place of the level, and the level
+// follows.
 constexpr unsigned normalsFace = 7;
 static_assert(normalsFace >= planet::faceCount);
 
@@ -104,22 +105,14 @@ void putMoves(ByteWriter& out, const PagingMoves& moves) {
     putBlocks(out, moves.requested);
 }
 
-bool empty(const PagingMoves& moves) {
-    return moves == PagingMoves{};
-}
-
-std::array<double, 13> numbersOf(const planet::View& v) {
-    return {v.eyeM.x, v.eyeM.y, v.eyeM.z, v.right.x, v.right.y, v.right.z,         v.up.x,
-            v.up.y,   v.up.z,   v.back.x, v.back.y,  v.back.z,  v.horizontalFovRad};
-}
-
 bool sameView(const FlownView& a, const FlownView& b) {
-    return numbersOf(a.view) == numbersOf(b.view) && a.view.widthPx == b.view.widthPx &&
-           a.view.heightPx == b.view.heightPx && a.priorityFactor == b.priorityFactor;
+    return a.view == b.view && a.priorityFactor == b.priorityFactor;
 }
 
 void putView(ByteWriter& out, const FlownView& flown) {
-    for (const double number : numbersOf(flown.view)) out.put(number);
+    for (const glm::dvec3& vector : {flown.view.eyeM, flown.view.right, flown.view.up, flown.view.back})
+        for (int i = 0; i < 3; ++i) out.put(vector[i]);
+    out.put(flown.view.horizontalFovRad);
     putVarint(out, static_cast<std::uint64_t>(flown.view.widthPx));
     putVarint(out, static_cast<std::uint64_t>(flown.view.heightPx));
     out.put(flown.priorityFactor);
@@ -139,7 +132,7 @@ void putCalls(ByteWriter& out, const std::vector<CalledInFlight>& calls) {
     }
 }
 
-// Of a frame's calls, and their settings.
+// Returns the number of calls of a frame plus the number of their settings.
 std::size_t callsIn(const FlightFrame& frame) {
     std::size_t calls = frame.calls.size();
     for (const CalledInFlight& called : frame.calls) calls += called.settings.size();
@@ -150,8 +143,8 @@ std::uint64_t hashOf(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-// Reads what may be cut off or made up. After the first thing that is wrong it gives zeros, and ok() is
-// false.
+// Reads data that may be truncated or hostile. After the first problem, ok() is false and all values are
+// zero.
 class Reader {
 public:
     Reader(std::span<const std::byte> bytes, int deepest) : in_(bytes), deepest_(deepest) {}
@@ -179,7 +172,7 @@ public:
         fail("number too large");
         return 0;
     }
-    // Of things of at least so many bytes.
+    // Reads the number of elements that take at least bytesEach each.
     std::size_t count(std::size_t bytesEach) {
         const std::uint64_t wanted = varint();
         if (ok() && wanted > in_.rest().size() / bytesEach)
@@ -197,7 +190,7 @@ public:
         for (std::size_t i = 0; i < size && ok(); ++i) text.push_back(get<char>());
         return text;
     }
-    // As reports and messages need it.
+    // Reads a text for reports and messages, which need UTF-8.
     std::string utf8(const char* what) {
         std::string value = text();
         if (!isUtf8(value)) fail(fmt::format("{} is not UTF-8", what));
@@ -330,7 +323,7 @@ void putData(ByteWriter& out, const FlightData& data) {
     out.put(data.headerHash);
 }
 
-// Views without what was drawn.
+// Reads views without their drawn chunks.
 std::vector<FlownView> readViews(Reader& in) {
     const std::size_t count = in.get<std::uint8_t>();
     if (count == 0 || count > planet::maxViews) {
@@ -342,12 +335,12 @@ std::vector<FlownView> readViews(Reader& in) {
     return views;
 }
 
-// What a frame is checked against.
+// The state that frames are checked against.
 struct FlightSoFar {
     std::vector<std::set<ChunkId>> drawn;  // by view
     ViewSettings settings;
     double seconds = 0;
-    std::size_t calls = 0;  // and their settings
+    std::size_t calls = 0;  // calls plus their settings
     std::size_t settingsACall = flightSettings(ViewSettings{}).size();
 };
 
@@ -390,7 +383,7 @@ void checkAscending(Reader& in, const std::vector<ChunkId>& ids, const char* wha
     }
 }
 
-// Follows what is drawn, so that nothing appears or vanishes which cannot.
+// Updates the drawn chunks, and checks that chunks appear and vanish consistently.
 void followDrawn(Reader& in, const FlownView& view, std::set<ChunkId>& drawn) {
     checkAscending(in, view.appeared, "appearance");
     checkAscending(in, view.vanished, "disappearance");
@@ -407,7 +400,7 @@ void followDrawn(Reader& in, const FlownView& view, std::set<ChunkId>& drawn) {
     if (in.ok()) drawn.insert(view.appeared.begin(), view.appeared.end());
 }
 
-// before: null for the first frame.
+// before is null for the first frame.
 FlightFrame readFrame(Reader& in, const FlightFrame* before, FlightSoFar& soFar) {
     FlightFrame frame;
     const auto parts = in.get<std::uint8_t>();
@@ -461,7 +454,8 @@ FlightRecord readContent(Reader& in) {
 
 Result<std::vector<std::byte>> readWhole(const fs::path& file) {
     std::error_code status;
-    if (!fs::exists(file, status)) return planet::badInput(fmt::format("{}: no such file", file.string()));
+    if (!fs::exists(file, status))
+        return planet::badInput(fmt::format("{}: no such file; expected a .flight file", file.string()));
     const std::uintmax_t size = fs::is_regular_file(file, status) ? fs::file_size(file, status) : 0;
     if (size < headerBytes || size > 2 * maxFlightBytes) {
         return planet::badInput(
@@ -471,7 +465,8 @@ Result<std::vector<std::byte>> readWhole(const fs::path& file) {
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     std::ifstream stream(file, std::ios::binary);
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!stream) return planet::ioError(fmt::format("{}: cannot be read", file.string()));
+    if (!stream)
+        return planet::ioError(fmt::format("{}: cannot be read; expected a readable file", file.string()));
     return bytes;
 }
 
@@ -494,7 +489,7 @@ Result<std::vector<std::byte>> contentBytes(std::span<const std::byte> all, cons
     const auto packed = all.subspan(headerBytes);
     const std::size_t got = ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size());
     if (ZSTD_isError(got) || got != content.size() || hashOf(content) != checksum)
-        return wrong("is damaged or truncated: its content does not match its checksum");
+        return wrong("is damaged or truncated: checksum mismatch; expected a complete recording");
     return content;
 }
 
@@ -558,7 +553,9 @@ Result<void> applyFlightSettings(const std::vector<std::string>& assignments, Vi
     all.view = settings;
     for (const std::string& assignment : assignments) {
         const bool ofView = isViewTable(assignment.substr(0, assignment.find('.')));
-        if (!ofView) return planet::badInput(fmt::format("{:.60}: is not a view setting", assignment));
+        if (!ofView)
+            return planet::badInput(
+                fmt::format("{:.60}: is not a view setting; expected one such as lod.tau_px=3", assignment));
         if (Result<void> set = setSetting(all, assignment); !set) return set;
     }
     settings = all.view;
@@ -578,7 +575,7 @@ void FlightEncoder::add(const FlightFrame& frame) {
     });
     const bool newHash = frame.selectionHash != hash_;
     const int parts = (frame.calls.empty() ? 0 : callsPart) | (newViews ? viewsPart : 0) |
-                      (drawn ? drawnPart : 0) | (empty(frame.moves) ? 0 : movesPart) |
+                      (drawn ? drawnPart : 0) | (frame.moves == PagingMoves{} ? 0 : movesPart) |
                       (newHash ? hashPart : 0);
     ByteWriter out(bytes_);
     out.put(static_cast<std::uint8_t>(parts));
@@ -616,7 +613,7 @@ Result<void> FlightEncoder::write(const fs::path& file, const std::string& name,
     if (!bytes) return planet::ioError(fmt::format("{}: {}", file.string(), bytes.error().message));
     Result<planet::AtomicFile> target = planet::AtomicFile::create(file);
     if (!target) return tl::unexpected(target.error());
-    // From here on no other may write it.
+    // From here on no other process can write the file.
     std::error_code status;
     if (ifThere == IfThere::Fail && fs::exists(fs::symlink_status(file, status))) {
         return planet::ioError(fmt::format("{}: already exists; expected another name", file.string()));

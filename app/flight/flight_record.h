@@ -1,5 +1,5 @@
-// A recorded flight: all that a planet was given, frame by frame, what it chose, and what its loaders did.
-// Kept in a .flight file, of which a replay makes the same frames again.
+// A recorded flight: all inputs of a planet, its selections, and the actions of its loaders, frame by frame.
+// It is stored in a .flight file, from which a replay reproduces the same frames.
 //
 //   8 bytes   "WYFLIGHT"
 //   4         version, 1
@@ -7,9 +7,8 @@
 //   8         XXH3 of the content
 //   rest      the content, compressed by zstd
 //
-// The content is binary, little-endian, and says of each frame only what is not as in the frame before: a
-// camera at rest costs about ten bytes a frame before compression. The file is hostile until checked.
-// Pure but for reading and writing; one thread.
+// The content is binary and little-endian, and stores only the changes from frame to frame: a camera at rest
+// takes about ten bytes per frame before compression. The file is untrusted until checked. One thread.
 #pragma once
 
 #include <cstddef>
@@ -28,52 +27,51 @@ namespace worldy {
 inline constexpr const char* recordedFlightEnding = ".flight";
 
 inline constexpr std::uint32_t flightRecordVersion = 1;
-// A recording ends by itself at either.
-inline constexpr std::size_t maxFlightFrames = 216'000;   // an hour at 60 a second
-inline constexpr std::size_t maxFlightBytes = 64u << 20;  // of the content
-// And at these, of which a file that holds more is refused.
+// A recording ends when it reaches one of these limits. A file that exceeds one is refused.
+inline constexpr std::size_t maxFlightFrames = 216'000;   // an hour at 60 frames per second
+inline constexpr std::size_t maxFlightBytes = 64u << 20;  // size of the content
 inline constexpr double maxFlightS = 1e6;
 inline constexpr std::size_t maxCallsAFrame = 1000;
-inline constexpr std::size_t maxFlightCalls = 2 * maxFlightFrames;  // of all frames, and their settings
-inline constexpr std::size_t maxFlightChunks = 1u << 20;            // drawn at once in a view
+inline constexpr std::size_t maxFlightCalls = 2 * maxFlightFrames;  // calls of all frames plus their settings
+inline constexpr std::size_t maxFlightChunks = 1u << 20;            // chunks drawn at once in a view
 
-// Which chunk file was flown over; equal for copies of the same file.
+// Identifies the chunk file of a flight. Copies of a file have the same identity.
 struct FlightData {
-    std::string chunkFile;  // where it lay
+    std::string chunkFile;  // path when recorded
     planet::PlanetShape shape;
     std::uint64_t fileBytes = 0;
     std::uint64_t headerHash = 0;  // XXH3
 };
 FlightData flightDataOf(const planet::ChunkFile& file);
-// The Error says what is different.
+// Different files are an Error that names the difference.
 planet::Result<void> checkSameData(const std::filesystem::path& flight, const FlightData& recorded,
                                    const FlightData& present);
 
-// What was asked of the planet between two steps.
+// A call to the planet between two steps.
 enum class FlightCall : std::uint8_t { DropAll, LoadOne, RetryFailed, Settings, RetryBlock };
 
 struct CalledInFlight {
     FlightCall call = FlightCall::DropAll;
-    planet::BlockId block{};  // of RetryBlock
-    // Of Settings: "lod.tau_px=3", those that changed, all at the beginning; and whether paging is paused.
+    planet::BlockId block{};  // for RetryBlock
+    // For Settings: the changed settings, "lod.tau_px=3", or all of them in the first frame.
     std::vector<std::string> settings{};
-    bool pagingPaused = false;
+    bool pagingPaused = false;  // for Settings
     planet::PagingMoves moves{};
 };
 
 struct FlownView {
     planet::View view;
     double priorityFactor = 1;
-    std::vector<planet::ChunkId> appeared;  // drawn, and not in the frame before; ascending
+    std::vector<planet::ChunkId> appeared;  // drawn now but not in the frame before; ascending
     std::vector<planet::ChunkId> vanished;
 };
 
 struct FlightFrame {
-    std::vector<CalledInFlight> calls;  // in their order, before the step
+    std::vector<CalledInFlight> calls;  // in order, before the step
     double elapsedS = 0;                // since the frame before
     std::vector<FlownView> views;       // 1 to maxViews
-    planet::PagingMoves moves;          // of the step
-    std::uint64_t selectionHash = 0;    // of all views' chunks, their order, levels and morphs
+    planet::PagingMoves moves;          // moves of the step
+    std::uint64_t selectionHash = 0;    // selectionHashOf the planet after the step
 };
 
 struct FlightRecord {
@@ -82,21 +80,21 @@ struct FlightRecord {
     std::vector<FlightFrame> frames;
 };
 
-// Settings of the view as assignments: all of them, or those in which `now` differs. Left out is how the
-// camera moves, which the recording itself says.
+// Return the view settings as assignments: all of them, or those that differ in `now`. The settings of camera
+// movement are omitted, because the recording contains the movement.
 std::vector<std::string> flightSettings(const ViewSettings& now);
 std::vector<std::string> flightSettings(const ViewSettings& before, const ViewSettings& now);
-// The Error names the assignment.
+// An invalid assignment is an Error that names it.
 planet::Result<void> applyFlightSettings(const std::vector<std::string>& assignments, ViewSettings& settings);
 
-// What becomes of a file that is there already.
+// The handling of a file that already exists.
 enum class IfThere : std::uint8_t { Replace, Fail };
 
-// Encodes frames as they come, so that memory holds no more than the file will.
+// Encodes frames as they come, so memory use is limited to the size of the content.
 class FlightEncoder {
 public:
     void add(const FlightFrame& frame);
-    // Whether a file may hold it after those before.
+    // Returns true if the frame keeps the recording within the limits of a file.
     bool fits(const FlightFrame& frame) const;
     void end() { ended_ = true; }
 
@@ -105,25 +103,25 @@ public:
     double seconds() const { return seconds_; }
     bool full() const { return ended_ || frames_ >= maxFlightFrames || bytes_.size() >= maxFlightBytes; }
 
-    // The whole file appears at once, or not at all.
+    // Writes the file atomically.
     planet::Result<void> write(const std::filesystem::path& file, const std::string& name,
                                const FlightData& data, IfThere ifThere = IfThere::Replace) const;
 
 private:
     std::vector<std::byte> bytes_;
     std::size_t frames_ = 0;
-    std::size_t calls_ = 0;  // and their settings
+    std::size_t calls_ = 0;  // calls plus their settings
     double seconds_ = 0;
     bool ended_ = false;
-    std::vector<FlownView> views_;  // of the frame before
+    std::vector<FlownView> views_;  // views of the frame before
     std::uint64_t hash_ = 0;
 };
 
 planet::Result<FlightRecord> loadFlightRecord(const std::filesystem::path& file);
-// The same of a file's bytes; place stands for its name in errors.
+// Reads the bytes of a file. place stands for the file name in errors.
 planet::Result<FlightRecord> flightRecordFromBytes(std::span<const std::byte> bytes,
                                                    const std::filesystem::path& place);
-// What a file begins with and how it holds its content. The Error is of the compression.
+// Returns the bytes of a file: the header and the compressed content. A failed compression is an Error.
 planet::Result<std::vector<std::byte>> flightFileBytes(std::span<const std::byte> content,
                                                        int compressionLevel);
 

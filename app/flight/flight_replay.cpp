@@ -9,7 +9,7 @@
 
 #include "app/flight/recorder.h"
 #include "app/flight/selection_hash.h"
-#include "app/scene/scene.h"
+#include "app/scene/scene_settings.h"
 #include "planet/planet_tools.h"
 
 namespace worldy {
@@ -43,8 +43,8 @@ Blocks blocksOf(const std::vector<PagingMoves::Arrival>& arrivals) {
     return blocks;
 }
 
-// Before the first frame's settings, which are all that there were then. What was recorded before there were
-// retries knows of none: there were none.
+// Returns the settings before those of the first frame, which contain all settings that existed at the time
+// of the recording. Recordings older than the setting for retries were made without retries.
 ViewSettings settingsBefore(const FlightRecord& record) {
     constexpr std::string_view assignment = "paging.retries=";
     ViewSettings settings;
@@ -107,13 +107,13 @@ void FlightReplay::rewind(planet::Planet& planet) {
 }
 
 void FlightReplay::follow(planet::Planet& planet, const PagingMoves& moves) const {
-    // What cannot be followed shows in what is compared.
+    // Moves that cannot be followed show up as differences.
     if (paging_ == ReplayPaging::AsRecorded) static_cast<void>(planet.tools().follow(moves));
 }
 
 Result<void> FlightReplay::repeat(const CalledInFlight& called, const ReplayedPlanet& replayed) {
     if (called.call == FlightCall::Settings) {
-        // Both were checked when they were read.
+        // Both were checked when they were read, so they cannot fail.
         static_cast<void>(applyFlightSettings(called.settings, settings_));
         static_cast<void>(applyFlightSettings(assignments_, settings_));
         follow(replayed.planet, called.moves);
@@ -138,7 +138,7 @@ Result<void> FlightReplay::step(const ReplayedPlanet& replayed) {
     for (const FlownView& view : frame.views)
         views.push_back({view.view, lodSettingsOf(settings_), view.priorityFactor,
                          colourSettingsOf(settings_), normalSettingsOf(settings_)});
-    planet.tools().takeMoves();  // those of the calls are not compared
+    planet.tools().takeMoves();  // discards the moves of the calls, which are not compared
     planet.step(views, replayed.upload, frame.elapsedS);
     timeS_ += frame.elapsedS;
     ++next_;
@@ -175,8 +175,9 @@ void FlightReplay::compare(planet::Planet& planet, const FlightFrame& frame) {
 
 namespace {
 
-// Follows what is drawn from frame to frame at the cost of what changes alone. A chunk is split where one
-// below it is drawn. Splits and merges are those of planet::LodChanges, which is given whole selections.
+// Tracks the drawn chunks from frame to frame at a cost proportional to the changes. A chunk is split if a
+// descendant of it is drawn. Counts the same splits and merges as planet::LodChanges, which takes whole
+// selections.
 class DrawnBelow {
 public:
     FlightChange change(std::size_t frame, const FlownView& view) {
@@ -206,7 +207,7 @@ private:
             to[id] += by;
         }
     }
-    // The chunk itself is drawn, or one above it.
+    // Returns true if the chunk or one of its ancestors is drawn.
     bool coversOne(planet::ChunkId id) const {
         while (drawn_.count(id) == 0) {
             if (id.level == 0) return false;
@@ -216,7 +217,7 @@ private:
     }
 
     std::unordered_set<planet::ChunkId> drawn_;
-    std::unordered_map<planet::ChunkId, std::int64_t> below_;  // drawn chunks below each
+    std::unordered_map<planet::ChunkId, std::int64_t> below_;  // drawn descendants of each chunk
 };
 
 }  // namespace

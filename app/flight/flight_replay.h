@@ -1,5 +1,5 @@
-// Replays a recorded flight: gives a planet the same calls in the same order, and compares what it does with
-// what was recorded. Draws nothing and has no clock; one thread, the planet's.
+// Replays a recorded flight: makes the same calls to a planet in the same order, and compares its behaviour
+// with the recording. It draws nothing and reads no clock. Call it from the planet's thread.
 #pragma once
 
 #include <functional>
@@ -14,34 +14,35 @@
 
 namespace worldy {
 
-// AsRecorded: each block arrives in the frame in which it did. Simulated: when the recorded bad disk and seed
-// say, which is the same only where the flight was recorded by simulated time.
+// AsRecorded: each block arrives in the recorded frame. Simulated: the recorded fault injection settings and
+// seed decide when it arrives, which gives the same frames only if the flight was recorded in simulated time.
 enum class ReplayPaging : std::uint8_t { AsRecorded, Simulated };
 
-// What a replay moves.
+// The planet that a replay drives.
 struct ReplayedPlanet {
     planet::Planet& planet;
     planet::UploadChunk upload;
-    // Gives the planet its settings, and draws by them.
+    // Applies the settings to the planet and to the renderer.
     std::function<planet::Result<void>(const ViewSettings&, bool pagingPaused, planet::PagingTime)> apply;
 };
-// Without anything to draw with.
+// Returns a replayed planet without a renderer.
 ReplayedPlanet headless(planet::Planet& planet);
 
-// The first frame that was not as recorded.
+// The first frame that differs from the recording.
 struct ReplayDifference {
-    std::size_t frame = 0;  // from 0
-    double timeS = 0;       // from the recording's start, its end
-    std::string what;       // "selection", "requests" or "arrivals", the first of these
-    std::vector<planet::BlockId>
-        onlyReplayed;  // chunks drawn, blocks asked for or arrived; both may be empty where
-    std::vector<planet::BlockId> onlyRecorded;  // order, morphs or outcomes alone differ
+    std::size_t frame = 0;  // counted from 0
+    double timeS = 0;       // end of the frame, from the start of the recording
+    std::string what;       // the first of "selection", "requests" and "arrivals" that differs
+    // The drawn chunks, or the requested or arrived blocks. Both are empty if only the order, morphs or
+    // outcomes differ.
+    std::vector<planet::BlockId> onlyReplayed;
+    std::vector<planet::BlockId> onlyRecorded;
 };
 
 class FlightReplay {
 public:
-    // assignments: settings that are held at other values than the recorded ones, "lod.tau_px=3". The Error
-    // names one that is wrong.
+    // assignments: settings that override the recorded ones, "lod.tau_px=3". An invalid one is an Error that
+    // names it.
     static planet::Result<FlightReplay> create(std::shared_ptr<const FlightRecord> record,
                                                ReplayPaging paging,
                                                std::vector<std::string> assignments = {});
@@ -49,22 +50,23 @@ public:
     const FlightRecord& record() const { return *record_; }
     std::shared_ptr<const FlightRecord> sharedRecord() const { return record_; }
     ReplayPaging paging() const { return paging_; }
-    std::size_t next() const { return next_; }  // the frame that step() makes; frames done
+    std::size_t next() const { return next_; }  // index of the next frame; number of frames done
     bool atEnd() const { return next_ == record_->frames.size(); }
-    double timeS() const { return timeS_; }  // of the frame done last
+    double timeS() const { return timeS_; }  // end of the last frame
     const ViewSettings& settings() const { return settings_; }
-    // Of the frame done last, or of the first where none is.
+    // Returns the first view of the last frame, or of the first frame before any step.
     const planet::View& view() const;
 
     std::size_t framesDifferent() const { return different_; }
     const std::optional<ReplayDifference>& firstDifference() const { return first_; }
 
-    // With which the planet is opened, or given before rewind().
+    // Returns the settings with which the planet must be opened, or which it must be given before rewind().
     planet::PagingSettings pagingAtStart() const;
 
-    // Back to before the first frame: the planet starts anew and keeps its moves. Also to be called first.
+    // Resets the planet, which then keeps its moves, and goes back to the first frame. Call it before the
+    // first step too.
     void rewind(planet::Planet& planet);
-    // Makes the next frame. The Error says which settings the planet has refused.
+    // Makes the next frame. Settings that the planet refuses are an Error.
     planet::Result<void> step(const ReplayedPlanet& replayed);
 
 private:
@@ -82,12 +84,12 @@ private:
     ViewSettings settings_;
     std::size_t next_ = 0;
     double timeS_ = 0;
-    std::vector<std::vector<planet::ChunkId>> drawn_;  // as recorded, by view, ascending
+    std::vector<std::vector<planet::ChunkId>> drawn_;  // recorded chunks by view, ascending
     std::size_t different_ = 0;
     std::optional<ReplayDifference> first_;
 };
 
-// Splits and merges of the first view in each frame, told from what was recorded as drawn.
+// The splits and merges of the first view in a frame, derived from the recorded chunks.
 struct FlightChange {
     std::size_t frame = 0;
     int splits = 0;

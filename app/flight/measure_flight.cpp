@@ -1,7 +1,5 @@
 #include "app/flight/measure_flight.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -17,14 +15,14 @@ namespace {
 
 using planet::Result;
 
-// What is gathered over the frames before it becomes figures.
+// The values of all frames, from which the figures are computed.
 struct Gathered {
     std::vector<double> groundTriangles;
     std::vector<double> skirtTriangles;
-    std::vector<double> triangles;  // their sum
+    std::vector<double> triangles;  // ground and skirt triangles
     std::vector<double> chunks;
     std::vector<double> frameMs;
-    std::vector<double> measuredPx;  // of every chunk
+    std::vector<double> measuredPx;  // one per chunk and frame
 };
 
 double meanOf(const std::vector<double>& values) {
@@ -49,7 +47,7 @@ Result<void> addError(const Offscreen& offscreen, const planet::View& view, cons
     return {};
 }
 
-// The first draw of a view uploads; the second is timed.
+// Draws twice, because the first draw of a view uploads; only the second is timed.
 Result<void> addCost(Offscreen& offscreen, const planet::View& view, const ViewSettings& settings,
                      Gathered& gathered, FlightFigures& figures) {
     if (Result<void> drawn = drawAndFinish(offscreen, view, settings); !drawn) return drawn;
@@ -75,7 +73,7 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
                                     const AtMoment& atMoment) {
     FlightFigures figures;
     Gathered gathered;
-    // Residents of another setting are not this one's memory.
+    // Chunks left from other settings must not count as memory of these.
     offscreen.scene.planet->tools().dropAll();
     const std::uint64_t readBefore = offscreen.scene.planet->paging().bytesRead();
     for (int i = 0; i < frames.count; ++i) {
@@ -83,9 +81,7 @@ Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path
         if (!goOnHere()) return planet::cancelled();
         const SettledView at = settleAt(offscreen, poseAt(path, frames.timeS(i)), settings, goOnHere);
         if (!at.settled && !goOnHere()) return planet::cancelled();
-        if (!at.settled)
-            return planet::ioError(
-                fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
+        if (!at.settled) return loadingTimedOut();
         if (const Result<void> added = addCost(offscreen, at.view, settings, gathered, figures); !added)
             return tl::unexpected(added.error());
         if (wanted == FigureSet::CostAndError) {

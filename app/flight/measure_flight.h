@@ -1,5 +1,5 @@
-// Measures the cost of a setting and its true error over a flight. The planet is settled at each of some
-// evenly spaced sample frames, so that the figures are those of the setting and not of the disk.
+// Measures the cost and the error of settings over a flight. Each sample frame is settled first, so that the
+// figures do not depend on the disk.
 #pragma once
 
 #include <functional>
@@ -11,17 +11,16 @@
 
 namespace worldy {
 
-// Which figures are wanted: the true error reads all of the finest data in view.
+// The figures to measure. The true error takes longer, because it reads all of the finest data in view.
 enum class FigureSet : std::uint8_t { Cost, CostAndError };
 
-// Asked before each frame, and several times a second while it is settled and measured, then from any thread,
-// with its number from 0; false ends with an Error of kind Cancelled.
+// Called before each frame, with its index, and several times per second while the frame is settled and
+// measured, then from any thread. Returning false ends the flight with an Error of kind Cancelled.
 using KeepFlying = std::function<bool(int frame)>;
 
-// Looks at each moment once its figures are there. An Error ends the flight.
+// Called for each sample frame after its figures are measured. An Error ends the flight.
 using AtMoment = std::function<planet::Result<void>(Offscreen& offscreen, const SettledView& at)>;
 
-// The Error names the file and what of it could not be read.
 planet::Result<FlightFigures> measureFlight(Offscreen& offscreen, const FlightPath& path,
                                             const ViewSettings& settings, const FlightFrames& frames,
                                             FigureSet wanted, planet::FinestHeights& heights,

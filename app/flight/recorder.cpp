@@ -21,7 +21,7 @@ Ids without(const Ids& from, const Ids& what) {
     return rest;
 }
 
-// As set, but for what the planet has of paging.
+// Returns the settings with the paging settings that the planet actually has.
 ViewSettings heldSettings(const planet::Planet& planet, ViewSettings settings) {
     const planet::PagingSettings held = planet.pagingSettings();
     settings.paging.budgetMB = static_cast<int>(held.budgetBytes >> 20);
@@ -30,7 +30,7 @@ ViewSettings heldSettings(const planet::Planet& planet, ViewSettings settings) {
     settings.paging.badDisk = held.badDisk;
     settings.paging.retries = held.retry.retries;
     settings.paging.retryDelayS = held.retry.delayS;
-    // What automatic is depends on the machine.
+    // The meaning of Automatic depends on the machine.
     settings.surface.light.normals.use =
         held.normals ? planet::gl::FeatureUse::On : planet::gl::FeatureUse::Off;
     settings.paging.normalShare = held.normalShare;
@@ -50,7 +50,7 @@ Ids drawnIds(const planet::Selection& selection) {
 
 Recorder::Recorder(planet::Planet& planet, std::string name)
     : name_(std::move(name)), data_(flightDataOf(planet.file())) {
-    // The working folder of a replay may be another.
+    // A replay may have another working folder.
     std::error_code status;
     const std::filesystem::path whole = std::filesystem::absolute(data_.chunkFile, status);
     if (!status) data_.chunkFile = whole.string();
@@ -102,7 +102,7 @@ void Recorder::stop(planet::Planet& planet) const {
 
 planet::Result<void> Recorder::write(const std::filesystem::path& file, IfThere ifThere) const {
     if (encoder_.frames() == 0)
-        return planet::badInput(fmt::format("{}: no frames recorded; not written", file.string()));
+        return planet::badInput(fmt::format("{}: 0 frames are recorded; expected at least 1", file.string()));
     return encoder_.write(file, name_, data_, ifThere);
 }
 

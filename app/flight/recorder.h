@@ -1,5 +1,5 @@
-// Records a flight while a planet is flown over: told of each call to the planet, it keeps what a replay
-// needs. One thread, the planet's.
+// Records a flight over a planet: it is notified of each call to the planet and stores what a replay needs.
+// Call it from the planet's thread.
 #pragma once
 
 #include <filesystem>
@@ -13,39 +13,40 @@
 
 namespace worldy {
 
-// The chunks of a draw list, ascending.
+// Returns the ids of the drawn chunks, ascending.
 std::vector<planet::ChunkId> drawnIds(const planet::Selection& selection);
 
 class Recorder {
 public:
-    // Starts the planet anew, so that a replay begins where this does, and has it keep its moves until
-    // stop(). The planet must be of a chunk file.
+    // Resets the planet, so that a replay begins in the same state, and lets it keep its moves until stop().
+    // The planet must have been opened from a chunk file.
     Recorder(planet::Planet& planet, std::string name);
 
-    // After each call, in the order of the calls; settings may be told of in every frame. Of paging what the
-    // planet has is recorded, which is not what was asked for where the GPU had no room for it.
-    // block: of RetryBlock.
+    // Records a call. block is for RetryBlock.
     void called(planet::Planet& planet, FlightCall call, const planet::BlockId& block = {});
+    // Records changed settings; may be called in every frame. Records the paging settings that the planet
+    // actually has, which differ from the requested ones if the GPU is out of memory.
     void givenSettings(planet::Planet& planet, const ViewSettings& asked, bool pagingPaused);
-    // priorityFactors: of the step's views. A frame that no file may hold is left out, and encoded() is full.
+    // Records a step with the priority factors of its views. A frame that exceeds the limits of a file is
+    // dropped, and encoded() is full then.
     void stepped(planet::Planet& planet, std::span<const double> priorityFactors);
 
     const std::string& name() const { return name_; }
     void rename(std::string name) { name_ = std::move(name); }
     const FlightEncoder& encoded() const { return encoder_; }
-    // The planet keeps no more moves.
+    // Lets the planet discard its moves again.
     void stop(planet::Planet& planet) const;
-    // The Error also says that there is no frame to write.
+    // A recording without frames is an Error.
     planet::Result<void> write(const std::filesystem::path& file, IfThere ifThere = IfThere::Replace) const;
 
 private:
     std::string name_;
     FlightData data_;
     FlightEncoder encoder_;
-    FlightFrame frame_;  // what was called since the last step
+    FlightFrame frame_;  // the calls since the last step
     std::optional<ViewSettings> settings_;
     bool pagingPaused_ = false;
-    std::vector<std::vector<planet::ChunkId>> drawn_;  // by view, ascending
+    std::vector<std::vector<planet::ChunkId>> drawn_;  // ids by view, ascending
 };
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// What a planet draws, as one number: whether a replay draws the same. Pure.
+// A hash of what a planet draws, to check replays.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace worldy {
 
-// XXH3 over all that the planet's selections draw: ids in their order, and morphs to the last bit.
+// Returns the XXH3 of all selections of the planet: ids in order, and morphs to the last bit.
 std::uint64_t selectionHashOf(const planet::Planet& planet);
 
 }  // namespace worldy

@@ -26,7 +26,7 @@ ChunkData takeMostRugged(std::array<ChunkData, count>&& chunks) {
 }
 
 struct LowView {
-    double radii;  // above the highest ground, in the planet's radii
+    double radii;  // height above the highest ground, in planet radii
     double headingDeg;
     double pitchDeg;
 };
@@ -38,8 +38,7 @@ constexpr std::array<LowView, 7> lowViews = {{{0.3, 0, -90},
                                               {0.002, 270, -5},
                                               {0.0005, 150, 0}}};
 
-}  // namespace
-
+// Descends from the roots, always to the chunk whose finest heights differ most, and returns the leaf.
 Result<ChunkData> mostRuggedLeaf(const planet::ChunkFile& file) {
     std::array<ChunkData, planet::faceCount> roots;
     for (const planet::Face face : planet::allFaces) {
@@ -55,6 +54,8 @@ Result<ChunkData> mostRuggedLeaf(const planet::ChunkFile& file) {
     }
     return chunk;
 }
+
+}  // namespace
 
 Result<std::vector<planet::CameraPose>> auditPoses(const planet::ChunkFile& file) {
     const Result<ChunkData> leaf = mostRuggedLeaf(file);

@@ -1,4 +1,4 @@
-// Where an audit looks from when it is told nothing else.
+// The default views of an audit.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,8 @@
 
 namespace worldy {
 
-// The leaf that one comes to from the roots by always taking the chunk whose finest heights differ most.
-planet::Result<planet::ChunkData> mostRuggedLeaf(const planet::ChunkFile& file);
-
-// The whole planet from two sides, and over the most rugged leaf from high up down to just over its highest
-// ground: straight down, aslant, and level in several directions.
+// Returns views of the whole planet from two sides, and views above its most rugged ground from high up to
+// just above the highest point: straight down, slanted, and level in several directions.
 planet::Result<std::vector<planet::CameraPose>> auditPoses(const planet::ChunkFile& file);
 
 }  // namespace worldy

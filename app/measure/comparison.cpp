@@ -12,6 +12,7 @@
 #include "app/flight/measure_flight.h"
 #include "app/measure/cracks.h"
 #include "app/measure/pops_flight.h"
+#include "app/scene/scene_settings.h"
 #include "app/settings/camera_text.h"
 #include "planet/base/percentile.h"
 
@@ -21,14 +22,15 @@ namespace {
 
 using planet::Result;
 
-// Of the time that all takes, by rule of thumb: each side's moments, its pops, and the times of both.
+// Estimated shares of the total time: the sample frames and the pops of each side, and the frame times of
+// both.
 constexpr double momentsShare = 0.3;
 constexpr double popsShare = 0.14;
 constexpr double timesShare = 0.12;
 
 constexpr int timedRounds = 5;
 
-// A part of the whole of a comparison.
+// Reports the progress of a part of a comparison.
 struct PartWatch {
     const ComparisonWatch& whole;
     double from = 0;
@@ -54,8 +56,7 @@ ComparedFigures figuresOf(const FlightFigures& flown) {
 }
 
 FlightFrames momentsOf(const ComparisonPlan& plan) {
-    if (plan.momentStepS == 0) return evenFrames(plan.path, plan.moments);
-    return {plan.path.keys.front().timeS, plan.momentStepS, plan.moments};
+    return framesOf(plan.path, plan.moments, plan.momentStepS);
 }
 
 struct MeasuredMoments {
@@ -104,7 +105,7 @@ Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, bool 
     return {};
 }
 
-// Without the tint that measures the true error for each picture anew.
+// Returns a side without the tint that measures the true error for each picture.
 ComparedSide timedSide(const ComparisonPlan& plan, std::size_t index) {
     ComparedSide side = flownSide(plan, index);
     if (side.settings.overlay.colourBy == ColourBy::Measured) side.settings.overlay.colourBy = ColourBy::None;
@@ -143,7 +144,7 @@ ByteDifference countDifferent(const Picture& a, const Picture& b) {
     return difference;
 }
 
-// Two planets in one context: A's in the first place, B's outside, and in the first place while it is used.
+// Two scenes in one context. offscreen.scene is A's; withB exchanges it with B's during a call.
 struct BothScenes {
     Offscreen offscreen;
     Scene other;
@@ -165,27 +166,24 @@ Result<BothScenes> openBoth(const ComparedSide& a, const ComparedSide& b, const 
     return BothScenes{std::move(*offscreen), std::move(*other)};
 }
 
-double timeOfMoment(const ComparisonPlan& plan, int moment) {
-    return momentsOf(plan).timeS(moment);
-}
-
 Result<double> frameMs(Offscreen& offscreen, const planet::View& view, const ViewSettings& settings) {
     const Stopwatch watch;
     stepScene(offscreen.scene, view, settings);
     return drawAndFinish(offscreen, view, settings).map([&] { return watch.elapsedMs(); });
 }
 
-// In turn at each moment, so that what else the machine does meets both: the best of some rounds, and of
-// those the median.
+// Measures both sides in alternation, so that other load affects both. Takes the best of several rounds at
+// each sample frame, and the median of those.
 Result<std::array<double, 2>> measureFrameMs(const ComparisonPlan& plan, const PartWatch& goOn) {
     const ComparedSide a = timedSide(plan, 0);
     const ComparedSide b = timedSide(plan, 1);
     Result<BothScenes> both = openBoth(a, b, plan.size);
     if (!both) return tl::unexpected(both.error());
+    const FlightFrames moments = momentsOf(plan);
     std::array<std::vector<double>, 2> bests;
     for (int i = 0; i < plan.moments; ++i) {
         if (!goOn(static_cast<double>(i) / plan.moments)) return planet::cancelled();
-        const planet::CameraPose pose = poseAt(plan.path, timeOfMoment(plan, i));
+        const planet::CameraPose pose = poseAt(plan.path, moments.timeS(i));
         const planet::View viewA = settleAt(both->offscreen, pose, a.settings).view;
         const planet::View viewB =
             both->withB([&] { return settleAt(both->offscreen, pose, b.settings).view; });
@@ -207,9 +205,7 @@ Result<std::array<double, 2>> measureFrameMs(const ComparisonPlan& plan, const P
 Result<Picture> pictureAt(Offscreen& offscreen, const planet::CameraPose& pose,
                           const ViewSettings& settings) {
     const SettledView at = settleAt(offscreen, pose, settings);
-    if (!at.settled)
-        return planet::ioError(
-            fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
+    if (!at.settled) return loadingTimedOut();
     if (Result<void> drawn = drawAndFinish(offscreen, at.view, settings); !drawn)
         return tl::unexpected(drawn.error());
     return readPicture(offscreen);
@@ -261,17 +257,18 @@ Result<ComparedPictures> compareInPictures(const ComparisonPlan& plan, const Com
     const ComparedSide b = flownSide(plan, 1);
     Result<BothScenes> both = openBoth(a, b, plan.size);
     if (!both) return tl::unexpected(both.error());
+    const FlightFrames moments = momentsOf(plan);
     ComparedPictures worst;
     for (int i = 0; i < plan.moments; ++i) {
         if (!goOn(static_cast<double>(i) / plan.moments)) return planet::cancelled();
-        const planet::CameraPose pose = poseAt(plan.path, timeOfMoment(plan, i));
+        const planet::CameraPose pose = poseAt(plan.path, moments.timeS(i));
         Result<Picture> pictureA = pictureAt(both->offscreen, pose, a.settings);
         Result<Picture> pictureB = both->withB([&] { return pictureAt(both->offscreen, pose, b.settings); });
         if (!pictureA) return tl::unexpected(pictureA.error());
         if (!pictureB) return tl::unexpected(pictureB.error());
         const ByteDifference difference = countDifferent(*pictureA, *pictureB);
         if (i > 0 && difference.pixels <= worst.pixels) continue;
-        worst = {timeOfMoment(plan, i), std::move(*pictureA), std::move(*pictureB), difference.pixels,
+        worst = {moments.timeS(i), std::move(*pictureA), std::move(*pictureB), difference.pixels,
                  difference.largestSteps};
     }
     return worst;

@@ -1,37 +1,35 @@
-// A comparison over a flight on a thread of its own, beside the window.
+// A comparison over a flight on a thread of its own.
 #pragma once
 
 #include <atomic>
-#include <mutex>
 #include <optional>
-#include <thread>
+#include <stop_token>
+#include <utility>
 
+#include "app/base/job.h"
 #include "app/measure/comparison.h"
 
 namespace worldy {
 
-// All calls from one thread.
+// All calls come from one thread. The destructor cancels and waits for the current sample frame.
 class ComparisonJob {
 public:
-    explicit ComparisonJob(ComparisonPlan plan);
-    ~ComparisonJob();  // cancels, and waits for its end: a moment's work at most
-    ComparisonJob(const ComparisonJob&) = delete;
-    ComparisonJob& operator=(const ComparisonJob&) = delete;
+    explicit ComparisonJob(ComparisonPlan plan)
+        : job_([this, plan = std::move(plan)](const std::stop_token& stop) {
+              return compareOverFlight(plan, [&](double share) {
+                  progress_ = share;
+                  return !stop.stop_requested();
+              });
+          }) {}
 
     double progress() const { return progress_; }  // [0, 1]
-    void cancel() { cancelled_ = true; }
-    bool cancelling() const { return cancelled_; }
-    // Once it has ended; nothing until then and nothing again after.
-    std::optional<planet::Result<ComparedPair>> takeResult();
+    void cancel() { job_.cancel(); }
+    bool cancelling() const { return job_.cancelling(); }
+    std::optional<planet::Result<ComparedPair>> takeResult() { return job_.takeResult(); }
 
 private:
-    void run(const ComparisonPlan& plan);
-
-    std::mutex mutex_;
-    std::optional<planet::Result<ComparedPair>> result_;  // guarded
     std::atomic<double> progress_{0};
-    std::atomic<bool> cancelled_{false};
-    std::thread thread_;
+    Job<planet::Result<ComparedPair>> job_;  // last: it uses progress_
 };
 
 }  // namespace worldy

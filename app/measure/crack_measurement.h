@@ -1,4 +1,4 @@
-// The result of the cracks instrument.
+// The results of the cracks instrument.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,14 @@
 
 namespace worldy {
 
-// Holds the smallest skirts that leave no pixel uncovered, found by bisection. Each value is the upper end of
-// an interval 0.5 % wide.
+// The smallest skirts that leave no pixel uncovered, found by bisection. Each value is the upper end of an
+// interval 0.5 % wide.
 struct SmallestSkirts {
     double depthM = 0;  // the same depth for all chunks
     double factor = 0;  // multiplies the automatic depth; infinity: no factor up to 1000 suffices
 };
 
-// Holds the cracks of one view. Chunks are named by id, so that the measurement stays valid after they are
-// evicted.
+// The cracks of one view. Chunks are identified by id, so the measurement stays valid after they are evicted.
 struct CrackMeasurement {
     planet::View view;
     planet::View lodView;  // the view that chose the drawn chunks; differs from view while LOD is frozen
@@ -34,8 +33,7 @@ struct CrackMeasurement {
     double tookMs = 0;
 };
 
-// Returns why there are crack pixels although no gap is 0.5 mm wide; empty if there are no crack pixels or a
-// gap is that wide.
+// Returns an explanation of crack pixels where all gaps are below 0.5 mm; otherwise an empty text.
 inline const char* roundingNote(std::size_t crackPixels, double worstGapM) {
     return crackPixels > 0 && worstGapM < 0.0005
                ? "All gaps are below 0.5 mm: cracks at T-junctions come from rounding."

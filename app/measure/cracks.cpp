@@ -19,11 +19,11 @@ planet::DrawnGround groundOf(const Scene& scene, std::span<const planet::DrawIte
     return {scene.planet->tree().shape, items, planet::heightsIn(scene.planet->tree()), stitched};
 }
 
-// Leaking pixels as a number of pixels by something that grows; never more of them when it does.
+// Returns the number of leaking pixels for a skirt size. It never grows with the size.
 using LeaksWith = std::function<Result<int>(double)>;
 
-// The smallest value without a leak, at least from and to within 0.5% or a step; limit leaks nothing. first:
-// a value that is likely to be enough.
+// Returns the smallest value >= from without a leak, to within 0.5 % or a step. The value limit must not
+// leak. first is a guess.
 Result<double> smallestWithoutLeak(const LeaksWith& leaksWith, double from, double first, double limit,
                                    double step) {
     const Result<int> atOnce = leaksWith(from);
@@ -49,7 +49,7 @@ Result<double> smallestWithoutLeak(const LeaksWith& leaksWith, double from, doub
 
 constexpr double largestFactor = 1000;
 
-// One view, in which skirts are tried.
+// Tries skirts in one view.
 struct Trial {
     Scene& scene;
     const planet::View& view;
@@ -166,7 +166,7 @@ void markCracks(const planet::gl::CrackMap& map, Picture& picture) {
     const auto at = [&](int x, int y) {
         return picture.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * picture.width + x);
     };
-    // Darkened once, however many marked pixels are beside it.
+    // Each pixel of the rim is darkened only once.
     std::vector<std::uint8_t> rim(map.pixels.empty() ? 0 : picture.rgb.size() / 3, 0);
     for (const planet::CrackPixel& pixel : map.pixels) {
         for (int y = std::max(pixel.y - 1, 0); y <= std::min(pixel.y + 1, picture.height - 1); ++y) {

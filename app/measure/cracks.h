@@ -1,5 +1,5 @@
-// The cracks instrument over an open planet: what the panel and `worldy cracks` share. Wants the scene's GL
-// context current.
+// The cracks instrument over an open planet, for the panel and the command. The scene's GL context must be
+// current.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,21 @@
 
 namespace worldy {
 
-// Of the last selection, as the view sees it and the settings draw it. The picture on the cube is never
-// measured: its chunks are taken as on the sphere.
+// Measures the cracks of the last selection in a view. Chunks are always measured on the sphere, never on the
+// cube.
 planet::Result<CrackMeasurement> measureCracks(Scene& scene, const planet::View& view,
                                                const ViewSettings& settings);
 
-// The smallest skirts of the last selection, drawn unstitched, that leave none of the cracks found open, but
-// none smaller than those given: over a flight the largest of all frames is what the flight needs.
+// Returns the smallest skirts, at least atLeast, that cover all measured cracks of the last selection without
+// stitching. A flight needs the largest of all its frames.
 planet::Result<SmallestSkirts> smallestSkirts(Scene& scene, const planet::View& view,
                                               const CrackMeasurement& measured,
                                               const SmallestSkirts& atLeast = {});
 
-// What the window remembers of the instrument.
+// The state of the instrument in the window.
 struct CrackInstrument {
     std::optional<CrackMeasurement> measured;
-    std::vector<planet::DrawItem> drawn;  // that it is of
+    std::vector<planet::DrawItem> drawn;  // the chunks drawn when measured
     std::optional<SmallestSkirts> smallest;
 };
 
@@ -39,8 +39,8 @@ planet::Result<void> measureNow(CrackInstrument& instrument, Scene& scene, const
 planet::Result<void> findSmallestNow(CrackInstrument& instrument, Scene& scene, const planet::View& view,
                                      const ViewSettings& settings);
 
-// Paints the crack pixels into a picture of the same view: leaking ones and those that skirts hide, each in
-// its colour, with a dark rim so that single pixels are found.
+// Paints the crack pixels into a picture of the same view, in one colour for uncovered and one for covered
+// pixels. A dark rim makes single pixels visible.
 void markCracks(const planet::gl::CrackMap& map, Picture& picture);
 
 }  // namespace worldy

@@ -11,11 +11,6 @@ namespace worldy {
 
 namespace {
 
-// One core is left to the window.
-int measuringThreads() {
-    return std::max(static_cast<int>(std::thread::hardware_concurrency()) - 1, 1);
-}
-
 void takeResult(ErrorMeter& meter) {
     if (!meter.job) return;
     auto result = meter.job->takeResult();
@@ -25,19 +20,14 @@ void takeResult(ErrorMeter& meter) {
     meter.problem.clear();
     if (!*result) {
         meter.problem = result->error().message;
-        meter.keepMeasuring = false;  // it would only fail again, and again
+        meter.keepMeasuring = false;  // it would only fail again
         return;
     }
-    ErrorMeasurement report = measurementOf(std::move(**result));
-    ErrorMeasurement measurement = std::exchange(meter.running, {});
-    measurement.report = std::move(report.report);
-    measurement.indexOf = std::move(report.indexOf);
-    measurement.worstFirst = std::move(report.worstFirst);
-    measurement.tookS = tookS;
-    meter.last = std::move(measurement);
+    meter.last = measurementOf(std::move(**result), std::exchange(meter.running, {}));
+    meter.last->tookS = tookS;
 }
 
-// Returns what the planet draws in this frame and the settings that it was selected with.
+// Returns the drawn chunks of this frame and the settings that they were selected with.
 ErrorMeasurement frameOf(const planet::Planet& planet) {
     const planet::LodSettings& lod = planet.views()[0].input.lod;
     ErrorMeasurement frame;
@@ -66,35 +56,19 @@ bool isOf(const ErrorMeasurement& last, const planet::Planet& planet) {
 }  // namespace
 
 ErrorJob::ErrorJob(planet::DrawnSnapshot snapshot, std::shared_ptr<planet::FinestHeights> heights)
-    : thread_([this, snapshot = std::move(snapshot), heights = std::move(heights)] {
-          const auto onProgress = [this](std::uint64_t done, std::uint64_t total) {
+    : job_([this, snapshot = std::move(snapshot), heights = std::move(heights)](const std::stop_token& stop) {
+          const auto onProgress = [&](std::uint64_t done, std::uint64_t total) {
               progress_ = static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(total, 1));
-              return !cancelled_.load();
+              return !stop.stop_requested();
           };
           const Stopwatch watch;
           planet::Result<planet::TrueErrorReport> result = planet::cancelled();
-          tbb::task_arena(measuringThreads()).execute([&] {
+          tbb::task_arena(backgroundThreads()).execute([&] {
               result = planet::measureTrueError(snapshot, *heights, onProgress);
           });
-          const std::lock_guard lock(mutex_);
           tookS_ = watch.elapsedMs() / 1000;
-          result_ = std::move(result);
+          return result;
       }) {}
-
-ErrorJob::~ErrorJob() {
-    cancelled_ = true;
-    thread_.join();
-}
-
-std::optional<planet::Result<planet::TrueErrorReport>> ErrorJob::takeResult() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
-}
-
-double ErrorJob::tookS() const {
-    const std::lock_guard lock(mutex_);
-    return tookS_;
-}
 
 void forgetErrors(ErrorMeter& meter) {
     const bool keep = meter.keepMeasuring;
@@ -113,10 +87,7 @@ void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double
     meter.running = frameOf(planet);
     meter.running.frame = frame;
     meter.running.atS = timeS;
-    meter.job = std::make_unique<ErrorJob>(
-        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.views()[0].input.lodView,
-                           meter.running.stitched),
-        meter.heights);
+    meter.job = std::make_unique<ErrorJob>(drawnSnapshotOf(planet), meter.heights);
 }
 
 }  // namespace worldy

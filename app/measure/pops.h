@@ -1,4 +1,5 @@
-// The window's pop meter: fed once a frame, gone back to, and flipped between before and after. Wants no GL.
+// The pop meter of the window: measures each frame, and shows the frames before and after a pop again. Needs
+// no GL.
 #pragma once
 
 #include <optional>
@@ -12,27 +13,29 @@ namespace worldy {
 struct Pops {
     planet::PopMeter meter;
     bool measuring = true;
-    bool interrupted = false;  // frames went by unmeasured: what they changed is no one frame's switch
-    std::optional<planet::PopEvent> shown;  // last gone back to
+    bool interrupted = false;  // frames were not measured, so their changes belong to no single frame
+    std::optional<planet::PopEvent> shown;  // the pop that the view last went to
     PopSide side = PopSide::Live;
-    std::string problem;  // why that side cannot be drawn
+    std::string problem;  // why the side cannot be drawn
 };
 
-// Another planet: nothing of it is known.
+// Discards all pops. Call it when another planet is shown.
 void forgetPops(Pops& pops);
 
-// After a frame has been chosen. View: that shows it. cameraJumped: as of planet::PopConditions.
+// Measures the pops of a frame after its selection. view shows the frame; for cameraJumped see
+// planet::PopConditions.
 void measurePops(const Scene& scene, const planet::View& view, double timeS, bool cameraJumped, Pops& pops);
 
-// What is to be drawn instead of what is chosen: the frame before or after the event, its chunks in the slots
-// that hold them now. None while the picture is live, or where chunks are missing; then the problem says so.
+// The frame before or after a pop, to draw instead of the live selection, with the current slots of its
+// chunks.
 struct KeptPicture {
     planet::Selection selection;
     bool stitched = false;
 };
+// Returns nothing while the picture is live, or if chunks are missing; then pops.problem is set.
 std::optional<KeptPicture> keptPicture(const planet::ChunkTree& tree, Pops& pops);
 
-// The event, or null if it is no longer kept.
+// Returns the event, or null if it is no longer stored.
 const planet::PopEvent* findPop(const Pops& pops, std::uint64_t frame, const planet::ChunkId& chunk);
 
 }  // namespace worldy

@@ -1,7 +1,5 @@
 #include "app/measure/pops_flight.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "app/base/stopwatch.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/scene.h"
+#include "app/scene/scene_settings.h"
 #include "app/settings/camera_text.h"
 #include "planet/gl/draw/frame_uniforms.h"
 
@@ -31,35 +30,30 @@ planet::View viewAt(const planet::Planet& planet, const FlightPath& path, double
     return viewOf(keepInRange(wanted, ground), glm::radians(fovDeg), size.widthPx, size.heightPx);
 }
 
-// One frame of so many seconds, in which all that it wants arrives.
+// Makes one frame of elapsedS seconds in which all requested blocks arrive.
 Result<void> stepOnTime(planet::Planet& planet, const planet::ViewInput& view, double elapsedS,
                         const std::function<bool()>& goOn) {
     const Stopwatch waited;
     planet.step({&view, 1}, planet::noUpload, elapsedS);
     while (!planet.settled()) {
         if (!goOn()) return planet::cancelled();
-        if (waited.elapsedMs() > 1000 * settleTimeoutS)
-            return planet::ioError(
-                fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
+        if (waited.elapsedMs() > 1000 * settleTimeoutS) return loadingTimedOut();
         std::this_thread::sleep_for(std::chrono::microseconds(100));
         planet.step({&view, 1}, planet::noUpload, 0);
     }
     return {};
 }
 
-// In short stretches, between which it can be given up.
 Result<void> settleView(planet::Planet& planet, const planet::ViewInput& view,
                         const std::function<bool()>& goOn) {
-    constexpr int stretches = 600;
-    for (int i = 0; i < stretches; ++i) {
-        if (planet.settle({&view, 1}, planet::noUpload, settleTimeoutS / stretches)) return {};
-        if (!goOn()) return planet::cancelled();
-    }
-    return planet::ioError(
-        fmt::format("loading timed out after {:.0f} s: requested blocks missing", settleTimeoutS));
+    const auto settle = [&](double timeoutS) {
+        return planet.settle({&view, 1}, planet::noUpload, timeoutS);
+    };
+    if (settleWhile(settle, goOn)) return {};
+    return goOn() ? loadingTimedOut() : planet::cancelled();
 }
 
-// Ground that is loaded may lift the camera, and then the view wants more.
+// Loaded ground may lift the camera, and then the view needs more blocks.
 Result<void> settleAtStart(planet::Planet& planet, const std::function<planet::View()>& firstView,
                            const planet::LodSettings& lod, const std::function<bool()>& goOn) {
     constexpr int mostLifts = 5;
@@ -108,7 +102,7 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path, co
                             isCameraJump(beforeM, view.eyeM, planet.tree().shape.radiusM, stepS);
         meter.add(planet.tree(), planet.selection(), view, lod, i * stepS,
                   {.cameraJumped = i > 0 && jumped, .seaM = seaM});
-        // It forgets what is minutes old.
+        // The meter drops events after some minutes, so they are copied here.
         const auto& events = meter.events();
         for (auto event = events.rbegin();
              event != events.rend() && event->frame == static_cast<std::uint64_t>(i); ++event)

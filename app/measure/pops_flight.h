@@ -1,6 +1,6 @@
-// A flight flown with all loads on time, and how far the surface jumps at each change of level: what `worldy
-// pops` and comparisons share. It begins settled: all that the first view wants is loaded, and every fade has
-// ended, before the first frame is measured. A sea that is drawn as water hides the bed. Draws nothing.
+// Measures the jump of the surface at each level change over a flight, for the command pops and for
+// comparisons. All loads are on time, and the first view is settled before the first frame is measured. A sea
+// that is drawn as water hides its bed. Draws nothing.
 #pragma once
 
 #include <functional>
@@ -15,25 +15,26 @@
 namespace worldy {
 
 struct PopsFlight {
-    std::vector<planet::PopEvent> events;  // of the whole flight
+    std::vector<planet::PopEvent> events;  // events of the whole flight
     planet::PopTotals totals;
-    double usPerSwitch = 0;  // time that measuring one takes
+    double usPerSwitch = 0;  // time to measure one level change
     int frames = 0;
-    bool seaSurfaceDrawn = false;  // as water, which hides the bed
+    bool seaSurfaceDrawn = false;  // the sea is drawn as water
 };
 
 inline constexpr int mostPopsFrames = 10'000'000;
 
-// Told again and again what share of a flight is done, [0, 1]; false ends it with an Error of kind Cancelled.
+// Called often with the completed share, [0, 1]. Returning false ends the flight with an Error of kind
+// Cancelled.
 using PopsFlightWatch = std::function<bool(double share)>;
 
-// stepS: of the flight's time between two frames, > 0. software: the CPU draws, and a sea that is Automatic
-// is not drawn as water. The Error says what could not be loaded.
+// stepS: seconds of the flight between two frames, > 0. software: the CPU draws, so an Automatic sea is not
+// drawn as water.
 planet::Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path,
                                       const ViewSettings& settings, const PictureSize& size, double stepS,
                                       bool software, const PopsFlightWatch& goOn);
 
-// The largest jumps, pixels, of the switches that count (planet::counts), smallest first.
+// Returns the largest jump in pixels of each level change that counts (planet::counts), ascending.
 std::vector<double> jumpsOf(const PopsFlight& flown);
 
 }  // namespace worldy

@@ -1,4 +1,5 @@
-// The window's precision probe: at the vertex under the pointer, and at the worst of the selected chunk.
+// The precision probe of the window: at the vertex under the pointer, and at the worst vertex of the selected
+// chunk.
 #pragma once
 
 #include <optional>
@@ -9,19 +10,19 @@
 
 namespace worldy {
 
-// What selection 0 draws, through a view.
+// Selection 0 and the view that shows it.
 struct ProbeInput {
     const planet::ChunkTree& tree;
     const planet::Selection& selection;
     const planet::View& view;
-    const planet::gl::Projection& projection;  // that the last picture was drawn with
+    const planet::gl::Projection& projection;  // projection of the last picture
     bool stitched = false;
 };
 
-// The vertex nearest to the hit.
+// Probes the vertex nearest to the hit.
 ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit);
 
-// None where the chunk is not drawn.
+// Probes the worst vertex of a chunk. Returns nothing if the chunk is not drawn.
 std::optional<ProbedVertex> probeWorst(const ProbeInput& input, const planet::ChunkId& chunk);
 
 }  // namespace worldy

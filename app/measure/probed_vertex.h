@@ -5,8 +5,8 @@
 
 namespace worldy {
 
-// Holds the smallest distance of two surfaces that the depth buffer can separate, in metres. A value is
-// infinity where the buffer cannot separate any.
+// The smallest distance of two surfaces that the depth buffer can separate, in metres; infinity if it cannot
+// separate any.
 struct DepthSteps {
     double aheadM = 0;  // distance along the view direction
     double reversedFloatM = 0;
@@ -14,7 +14,7 @@ struct DepthSteps {
     bool reversedInUse = true;
 };
 
-// Holds the precision of one vertex and of the depth buffer there.
+// The precision of one vertex and of the depth buffer there.
 struct ProbedVertex {
     planet::VertexPrecision precision;
     DepthSteps depth;

@@ -14,14 +14,13 @@ namespace {
 
 using planet::gl::FeatureUse;
 
-// The analytic atmosphere, where the physical one is off.
+// Turns on the physical atmosphere, or the analytic one if `physical` is Off.
 void useAir(SurfaceSettings& surface, FeatureUse physical) {
     surface.atmosphere = true;
     surface.light.air.use = physical;
 }
 
-}  // namespace
-
+// Returns settings that draw only the lit ground.
 ViewSettings barePicture(const ViewSettings& settings) {
     ViewSettings bare = settings;
     SurfaceSettings& surface = bare.surface;
@@ -31,6 +30,8 @@ ViewSettings barePicture(const ViewSettings& settings) {
     surface.light.shadows.use = surface.light.normals.use = FeatureUse::Off;
     return bare;
 }
+
+}  // namespace
 
 std::vector<PartSettings> partsOf(const ViewSettings& settings, const PartsThere& there) {
     const ViewSettings bare = barePicture(settings);
@@ -73,7 +74,7 @@ planet::Result<CostMeter> CostMeter::create(const Scene& scene, const planet::Vi
     return CostMeter(std::move(*target), view, barePicture(settings), std::move(parts), rounds);
 }
 
-// Once untimed: what has to be made for these settings is no part of a frame.
+// Draws once untimed, because creating resources for new settings is not part of a frame.
 double CostMeter::drawnMs(Scene& scene, const ViewSettings& settings) const {
     drawScene(scene, view_, settings);
     glFinish();

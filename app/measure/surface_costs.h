@@ -1,5 +1,5 @@
-// What each part of the picture costs: the frame with it against the frame without it, drawn in turn, so that
-// a busy machine slows both. Wants the scene's GL context current.
+// Measures the cost of each feature: the frame with and without it, drawn in alternation, so that a busy
+// machine slows both. The scene's GL context must be current.
 #pragma once
 
 #include <cstddef>
@@ -12,30 +12,29 @@
 
 namespace worldy {
 
-// Nothing but the lit ground; then with each part, and with all of them.
+// The settings that draw the lit ground with one feature.
 struct PartSettings {
     const char* name;
     ViewSettings settings;
 };
-ViewSettings barePicture(const ViewSettings& settings);
-// What is paged, and so is there to be drawn only where the planet has it and its paging was told.
+// The paged data that the planet has.
 struct PartsThere {
     bool colours = true;
     bool normals = true;
 };
+// Returns settings with each feature, then with all of them.
 std::vector<PartSettings> partsOf(const ViewSettings& settings, const PartsThere& there);
 
 class CostMeter {
 public:
-    // Of the scene's last selection from a view. rounds: at least 1. The Error says what the context cannot
-    // do.
+    // Measures the scene's last selection in a view. rounds: at least 1.
     static planet::Result<CostMeter> create(const Scene& scene, const planet::View& view,
                                             const ViewSettings& settings, int rounds);
 
-    // Draws a part once without and once with it; true while there is more to do. Counters of the scene and
-    // the framebuffer that is bound stay as they are.
+    // Draws once without and once with a feature. Returns true while there is more to measure. The counters
+    // of the scene and the bound framebuffer stay unchanged.
     bool step(Scene& scene);
-    double share() const;  // done, [0, 1]
+    double share() const;  // completed share, [0, 1]
     std::vector<PartCost> costs() const;
 
 private:
@@ -55,9 +54,9 @@ private:
     std::size_t wanted_ = 0;
 };
 
-// What the window remembers of it.
+// The state of the instrument in the window.
 struct CostInstrument {
-    std::optional<CostMeter> meter;  // while it measures
+    std::optional<CostMeter> meter;  // set while measuring
     std::vector<PartCost> costs;
 };
 

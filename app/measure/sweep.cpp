@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -12,7 +11,7 @@
 #include <variant>
 
 #include "app/base/report.h"
-#include "app/settings/settings.h"
+#include "app/base/text.h"
 
 namespace worldy {
 
@@ -21,9 +20,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planet::Result;
 
-constexpr double knownTo = 1.02;  // a suggested tau, as a factor
+constexpr double knownTo = 1.02;  // relative accuracy of a suggested tau
 
-// Counts are whole numbers and on_front is a truth value, in both tables.
+// Counts are integers and on_front is a boolean, in both tables.
 using Cell = std::variant<double, std::uint64_t, bool>;
 
 struct Column {
@@ -53,11 +52,7 @@ constexpr std::array<Column, 16> columns = {{
     {"on_front", [](const SweepPoint& p) -> Cell { return p.onFront; }},
 }};
 
-std::string_view metricName(planet::ErrorMetric metric) {
-    return errorMetricNames[static_cast<std::size_t>(metric)];
-}
-
-// Triangles are counted in whole numbers.
+// Returns a limit of triangles as an integer if it is one.
 Json limitJson(const TauGoal& goal) {
     const bool whole = !goal.limitsError && goal.cost == SweepCost::Triangles && goal.limit < 1e15 &&
                        goal.limit == std::floor(goal.limit);
@@ -110,16 +105,13 @@ std::string suggestionsJson(std::span<const SweepSuggestion> suggestions, const 
 }
 
 Result<TauGoal> tauGoalFromText(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    const std::string_view name = std::string_view(text).substr(0, equals);
+    const std::string_view name = std::string_view(text).substr(0, text.find('='));
     TauGoal goal;
     constexpr std::array<std::string_view, 4> names = {"triangles", "frame_ms", "memory_mib", "error_px"};
     const auto found = std::find(names.begin(), names.end(), name);
-    const std::string_view value =
-        equals == std::string::npos ? std::string_view() : std::string_view(text).substr(equals + 1);
-    const auto parsed = std::from_chars(value.data(), value.data() + value.size(), goal.limit);
-    const bool whole = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
-    if (found == names.end() || !whole || !std::isfinite(goal.limit) || goal.limit <= 0) {
+    const std::string_view value = std::string_view(text).substr(std::min(name.size() + 1, text.size()));
+    goal.limit = numberFromText(value).value_or(0);
+    if (found == names.end() || goal.limit <= 0) {
         return planet::badInput(
             fmt::format("--suggest: {} is unknown; expected triangles=N, frame_ms=N, memory_mib=N or "
                         "error_px=N with N > 0",
@@ -137,7 +129,7 @@ int mostSuggestFlights() {
 
 Result<TauSuggestion> suggestTau(const TauGoal& goal, const MeasureTau& measure) {
     TauSuggestion best;
-    // Goals are kept on one side of some tau: an error by small ones, a cost by large ones.
+    // A small tau keeps an error, a large tau keeps a cost.
     double keeps = goal.limitsError ? smallestTauPx : largestTauPx;
     double breaks = goal.limitsError ? largestTauPx : smallestTauPx;
     const auto tryTau = [&](double tauPx) -> Result<bool> {

@@ -10,16 +10,12 @@ namespace worldy {
 
 namespace {
 
-// One core is left to the window.
-int sweepingThreads() {
-    return std::max(static_cast<int>(std::thread::hardware_concurrency()) - 1, 1);
-}
-
 double secondsSince(std::chrono::steady_clock::time_point time) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
 
-// In the order in which they are flown; of a search it is only known how many there are at most.
+// Returns all taus in the order of the flights. For a search it returns zeros, as many as there are flights
+// at most.
 std::vector<double> allTaus(const SweepPlan& plan) {
     if (plan.goal)
         return std::vector(plan.metrics.size() * static_cast<std::size_t>(mostSuggestFlights()), 0.0);
@@ -52,10 +48,8 @@ SweepJob::SweepJob(SweepPlan plan) : ahead_(allTaus(plan)) {
     progress_.flights = ahead_.size();
     progress_.frames = plan.frames;
     progress_.chunkSize = plan.files.front().chunkSize;
-    thread_ = std::jthread([this, plan = std::move(plan)](const std::stop_token& stop) { run(stop, plan); });
+    job_.emplace([this, plan = std::move(plan)](const std::stop_token& stop) { return run(stop, plan); });
 }
-
-SweepJob::~SweepJob() = default;
 
 void SweepJob::begin(const SweepLeg& leg) {
     const std::lock_guard lock(mutex_);
@@ -98,7 +92,7 @@ SweepWatcher SweepJob::watcherOf(const std::stop_token& stop, const SweepPlan& p
     watcher.suggested = [this, &plan](const SweepSuggestion& suggestion) {
         const std::lock_guard lock(mutex_);
         suggestions_.push_back(suggestion);
-        // It may have needed fewer flights than it could have.
+        // The search may have taken fewer flights than planned.
         const auto searches = static_cast<std::size_t>(
             std::find(plan.metrics.rbegin(), plan.metrics.rend(), suggestion.metric) - plan.metrics.rbegin());
         ahead_.assign(searches * static_cast<std::size_t>(mostSuggestFlights()), 0.0);
@@ -107,12 +101,11 @@ SweepWatcher SweepJob::watcherOf(const std::stop_token& stop, const SweepPlan& p
     return watcher;
 }
 
-void SweepJob::run(const std::stop_token& stop, const SweepPlan& plan) {
+planet::Result<void> SweepJob::run(const std::stop_token& stop, const SweepPlan& plan) {
     planet::Result<void> result = planet::cancelled();
-    // An arena of its own, in which this thread has a place: what it calls stays on this thread.
-    tbb::task_arena(sweepingThreads()).execute([&] { result = runSweepPlan(plan, watcherOf(stop, plan)); });
-    const std::lock_guard lock(mutex_);
-    result_ = std::move(result);
+    // This thread takes part in the arena, so the GL calls stay on this thread.
+    tbb::task_arena(backgroundThreads()).execute([&] { result = runSweepPlan(plan, watcherOf(stop, plan)); });
+    return result;
 }
 
 SweepProgress SweepJob::progress() const {
@@ -134,11 +127,6 @@ std::vector<SweepPoint> SweepJob::takePoints() {
 std::vector<SweepSuggestion> SweepJob::takeSuggestions() {
     const std::lock_guard lock(mutex_);
     return std::exchange(suggestions_, {});
-}
-
-std::optional<planet::Result<void>> SweepJob::takeResult() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
 }
 
 }  // namespace worldy

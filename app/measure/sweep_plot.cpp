@@ -4,15 +4,12 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "app/base/plot_scale.h"
-#include "app/settings/settings.h"
+#include "app/measure/sweep_points.h"
 
 namespace worldy {
 
@@ -23,7 +20,7 @@ namespace draw = OIIO::ImageBufAlgo;
 using Colour = std::array<float, 4>;
 
 constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-// Drawn at twice the size and averaged down, for lines have no smooth edges.
+// The plot is drawn at twice the size and averaged down, because lines are not antialiased.
 constexpr int finer = 2;
 constexpr int width = 1100 * finer;
 constexpr int height = 720 * finer;
@@ -34,7 +31,7 @@ constexpr int plotBottom = height - 80 * finer;
 constexpr int textSize = 14 * finer;
 constexpr Colour ink = {0.10f, 0.11f, 0.13f, 1};
 constexpr Colour faint = {0.86f, 0.87f, 0.89f, 1};
-// Told apart by eyes of any kind: after Okabe and Ito.
+// Colours after Okabe and Ito, which people with colour blindness can tell apart.
 constexpr std::array<Colour, 6> seriesColours = {{{0.00f, 0.45f, 0.70f, 1},
                                                   {0.84f, 0.37f, 0.00f, 1},
                                                   {0.00f, 0.62f, 0.45f, 1},
@@ -96,22 +93,19 @@ bool drawAxes(Plot& plot, SweepCost cost, const std::string& title) {
                      textSize * 5 / 4);
 }
 
-// The points of one chunk size and metric, by tau.
-using Series = std::map<std::pair<int, planet::ErrorMetric>, std::vector<SweepPoint>>;
-
-void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
+void drawSeries(Plot& plot, std::span<const SweepPoint> points, SweepCost cost) {
     std::size_t index = 0;
-    for (const auto& [key, points] : series) {
+    const auto xOf = [&](std::size_t i) { return plot.x(plottedErrorPx(points[i].figures)); };
+    const auto yOf = [&](std::size_t i) { return plot.y(plottedCost(points[i].figures, cost)); };
+    for (const SweepSeries& series : seriesOf(points)) {
         const Colour& colour = seriesColours[index % seriesColours.size()];
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            const FlightFigures& a = points[i].figures;
-            const FlightFigures& b = points[i + 1].figures;
-            plot.line(plot.x(a.worstMeasuredPx), plot.y(plottedCost(a, cost)), plot.x(b.worstMeasuredPx),
-                      plot.y(plottedCost(b, cost)), colour);
+        for (std::size_t i = 0; i + 1 < series.points.size(); ++i) {
+            const std::size_t a = series.points[i], b = series.points[i + 1];
+            plot.line(xOf(a), yOf(a), xOf(b), yOf(b), colour);
         }
-        for (const SweepPoint& point : points) {
-            const int x = plot.x(point.figures.worstMeasuredPx);
-            const int y = plot.y(plottedCost(point.figures, cost));
+        for (const std::size_t i : series.points) {
+            const SweepPoint& point = points[i];
+            const int x = xOf(i), y = yOf(i);
             if (point.onFront) {
                 plot.disc(x, y, 9 * finer, ink);
                 plot.disc(x, y, 8 * finer, {1, 1, 1, 1});
@@ -123,8 +117,7 @@ void drawSeries(Plot& plot, const Series& series, SweepCost cost) {
         const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
         plot.disc(plotRight + 30 * finer, legendY, 5 * finer, colour);
         plot.text(plotRight + 44 * finer, legendY,
-                  fmt::format("{} per side, {}", key.first,
-                              errorMetricNames[static_cast<std::size_t>(key.second)]));
+                  fmt::format("{} per side, {}", series.chunkSize, metricName(series.metric)));
         ++index;
     }
     const int legendY = plotTop + static_cast<int>(index) * 26 * finer;
@@ -150,24 +143,18 @@ planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost 
                                   const std::string& title) {
     std::vector<double> errors;
     std::vector<double> costs;
-    Series series;
-    for (SweepPoint point : points) {
-        point.figures.worstMeasuredPx = plottedErrorPx(point.figures);
-        errors.push_back(point.figures.worstMeasuredPx);
+    for (const SweepPoint& point : points) {
+        errors.push_back(plottedErrorPx(point.figures));
         costs.push_back(plottedCost(point.figures, cost));
-        series[{point.chunkSize, point.metric}].push_back(point);
-    }
-    for (auto& [key, own] : series) {
-        std::sort(own.begin(), own.end(),
-                  [](const SweepPoint& a, const SweepPoint& b) { return a.tauPx < b.tauPx; });
     }
     Plot plot;
     plot.errors = logAxisOver(errors);
     plot.costs = logAxisOver(costs);
     draw::fill(plot.image, Colour{1, 1, 1, 1});
     if (!drawAxes(plot, cost, title))
-        return planet::ioError(fmt::format("{}: the plot cannot be labelled without this font", font));
-    drawSeries(plot, series, cost);
+        return planet::ioError(
+            fmt::format("{}: cannot be used as a font; expected DejaVu Sans, which labels the plot", font));
+    drawSeries(plot, points, cost);
     return smaller(plot.image);
 }
 

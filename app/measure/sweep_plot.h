@@ -1,16 +1,16 @@
-// A sweep as a picture: cost against the worst measured error, both logarithmic, a line a chunk size and
-// metric, points labelled with tau, the Pareto front ringed.
+// Plots a sweep: cost over the largest measured error, both logarithmic, with one line per chunk size and
+// metric, points labelled with tau, and rings around the Pareto front.
 #pragma once
 
 #include <span>
 #include <string>
 
 #include "app/base/picture.h"
-#include "app/measure/sweep.h"
+#include "app/measure/sweep_points.h"
 
 namespace worldy {
 
-// The Error says that no font was found to label it with.
+// A missing font is an Error.
 planet::Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost cost,
                                   const std::string& title);
 

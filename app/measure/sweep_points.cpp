@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
+#include "app/settings/settings.h"
 
 namespace worldy {
 
@@ -21,10 +20,6 @@ bool isBeaten(const SweepPoint& point, const SweepPoint& by, SweepCost cost) {
     const double error = point.figures.worstMeasuredPx;
     const double otherError = by.figures.worstMeasuredPx;
     return otherCosts <= costs && otherError <= error && (otherCosts < costs || otherError < error);
-}
-
-const char* metricName(planet::ErrorMetric metric) {
-    return metric == planet::ErrorMetric::Tight ? "tight" : "additive";
 }
 
 const char* limitedName(const TauGoal& goal) {
@@ -60,6 +55,10 @@ TauList wrongTaus(const std::string& what) {
 }
 
 }  // namespace
+
+std::string_view metricName(planet::ErrorMetric metric) {
+    return errorMetricNames[static_cast<std::size_t>(metric)];
+}
 
 double costOf(const FlightFigures& figures, SweepCost cost) {
     switch (cost) {
@@ -144,16 +143,13 @@ TauList tausFromText(std::string_view text) {
     while (from != std::string_view::npos) {
         const std::size_t to = std::min(text.find_first_of(between, from), text.size());
         const std::string_view word = text.substr(from, to - from);
-        double tauPx = 0;
-        const auto parsed = std::from_chars(word.data(), word.data() + word.size(), tauPx);
-        if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size())
-            return wrongTaus(fmt::format("\"{}\" is not a number", word));
-        // Written so that what is no number is refused too.
-        if (!(tauPx >= smallestTauPx && tauPx <= largestTauPx))
+        const std::optional<double> tauPx = numberFromText(word);
+        if (!tauPx) return wrongTaus(fmt::format("\"{}\" is not a number", word));
+        if (*tauPx < smallestTauPx || *tauPx > largestTauPx)
             return wrongTaus(fmt::format("{} is out of range", word));
-        if (std::find(list.tausPx.begin(), list.tausPx.end(), tauPx) != list.tausPx.end())
+        if (std::find(list.tausPx.begin(), list.tausPx.end(), *tauPx) != list.tausPx.end())
             return wrongTaus(fmt::format("{} is given twice", word));
-        list.tausPx.push_back(tauPx);
+        list.tausPx.push_back(*tauPx);
         from = text.find_first_not_of(between, to);
     }
     if (list.tausPx.empty()) return wrongTaus("no tolerance is given");

@@ -16,7 +16,8 @@ namespace {
 
 using planet::Result;
 
-// Overlays cost time that is not the setting's, and loads are waited for.
+// Returns the settings without overlays, which cost time, and without I/O fault injection, because flights
+// wait for loads.
 ViewSettings sweptSettings(ViewSettings settings) {
     settings.overlay = {};
     settings.surface.streamed = false;
@@ -27,10 +28,10 @@ ViewSettings sweptSettings(ViewSettings settings) {
 }
 
 Result<void> bakeIfNeeded(const SweepPlan& plan, const SweptFile& file, const SweepWatcher& watcher) {
-    // Somebody else may have baked it since it was planned.
+    // Another process may have baked it in the meantime.
     if (!file.needsBake || planet::ChunkFile::open(file.chunkFile)) return {};
     std::error_code problem;
-    std::filesystem::create_directories(file.chunkFile.parent_path(), problem);  // if not, the bake says so
+    std::filesystem::create_directories(file.chunkFile.parent_path(), problem);  // the bake reports a failure
     return planet::openHeightSource(plan.source, plan.sourceSettings)
         .and_then([&](const planet::HeightSource& source) {
             return planet::bake(source, file.bake, file.chunkFile, [&](const planet::BakeProgress& progress) {
@@ -40,7 +41,7 @@ Result<void> bakeIfNeeded(const SweepPlan& plan, const SweptFile& file, const Sw
         .map([](const auto&) {});
 }
 
-// An open planet of one chunk size.
+// The open planet of one chunk size.
 struct SweptPlanet {
     Offscreen offscreen;
     std::unique_ptr<planet::FinestHeights> heights;
@@ -51,8 +52,9 @@ Result<SweptPlanet> openSwept(const SweepPlan& plan, const SweptFile& swept) {
     if (!file) return tl::unexpected(file.error());
     const int size = planet::chunkSize(file->info().shape);
     if (size != swept.chunkSize) {
-        return planet::badInput(fmt::format("{}: chunk size is {}; for {} give the bake source",
-                                            swept.chunkFile.string(), size, swept.chunkSize));
+        return planet::badInput(
+            fmt::format("{}: chunk size is {}, not {}; expected a bake source instead of a chunk file",
+                        swept.chunkFile.string(), size, swept.chunkSize));
     }
     Result<Offscreen> offscreen = openOffscreen({.chunkFile = swept.chunkFile}, plan.view, plan.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
@@ -66,9 +68,7 @@ Result<FlightFigures> fly(SweptPlanet& planet, const SweepPlan& plan, const Flig
     ViewSettings settings = plan.view;
     settings.lod.metric = leg.metric;
     settings.lod.tauPx = leg.tauPx;
-    const FlightFrames frames = plan.frameStepS > 0
-                                    ? FlightFrames{path.keys.front().timeS, plan.frameStepS, plan.frames}
-                                    : evenFrames(path, plan.frames);
+    const FlightFrames frames = framesOf(path, plan.frames, plan.frameStepS);
     if (watcher.begun) watcher.begun(leg);
     Result<FlightFigures> figures =
         measureFlight(planet.offscreen, path, settings, frames, wanted, *planet.heights,

@@ -1,5 +1,5 @@
-// What a sweep does, for the command and for the window alike: bakes chunk sizes that are not there yet,
-// flies each setting without a window, and hands over the points as they come.
+// Runs a sweep, for the command and for the window: bakes missing chunk sizes, flies each setting offscreen,
+// and reports points as they come.
 #pragma once
 
 #include <filesystem>
@@ -14,52 +14,51 @@
 
 namespace worldy {
 
-// What sweeps measure has nothing to do with colours: files that they bake have none, and none are drawn or
-// paged of a file that has.
+// The colour image for the bakes of a sweep. It is empty, because sweeps neither load nor draw colours.
 inline const std::filesystem::path sweptColour{};
 
-// Chunks of one size.
+// The chunk file of one chunk size.
 struct SweptFile {
     int chunkSize = 33;
     std::filesystem::path chunkFile;
-    bool needsBake = false;  // it is not there yet
+    bool needsBake = false;  // the file does not exist yet
     planet::BakeSettings bake{};
 };
 
 struct SweepPlan {
-    std::filesystem::path source;  // of bakes; unused where none is needed
+    std::filesystem::path source;  // source of the bakes; unused if none is needed
     planet::HeightSourceSettings sourceSettings;
-    std::vector<SweptFile> files;  // at least one; of a goal the first alone is flown
+    std::vector<SweptFile> files;  // at least one; with a goal only the first is flown
     std::filesystem::path flight;  // .toml or .flight
     std::vector<double> tausPx;
     std::vector<planet::ErrorMetric> metrics;
-    int frames = 12;        // moments of the flight, >= 1
-    double frameStepS = 0;  // seconds of the flight from one to the next; 0: evenly spread
+    int frames = 12;        // sample frames of the flight, >= 1
+    double frameStepS = 0;  // seconds between sample frames; 0: evenly spread over the flight
     std::optional<TauGoal> goal;
     PictureSize size;
-    ViewSettings view;  // all but tau, metric, overlays and bad disks
+    ViewSettings view;  // tau, metric, overlays and fault injection are replaced
 };
 
-// What is flown: one setting over one chunk file.
+// One flight with one setting over one chunk file.
 struct SweepLeg {
     int chunkSize = 33;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
     double tauPx = 2;
 };
 
-// Called by the thread that sweeps. flying and baking are called several times a second; false ends the sweep
-// with an Error of kind Cancelled. Both must be given; the others may be empty.
+// Called by the thread that sweeps. flying and baking must be set and are called several times per second;
+// returning false ends the sweep with an Error of kind Cancelled. The others may be empty.
 struct SweepWatcher {
-    std::function<bool(const SweepLeg& leg, int frame)> flying;  // frame: the moment's number from 0
+    std::function<bool(const SweepLeg& leg, int frame)> flying;  // frame: index of the sample frame
     std::function<bool(int chunkSize, const planet::BakeProgress&)> baking;
-    std::function<void(const SweepLeg& leg)> begun{};  // before each flight,
-    std::function<void(const SweepLeg& leg)> ended{};  // and after it
+    std::function<void(const SweepLeg& leg)> begun{};  // before each flight
+    std::function<void(const SweepLeg& leg)> ended{};  // after each flight
     std::function<void(const SweepPoint&)> flown{};
     std::function<void(const SweepSuggestion&)> suggested{};
 };
 
-// Makes a GL context of its own on the calling thread for each file, and leaves none current. The Error names
-// the file that could not be read or baked; no unfinished bake is left behind. Bakes that were finished stay.
+// Creates a GL context on the calling thread for each file, and leaves none current. Finished bakes are kept,
+// unfinished ones are removed.
 planet::Result<void> runSweepPlan(const SweepPlan& wanted, const SweepWatcher& watcher);
 
 }  // namespace worldy

@@ -12,7 +12,7 @@
 
 namespace worldy {
 
-// Holds the points of the last sweep, or of the one that is running.
+// The points of the last or the running sweep.
 struct SweepTable {
     SweepRequest request;
     std::string flight;              // name of the flight
@@ -21,7 +21,7 @@ struct SweepTable {
     bool whole = false;              // true once every requested point is there
 };
 
-// Holds the suggested tau for one chunk size and metric.
+// The suggested tau for one chunk size and metric.
 struct SweepSuggestion {
     int chunkSize = 33;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
@@ -29,7 +29,7 @@ struct SweepSuggestion {
     TauSuggestion found;
 };
 
-// Tells how far a running sweep or search has come.
+// The progress of a running sweep or search.
 struct SweepProgress {
     std::size_t flown = 0;    // completed flights
     std::size_t flights = 0;  // planned flights; for a suggestion the upper limit

@@ -16,7 +16,7 @@ Camera turnedAboutCentre(const Camera& camera, const glm::dvec3& axis, double an
             rotated(camera.back, axis, angleRad)};
 }
 
-// Rounding adds up over thousands of small turns; this takes it out again, and the roll with it.
+// Removes the roll and the rounding errors that add up over thousands of small turns.
 Camera straightened(Camera camera) {
     const glm::dvec3 up = glm::normalize(camera.eyeM);
     camera.right = glm::normalize(camera.right - glm::dot(camera.right, up) * up);
@@ -32,15 +32,14 @@ double pitchRad(const Camera& camera) {
     return std::asin(std::clamp(-glm::dot(camera.back, glm::normalize(camera.eyeM)), -1.0, 1.0));
 }
 
-// Distance along a ray to the sphere, from an eye outside it.
+}  // namespace
+
 std::optional<double> distanceToSphereM(const glm::dvec3& eyeM, const glm::dvec3& ray, double sphereRadiusM) {
     const double towards = -glm::dot(eyeM, ray);
     const double halfChordSquared = sphereRadiusM * sphereRadiusM - glm::dot(eyeM, eyeM) + towards * towards;
     if (towards <= 0 || halfChordSquared < 0) return std::nullopt;
     return std::max(towards - std::sqrt(halfChordSquared), 0.0);
 }
-
-}  // namespace
 
 glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, double angleRad) {
     const double cosine = std::cos(angleRad);
@@ -99,7 +98,7 @@ Camera moveOverGround(const Camera& camera, const Ground& ground, double forward
 }
 
 Camera climb(const Camera& camera, double upM) {
-    // Never through the planet's centre.
+    // The eye never reaches the planet's centre.
     const double distanceM = glm::length(camera.eyeM);
     Camera moved = camera;
     moved.eyeM *= std::max(distanceM + upM, 0.01 * distanceM) / distanceM;
@@ -115,7 +114,7 @@ Camera fly(const Camera& camera, const Ground& ground, double forwardM, double r
 }
 
 Camera look(const Camera& camera, double rightRad, double upRad) {
-    // A still camera keeps every bit: measurements of its view stay current.
+    // A camera that does not turn must keep every bit, so that measurements of its view stay current.
     if (rightRad == 0 && upRad == 0) return camera;
     const glm::dvec3 up = glm::normalize(camera.eyeM);
     Camera turned = camera;
@@ -129,7 +128,7 @@ Camera look(const Camera& camera, double rightRad, double upRad) {
 
 Camera drag(const Camera& camera, const Ground& ground, const planet::View& view, const glm::dvec2& movePx) {
     const double groundRadiusM = ground.radiusM + ground.heightM;
-    // Looking at the sky or along the ground there is no distance to go by, or one far too long.
+    // Towards the sky or along the ground, the distance does not exist or is far too long.
     const double heightM = heightAboveGroundM(camera, ground);
     const double distanceM =
         std::min(distanceToSphereM(camera.eyeM, -camera.back, groundRadiusM).value_or(heightM), 4 * heightM);
@@ -149,11 +148,11 @@ Camera approach(const Camera& camera, const Ground& ground, const glm::dvec3& ra
     const double share = 1 - std::pow(0.85, notches);
     const double groundRadiusM = ground.radiusM + ground.heightM;
     const std::optional<double> hitM = distanceToSphereM(camera.eyeM, ray, groundRadiusM);
-    // Straight down where the pointer is on the sky.
+    // With the pointer on the sky, the camera moves straight down.
     if (!hitM) return climb(camera, -share * heightM);
     const glm::dvec3 across = glm::cross(camera.eyeM, camera.eyeM + *hitM * ray);
     if (glm::length(across) == 0) return climb(camera, -share * heightM);
-    // Towards the horizon, no farther than feels like one step.
+    // Towards the horizon, the move is limited to a reasonable step.
     const double angleRad =
         std::min(std::asin(std::min(
                      *hitM * glm::length(glm::cross(ray, glm::normalize(camera.eyeM))) / groundRadiusM, 1.0)),
@@ -167,7 +166,7 @@ Camera keepInRange(const Camera& camera, const Ground& ground) {
     const double highestM = std::max(lowestM, (1 + maxAltitudeRadii) * ground.radiusM);
     const double distanceM = glm::length(camera.eyeM);
     const double factor = std::clamp(distanceM, lowestM, highestM) / distanceM;
-    // A camera on a limit is off it by rounding alone, and stays.
+    // A camera that differs from a limit only by rounding stays unchanged.
     if (std::abs(factor - 1) < 4 * std::numeric_limits<double>::epsilon()) return camera;
     Camera kept = camera;
     kept.eyeM *= factor;
@@ -175,7 +174,7 @@ Camera keepInRange(const Camera& camera, const Ground& ground) {
 }
 
 double speedMS(const Camera& camera, const Ground& ground, double speedFactor) {
-    // A planet radius and a half a second is as fast as still tells where one is.
+    // Above 1.5 planet radii per second the user would lose orientation.
     const double naturalMS = std::min(0.6 * heightAboveGroundM(camera, ground), 1.5 * ground.radiusM);
     return speedFactor * naturalMS;
 }

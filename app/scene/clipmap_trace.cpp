@@ -13,13 +13,13 @@ namespace worldy {
 
 namespace {
 
-constexpr double shownS = 2;            // that what was filled is seen for
-constexpr std::size_t mostShown = 400;  // rectangles; the oldest go first
-constexpr int sideSegments = 48;        // of a window's side, so that it follows the ground
+constexpr double shownS = 2;            // time for which a filled rectangle is shown
+constexpr std::size_t mostShown = 400;  // rectangles shown at once; the oldest are dropped first
+constexpr int sideSegments = 48;        // segments per side of a window, so that it follows the ground
 
 using planet::TexelRect;
 
-// From texels of a face to the ground there, lifted by some pixels so that it does not hide the lines.
+// Draws lines between texels of a face on the ground, lifted by 3 px so that the ground does not hide them.
 struct GroundLines {
     const planet::ChunkTree& tree;
     const planet::View& view;
@@ -54,7 +54,7 @@ struct GroundLines {
     }
 };
 
-// Sides on a face's edge are left out: there the window goes on on the next face.
+// Omits sides on the edge of a face, because the window continues on the next face.
 void appendOutline(const GroundLines& ground, const TexelRect& texels, const planet::LineColour& colour) {
     const int cells = planet::colourTileCells << ground.level;
     const double left = texels.x;
@@ -67,7 +67,7 @@ void appendOutline(const GroundLines& ground, const TexelRect& texels, const pla
     if (top < cells) ground.append({left, top}, {right, top}, colour);
 }
 
-// Bars across the shorter side, so that a strip looks like one.
+// Hatches a long strip with bars across its shorter side.
 void appendBars(const GroundLines& ground, const TexelRect& texels, const planet::LineColour& colour) {
     const double right = texels.x + texels.width - 1;
     const double top = texels.y + texels.height - 1;
@@ -93,7 +93,7 @@ planet::LineColour filledColour(const planet::ClipmapUpdate& update, double ageS
 void remember(const planet::gl::ColourClipmapState& state, double nowS, ClipmapTrace& trace) {
     trace.filledTexels += state.updatedTexels;
     for (const planet::ClipmapUpdate& update : state.updates) {
-        // The levels that are kept whole have no windows to be seen in.
+        // Levels that are resident as a whole have no windows.
         if (update.level > state.layout.wholeLevel) trace.filled.push_back({update, nowS});
     }
     while (!trace.filled.empty() &&
@@ -134,12 +134,10 @@ void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const Clipmap
         appendOutline(ground, filled.update.texels, colour);
         appendBars(ground, filled.update.texels, colour);
     }
-    // Over those that were filled as a whole.
+    // Outlines come last, on top of rectangles that fill a whole window.
     for (const planet::gl::ColourClipmapState::Window& window : state->windows) {
-        const glm::vec3 colour = levelColour(window.level);
-        const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
         appendOutline({tree, renderView, window.face, window.level, lines}, window.texels,
-                      {byte(colour.x), byte(colour.y), byte(colour.z), 255});
+                      colourBytes(levelColour(window.level), 255));
     }
 }
 

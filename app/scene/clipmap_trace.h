@@ -1,4 +1,4 @@
-// Remembers what was filled lately in a renderer's clipmap of colours, for the overlay and the figures.
+// Records the recent updates of the colour clipmap, for the overlay and the figures.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,26 @@
 
 namespace worldy {
 
-// Of one renderer.
+// The recent updates of one renderer's clipmap.
 struct ClipmapTrace {
     struct Filled {
         planet::ClipmapUpdate update;
         double atS = 0;  // LastStep::nowS
     };
 
-    std::optional<int> sizePx{};    // of the clipmap that was filled; none: there is none
-    std::int64_t filledTexels = 0;  // in this frame
-    std::deque<Filled> filled{};    // lately, oldest first
+    std::optional<int> sizePx{};    // window size of the clipmap; unset while there is no clipmap
+    std::int64_t filledTexels = 0;  // texels filled in this frame
+    std::deque<Filled> filled{};    // recently filled rectangles, oldest first
 };
 
-// Adds what the last draw filled, at nowS.
+// Adds the updates of the last draw.
 void traceClipmap(const planet::gl::ChunkRenderer& renderer, double nowS, ClipmapTrace& trace);
 
 ClipmapStats clipmapStatsOf(const planet::gl::PlanetRenderer& renderer, const ClipmapTrace& trace);
 
-// The windows' outlines on the ground in the colours of their levels, and what was filled in the last
-// seconds, fading: magenta came in by moving, cyan because tiles came or went.
+// Appends the outlines of the windows in the colours of their levels, and the recently filled rectangles,
+// which fade out: magenta ones were filled because the view moved, cyan ones because tiles were loaded or
+// evicted.
 void appendClipmapLines(const planet::gl::ChunkRenderer& renderer, const ClipmapTrace& trace,
                         const planet::ChunkTree& tree, const planet::View& renderView, double nowS,
                         planet::Lines& lines);

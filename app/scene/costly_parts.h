@@ -1,4 +1,4 @@
-// The parts of the picture that cost most, and which of them a slow renderer does without.
+// The most expensive features of the picture. A slow renderer turns off those that are Automatic.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ namespace worldy {
 enum class CostlyPart : std::uint8_t { Air, Normals, Layers, Shadows, Sea };
 inline constexpr std::size_t costlyPartCount = 5;
 
-inline constexpr double affordedMs = 50;  // of the GPU, for a picture: 20 a second
-inline constexpr double patienceS = 2;    // that a picture may take longer before anything is turned down
+inline constexpr double affordedMs = 50;  // GPU time budget of a frame
+inline constexpr double patienceS = 2;  // time for which frames may exceed it before a feature is turned off
 
-// By what was measured in the window. Those that the user has set to on or off are left alone.
+// The features that were measured to be too slow. Only Automatic features are turned off.
 struct TurnedDown {
     std::array<bool, costlyPartCount> parts{};
-    std::array<double, costlyPartCount> tookMs{};  // the picture, with the part
-    double fastAtS = 0;  // when the picture was last fast enough, or something changed
+    std::array<double, costlyPartCount> tookMs{};  // frame time with the feature
+    double fastAtS = 0;  // when a frame was last fast enough, or a feature was turned off
 
     bool has(CostlyPart part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-// Holds the time of the picture without and with one part, drawn in turn: medians of the rounds, in ms. The
-// picture without the part shows only the lit ground.
+// The median frame times without and with one part, drawn in alternation. Without the part, only the lit
+// ground is drawn.
 struct PartCost {
     std::string part;
     double withoutMs = 0;
@@ -35,11 +35,11 @@ struct PartCost {
 
 planet::gl::FeatureUse& useOf(CostlyPart part, SurfaceSettings& surface);
 
-// The settings with the parts that are turned down off.
+// Turns off the Automatic features that are too slow.
 void turnDown(const TurnedDown& turnedDown, SurfaceSettings& surface);
 
-// After a picture that took so many milliseconds of the GPU, at a time in seconds: turns one part more down
-// where pictures have been too slow for long, in the order of the enumeration. True if it has.
+// Takes the GPU time of a frame and the current time. Turns off one more feature, in the order of the
+// enumeration, if frames have been too slow for patienceS. Returns true if it has.
 bool watchPicture(TurnedDown& turnedDown, const SurfaceSettings& surface, double gpuMs, double timeS);
 
 }  // namespace worldy

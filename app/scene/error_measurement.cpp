@@ -7,8 +7,8 @@
 
 namespace worldy {
 
-ErrorMeasurement measurementOf(planet::TrueErrorReport&& report) {
-    ErrorMeasurement measurement;
+ErrorMeasurement measurementOf(planet::TrueErrorReport&& report, ErrorMeasurement frame) {
+    ErrorMeasurement measurement = std::move(frame);
     measurement.report = std::move(report);
     const std::vector<planet::ChunkError>& chunks = measurement.report.chunks;
     for (std::size_t i = 0; i < chunks.size(); ++i) measurement.indexOf[chunks[i].id] = i;
@@ -20,6 +20,12 @@ ErrorMeasurement measurementOf(planet::TrueErrorReport&& report) {
     std::sort(measurement.worstFirst.begin(), measurement.worstFirst.end(),
               [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
     return measurement;
+}
+
+planet::DrawnSnapshot drawnSnapshotOf(const planet::Planet& planet) {
+    const planet::ViewInput& input = planet.views()[0].input;
+    return planet::snapshotOf(planet.tree(), planet.selection().draw, input.lodView,
+                              input.lod.seams == planet::SeamMode::Stitched);
 }
 
 }  // namespace worldy

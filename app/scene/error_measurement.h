@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "planet/measure/true_error.h"
+#include "planet/planet.h"
 #include "planet/select/lod_select.h"
 
 namespace worldy {
 
-// Holds one measurement and the frame that it belongs to.
+// One measurement and the frame that it belongs to.
 struct ErrorMeasurement {
     planet::TrueErrorReport report;
     std::unordered_map<planet::ChunkId, std::size_t> indexOf;  // in the report's chunks
@@ -26,7 +27,10 @@ struct ErrorMeasurement {
     double tookS = 0;
 };
 
-// Fills in the index and the order of a report.
-ErrorMeasurement measurementOf(planet::TrueErrorReport&& report);
+// Returns the measurement of a frame, with the index and the order of its report.
+ErrorMeasurement measurementOf(planet::TrueErrorReport&& report, ErrorMeasurement frame = {});
+
+// Returns a snapshot of the planet's first selection, as its LOD view sees it.
+planet::DrawnSnapshot drawnSnapshotOf(const planet::Planet& planet);
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// What one frame did: counted and timed where it happened, for panels and reports.
+// The counts and times of one frame, for panels and reports.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,11 @@
 
 namespace worldy {
 
-// Of the clipmap of colours, while there is one.
 struct ClipmapStats {
-    int windows = 0;                // of levels that are not kept whole
-    int wholeLevel = 0;             // this and all coarser ones are
+    int windows = 0;                // number of windows, over the levels finer than wholeLevel
+    int wholeLevel = 0;             // this level and all coarser ones are resident as a whole
     std::int64_t filledTexels = 0;  // in the last frame
-    std::string problem;            // why there is none though it is wanted; empty: nothing is wrong
+    std::string problem;            // why a requested clipmap is missing; empty: no problem
 };
 
 struct FrameStats {
@@ -23,19 +22,19 @@ struct FrameStats {
     planet::PagingCounters paging;
     planet::StageTimes stages;
     planet::gl::RenderCounters render;
-    planet::gl::GpuMemory gpuMemory;  // of the renderer
+    planet::gl::GpuMemory gpuMemory;  // memory of the renderer
     ClipmapStats clipmap;
-    std::size_t targetBytes = 0;   // of the pictures drawn into
-    std::size_t processBytes = 0;  // the whole program's resident memory
-    double drawCpuMs = 0;          // making the planet's draw calls
-    double overlaysMs = 0;         // lines and labels over it, on the CPU
-    double panelsMs = 0;           // making the panels
-    double panelsGpuMs = 0;        // drawing them, by a timer query
-    double presentMs = 0;          // handing the picture to the monitor, waiting for it included
-    double frameMs = 0;            // from this frame's start to the next one's
+    std::size_t targetBytes = 0;   // memory of the render targets
+    std::size_t processBytes = 0;  // resident memory of the process
+    double drawCpuMs = 0;          // issuing the draw calls of the planet
+    double overlaysMs = 0;         // lines and labels over the planet, on the CPU
+    double panelsMs = 0;           // building the panels
+    double panelsGpuMs = 0;        // drawing the panels, by a timer query
+    double presentMs = 0;          // presenting the frame, including the wait for the monitor
+    double frameMs = 0;            // from the start of this frame to the start of the next
 };
 
-// Times with their flicker taken out; counts stay as they are.
+// Returns the frame `now` with smoothed times; counts are not smoothed.
 FrameStats smoothed(const FrameStats& before, const FrameStats& now);
 
 }  // namespace worldy

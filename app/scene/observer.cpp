@@ -19,15 +19,7 @@ constexpr planet::LineColour eyeColour = {255, 255, 255, 255};
 constexpr planet::LineColour switchColour = {255, 110, 220, 255};
 constexpr planet::LineColour boundsColour = {255, 110, 220, 140};
 
-// Where a ray meets a sphere about the planet's centre, from outside it; nothing where it goes into the sky.
-std::optional<double> distanceToGroundM(const glm::dvec3& eyeM, const glm::dvec3& ray, double radiusM) {
-    const double towards = -glm::dot(eyeM, ray);
-    const double halfChordSquared = radiusM * radiusM - glm::dot(eyeM, eyeM) + towards * towards;
-    if (towards <= 0 || halfChordSquared < 0) return std::nullopt;
-    return towards - std::sqrt(halfChordSquared);
-}
-
-// The outline of all points within a distance of a rectangle: straight along its sides, round at its corners.
+// Appends the outline of all points within a distance of a rectangle: straight sides, round corners.
 void appendRoundedRectangle(const planet::OrientedBox& box, std::size_t first, std::size_t second,
                             double distanceM, const planet::LineColour& colour, planet::Lines& lines) {
     constexpr int segmentsACorner = 12;
@@ -76,14 +68,14 @@ double frustumLengthM(const planet::View& view, double groundRadiusM) {
     bool seesSky = false;
     for (const glm::dvec2 pixel : {glm::dvec2{width / 2, height / 2}, glm::dvec2{0, 0}, glm::dvec2{width, 0},
                                    glm::dvec2{0, height}, glm::dvec2{width, height}}) {
-        const auto groundM = distanceToGroundM(view.eyeM, rayThrough(view, pixel), groundRadiusM);
+        const auto groundM = distanceToSphereM(view.eyeM, rayThrough(view, pixel), groundRadiusM);
         farthestM = std::max(farthestM, groundM.value_or(0));
         seesSky |= !groundM;
     }
-    // Ground and sky in one picture have the horizon between them.
+    // A view of both ground and sky contains the horizon.
     if (farthestM > 0 && seesSky)
         return std::sqrt(std::max(eyeRadiusM * eyeRadiusM - groundRadiusM * groundRadiusM, 1.0));
-    // Nothing but sky: as long as the eye is high.
+    // A view of the sky alone gets the height of the eye.
     return farthestM > 0 ? farthestM : std::max(eyeRadiusM - groundRadiusM, minGroundClearanceM);
 }
 
@@ -91,8 +83,8 @@ Camera observerStart(const planet::View& lodView, const Ground& ground) {
     const Camera eye{lodView.eyeM, lodView.right, lodView.back};
     const double heightM = heightAboveGroundM(eye, ground);
     const double groundRadiusM = ground.radiusM + ground.heightM;
-    // Along the heading, whatever the pitch. From orbit no farther round the planet than that the eye and the
-    // ground below it stay in view.
+    // Moves back along the heading, independent of the pitch. From orbit the move is limited, so that the eye
+    // and the ground below it stay in view.
     const double backM = std::min(2.5 * heightM, glm::radians(35.0) * groundRadiusM);
     Camera observer = climb(moveOverGround(eye, ground, -backM, 0), std::max(1.2 * heightM, 0.3 * backM));
     observer = keepInRange(observer, ground);

@@ -1,5 +1,4 @@
-// The observer: a second camera that looks at the lod view from outside, and what is drawn for it to see.
-// Pure functions, any thread.
+// The observer: a second camera that looks at the LOD view from outside. Pure functions, any thread.
 #pragma once
 
 #include <optional>
@@ -11,17 +10,17 @@
 
 namespace worldy {
 
-// Where the observer begins: behind and above the lod view's eye, looking at it and at the ground before it.
-// Ground: below that eye.
+// Returns the first pose of the observer: behind and above the eye of the LOD view, looking at that eye and
+// at the ground in front of it. ground: the ground below that eye.
 Camera observerStart(const planet::View& lodView, const Ground& ground);
 
-// As the settings ask: the lod view's frustum, as long as to the farthest ground that it can see; its
-// horizon; a mark at its eye; and how far d_m of the selected chunk reaches, as the outlines, in three
-// planes, of all places from which the chunk must be replaced by its children (d_m about its bounds).
+// Returns the lines that the settings ask for: a mark at the eye of the LOD view, its frustum, its horizon,
+// and the switch distance of the selected chunk. The latter are outlines, in three planes, of all points at
+// which the chunk is replaced by its children.
 planet::Lines observerLines(const planet::Planet& planet, const planet::View& lodView,
                             const CameraSettings& settings, const std::optional<planet::ChunkId>& selected);
 
-// How far a view's frustum is drawn, metres: to the farthest ground or horizon within it.
+// Returns the length of a drawn frustum in metres: the distance of the farthest ground or horizon in it.
 double frustumLengthM(const planet::View& view, double groundRadiusM);
 
 }  // namespace worldy

@@ -22,37 +22,26 @@ planet::Result<void> drawLines(Offscreen& offscreen, const planet::View& view, c
         if (!made) return tl::unexpected(made.error());
         offscreen.lines.emplace(std::move(*made));
     }
-    // As wide as in the window.
     offscreen.lines->draw(view, offscreen.scene.renderer.chunks().projection(), lines, 1.5f,
                           planet::gl::LineDepth::Hidden);
     return {};
 }
 
-// In short stretches, between which it can be given up.
-bool settleWhile(Scene& scene, const planet::View& view, const ViewSettings& settings,
-                 const std::function<bool()>& goOn) {
-    if (!goOn) return settleScene(scene, view, settings, settleTimeoutS);
-    constexpr int stretches = 600;
-    for (int i = 0; i < stretches; ++i) {
-        if (settleScene(scene, view, settings, settleTimeoutS / stretches)) return true;
-        if (!goOn()) return false;
-    }
-    return false;
+bool settle(Scene& scene, const planet::View& view, const ViewSettings& settings,
+            const std::function<bool()>& goOn) {
+    const auto settleFor = [&](double timeoutS) { return settleScene(scene, view, settings, timeoutS); };
+    return goOn ? settleWhile(settleFor, goOn) : settleFor(settleTimeoutS);
 }
 
-// Nothing where chunks are not coloured by it.
+// Returns nothing if chunks are not coloured by their measured error.
 planet::Result<std::optional<ErrorMeasurement>> measuredFor(const planet::Planet& planet,
                                                             const ViewSettings& settings) {
     if (settings.overlay.colourBy != ColourBy::Measured) return std::nullopt;
-    const planet::LodSettings& lod = planet.views()[0].input.lod;
     planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(planet.file()));
-    auto report = planet::measureTrueError(
-        planet::snapshotOf(planet.tree(), planet.selection().draw, planet.views()[0].input.lodView,
-                           lod.seams == planet::SeamMode::Stitched),
-        heights);
+    auto report = planet::measureTrueError(drawnSnapshotOf(planet), heights);
     if (!report) return tl::unexpected(report.error());
     ErrorMeasurement measured = measurementOf(std::move(*report));
-    measured.tauPx = lod.tauPx;
+    measured.tauPx = planet.views()[0].input.lod.tauPx;
     return measured;
 }
 
@@ -94,7 +83,7 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
               chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
                          *measured ? &**measured : nullptr));
     const planet::Lines lines = linesOver(scene, selection, view, settings);
-    // Lines are those of the sphere.
+    // The lines are made for the sphere, not for the cube.
     if (!lines.empty() && !settings.overlay.cube) {
         if (planet::Result<void> drawn = drawLines(offscreen, view, lines); !drawn) return drawn;
     }
@@ -113,21 +102,21 @@ SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const
     const double radiusM = scene.planet->tree().shape.radiusM;
     Camera camera = cameraFromPose(pose, radiusM);
     SettledView result;
-    const auto settle = [&] {
+    const auto settleCamera = [&] {
         result.view = viewOf(camera, glm::radians(settings.camera.fovDeg), offscreen.target.widthPx(),
                              offscreen.target.heightPx());
         result.pose = planet::poseFromView(result.view, radiusM);
         scene.planet->tools().forgetSelections();
-        result.settled = settleWhile(scene, result.view, settings, goOn);
+        result.settled = settle(scene, result.view, settings, goOn);
     };
-    settle();
-    // The ground below is known as finely as the view needs only now; lifted, it may become finer still.
+    settleCamera();
+    // Only now the ground below is resident at the level of the view; after a lift it may be refined further.
     for (int attempt = 0; attempt < 4 && (result.settled || !goOn); ++attempt) {
         const Ground ground = groundBelow(scene, camera.eyeM);
         if (altitudeM(camera, ground) >= ground.heightM + minGroundClearanceM - 1e-3) break;
         camera = keepInRange(camera, ground);
         result.lifted = true;
-        settle();
+        settleCamera();
     }
     return result;
 }

@@ -1,4 +1,4 @@
-// Drawing a planet without a window: what shot, fly and a machine without a display share.
+// Draws a planet without a window, for the commands and for machines without a display.
 #pragma once
 
 #include <filesystem>
@@ -13,37 +13,37 @@
 
 namespace worldy {
 
-// Declared in the order in which they need each other.
+// The order of the members matters: later ones use earlier ones.
 struct Offscreen {
     planet::gl::OffscreenContext context;
     planet::gl::RenderTarget target;
     Scene scene;
-    std::optional<planet::gl::DebugLines> lines{};  // once any were drawn
+    std::optional<planet::gl::DebugLines> lines{};  // created when lines are first drawn
 };
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,
                                         const PictureSize& size, int samples);
 
-// The picture to lay over a planet: the one named, else the one beside its file; none where there is none.
+// Reads the colour image of a planet: the named one, otherwise the one beside its file; nothing if there is
+// none.
 planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::path& file,
                                                        const std::filesystem::path& colourImage);
 
-// Draws the last selection, tints and lines over it included, and waits until the GPU has done it.
+// Draws the last selection with its tints and lines, and waits until the GPU has finished.
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,
                                    const ViewSettings& settings);
 
 Picture readPicture(const Offscreen& offscreen);
 
-// The view from a pose, once everything for it is loaded. Its selection does not depend on earlier views:
-// hysteresis and fades begin without a memory. What is resident stays, and with it a small budget and the
-// height of the ground may still depend on earlier views; PlanetTools::startAnew() excludes that too. A
-// camera below the ground is lifted above it. goOn is called several times a second; when it returns false,
-// the view is left unsettled.
+// The view from a pose after all its blocks are loaded. Hysteresis and fades are reset, so its selection does
+// not depend on earlier views. Resident chunks stay, so with a small budget the height of the ground may
+// still depend on earlier views; PlanetTools::startAnew() excludes that too. A camera below the ground is
+// lifted above it. goOn is called several times per second; if it returns false, the view stays unsettled.
 struct SettledView {
     planet::View view;
     planet::CameraPose pose;
     bool lifted = false;
-    bool settled = false;  // false: the time ran out
+    bool settled = false;  // false after a timeout, or if goOn returned false
 };
 SettledView settleAt(Offscreen& offscreen, const planet::CameraPose& pose, const ViewSettings& settings,
                      const std::function<bool()>& goOn = {});

@@ -5,17 +5,19 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/packing.hpp>
+#include <glm/vec4.hpp>
 
 namespace worldy {
 
 namespace {
 
-// Neighbouring levels are far apart in hue; after twelve the series begins again, lighter.
+// Adjacent levels differ in hue. After twelve levels the series repeats in lighter colours.
 constexpr std::array<std::uint32_t, 12> hues = {0x3D6BE0, 0xFF9A1F, 0x1FA34A, 0xE0332B, 0x9B3FD1, 0xF2D024,
                                                 0x12A5C9, 0xE64C93, 0x7CC21A, 0x95602E, 0x1BB89A, 0x6A6F7A};
 
-// Even in lightness, and told apart by people who do not see red and green: from viridis, its violet end
-// bluer.
+// A ramp of even lightness steps that people with red-green colour blindness can read: viridis with a bluer
+// dark end.
 constexpr std::array<std::uint32_t, 6> rampColours = {0x1B1F6B, 0x30508F, 0x21898C,
                                                       0x3DBB75, 0xA6DB3A, 0xFDF3A0};
 
@@ -28,11 +30,7 @@ glm::vec3 fromHex(std::uint32_t hex) {
     return {channel(16), channel(8), channel(0)};
 }
 
-std::uint8_t byteOf(double value) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
-}
-
-// Of a planet's drawn chunks; 1 where none has been loaded since the roots.
+// Returns the newest load order among the drawn chunks, at least 1.
 double newestLoad(const planet::ChunkTree& tree, const planet::Selection& selection) {
     std::uint32_t newest = 1;
     for (const planet::DrawItem& item : selection.draw) {
@@ -82,10 +80,13 @@ glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, co
 }  // namespace
 
 std::uint32_t packedColour(const glm::vec3& colour) {
-    const auto channel = [](float value) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
-    };
-    return 0xFF000000u | (channel(colour.z) << 16) | (channel(colour.y) << 8) | channel(colour.x);
+    return glm::packUnorm4x8(glm::vec4(colour, 1));
+}
+
+std::array<std::uint8_t, 4> colourBytes(const glm::vec3& colour, std::uint8_t opacity) {
+    const std::uint32_t packed = packedColour(colour);
+    return {static_cast<std::uint8_t>(packed), static_cast<std::uint8_t>(packed >> 8),
+            static_cast<std::uint8_t>(packed >> 16), opacity};
 }
 
 glm::vec3 levelColour(int level) {
@@ -129,15 +130,13 @@ std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
     if (overlay.colourBy == ColourBy::None) return {};
     const planet::ChunkTree& tree = planet.tree();
     const TintScale scale{overlay, tauPx, planet.lastStep().nowS, newestLoad(tree, selection), measured};
-    const std::uint8_t strength = byteOf(overlay.opacity);
+    const auto strength = static_cast<std::uint8_t>(std::lround(std::clamp(overlay.opacity, 0.0, 1.0) * 255));
     std::vector<planet::gl::ChunkTint> tints;
     tints.reserve(selection.draw.size());
     const planet::ChunkNode unknown;
     for (const planet::DrawItem& item : selection.draw) {
         const auto& node = item.node < tree.nodes.size() ? tree.nodes[item.node] : unknown;
-        const glm::vec3 colour = tintOf(item, node, scale);
-        tints.push_back({{byteOf(static_cast<double>(colour.x)), byteOf(static_cast<double>(colour.y)),
-                          byteOf(static_cast<double>(colour.z)), strength}});
+        tints.push_back({colourBytes(tintOf(item, node, scale), strength)});
     }
     return tints;
 }

@@ -13,16 +13,12 @@ namespace {
 
 constexpr planet::LineColour hoverColour = {255, 255, 255, 230};
 constexpr planet::LineColour selectedColour = {255, 176, 32, 255};
-// Of chunks that stay coarse because what is finer could not be read.
+// Colours of chunks that stay coarse because their children could not be read.
 constexpr planet::LineColour failedColour = {255, 60, 50, 255};
 constexpr planet::LineColour awaitingRetryColour = {255, 190, 60, 255};
 
-planet::LineColour bytesOf(const glm::vec3& colour, std::uint8_t opacity) {
-    const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); };
-    return {byte(colour.x), byte(colour.y), byte(colour.z), opacity};
-}
-
-// Two pixels at the chunk's distance, so that the ground does not hide its own outline.
+// Returns the size of two pixels at the chunk's distance. Lifted by it, an outline is not hidden by its own
+// ground.
 double liftM(const planet::ChunkNode& node, const planet::View& view) {
     const double away = std::max(planet::distanceM(node.bounds.box, view.eyeM), 10.0);
     return 2 * away / planet::screenScalePx(view);
@@ -41,7 +37,7 @@ glm::dvec3 edgePointM(const planet::ChunkTree& tree, const planet::ChunkNode& no
     return planet::positionM(tree.shape, direction, planet::heightM(tree.shape, step) + lift);
 }
 
-// Yellow where levels differ by one, through orange to magenta at three and more.
+// Returns yellow for a difference of one level, orange for two, magenta for three and more.
 planet::LineColour seamColour(int levels) {
     if (levels <= 1) return {255, 220, 60, 255};
     return levels == 2 ? planet::LineColour{255, 140, 20, 255} : planet::LineColour{255, 40, 200, 255};
@@ -84,7 +80,7 @@ planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selectio
     planet::Lines lines;
     if (settings.overlay.bounds) {
         for (const planet::DrawItem& item : selection.draw) {
-            planet::appendBox(tree.nodes[item.node].bounds.box, bytesOf(levelColour(item.id.level), 200),
+            planet::appendBox(tree.nodes[item.node].bounds.box, colourBytes(levelColour(item.id.level), 200),
                               lines);
         }
     }

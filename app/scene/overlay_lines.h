@@ -1,5 +1,5 @@
-// The lines that are drawn over the planet: bounding volumes, the chunk under the pointer and the one that is
-// selected, and the edges where levels meet. Pure functions, any thread.
+// The lines drawn over the planet: bounding volumes, outlines of the hovered and the selected chunk, and LOD
+// seams. Pure functions, any thread.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,15 @@ namespace worldy {
 // Names the chunks that the user has selected and points at.
 struct ChunkFocus {
     std::optional<planet::ChunkId> selected;
-    std::optional<planet::ChunkId> hovered;  // under the pointer in the viewport or the net, one frame ago
+    std::optional<planet::ChunkId>
+        hovered;  // the chunk under the pointer in the viewport or the net, one frame ago
 };
 
-// Of what a selection draws. Eye: to lift outlines off the ground by about a pixel.
+// Returns the lines of a selection. Outlines are lifted off the ground by about two pixels of renderView.
 planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selection& selection,
                            const planet::View& renderView, const ViewSettings& settings);
 
-// Of the chunks that are pointed at and selected; drawn or not, as long as they are resident.
+// Returns the outlines of the hovered and the selected chunk if they are resident, whether drawn or not.
 planet::Lines focusLines(const planet::ChunkTree& tree, const ChunkFocus& focus,
                          const planet::View& renderView);
 

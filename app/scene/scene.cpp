@@ -4,42 +4,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "app/base/stopwatch.h"
 #include "app/scene/overlay_lines.h"
+#include "app/scene/scene_settings.h"
 #include "app/settings/layer_file.h"
-#include "app/settings/sun_overhead.h"
-#include "planet/sphere/cube_sphere.h"
 
 namespace worldy {
 
 namespace {
 
-// Low enough in the east for relief to show, high enough for most of what is in view to be lit.
-glm::dvec3 morningSun(const glm::dvec3& eyeM) {
-    const planet::Geographic place = planet::geographicFromDirection(eyeM);
-    const glm::dvec3 up = glm::normalize(eyeM);
-    const glm::dvec3 east(-std::sin(place.longitudeRad), std::cos(place.longitudeRad), 0);
-    return 0.65 * up + 0.65 * east + 0.4 * glm::cross(up, east);
-}
-
-// The ramp's colours spread over the planet's own heights, whatever they are. Exaggeration is in the shape.
-double rampTopM(const planet::ChunkTree& tree) {
-    const double highestM = planet::heightM(tree.shape, tree.maxStep);
-    const double lowestM = planet::heightM(tree.shape, tree.minStep);
-    return std::max({0.85 * highestM, 0.3 * (highestM - lowestM), 1.0});
-}
-
-// The renderer's pool follows the planet's slots. Where it cannot, the planet goes back to the slots it had.
+// Fits the renderer's pool to the slots of the planet. If that fails, restores the planet's former slots.
 planet::Result<void> fitPool(Scene& scene, const planet::PagingSettings& before) {
     planet::Result<void> fitted = scene.renderer.fitHeights(*scene.planet);
     if (!fitted) {
         static_cast<void>(scene.planet->setPaging(before));
-        static_cast<void>(scene.renderer.fitHeights(*scene.planet));  // the pool has that size
+        static_cast<void>(
+            scene.renderer.fitHeights(*scene.planet));  // succeeds: the pool still has that size
     }
     return fitted;
 }
@@ -65,26 +48,14 @@ planet::Result<void> applyPaging(Scene& scene, const planet::PagingSettings& wan
     return applied;
 }
 
-planet::gl::LayerDrawing layerDrawingOf(const LayerSettings& layers) {
-    return {.use = layers.use,
-            .set = layers.set,
-            .pictures = {},
-            .beginM = layers.beginM,
-            .endM = layers.endM,
-            .opacity = layers.opacity,
-            .colourBelow = layers.colourBelow,
-            .preview = layers.preview,
-            .previewed = layers.previewed - 1};
-}
-
-// Only where layers are drawn: most of the time it is nothing to do.
+// Loads the textures of the layers if layers are drawn.
 void fitLayers(Scene& scene, const LayerSettings& layers, planet::gl::LayerDrawing& drawing) {
-    const bool software = scene.renderer.chunks().capabilities().software;
-    if (!planet::gl::isUsed(layers.use, software)) return;
+    if (!planet::gl::isUsed(layers.use, drawsByCpu(scene))) return;
     fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer.chunks(), scene.layers);
     drawing.pictures = picturesOf(layers.set, scene.layers);
 }
 
+// Returns the settings without the features that are too slow here.
 ViewSettings afforded(const Scene& scene, ViewSettings settings) {
     turnDown(scene.turnedDown, settings.surface);
     return settings;
@@ -107,6 +78,23 @@ void beginFrame(Scene& scene, const planet::View& lodView, const ViewSettings& s
     scene.drawn = {};
 }
 
+void step(Scene& scene, const ViewSettings& settings, std::span<const planet::ViewInput> views,
+          std::optional<double> elapsedS) {
+    beginFrame(scene, views.front().lodView, settings);
+    scene.planet->step(views, scene.renderer.upload(), elapsedS);
+}
+
+void addCounters(const planet::gl::RenderCounters& counters, planet::gl::RenderCounters& sums) {
+    sums.chunks += counters.chunks;
+    sums.groundTriangles += counters.groundTriangles;
+    sums.skirtTriangles += counters.skirtTriangles;
+    sums.uploads += counters.uploads;
+    sums.standIn |= counters.standIn;
+    sums.chunksMs += counters.chunksMs;
+    sums.skyMs += counters.skyMs;
+    sums.shadowsMs += counters.shadowsMs;
+}
+
 }  // namespace
 
 planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& settings) {
@@ -117,7 +105,6 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& s
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
     scene.identity = std::make_shared<const int>(0);
-    scene.exaggeration = settings.surface.exaggeration;
     if (config.colour) {
         const planet::Result<void> made = scene.renderer.chunks().setColourImage(
             config.colour->rgb, config.colour->width, config.colour->height);
@@ -126,116 +113,21 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& s
                 "The colour image cannot be drawn, using the height ramp instead: {}", made.error().message));
         scene.hasColourImage = made.has_value();
     }
-    // Only now it is known who draws; what is refused is told of when settings are next applied.
+    // Only the renderer knows whether the CPU draws. applyLiveSettings reports what is refused here.
     if (auto applied = applyPaging(scene, pagingSettingsOf(settings, false, std::nullopt, drawsByCpu(scene)));
         !applied)
         scene.refusedPaging.reset();
     return scene;
 }
 
-planet::LodSettings lodSettingsOf(const ViewSettings& settings) {
-    planet::LodSettings lod;
-    lod.metric = settings.lod.metric;
-    lod.tauPx = settings.lod.tauPx;
-    lod.hysteresis = settings.lod.hysteresis;
-    lod.maxLevel = settings.lod.maxLevel;
-    // Bounds are those of the sphere; on the cube they would cut away what is in view.
-    lod.frustumCulling = settings.lod.frustumCulling && !settings.overlay.cube;
-    lod.horizonCulling = settings.lod.horizonCulling && !settings.overlay.cube;
-    lod.morph = settings.lod.morph;
-    lod.morphRange = settings.lod.morphRange;
-    lod.fadeS = settings.lod.fadeS;
-    lod.seams = settings.seams.mode;
-    lod.skirtDepth = settings.seams.depth;
-    lod.skirtDepthM = settings.seams.skirtDepthM;
-    lod.skirtFactor = settings.seams.skirtFactor;
-    return lod;
-}
-
-planet::TileSettings colourSettingsOf(const ViewSettings& settings) {
-    const SurfaceSettings& surface = settings.surface;
-    const bool seen = surface.streamed && surface.surface == planet::gl::SurfaceColour::Image &&
-                      surface.imageOpacity > 0 && !settings.overlay.cube;
-    return {.enabled = seen, .texelsPerPixel = surface.texelsPerPixel};
-}
-
-// Without light nothing shows them but the layers, whose slopes are near enough by the mesh.
-planet::TileSettings normalSettingsOf(const ViewSettings& settings) {
-    const planet::gl::NormalDrawing& normals = settings.surface.light.normals;
-    return {.enabled = settings.surface.lighting && normals.use != planet::gl::FeatureUse::Off,
-            .texelsPerPixel = normals.texelsPerPixel};
-}
-
-planet::PagingSettings pagingSettingsOf(const ViewSettings& settings, bool paused,
-                                        std::optional<planet::PagingTime> time, bool software) {
-    const planet::PagingTime asSet =
-        settings.paging.simulated ? planet::PagingTime::Simulated : planet::PagingTime::Clock;
-    return {.budgetBytes = static_cast<std::size_t>(settings.paging.budgetMB) << 20,
-            .loaderThreads = settings.paging.loaderThreads,
-            .uploadLimitMs = settings.paging.uploadLimitMs,
-            .paused = paused,
-            .badDisk = settings.paging.badDisk,
-            .retry = {settings.paging.retries, settings.paging.retryDelayS},
-            .colourShare = settings.paging.colourShare,
-            .normals =
-                settings.surface.lighting && planet::gl::isUsed(settings.surface.light.normals.use, software),
-            .normalShare = settings.paging.normalShare,
-            .time = time.value_or(asSet)};
-}
-
-planet::gl::RenderSettings renderSettingsOf(const ViewSettings& settings, const planet::View& view,
-                                            const planet::ChunkTree& tree) {
-    const SurfaceSettings& surface = settings.surface;
-    const OverlaySettings& overlay = settings.overlay;
-    planet::gl::RenderSettings render;
-    render.surface = surface.surface;
-    render.imageOpacity = surface.imageOpacity;
-    render.streamed = surface.streamed;
-    render.texelsPerPixel = surface.texelsPerPixel;
-    if (surface.colourMode == ColourMode::Clipmap) render.clipmapPx = surface.clipmapSizePx;
-    render.rampTopM = rampTopM(tree);
-    // Users name true heights; the renderer's are as drawn.
-    render.ramp = surface.ramp;
-    for (planet::gl::RampStop& stop : render.ramp) stop.heightM *= tree.exaggeration;
-    render.sea = surface.sea;
-    render.seaLevelM = surface.seaLevelM * tree.exaggeration;
-    render.exaggeration = tree.exaggeration;
-    render.wireframe = overlay.wireframe;
-    render.outlines = overlay.outlines;
-    render.skirtPaint = overlay.skirtPaint;
-    render.stitched = settings.seams.mode == planet::SeamMode::Stitched;
-    render.cube = overlay.cube;
-    render.atmosphere = surface.atmosphere && !overlay.cube;
-    render.lighting = surface.lighting;
-    render.detail = surface.detail;
-    render.sunDirection =
-        surface.sunFollows ? morningSun(view.eyeM) : planet::directionFromGeographic(sunOverheadOf(surface));
-    render.light = surface.light;
-    if (overlay.colourBy != ColourBy::None) render.light.fill = 0;  // a tinted picture measures
-    render.layers = layerDrawingOf(surface.layers);
-    return render;
-}
-
 planet::Result<void> applyLiveSettings(Scene& scene, const ViewSettings& asked, bool pagingPaused,
                                        std::optional<planet::PagingTime> time) {
     const ViewSettings settings = afforded(scene, asked);
-    if (scene.exaggeration != settings.surface.exaggeration) {
-        scene.exaggeration = settings.surface.exaggeration;
-        scene.planet->setExaggeration(settings.surface.exaggeration);
-        scene.renderer.fitShape(*scene.planet);
-    }
+    const double before = scene.planet->tree().exaggeration;
+    scene.planet->setExaggeration(settings.surface.exaggeration);
+    if (scene.planet->tree().exaggeration != before) scene.renderer.fitShape(*scene.planet);
     return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time, drawsByCpu(scene)));
 }
-
-namespace {
-
-void step(Scene& scene, const ViewSettings& settings, std::span<const planet::ViewInput> views,
-          std::optional<double> elapsedS) {
-    beginFrame(scene, views.front().lodView, settings);
-    scene.planet->step(views, scene.renderer.upload(), elapsedS);
-}
-
-}  // namespace
 
 void stepScene(Scene& scene, const planet::View& lodView, const ViewSettings& asked,
                std::optional<double> elapsedS) {
@@ -271,15 +163,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings&
     scene.renderer.draw(*scene.planet, renderView, render, {.items = items, .tints = tints, .wait = wait});
     traceClipmap(scene.renderer.chunks(), scene.planet->lastStep().nowS, scene.clipmap);
     scene.drawCpuMs += watch.elapsedMs();
-    const planet::gl::RenderCounters& counters = scene.renderer.chunks().counters();
-    scene.drawn.chunks += counters.chunks;
-    scene.drawn.groundTriangles += counters.groundTriangles;
-    scene.drawn.skirtTriangles += counters.skirtTriangles;
-    scene.drawn.uploads += counters.uploads;
-    scene.drawn.standIn |= counters.standIn;
-    scene.drawn.chunksMs += counters.chunksMs;
-    scene.drawn.skyMs += counters.skyMs;
-    scene.drawn.shadowsMs += counters.shadowsMs;
+    addCounters(scene.renderer.chunks().counters(), scene.drawn);
 }
 
 std::vector<std::string> takeProblems(Scene& scene) {
@@ -296,6 +180,13 @@ bool settleScene(Scene& scene, const planet::View& lodView, const ViewSettings& 
     beginFrame(scene, lodView, settings);
     const planet::ViewInput only = viewInputOf(scene, lodView, settings);
     return scene.planet->settle(std::span(&only, 1), scene.renderer.upload(), timeoutS);
+}
+
+tl::unexpected<planet::Error> loadingTimedOut() {
+    return planet::ioError(
+        fmt::format("loading: timed out after {:.0f} s with requested blocks missing; expected a faster disk "
+                    "or a larger tolerance",
+                    settleTimeoutS));
 }
 
 FrameStats statsOf(const Scene& scene) {

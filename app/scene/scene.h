@@ -1,5 +1,5 @@
-// An open planet and what draws it: what the window, a shot and a flight share. Wants a current GL context,
-// and the same one throughout.
+// An open planet with its renderer, for the window, shots and flights alike: open, apply settings, step,
+// draw. All calls need the same current GL context.
 #pragma once
 
 #include <filesystem>
@@ -24,92 +24,92 @@ struct Scene {
     std::unique_ptr<planet::Planet> planet;
     planet::gl::PlanetRenderer renderer;
     bool hasColourImage = false;
-    // Sums over all drawScene calls since the last stepScene: an observer beside draws a second picture.
+    // Sums over all draws since the last step; the observer draws a second picture per frame.
     double drawCpuMs = 0;
     planet::gl::RenderCounters drawn{};
-    double exaggeration = 1;  // last asked for
     ClipmapTrace clipmap{};
-    // What setPaging has refused; told once, and not tried again until it changes.
+    // Settings that setPaging refused. They are reported once and not tried again until they change.
     std::optional<planet::PagingSettings> refusedPaging{};
-    std::vector<std::string> problems{};  // not yet told
-    LayerPictures layers{};               // read when they are first drawn
-    TurnedDown turnedDown{};              // of what is Automatic; by the window's own measuring
-    std::optional<double> seaSurfaceM{};  // above the radius, where it is drawn as water
-    // Given by openScene; no two scenes have the same. Kept by who must see that another took its place: a
-    // new planet may lie where one that is gone has lain.
+    std::vector<std::string> problems{};  // not yet reported
+    LayerPictures layers{};               // read when layers are first drawn
+    TurnedDown turnedDown{};              // Automatic features that the window has measured to be too slow
+    std::optional<double> seaSurfaceM{};  // metres above the radius; set while the sea is drawn as water
+    // Unique to each scene. Compare it to detect a new scene: its planet may have the address of the old one.
     std::shared_ptr<const int> identity{};
 };
 
 struct SceneConfig {
     std::filesystem::path chunkFile;
-    std::filesystem::path shaderFolder{};                   // empty: the shaders built in
-    const Picture* colour = nullptr;                        // none: a ramp by height
-    std::shared_ptr<planet::gl::ChunkPrograms> programs{};  // as of RendererConfig
+    std::filesystem::path shaderFolder{};                   // empty: the built-in shaders
+    const Picture* colour = nullptr;                        // null: a colour ramp by height
+    std::shared_ptr<planet::gl::ChunkPrograms> programs{};  // see planet::gl::RendererConfig
 };
 
 planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& settings);
 
-// Of what an observer with a selection of its own wants: it looks at the same planet from afar, and the lod
-// view is what one works on.
+// The loading priority of an observer with its own selection, relative to the LOD view.
 inline constexpr double observerPriorityFactor = 0.5;
 
-// The user's units into the library's, here and nowhere else.
-planet::LodSettings lodSettingsOf(const ViewSettings& settings);
-planet::TileSettings colourSettingsOf(const ViewSettings& settings);
-planet::TileSettings normalSettingsOf(const ViewSettings& settings);
-// time: in place of what the settings say. software: the CPU draws, or nothing does; normals that are used
-// automatically are then left out.
-planet::PagingSettings pagingSettingsOf(const ViewSettings& settings, bool paused = false,
-                                        std::optional<planet::PagingTime> time = std::nullopt,
-                                        bool software = true);
-planet::gl::RenderSettings renderSettingsOf(const ViewSettings& settings, const planet::View& view,
-                                            const planet::ChunkTree& tree);
-
-// What changes the planet itself takes effect at once: memory, loaders, the bad disk, the pause, vertical
-// exaggeration. Cheap where nothing has changed. An Error comes once for each change that is refused; the
-// planet then goes on as it was.
+// Applies the settings that change the planet itself: memory, loaders, I/O fault injection, the pause, and
+// vertical exaggeration. Cheap if nothing has changed. Returns one Error for each refused change; the planet
+// then keeps its former settings.
 planet::Result<void> applyLiveSettings(Scene& scene, const ViewSettings& settings, bool pagingPaused = false,
                                        std::optional<planet::PagingTime> time = std::nullopt);
 
-// One frame in two stages: choose and load by the lod view, then draw as the render view sees it.
-// elapsedS: what fades and simulated paging go on by; none: by the clock.
+// The first stage of a frame: selects and loads for the LOD view. elapsedS: the time by which fades and
+// simulated paging advance; unset: the clock decides.
 void stepScene(Scene& scene, const planet::View& lodView, const ViewSettings& settings,
                std::optional<double> elapsedS = std::nullopt);
-// The same for an observer who has a selection of its own, number 1; what it wants comes after what the lod
-// view wants.
+// Also selects for an observer, as selection 1, whose requests come after those of the LOD view.
 void stepScene(Scene& scene, const planet::View& lodView, const planet::View& observerView,
                const ViewSettings& settings, std::optional<double> elapsedS = std::nullopt);
 
-// Draws a selection of the last step, with a tint for each of its items or none, into what is bound.
+// The second stage: draws a selection of the last step into the bound framebuffer, with one tint per item or
+// none.
 void drawScene(Scene& scene, const planet::View& renderView, const ViewSettings& settings,
                std::size_t selection = 0, std::span<const planet::gl::ChunkTint> tints = {},
                planet::gl::ShaderWait wait = planet::gl::ShaderWait::UntilReady);
 
-// What has gone wrong since this was asked last, each once: blocks that could not be read, layers without
-// their textures, what the context has no memory for.
+// Returns the problems since the last call, each once: unreadable blocks, layers without textures, GPU out of
+// memory.
 std::vector<std::string> takeProblems(Scene& scene);
 
-// The same for any chunks whose slots hold them.
+// Draws the given items, whose slots must hold their chunks.
 void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings& settings,
                std::span<const planet::DrawItem> items, bool stitched,
                std::span<const planet::gl::ChunkTint> tints = {},
                planet::gl::ShaderWait wait = planet::gl::ShaderWait::UntilReady);
 
-// What is settled for a picture or a measurement has long done so by then.
+// The time limit of settling for a picture or a measurement, in seconds.
 inline constexpr double settleTimeoutS = 120;
 
-// Steps until nothing more is wanted or can be had. False if that takes longer.
+// Steps until no more requested blocks can be loaded. Returns false if that takes longer than timeoutS.
 bool settleScene(Scene& scene, const planet::View& lodView, const ViewSettings& settings, double timeoutS);
 
-// What the planet and its renderer know: selection 0, paging, stages, drawing, and the renderer's memory. The
-// rest the caller knows.
+// Calls settle(timeoutS) with short timeouts until it returns true, settleTimeoutS is over, or goOn() returns
+// false. Returns true if settled.
+template <class Settle, class GoOn>
+bool settleWhile(const Settle& settle, const GoOn& goOn) {
+    constexpr int stretches = 600;
+    for (int i = 0; i < stretches; ++i) {
+        if (settle(settleTimeoutS / stretches)) return true;
+        if (!goOn()) return false;
+    }
+    return false;
+}
+
+// Returns the Error of a view that did not settle within settleTimeoutS.
+tl::unexpected<planet::Error> loadingTimedOut();
+
+// Returns the figures of the planet and its renderer: selection 0, paging, stage times, drawing, and GPU
+// memory. The caller fills in the rest.
 FrameStats statsOf(const Scene& scene);
 
-// What the settings want drawn over a selection: overlayLines, and the clipmap's as it was last drawn.
+// Returns the overlay lines of a selection, including those of the clipmap as it was last drawn.
 planet::Lines linesOver(const Scene& scene, const planet::Selection& selection,
                         const planet::View& renderView, const ViewSettings& settings);
 
-// The sea's surface counts as ground where it is drawn as water.
+// Returns the ground below an eye. The sea surface counts as ground if it is drawn as water.
 Ground groundBelow(const Scene& scene, const glm::dvec3& eyeM);
 
 }  // namespace worldy

@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"sweep junk.chk --flight none.toml", "none.toml"},
         BadCommand{"sweep junk.chk --flight none.toml --suggest speed=3", "--suggest: speed=3"},
         BadCommand{"sweep junk.chk --flight none.toml --chunk 34", "--chunk"},
-        BadCommand{"fly junk.chk --flight bad.toml", "bad.toml: line 1: lod is not known"},
+        BadCommand{"fly junk.chk --flight bad.toml", "bad.toml: line 1: lod is unknown"},
         BadCommand{"replay", "FLIGHT is required"},
         BadCommand{"replay none.flight", "none.flight: no such file"},
         BadCommand{"replay junk.chk", "junk.chk: not a recorded flight"},

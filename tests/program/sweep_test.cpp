@@ -81,7 +81,7 @@ TEST_F(SweepTest, WhatCannotBeFlownEndsWithTwoAndAReason) {
     for (const auto& [arguments, reason] :
          {std::pair("planet.chk --flight gone.toml", "gone.toml"),
           std::pair("gone.chk --flight down.toml", "gone.chk"),
-          std::pair("planet.chk --flight down.toml --chunk 33", "chunk size is 17; for "),
+          std::pair("planet.chk --flight down.toml --chunk 33", "chunk size is 17, not 33"),
           std::pair("planet.chk --flight down.toml -o table.txt", "expected .csv or .json"),
           std::pair("planet.chk --flight down.toml --tau 0", "--tau")}) {
         const Ran ran = runWorldy(folder, std::string("sweep --frames 1 --size 64x64 ") + arguments);

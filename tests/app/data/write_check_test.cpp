@@ -167,7 +167,7 @@ TEST(WriteCheck, placesThatCannotBeWrittenAreToldBeforeTheWork) {
                 HasSubstr("x.xyz: the extension names no picture format; expected"));
     EXPECT_EQ(told({folder / "made/deep/x.png", OutputKind::Picture, true}), "");
     EXPECT_THAT(told({folder / "dangling/x.png", OutputKind::Picture, true}),
-                HasSubstr("dangling is a link to a folder that is not there"));
+                HasSubstr("dangling is a link to a folder that does not exist"));
 }
 
 TEST(WriteCheck, colourImageOfTheSourceOfAChunkFileIsAnInput) {

@@ -123,7 +123,7 @@ TEST(LayerPictures, WhatIsMissingOrOfAWrongSizeIsNamed) {
     EXPECT_THAT(problemOf({"odd.png", "", ""}),
                 HasSubstr("odd.png: is 24 x 24 pixels; expected a square with a power-of-two side"));
     EXPECT_THAT(problemOf({"good.png", "", "junk.png"}), HasSubstr("junk.png"));
-    EXPECT_THAT(problemOf({"", "", ""}), HasSubstr("no albedo"));
+    EXPECT_THAT(problemOf({"", "", ""}), HasSubstr("albedo: is empty"));
 }
 
 TEST(LayerEdit, MovesKeepAllLayers) {

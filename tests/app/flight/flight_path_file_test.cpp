@@ -57,16 +57,16 @@ TEST(FlightPathFile, ErrorsNameFileKeyAndWhatWouldBeRight) {
                 HasSubstr("key 2: time_s is 0; expected a time after key 1's 0"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0, 0)), HasSubstr("key 2: altitude_m is 0"));
     EXPECT_THAT(pathErrorOf(good + "[[key]]\ntime_s = 5\n"), HasSubstr("key 2: latitude_deg is missing"));
-    EXPECT_THAT(pathErrorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: lies"));
+    EXPECT_THAT(pathErrorOf(good + keyText(5, -1, -178)), HasSubstr("key 2: is 180° from key 1"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0) + "roll_deg = 3\n"),
-                HasSubstr("key 2: roll_deg is not known"));
+                HasSubstr("key 2: roll_deg is unknown"));
     EXPECT_THAT(pathErrorOf(good + keyText(5, 0, 0) + "jump = 3\n"), HasSubstr("key 2: jump is"));
     EXPECT_THAT(pathErrorOf(good + "jump = true\n" + keyText(5, 0, 0)),
-                HasSubstr("key 1: jump is true; expected false"));
+                HasSubstr("key 1: jump is true without a key before it; expected false"));
     EXPECT_THAT(pathErrorOf(good), HasSubstr("has 1 [[key]] tables; expected two or more"));
     EXPECT_THAT(pathErrorOf(""), HasSubstr("has 0 [[key]] tables"));
-    EXPECT_THAT(pathErrorOf("key = 3\n"), HasSubstr("key is not known"));
-    EXPECT_THAT(pathErrorOf("speed = 3\n"), HasSubstr("speed is not known"));
+    EXPECT_THAT(pathErrorOf("key = 3\n"), HasSubstr("key is unknown"));
+    EXPECT_THAT(pathErrorOf("speed = 3\n"), HasSubstr("speed is unknown"));
     EXPECT_THAT(pathErrorOf("key = [3]\n"), HasSubstr("key 1 is not a table"));
     EXPECT_THAT(pathErrorOf("[[key]\n"), HasSubstr("path.toml: line 1: not TOML"));
 }

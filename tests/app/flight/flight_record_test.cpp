@@ -19,7 +19,7 @@
 #include "app/flight/flight_path_file.h"
 #include "app/flight/flight_replay.h"
 #include "app/flight/recorder.h"
-#include "app/scene/scene.h"
+#include "app/scene/scene_settings.h"
 #include "planet/bake/bake.h"
 #include "planet/base/little_endian.h"
 #include "planet/measure/lod_changes.h"

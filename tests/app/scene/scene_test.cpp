@@ -7,6 +7,7 @@
 
 #include "app/scene/offscreen.h"
 #include "app/scene/overlay_colours.h"
+#include "app/scene/scene_settings.h"
 #include "planet/gl/device/render_target.h"
 #include "planet/planet_tools.h"
 #include "tests/app/session_fixture.h"

@@ -26,8 +26,8 @@ TEST(SweepPanel, SaysWhatIsWrongWithTolerancesAndWhatWouldBeRight) {
                                                          {"1x", "\"1x\""},
                                                          {"0.05", "0.05 is out"},
                                                          {"65", "65 is out"},
-                                                         {"nan", "nan is out"},
-                                                         {"inf", "inf is out"},
+                                                         {"nan", "\"nan\" is not a number"},
+                                                         {"inf", "\"inf\" is not a number"},
                                                          {"-1", "-1 is out"},
                                                          {"1 2 1.0", "1.0 is given twice"},
                                                          {"1e999", "\"1e999\""}};
