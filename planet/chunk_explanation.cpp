@@ -9,13 +9,13 @@ namespace planet {
 
 namespace {
 
-// A chunk's own node or one above it, and what became of it in the last selection, if it was looked at.
+// The node of a chunk or of an ancestor, and its fate in the last selection, if it was visited.
 struct PathNode {
     NodeIndex node = noNode;
     std::optional<NodeFate> fate;
 };
 
-// From the root down to the chunk, as far as it is resident.
+// Returns the resident nodes from the root down to the chunk.
 std::vector<PathNode> pathTo(const ChunkTree& tree, const Selection& selection, const ChunkId& id) {
     std::vector<PathNode> path = {{static_cast<NodeIndex>(id.face), std::nullopt}};
     for (int level = 1; level <= id.level; ++level) {
@@ -71,7 +71,7 @@ private:
     double epsPx(const ChunkNode& node) const {
         return epsPxOf(node, facts_.lodView.eyeM, scalePx_, facts_.lod.metric);
     }
-    // As selection does it, so that both agree to the last bit.
+    // Computes it as selection does, so that both agree to the last bit.
     double switchDistanceM(const ChunkNode& node) const {
         return deltaOf(node, facts_.lod.metric) * (scalePx_ / facts_.lod.tauPx);
     }
@@ -84,8 +84,8 @@ private:
         return static_cast<std::size_t>(found - facts_.pageIns.begin()) + 1;
     }
 
-    // The first chunk from the root down that was not split: it is drawn or culled. Null where all are split,
-    // or nothing was selected yet.
+    // Returns the first chunk from the root down that was not split, so is drawn or culled. Returns null if
+    // all are split, or nothing was selected yet.
     const PathNode* decider() const {
         const auto found = std::find_if(path_.begin(), path_.end(),
                                         [](const PathNode& node) { return node.fate != NodeFate::Split; });
@@ -120,13 +120,13 @@ private:
                            [&](const DrawItem& item) { return item.splitWaits && item.id == node.id; });
     }
 
-    // Of a chunk that is split.
+    // Returns whether the merge of a split chunk waits.
     bool mergeWaits(const ChunkNode& node) const {
         const double keptWithinM = switchDistanceM(node) / (1 - facts_.lod.hysteresis);
         return node.id.level >= facts_.lod.maxLevel || keptWithinM <= distanceOf(node);
     }
 
-    // Of a chunk that is drawn.
+    // Returns why a drawn chunk is not split.
     WhyNotSplit whyNotSplit(const ChunkNode& node) const {
         if (switchDistanceM(node) <= distanceOf(node)) return WhyNotSplit::GoodEnough;
         if (node.childrenState == ChildrenState::None) return WhyNotSplit::Leaf;
@@ -146,8 +146,8 @@ private:
         return WhyNotSplit::WaitingForBudget;
     }
 
-    // Where the selection has decided: whether the chunk is drawn or split, or what above it is drawn or
-    // culled. A chunk that is not resident, or nobody looked at, keeps the state given.
+    // Explains a chunk by the selection: it is drawn or split, or a chunk above it is drawn or culled. A
+    // chunk that is not resident or was not visited keeps the given state.
     void explainByFate(ChunkState under) {
         out_.state = under;
         const PathNode* by = decider();
@@ -169,7 +169,7 @@ private:
         out_.notSplit = out_.decidedByNotSplit;
     }
 
-    // In the file, and not resident: brought, or held up, by the block under the deepest resident chunk.
+    // Explains a chunk that is in the file and not resident, by the block under the deepest resident chunk.
     void explainMissing() {
         const ChunkNode& above = deepest();
         const ChunkId next = ancestorOf(id_, above.id.level + 1);

@@ -1,5 +1,4 @@
-// Why a chunk is drawn, not drawn, or not split: the facts, for people to read. Pure functions over a
-// planet's last step.
+// Explains why a chunk is drawn, not drawn, or not split. Pure functions over a planet's last step.
 #pragma once
 
 #include <array>
@@ -47,11 +46,11 @@ struct ChunkExplanation {
     // The chunk that the state comes from: itself, or the one above it that is drawn, culled, waited for,
     // could not be read or is a leaf.
     ChunkId decidedBy;
-    // Why that one is not split, if it is drawn; if it is waited for, whether in the queue or for its read.
+    // Why that chunk is not split, if it is drawn; or whether it waits in the queue or for its read.
     WhyNotSplit decidedByNotSplit = WhyNotSplit::NotDrawn;
     double decidedByEpsPx = 0;  // that one's; 0 where it is not resident
     NodeIndex node = noNode;    // the chunk's own, where it is resident
-    // Known where it is resident.
+    // The following are known if the chunk is resident.
     float deltaGM = 0;  // metres; exact with resident children and heights as the file has them, else a bound
     bool deltaGIsBound = false;
     float deltaCM = 0;      // metres
@@ -62,15 +61,15 @@ struct ChunkExplanation {
     float morph = 0;
     bool mergeWaits =
         false;  // of a chunk that is split: no longer needed, but its children still slide onto it
-    // Of the request that would bring it, or what is first needed above it, or else its children: 1 is next;
-    // nothing where there is none.
+    // The place in the queue, from 1, of the request that would load the chunk, the first missing one above
+    // it, or else its children; nothing if there is no such request.
     std::optional<std::size_t> queuePlace;
     std::size_t queueLength = 0;
     double tauPx = 0;
     ErrorMetric metric = ErrorMetric::Additive;
 };
 
-// What a planet's last step leaves behind.
+// The results of a planet's last step.
 struct StepFacts {
     const ChunkTree& tree;
     const Selection& selection;
@@ -80,11 +79,10 @@ struct StepFacts {
 };
 ChunkExplanation explainChunk(const StepFacts& facts, const ChunkId& id);
 
-// The queue is that of all views together, since it decides when a chunk comes.
+// Uses the queue of all views, because it decides when a chunk arrives.
 ChunkExplanation explainChunk(const Planet& planet, const ChunkId& id, std::size_t view = 0);
 
-// What lies beside a chunk: by edge, west to north, the drawn chunks there, whatever their levels, near to
-// far.
+// Returns the drawn neighbours of a chunk by edge, west to north, of any level, near to far.
 std::array<std::vector<ChunkId>, edgeCount> drawnNeighbours(const Selection& selection, const ChunkId& id);
 
 }  // namespace planet

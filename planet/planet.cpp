@@ -10,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "planet/base/check_range.h"
+#include "planet/base/try.h"
 #include "planet/planet_state.h"
 #include "planet/planet_tools.h"
 
@@ -20,28 +22,15 @@ namespace {
 using Clock = PlanetState::Clock;
 
 Result<void> checkSettings(const PagingSettings& settings) {
-    if (settings.loaderThreads < 1 || settings.loaderThreads > maxLoaderThreads) {
-        return badInput(fmt::format("loader threads: {} is out of range; expected [1, {}]",
-                                    settings.loaderThreads, maxLoaderThreads));
-    }
+    TRY(checkRange("loader threads", settings.loaderThreads, 1, maxLoaderThreads));
     if (!(settings.uploadLimitMs >= 0)) {
         return badInput(
             fmt::format("upload limit: {} ms is negative; expected 0 ms or more", settings.uploadLimitMs));
     }
-    if (!(settings.colourShare >= 0.01 && settings.colourShare <= 0.9)) {
-        return badInput(
-            fmt::format("colour share: {} is out of range; expected [0.01, 0.9]", settings.colourShare));
-    }
-    if (!(settings.normalShare >= 0.01 && settings.normalShare <= 0.9)) {
-        return badInput(
-            fmt::format("normal share: {} is out of range; expected [0.01, 0.9]", settings.normalShare));
-    }
-    if (settings.retry.retries < 0 || settings.retry.retries > 10)
-        return badInput(fmt::format("retries: {} is out of range; expected [0, 10]", settings.retry.retries));
-    if (!(settings.retry.delayS >= 0 && settings.retry.delayS <= 60)) {
-        return badInput(
-            fmt::format("retry delay: {} s is out of range; expected [0, 60] s", settings.retry.delayS));
-    }
+    TRY(checkRange("colour share", settings.colourShare, 0.01, 0.9));
+    TRY(checkRange("normal share", settings.normalShare, 0.01, 0.9));
+    TRY(checkRange("retries", settings.retry.retries, 0, 10));
+    TRY(checkRange("retry delay", settings.retry.delayS, 0.0, 60.0, "s"));
     return checkBadDisk(settings.badDisk);
 }
 
@@ -59,7 +48,7 @@ struct Room {
     std::size_t normalHeightBytes = 0;
     std::string problem;  // why there are no normals
 };
-// Where there is too little for chunks or colours that is an Error; without normals the rest goes on.
+// Divides the budget. Too little for chunks or colours is an Error; too little for normals turns them off.
 Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid>& colour,
                      const PagingSettings& settings) {
     const bool hasNormals = settings.normals && normalLeafLevel(shape) >= 0;
@@ -78,15 +67,13 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
             chunkBytes = sharesOf(settings, colour.has_value(), false).chunks;
         }
     }
-    const Result<std::uint32_t> slots = chunkSlotsFor(shape, chunkBytes);
-    if (!slots) return tl::unexpected(slots.error());
-    room.slots = *slots;
+    TRY_ASSIGN(const auto slots, chunkSlotsFor(shape, chunkBytes));
+    room.slots = slots;
     if (!colour) return room;
-    const Result<std::uint32_t> tiles =
-        tileSlotsFor({"colour tiles", colour->leafLevel, colourTileBytes(colour->format)}, shares.colours,
-                     settings.maxColourTiles);
-    if (!tiles) return tl::unexpected(tiles.error());
-    room.colours = *tiles;
+    TRY_ASSIGN(const auto tiles,
+               tileSlotsFor({"colour tiles", colour->leafLevel, colourTileBytes(colour->format)},
+                            shares.colours, settings.maxColourTiles));
+    room.colours = tiles;
     return room;
 }
 
@@ -99,22 +86,22 @@ PlanetState::PlanetState(ChunkTree&& tree, std::uint32_t chunkSlots,
       normalRoots(std::move(deriver)) {}
 
 Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSettings& settings) {
-    if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
-    const Result<Room> room = roomFor(source.shape, source.colour, settings);
-    if (!room) return tl::unexpected(room.error());
-    auto tree = makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots));
-    if (!tree) return tl::unexpected(namingFile(source.file.get(), std::move(tree.error())));
+    TRY(checkSettings(settings));
+    TRY_ASSIGN(const auto room, roomFor(source.shape, source.colour, settings));
+    TRY_ASSIGN(auto tree,
+               makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots))
+                   .map_error([&](Error error) { return namingFile(source.file.get(), std::move(error)); }));
     const int normalLevel = normalLeafLevel(source.shape);
     std::unique_ptr<NormalDeriver> deriver;
     if (normalLevel >= 0) {
         std::array<HeldChunk, faceCount> roots;
         for (std::size_t face = 0; face < faceCount; ++face) {
-            const ChunkNode& root = tree->nodes[face];
+            const ChunkNode& root = tree.nodes[face];
             roots[face] = {root.id, root.heights, root.children};
         }
         deriver = std::make_unique<NormalDeriver>(source.shape, roots, source.loadChildren);
     }
-    auto state = std::make_unique<PlanetState>(std::move(*tree), room->slots, std::move(source.file),
+    auto state = std::make_unique<PlanetState>(std::move(tree), room.slots, std::move(source.file),
                                                std::move(deriver));
     state->settings = settings;
     state->run.retry = settings.retry;
@@ -123,12 +110,12 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
         state->colours.leafLevel = source.colour->leafLevel;
         state->colours.checkers = source.colour->format;
         state->colours.roots = std::move(source.colourRoots);
-        state->colours.begin(room->colours, 0);
+        state->colours.begin(room.colours, 0);
         state->colour = std::move(source.colour);
     }
     state->normals.leafLevel = normalLevel;
     for (const Face face : allFaces) state->normals.roots[static_cast<std::size_t>(face)].id.face = face;
-    state->beginNormals(room->normals, room->normalHeightBytes, room->problem);
+    state->beginNormals(room.normals, room.normalHeightBytes, room.problem);
     BlockLoaders loaders{std::move(source.loadChildren), std::move(source.loadColours)};
     loaders.normals = [of = state->normalRoots.deriver()](const ChunkId& parent) {
         return of->childrenOf(parent);
@@ -154,7 +141,7 @@ void Planet::step(std::span<const ViewInput> views, const UploadChunk& upload,
     state_->step(views, upload, elapsedS.value_or(clockS), elapsedS.value_or(clockS));
 }
 
-// Seconds since this was asked last.
+// Returns the seconds since its last call.
 double PlanetState::clockS() {
     const Clock::time_point now = Clock::now();
     return std::chrono::duration<double>(now - std::exchange(lastStepAt, now)).count();
@@ -172,21 +159,21 @@ void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upl
     views.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
 
-    Clock::time_point start = Clock::now();
+    Stopwatch stage;
     if (settings.time != PagingTime::Clock) pager->advance(elapsedS);
     if (normalRoots.follow(normals, run)) selectAgain();
     dropYielding();
     uploadFinished(upload);
-    lastStep.times.uploadMs = msSince(start);
+    lastStep.times.uploadMs = stage.elapsedMs();
 
-    start = Clock::now();
+    stage = {};
     select(fadeElapsedS);
-    lastStep.times.selectMs = msSince(start);
+    lastStep.times.selectMs = stage.elapsedMs();
 
-    start = Clock::now();
+    stage = {};
     page();
     count();
-    lastStep.times.pagingMs = msSince(start);
+    lastStep.times.pagingMs = stage.elapsedMs();
 }
 
 bool Planet::settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload,
@@ -222,8 +209,8 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
 }
 
 bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS) {
-    // Where no read is under way there may still be blocks that yield; where reads take no time, time goes
-    // on.
+    // Blocks may still yield while no read is in progress, and reads may take no time; time advances in both
+    // cases.
     constexpr double idleStepS = 1.0 / 60, leastStepS = 1e-3;
     double leftS = timeoutS;
     double stepS = 0;
@@ -238,13 +225,13 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
         if (paused || leftS <= 0) return false;
         const double untilNextS = std::min(untilEndS.value_or(untilRetryS.value_or(idleStepS)),
                                            untilRetryS.value_or(untilEndS.value_or(idleStepS)));
-        // The last step goes to the end of the time, so that settling on goes on from there.
+        // The last step goes to the end of the time, so that another settle() continues from there.
         stepS = std::min(std::max(untilNextS, leastStepS), leftS);
         leftS -= stepS;
     }
 }
 
-// A block that the budget has no room for can still arrive where another block is about to be dropped.
+// A block that waits for room can still arrive if another block is about to be dropped.
 bool PlanetState::isSettled() const {
     const auto all = kinds();
     const bool roomIsComing =
@@ -260,21 +247,20 @@ bool Planet::settled() const {
 Result<bool> Planet::setPaging(const PagingSettings& settings) {
     PlanetState& state = *state_;
     if (settings == state.settings) return false;
-    if (auto checked = checkSettings(settings); !checked) return tl::unexpected(std::move(checked.error()));
-    const Result<Room> room = roomFor(state.heights.tree.storedShape, state.colour, settings);
-    if (!room) return tl::unexpected(room.error());
+    TRY(checkSettings(settings));
+    TRY_ASSIGN(const auto room, roomFor(state.heights.tree.storedShape, state.colour, settings));
     const bool otherTime = settings.time != state.settings.time;
     state.settings = settings;
     state.run.retry = settings.retry;
     state.changed = true;
-    // First what holds for the reads that the other time begins with.
+    // Applies the settings first, so that they hold for the first reads of a changed time.
     applyTo(*state.pager, settings);
     if (otherTime) state.requeue(state.pager->setTime(settings.time));
-    const bool resized = room->slots != state.heights.capacity();
-    if (resized) state.resizeHeights(room->slots);
-    if (room->colours != state.colours.capacity()) state.resizeTiles(state.colours, room->colours);
-    if (room->normals != state.normalRoots.capacity() || room->problem != state.normalRoots.problem())
-        state.beginNormals(room->normals, room->normalHeightBytes, room->problem);
+    const bool resized = room.slots != state.heights.capacity();
+    if (resized) state.resizeHeights(room.slots);
+    if (room.colours != state.colours.capacity()) state.resizeTiles(state.colours, room.colours);
+    if (room.normals != state.normalRoots.capacity() || room.problem != state.normalRoots.problem())
+        state.beginNormals(room.normals, room.normalHeightBytes, room.problem);
     else if (otherTime && state.normalsArePending())
         state.finishNormalRoots();
     state.count();

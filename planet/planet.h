@@ -47,22 +47,22 @@ public:
     Planet(const Planet&) = delete;
     Planet& operator=(const Planet&) = delete;
 
-    // One frame: uploads what was loaded, selects, drops what exceeds the budget, requests what is missing.
-    // The first step uploads the root chunks too. There are 1 to maxViews views; each has its own selection
-    // and requests blocks with its own priorities. A block that several views want is loaded once, with the
-    // highest priority. elapsedS: seconds since the last step, >= 0, for fades and simulated time; by default
-    // those that have passed.
+    // Advances by one frame: uploads loaded blocks, selects, drops blocks beyond the budget, and requests
+    // missing ones. The first step uploads the root chunks too. views: 1 to maxViews; each has its own
+    // selection and requests blocks with its own priorities. A block that several views want is loaded once,
+    // with the highest priority. elapsedS: seconds since the last step, >= 0, for fades and simulated time;
+    // by default the time that has passed.
     void step(std::span<const ViewInput> views, const UploadChunk& upload,
               std::optional<double> elapsedS = {});
     void step(const View& lodView, const LodSettings& settings, const UploadChunk& upload);
 
-    // Steps until nothing more is wanted or can be had, and every fade has ended. Returns false if that takes
-    // longer than timeoutS seconds, or if a pause holds up a block that is wanted. In simulated time it steps
-    // from the end of one read to the end of the next, and the seconds are simulated; in recorded time it
-    // takes one step.
+    // Steps until no more blocks are wanted or available, and every fade has ended. Returns false if that
+    // takes longer than timeoutS seconds, or if a pause holds up a block that is wanted. In simulated time it
+    // steps from the end of one read to the end of the next, and the seconds are simulated; in recorded time
+    // it takes one step.
     bool settle(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
     bool settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload, double timeoutS);
-    // Whether the last selection waits for nothing that can still arrive, blocks to be retried included.
+    // Returns whether the last selection waits for no block that can still arrive, including retries.
     bool settled() const;
 
     // Applies new settings at once, without waiting for reads: starts or stops loaders, and drops blocks down
@@ -80,13 +80,13 @@ public:
     // changes.
     void setExaggeration(double factor);
 
-    // Uploads every resident chunk again: for a new renderer.
+    // Uploads every resident chunk again, for a new renderer.
     void uploadAll(const UploadChunk& upload) const;
 
-    // Colours or normals: the changes to the tiles since the last call. Call it after each step in which they
-    // are drawn.
+    // Returns the changes to the tiles of colours or normals since the last call. Call it after each step in
+    // which they are drawn.
     std::vector<TileChange> takeTileChanges(BlockKind kind);
-    // The same: drops all tiles but the roots, and loads them again: for a new renderer.
+    // Drops all tiles of colours or normals but the roots, and loads them again, for a new renderer.
     void beginTilesAnew(BlockKind kind);
 
     // Returns the problems since the last call, for a log: blocks that have failed for good, colours or
@@ -96,7 +96,7 @@ public:
     const ChunkFile& file() const;  // only of a planet that was opened from one
     const ChunkTree& tree() const;
     const std::optional<ColourPyramid>& colour() const;  // the file's colours, if it has any
-    // Colours or normals. The tree has no nodes where they are off.
+    // Returns the tree of colours or normals; it has no nodes if they are off.
     const TileTree& tiles(BlockKind kind) const;
 
     // The views of the last step with their selections, whose nodes and slots are valid until the next step.

@@ -1,4 +1,5 @@
 // Opening a planet from a chunk file: all that the run time needs of the file itself.
+#include "planet/base/try.h"
 #include "planet/paging/normal_roots.h"
 #include "planet/planet.h"
 
@@ -9,9 +10,7 @@ namespace {
 Result<std::array<ChunkData, faceCount>> readRoots(const ChunkFile& file) {
     std::array<ChunkData, faceCount> roots;
     for (const Face face : allFaces) {
-        Result<ChunkData> root = readRoot([&] { return file.readRoot(face); });
-        if (!root) return tl::unexpected(std::move(root.error()));
-        roots[static_cast<std::size_t>(face)] = std::move(*root);
+        TRY_ASSIGN(roots[static_cast<std::size_t>(face)], readRoot([&] { return file.readRoot(face); }));
     }
     return roots;
 }
@@ -34,22 +33,18 @@ void readColourRoots(const ChunkFile& file, PlanetSource& source) {
 
 Result<std::unique_ptr<Planet>> Planet::open(const std::filesystem::path& path,
                                              const PagingSettings& settings, const FileCalls& calls) {
-    Result<ChunkFile> file = ChunkFile::open(path, calls);
-    if (!file) return tl::unexpected(std::move(file.error()));
-    Result<PlanetSource> source = planetSource(std::move(*file));
-    if (!source) return tl::unexpected(std::move(source.error()));
-    return open(std::move(*source), settings);
+    TRY_ASSIGN(auto file, ChunkFile::open(path, calls));
+    TRY_ASSIGN(auto source, planetSource(std::move(file)));
+    return open(std::move(source), settings);
 }
 
 Result<PlanetSource> planetSource(ChunkFile file) {
     const auto shared = std::make_shared<const ChunkFile>(std::move(file));
-    auto roots = readRoots(*shared);
-    if (!roots) return tl::unexpected(std::move(roots.error()));
     PlanetSource source;
+    TRY_ASSIGN(source.roots, readRoots(*shared));
     source.shape = shared->info().shape;
     source.minStep = shared->info().minStep;
     source.maxStep = shared->info().maxStep;
-    source.roots = std::move(*roots);
     source.loadChildren = [shared](const ChunkId& parent, BlockLocation location,
                                    std::span<const std::int16_t> parentHeights) {
         return shared->readChildren(parent, location, parentHeights);

@@ -29,7 +29,7 @@ std::vector<MergedRequest> mergeSplits(const std::vector<PlanetView>& views, Blo
 }  // namespace
 
 BudgetShares sharesOf(const PagingSettings& settings, bool hasColours, bool hasNormals) {
-    // Some hundred blocks are enough for one tile and those beside it.
+    // A few hundred blocks are enough for one tile and its neighbours.
     constexpr std::size_t mostHeights = std::size_t{8} << 20;
     const auto without = [](std::size_t bytes, double share) {
         return static_cast<std::size_t>((1 - share) * static_cast<double>(bytes));
@@ -52,7 +52,7 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, c
         assert(factor > 0);
         for (const ChildrenRequest& one : requestsOf(views[v])) {
             MergedRequest merged{one.parent, one.parentId};
-            // Not 0, which would say that the view does not want it.
+            // 0 would mean that the view does not want the block.
             merged.priority =
                 std::max(static_cast<float>(one.priority * factor), std::numeric_limits<float>::min());
             merged.viewPriority[v] = merged.priority;
@@ -91,7 +91,7 @@ void PlanetState::select(double fadeElapsedS) {
 }
 
 void PlanetState::uploadFinished(const UploadChunk& upload) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch uploading;
     if (run.frame == 1) {
         for (NodeIndex root = 0; root < faceCount; ++root)
             upload(heights.tree.nodes[root].slot, *heights.tree.nodes[root].heights);
@@ -101,10 +101,10 @@ void PlanetState::uploadFinished(const UploadChunk& upload) {
         if (!load) return;
         paging.loadSeconds += load->seconds;
         of(load->request.kind).finish(std::move(*load), run, upload);
-    } while (settings.time != PagingTime::Clock || msSince(start) < settings.uploadLimitMs);
+    } while (settings.time != PagingTime::Clock || uploading.elapsedMs() < settings.uploadLimitMs);
 }
 
-// Not in the step that chose them, whose draw lists they are in.
+// Drops the blocks that the last step chose; they were in its draw lists.
 void PlanetState::dropYielding() {
     if (!heights.isYielding()) return;
     pager->withQueue([&](PagingQueue& queue) {
@@ -122,8 +122,8 @@ MergedRequests PlanetState::mergeFor(BlockKind kind) const {
     return merged;
 }
 
-// Page-outs for what no view uses, and page-ins for what the views lack, the most wanted first, as far as
-// there is room for them.
+// Queues page-outs for the blocks that no view uses, and page-ins for the blocks that views lack, the most
+// wanted first, while there is room.
 void PlanetState::page() {
     std::vector<const Selection*> selections;
     for (const PlanetView& view : views) {
@@ -228,7 +228,7 @@ void PlanetState::dropAll() {
     selectAgain();
 }
 
-// First what is queued, so that no loader takes it; then what is being read.
+// Withdraws the queued requests first, so that no loader takes them, and then discards the reads in progress.
 void PlanetState::startAnew() {
     pager->withQueue([&](PagingQueue& queue) {
         for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame))
@@ -245,7 +245,7 @@ void PlanetState::startAnew() {
     run.log.moves = {};
 }
 
-// Reads that were given up before their end. Nothing else can have asked for their blocks meanwhile.
+// Requeues reads that were given up. No other request for their blocks can exist.
 void PlanetState::requeue(std::vector<PagingRequest> givenUp) {
     if (run.log.keepsMoves) run.log.moves = {.gaveUp = true};
     pager->withQueue([&](PagingQueue& queue) {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "planet/base/elapsed.h"
+#include "planet/base/stopwatch.h"
 #include "planet/paging/chunk_paging.h"
 #include "planet/paging/normal_roots.h"
 #include "planet/paging/pager.h"
@@ -41,7 +41,7 @@ struct PlanetState {
     Clock::time_point lastStepAt = Clock::now();  // or when it was opened
     std::unique_ptr<Pager> pager;                 // last: its threads use the deriver
 
-    // In the order in which their requests are made.
+    // Returns the kinds in the order in which they request.
     std::array<BlockPaging*, blockKindCount> kinds() { return {&heights, &colours, &normals}; }
     std::array<const BlockPaging*, blockKindCount> kinds() const { return {&heights, &colours, &normals}; }
     BlockPaging& of(BlockKind kind) { return *kinds()[static_cast<std::size_t>(kind)]; }
@@ -49,7 +49,7 @@ struct PlanetState {
     bool isSettled() const;
 
     double clockS();
-    // A step; fadeElapsedS as selectChunks wants it.
+    // Takes a step; fadeElapsedS is for selectChunks.
     void step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
               double fadeElapsedS);
     // Its stages.
@@ -59,15 +59,15 @@ struct PlanetState {
     void page();
     void count();
 
-    // Seconds until the first block that is wanted may be retried; nothing where none waits for that.
+    // Returns the seconds until the first wanted block may be retried; nothing if none waits for a retry.
     std::optional<double> untilRetryS() const;
     bool normalsArePending() const { return normalRoots.arePending(normals); }
 
     // Changes between steps.
     void resizeHeights(std::uint32_t capacity);
     void resizeTiles(TilePaging& tiles, std::uint32_t capacity);
-    // Room for so many tiles of normals, 0: none, and for so many bytes of heights to derive them. The tiles
-    // that were resident are dropped. problem: why there are none, reported once.
+    // Sets the number of tiles of normals, 0 for none, and the bytes of heights that are cached to derive
+    // them. Drops the resident tiles. problem: why there are no normals; it is reported once.
     void beginNormals(std::uint32_t capacity, std::size_t heightBytes, const std::string& problem);
     void finishNormalRoots();
     void dropAll();
@@ -80,7 +80,7 @@ private:
     void selectAgain();
 };
 
-// The requests or the splits of all views, merged by parent, the largest priority first.
+// Merges the requests or the splits of all views by parent, the largest priority first.
 using RequestsOf = std::function<const std::vector<ChildrenRequest>&(const PlanetView&)>;
 std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, const RequestsOf& requestsOf);
 

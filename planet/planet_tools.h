@@ -26,13 +26,12 @@ public:
     // The pending requests of one view, by its own priorities. No view requests a page-out.
     std::vector<PagingRequest> pendingRequests(PagingType type, std::size_t view) const;
     std::vector<LoadInProgress> loadingNow() const;
-    // How the last 1000 requests ended, oldest first.
+    // Returns the ends of the last 1000 requests, oldest first.
     const std::deque<PagingEvent>& pagingHistory() const;
     // The blocks that could not be read and have not been since, of heights, then of colours, then of
     // normals, each in their order; of the latest 4096 of each kind.
     std::vector<FailedBlock> failedBlocks() const;
-    // Whether tiles of normals begin as soon as those of the whole faces are derived, by a thread of their
-    // own.
+    // Returns whether normals will begin as soon as a thread has derived the tiles of the whole faces.
     bool normalsArePending() const;
 
 private:
@@ -60,7 +59,7 @@ public:
     // does. Resident blocks and requests stay. Nothing is selected until the next step.
     void forgetSelections();
 
-    // Whether moves are kept for takeMoves(); at first they are not.
+    // Sets whether moves are kept for takeMoves(); off by default.
     void keepMoves(bool kept);
     // Returns those since the last call. Call it after each step and each other call while moves are kept: a
     // call that gives reads up begins them again.

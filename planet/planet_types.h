@@ -25,7 +25,7 @@ struct PlanetSource {
     std::int16_t maxStep = 0;
     std::array<ChunkData, faceCount> roots;  // in face order
     LoadChildren loadChildren;
-    // Without a pyramid there are no colours.
+    // The colours; none without a pyramid.
     std::optional<ColourPyramid> colour{};
     std::array<TileData, faceCount> colourRoots{};
     LoadColours loadColours{};

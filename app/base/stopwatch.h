@@ -1,18 +1,10 @@
 // Measures wall time from its construction.
 #pragma once
 
-#include <chrono>
+#include "planet/base/stopwatch.h"
 
 namespace worldy {
 
-class Stopwatch {
-public:
-    double elapsedMs() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+using planet::Stopwatch;
 
 }  // namespace worldy

@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <span>
-#include <thread>
 #include <utility>
 
 #include "planet/bake/bake_tile.h"
@@ -19,17 +17,17 @@
 #include "planet/base/atomic_file.h"
 #include "planet/base/little_endian.h"
 #include "planet/base/parallel.h"
+#include "planet/base/stopwatch.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 
 namespace planet {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-// Takes baked tiles in quadtree order, appends their blocks to the file, and merges upwards as soon as four
-// siblings are there; so it holds at most three chunks a level. Coarse chunks, whose cells are wider than a
-// tile, are kept instead: their tight metric, which the blocks that hold them must tell, is not known yet.
+// Takes baked tiles in quadtree order, appends their blocks to the file, and merges four siblings as soon as
+// they are complete, so it holds at most three chunks per level. It keeps coarse chunks, whose cells are
+// wider than a tile, because their tight metric is not known yet.
 class Assembler {
 public:
     Assembler(const BakeContext& bake, int tileLevel, AtomicFile& file)
@@ -43,7 +41,7 @@ public:
     Result<void> add(BakedTile&& tile) {
         const std::uint64_t shift = file_.size() - provisionalOrigin;
         if (tile.root.entry.children.exists()) tile.root.entry.children.offset += shift;
-        if (auto appended = file_.append(tile.blocks); !appended) return appended;
+        TRY(file_.append(tile.blocks));
         for (std::size_t i = 0; i < tile.offAboveM.size(); ++i) {
             double& offM = offM_[static_cast<std::size_t>(coarsestLevel_) + i];
             offM = std::max(offM, tile.offAboveM[i]);
@@ -51,14 +49,14 @@ public:
         return addChunk(std::move(tile.root));
     }
 
-    // The coarse levels, once all tiles are added. goOn is asked before each block that is read, by one
-    // thread at a time.
+    // Bakes the coarse levels once all tiles are added. Calls goOn before each block is read, from one thread
+    // at a time.
     Result<void> finish(int threads, const std::function<bool()>& goOn) {
         for (int level = coarsestLevel_ - 1; level >= 0; --level) {
             if (level < coarsestLevel_ - 1) {
-                if (auto merged = mergeCoarse(level); !merged) return merged;
+                TRY(mergeCoarse(level));
             }
-            if (auto searched = searchCoarse(level, threads, goOn); !searched) return searched;
+            TRY(searchCoarse(level, threads, goOn));
         }
         return {};
     }
@@ -77,77 +75,60 @@ private:
         std::vector<BakedChunk>& siblings = waiting_[level];
         siblings.push_back(std::move(chunk));
         if (siblings.size() < quadrantCount) return {};
-        auto parent = merge(Siblings(siblings), std::exchange(offM_[level - 1], 0));
+        TRY_ASSIGN(auto parent, merge(Siblings(siblings), std::exchange(offM_[level - 1], 0)));
         siblings.clear();
-        if (!parent) return tl::unexpected(parent.error());
-        return addChunk(*std::move(parent));
+        return addChunk(std::move(parent));
     }
 
     Result<BakedChunk> merge(Siblings children, double finestDistanceM) {
         std::vector<std::byte> block;
         BakedChunk parent = mergeChildren(bake_, parentOf(children[0].id), children, finestDistanceM,
                                           file_.size(), scratch_, block);
-        if (auto appended = file_.append(block); !appended) return tl::unexpected(appended.error());
+        TRY(file_.append(block));
         return parent;
     }
 
     Result<void> mergeCoarse(int level) {
         const std::span<const BakedChunk> below = coarse_[static_cast<std::size_t>(level) + 1];
         for (std::size_t i = 0; i < below.size(); i += quadrantCount) {
-            auto parent = merge(below.subspan(i).first<quadrantCount>(), 0);
-            if (!parent) return tl::unexpected(parent.error());
-            coarse_[static_cast<std::size_t>(level)].push_back(*std::move(parent));
+            TRY_ASSIGN(auto parent, merge(below.subspan(i).first<quadrantCount>(), 0));
+            coarse_[static_cast<std::size_t>(level)].push_back(std::move(parent));
         }
         return {};
     }
 
-    // Raises the tight metric of a level's chunks to what they really lie off.
+    // Raises the tight metric of a level's chunks to their distance from the finest samples.
     Result<void> searchCoarse(int level, int threads, const std::function<bool()>& goOn) {
-        const Result<ChunkFile> written = writtenSoFar();
-        if (!written) return tl::unexpected(written.error());
+        TRY_ASSIGN(const auto written, writtenSoFar());
         const ReadChildren readChildren = [&](const ChunkData& parent) {
-            return childrenOf(*written, parent);
+            return childrenOf(written, parent);
         };
         std::vector<BakedChunk>& chunks = coarse_[static_cast<std::size_t>(level)];
-        std::mutex mutex;  // guards next and outcome, and goOn is asked under it
-        std::size_t next = 0;
+        std::mutex mutex;  // guards outcome, and is held while goOn is called
         Result<void> outcome;
         const auto mayGoOn = [&] {
             const std::lock_guard lock(mutex);
             if (outcome && !goOn()) outcome = cancelled();
             return outcome.has_value();
         };
-        const auto work = [&] {
-            for (;;) {
-                std::unique_lock lock(mutex);
-                if (!outcome || next == chunks.size()) return;
-                BakedChunk& chunk = chunks[next++];
-                lock.unlock();
-                const Result<double> offM =
-                    searchFinestDistance(bake_.shape, dataOf(chunk), readChildren, mayGoOn);
-                lock.lock();
-                if (!offM && outcome) outcome = tl::unexpected(offM.error());
-                if (!outcome) return;
-                ChunkEntry& entry = chunk.entry;
-                entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
-            }
-        };
-        const std::size_t helpers = std::min(static_cast<std::size_t>(threads), chunks.size()) - 1;
-        std::vector<std::jthread> workers;
-        for (std::size_t i = 0; i < helpers; ++i) workers.emplace_back(work);
-        work();
-        workers.clear();  // waits for them
+        parallelFor(threads, chunks.size(), [&](std::size_t i) {
+            const Result<double> offM =
+                searchFinestDistance(bake_.shape, dataOf(chunks[i]), readChildren, mayGoOn);
+            const std::lock_guard lock(mutex);
+            if (!offM && outcome) outcome = tl::unexpected(offM.error());
+            if (!outcome) return;
+            ChunkEntry& entry = chunks[i].entry;
+            entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
+        });
         return outcome;
     }
 
-    // The file as it stands, its header a stand-in until the roots are known.
+    // Opens the unfinished file, with a temporary header.
     Result<ChunkFile> writtenSoFar() {
         ChunkFileInfo info;
         info.shape = bake_.shape;
         info.minStep = info.maxStep = coarse_[static_cast<std::size_t>(coarsestLevel_) - 1][0].entry.minStep;
-        if (auto written = file_.overwrite(0, headerBytes(info, file_.size())); !written) {
-            return tl::unexpected(written.error());
-        }
+        TRY(file_.overwrite(0, headerBytes(info, file_.size())));
         return ChunkFile::open(
             file_.path().string(), file_.size(),
             [this](std::uint64_t offset, std::span<std::byte> out) { return file_.read(offset, out); });
@@ -181,20 +162,19 @@ private:
     BakeScratch scratch_;
 };
 
-// Tells the caller how far it is, a few times a second.
+// Reports the progress a few times per second.
 class ProgressMeter {
 public:
     ProgressMeter(const BakeProgressCallback& callback, std::uint64_t samplesTotal)
         : callback_(callback), total_(samplesTotal) {}
 
-    // False when the caller wants to stop.
+    // Returns false if the caller cancels.
     bool add(std::uint64_t samples) {
         done_ += samples;
         const bool hasEnded = samples > 0 && done_ == total_;
-        const Clock::time_point now = Clock::now();
-        if (!callback_ || (!hasEnded && now - reported_ < std::chrono::milliseconds(100))) return true;
-        reported_ = now;
-        const double elapsedS = std::chrono::duration<double>(now - start_).count();
+        if (!callback_ || (!hasEnded && sinceReport_.elapsedMs() < 100)) return true;
+        sinceReport_ = {};
+        const double elapsedS = sinceStart_.elapsedS();
         const double rate = elapsedS > 0 ? static_cast<double>(done_) / elapsedS : 0;
         return callback_(
             {done_, total_, elapsedS, rate, rate > 0 ? static_cast<double>(total_ - done_) / rate : 0});
@@ -204,15 +184,15 @@ private:
     const BakeProgressCallback& callback_;
     std::uint64_t total_;
     std::uint64_t done_ = 0;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point reported_ = start_;
+    Stopwatch sinceStart_;
+    Stopwatch sinceReport_;
 };
 
 Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Assembler& assembler,
                        ProgressMeter& meter) {
     const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
     const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> tileLevel);
-    // What is under way at once, used in turn: they end in the order in which they began.
+    // The tiles in progress, used as a ring: they end in the order in which they began.
     struct Work {
         ChunkId id;
         Result<BakedTile> tile;
@@ -263,10 +243,10 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
     return outcome;
 }
 
-// What a colour tile counts in progress.
+// The share of a colour tile in the progress.
 constexpr std::uint64_t samplesPerColourTile = std::uint64_t{colourTileCells} * colourTileCells;
 
-// The header last, with whatever colours there are.
+// Appends the root blocks and fills in the header.
 Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, AtomicFile& file,
                         ChunkFileInfo& info) {
     info.shape = bake.shape;
@@ -283,17 +263,15 @@ Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, Ato
         ByteWriter(block).put(rootChecksum(block, root.id.face));
         info.roots[static_cast<std::size_t>(root.id.face)] = {file.size(),
                                                               static_cast<std::uint32_t>(block.size())};
-        if (auto appended = file.append(block); !appended) return appended;
+        TRY(file.append(block));
     }
     return {};
 }
 
 Result<void> writeColours(const ColourSource& source, const BakeSettings& settings, AtomicFile& file,
                           ProgressMeter& meter, ChunkFileInfo& info) {
-    auto pyramid = bakeColour(source, settings.colour, bakeThreads(settings), file,
-                              [&](std::uint64_t tiles) { return meter.add(tiles * samplesPerColourTile); });
-    if (!pyramid) return tl::unexpected(std::move(pyramid.error()));
-    info.colour = *std::move(pyramid);
+    const auto progress = [&](std::uint64_t tiles) { return meter.add(tiles * samplesPerColourTile); };
+    TRY_ASSIGN(info.colour, bakeColour(source, settings.colour, bakeThreads(settings), file, progress));
     return {};
 }
 
@@ -302,54 +280,42 @@ Result<void> writeColours(const ColourSource& source, const BakeSettings& settin
 Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
                         const std::filesystem::path& output, const BakeProgressCallback& progress,
                         const ColourSource* colour) {
-    const Clock::time_point start = Clock::now();
-    if (auto valid = checkBakeSettings(settings); !valid) return tl::unexpected(valid.error());
-    const auto shape = chooseShape(source, settings);
-    if (!shape) return tl::unexpected(shape.error());
-    const int tileLevel = tileLevelOf(*shape, settings.tileLevels);
-    const BakeContext context{source, *shape, settings.compressionLevel};
+    const Stopwatch stopwatch;
+    TRY(checkBakeSettings(settings));
+    TRY_ASSIGN(const auto shape, chooseShape(source, settings));
+    const int tileLevel = tileLevelOf(shape, settings.tileLevels);
+    const BakeContext context{source, shape, settings.compressionLevel};
     std::uint64_t colourTiles = 0;
     if (colour) {
-        const Result<int> leaf = colourLeafLevel(*colour, settings.colour);
-        if (!leaf) return tl::unexpected(leaf.error());
-        colourTiles = tileCountOf(*leaf);
+        TRY_ASSIGN(const auto leaf, colourLeafLevel(*colour, settings.colour));
+        colourTiles = tileCountOf(leaf);
     }
 
-    auto file = AtomicFile::create(output, settings.fileCalls);
-    if (!file) return tl::unexpected(file.error());
-    if (auto reserved = file->append(std::vector<std::byte>(chunkFileHeaderBytes)); !reserved) {
-        return tl::unexpected(reserved.error());
-    }
-    Assembler assembler(context, tileLevel, *file);
-    const auto cells = static_cast<std::uint64_t>(faceCells(*shape));
+    TRY_ASSIGN(auto file, AtomicFile::create(output, settings.fileCalls));
+    TRY(file.append(std::vector<std::byte>(chunkFileHeaderBytes)));
+    Assembler assembler(context, tileLevel, file);
+    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
     ProgressMeter meter(progress, faceCount * cells * cells + colourTiles * samplesPerColourTile);
     const int threads = bakeThreads(settings);
-    if (auto baked = bakeTiles(context, tileLevel, threads, assembler, meter); !baked)
-        return tl::unexpected(baked.error());
-    if (auto finished = assembler.finish(threads, [&] { return meter.add(0); }); !finished)
-        return tl::unexpected(finished.error());
+    TRY(bakeTiles(context, tileLevel, threads, assembler, meter));
+    TRY(assembler.finish(threads, [&] { return meter.add(0); }));
     ChunkFileInfo info;
-    if (auto ended = writeRoots(context, assembler, *file, info); !ended)
-        return tl::unexpected(ended.error());
-    const std::uint64_t bytesWithoutColours = file->size();
+    TRY(writeRoots(context, assembler, file, info));
+    const std::uint64_t bytesWithoutColours = file.size();
     if (colour) {
-        if (auto written = writeColours(*colour, settings, *file, meter, info); !written)
-            return tl::unexpected(written.error());
+        TRY(writeColours(*colour, settings, file, meter, info));
     }
-    const std::uint64_t fileBytes = file->size();
-    if (auto ended = file->overwrite(0, headerBytes(info, fileBytes)); !ended)
-        return tl::unexpected(ended.error());
-    if (auto committed = file->commit(); !committed) return tl::unexpected(committed.error());
+    const std::uint64_t fileBytes = file.size();
+    TRY(file.overwrite(0, headerBytes(info, fileBytes)));
+    TRY(file.commit());
 
     if (!settings.debugLevelsFolder.empty()) {
-        if (auto written = writeLevelImages(output, settings.debugLevelsFolder); !written) {
-            return tl::unexpected(written.error());
-        }
+        TRY(writeLevelImages(output, settings.debugLevelsFolder));
     }
     BakeReport report;
-    report.shape = *shape;
-    report.samples = sampleCountOf(*shape);
-    report.chunks = chunkCountOf(*shape);
+    report.shape = shape;
+    report.samples = sampleCountOf(shape);
+    report.chunks = chunkCountOf(shape);
     report.fileBytes = fileBytes;
     report.missingSamples = source.missingCount;
     report.colourTiles = colourTiles;
@@ -359,7 +325,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
         report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
         report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);
     }
-    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    report.seconds = stopwatch.elapsedS();
     return report;
 }
 

@@ -5,13 +5,12 @@
 // the diagonal that replaces the vertex. Distances at the same place bound every point of the finer surface,
 // because the finer triangles subdivide the coarser ones and the difference of two surfaces that are linear
 // on a triangle is largest at a corner. So delta_c = delta_g + max(delta_c of the four children) bounds the
-// whole pyramid (de Boer 2000 for delta_g; Ulrich 2002 for chunks). Beside it stands the tight metric, the
-// exact distance of a chunk from the finest samples under it (finest_distance.h), made the larger of that and
-// its children's.
+// whole pyramid (de Boer 2000 for delta_g; Ulrich 2002 for chunks). The tight metric is the exact distance of
+// a chunk from the finest samples under it (finest_distance.h), or its children's metric if that is larger.
 //
-// In memory at a time: three tiles a thread, three chunks a level, and all chunks of levels whose cells are
-// wider than a tile, whose distances are searched for in the file once the finer levels are there. Those are
-// one sample in some 50,000 of the finest; a planet of faces of 4097 and chunks of 33 has none.
+// The bake holds in memory three tiles per thread, three chunks per level, and all chunks of levels whose
+// cells are wider than a tile; it searches the file for their distances once the finer levels are written.
+// Those are one sample in about 50,000 of the finest; a planet with faces of 4097 and chunks of 33 has none.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +33,7 @@ struct BakeProgress {
     double samplesPerS = 0;
     double remainingS = 0;
 };
-// Called from one thread at a time, a few times a second; false cancels the bake.
+// Called from one thread at a time, a few times per second; returns false to cancel the bake.
 using BakeProgressCallback = std::function<bool(const BakeProgress&)>;
 
 struct BakeReport {
@@ -51,10 +50,9 @@ struct BakeReport {
     double seconds = 0;
 };
 
-// Writes under a temporary name beside the output, syncs, and renames; on any Error, Cancelled included, an
-// existing output is untouched and nothing is left behind. The same source and settings give the same bytes
-// whatever the number of threads.
-// colour: none makes a file without colours.
+// Writes the output atomically (AtomicFile): after any Error, Cancelled included, an existing output is
+// unchanged. The same source and settings give the same bytes with any number of threads. colour: null makes
+// a file without colours.
 Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
                         const std::filesystem::path& output, const BakeProgressCallback& progress = {},
                         const ColourSource* colour = nullptr);

@@ -1,24 +1,24 @@
 #include "planet/bake/bake_estimate.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
-#include <chrono>
 #include <mutex>
-#include <optional>
-#include <thread>
 #include <vector>
 
 #include "planet/bake/bake_tile.h"
 #include "planet/bake/spread_places.h"
-#include "planet/base/elapsed.h"
+#include "planet/base/parallel.h"
+#include "planet/base/stopwatch.h"
+#include "planet/base/try.h"
+#include "planet/source/sample_tiles.h"
 
 namespace planet {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-// About a second's work for one core. Half of it for single blocks, of which many places can be looked at;
-// half for blocks whose parents' block is made too, which tell how blocks grow from level to level.
+// About a second's work for one core. Half of it goes to single blocks, at many places. The other half goes
+// to blocks with their parent's block, which show how blocks grow from level to level.
 constexpr std::uint64_t samplesToBake = 4'000'000;
 constexpr std::uint64_t fewestPlaces = 8;
 constexpr std::uint64_t mostPlaces = 2048;
@@ -45,43 +45,38 @@ struct Sample {
     }
 };
 
-// One sample of the tile's corner is enough to have the source read what lies there; where it was read before
-// this takes no time. A tile that lies on several of the source's blocks has its other three corners read
-// too.
+// Reads the four corners of a tile, so that the source loads its blocks there; cached blocks take no time.
 Result<void> readCorners(const BakeContext& bake, const ChunkId& root) {
-    const int cells = faceCells(bake.shape) >> root.level;
+    const SampleTile square = tileOf(bake.shape, root);
     for (const int corner : {0, 1, 2, 3}) {
         float height = 0;
-        const SampleTile tile{root.face,
-                              faceCells(bake.shape),
-                              (static_cast<int>(root.x) + (corner & 1)) * cells,
-                              (static_cast<int>(root.y) + (corner >> 1)) * cells,
-                              1,
-                              1};
-        if (auto read = bake.source.sample(tile, {&height, 1}); !read) return read;
+        SampleTile tile = square;
+        tile.firstColumn += (corner & 1) * (square.columns - 1);
+        tile.firstRow += (corner >> 1) * (square.rows - 1);
+        tile.columns = tile.rows = 1;
+        TRY(bake.source.sample(tile, {&height, 1}));
     }
     return {};
 }
 
 Result<Sample> bakePlace(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch) {
     Sample sample;
-    const Clock::time_point start = Clock::now();
-    if (auto read = readCorners(bake, root); !read) return tl::unexpected(read.error());
-    sample.readS = secondsSince(start);
-    const Clock::time_point bakeStart = Clock::now();
-    const Result<BakedTile> tile = bakeTile(bake, root, scratch);
-    if (!tile) return tl::unexpected(tile.error());
-    sample.bakeS = secondsSince(bakeStart);
+    const Stopwatch reading;
+    TRY(readCorners(bake, root));
+    sample.readS = reading.elapsedS();
+    const Stopwatch baking;
+    TRY_ASSIGN(const auto tile, bakeTile(bake, root, scratch));
+    sample.bakeS = baking.elapsedS();
 
     const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> root.level);
     sample.finestSamples = cells * cells;
-    const std::uint64_t lastBlock = tile->root.entry.children.size;
+    const std::uint64_t lastBlock = tile.root.entry.children.size;
     if (root.level + 1 == leafLevel(bake.shape)) {
         sample.leafBlocks = 1;
         sample.leafBlockBytes = lastBlock;
     } else {
         sample.leafBlocks = quadrantCount;
-        sample.leafBlockBytes = tile->blocks.size() - lastBlock;
+        sample.leafBlockBytes = tile.blocks.size() - lastBlock;
         sample.belowUpperBytes = sample.leafBlockBytes;
         sample.upperBlocks = 1;
         sample.upperBlockBytes = lastBlock;
@@ -91,43 +86,36 @@ Result<Sample> bakePlace(const BakeContext& bake, const ChunkId& root, BakeScrat
 
 Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& roots, int threads,
                           const std::function<bool()>& goOn) {
-    std::mutex mutex;  // guards next and outcome, and goOn is asked under it
-    std::size_t next = 0;
+    std::mutex mutex;  // guards outcome, and is held while goOn is called
     Result<Sample> outcome;
-    const auto takePlace = [&]() -> std::optional<std::size_t> {
+    const auto hasFailed = [&] {
         const std::lock_guard lock(mutex);
-        return outcome && next < roots.size() ? std::optional(next++) : std::nullopt;
+        return !outcome;
     };
-    const auto work = [&] {
-        BakeScratch scratch;
-        while (const std::optional<std::size_t> place = takePlace()) {
-            const Result<Sample> sample = bakePlace(bake, roots[*place], scratch);
-            const std::lock_guard lock(mutex);
-            if (!outcome) return;
-            if (!sample) {
-                outcome = tl::unexpected(sample.error());
-            } else {
-                outcome->add(*sample);
-                if (goOn && !goOn()) outcome = cancelled();
-            }
+    tbb::enumerable_thread_specific<BakeScratch> scratches;
+    parallelFor(threads, roots.size(), [&](std::size_t i) {
+        if (hasFailed()) return;
+        const Result<Sample> sample = bakePlace(bake, roots[i], scratches.local());
+        const std::lock_guard lock(mutex);
+        if (!outcome) return;
+        if (!sample) {
+            outcome = tl::unexpected(sample.error());
+        } else {
+            outcome->add(*sample);
+            if (goOn && !goOn()) outcome = cancelled();
         }
-    };
-    const std::size_t helpers = std::min(static_cast<std::size_t>(threads), roots.size()) - 1;
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 0; i < helpers; ++i) workers.emplace_back(work);
-    work();
-    workers.clear();  // waits for them
+    });
     return outcome;
 }
 
-// Bytes of all sibling blocks: level by level, the finest first, each with a quarter as many as the one
-// before. What a coarser level's block takes more than a finer one's, since its samples lie farther apart, it
-// takes again on the next level; no more than the bare samples would.
+// Returns the bytes of all sibling blocks, level by level from the finest, each with a quarter as many blocks
+// as the one before. A coarser level's blocks are larger, because its samples lie farther apart; the estimate
+// adds the measured growth for each level, up to the size of plain samples.
 double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
     const double cells = chunkCells(shape);
     const double bareBytes = 2 * ((2 * cells + 1) * (2 * cells + 1) - (cells + 1) * (cells + 1)) + 128;
     double bytes = static_cast<double>(sample.leafBlockBytes) / static_cast<double>(sample.leafBlocks);
-    // Both of the same places, which differ more from each other than their levels do.
+    // Both numbers are from the same places, because places differ more than levels.
     const double growth = sample.upperBlocks == 0
                               ? 0
                               : bytes * (static_cast<double>(quadrantCount * sample.upperBlockBytes) /
@@ -141,25 +129,24 @@ double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
     return total;
 }
 
-// The root chunks are written whole; where there is nothing else, so are all.
+// Returns the bytes of the root blocks.
 Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
     const double samples = chunkVertexCount(bake.shape);
     if (leafLevel(bake.shape) > 0) {
-        // Neighbours lie far apart on a root; hardly a bit is saved.
+        // Neighbours lie far apart on a root, so it hardly compresses.
         return faceCount * (1.8 * samples + 100);
     }
     double bytes = 0;
     for (const Face face : allFaces) {
-        const Result<BakedTile> tile = bakeTile(bake, {face, 0, 0, 0}, scratch);
-        if (!tile) return tl::unexpected(tile.error());
+        TRY_ASSIGN(const auto tile, bakeTile(bake, {face, 0, 0, 0}, scratch));
         std::vector<std::byte> coded;
-        encodeGrid(tile->root.heights, chunkSize(bake.shape), coded);
+        encodeGrid(tile.root.heights, chunkSize(bake.shape), coded);
         bytes += static_cast<double>(coded.size() + 8);
     }
     return bytes;
 }
 
-// Single blocks everywhere; and, where the planet has two levels of them, fewer places with two.
+// Returns places for single blocks and, if the planet has two levels of blocks, fewer places for two levels.
 std::vector<ChunkId> placesToBake(const PlanetShape& shape) {
     const std::uint64_t cells = 2 * static_cast<std::uint64_t>(chunkCells(shape));
     const std::uint64_t wanted = std::clamp(samplesToBake / 2 / (cells * cells), fewestPlaces, mostPlaces);
@@ -174,30 +161,27 @@ std::vector<ChunkId> placesToBake(const PlanetShape& shape) {
 
 Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSettings& settings,
                                      const std::function<bool()>& goOn) {
-    if (auto valid = checkBakeSettings(settings); !valid) return tl::unexpected(valid.error());
-    const auto shape = chooseShape(source, settings);
-    if (!shape) return tl::unexpected(shape.error());
-    const BakeContext context{source, *shape, settings.compressionLevel};
+    TRY(checkBakeSettings(settings));
+    TRY_ASSIGN(const auto shape, chooseShape(source, settings));
+    const BakeContext context{source, shape, settings.compressionLevel};
     if (goOn && !goOn()) return cancelled();
 
     BakeEstimate estimate;
-    estimate.shape = *shape;
-    estimate.samples = sampleCountOf(*shape);
-    estimate.chunks = chunkCountOf(*shape);
-    const Clock::time_point start = Clock::now();
+    estimate.shape = shape;
+    estimate.samples = sampleCountOf(shape);
+    estimate.chunks = chunkCountOf(shape);
+    const Stopwatch stopwatch;
     BakeScratch scratch;
-    const Result<double> roots = rootBytes(context, scratch);
-    if (!roots) return tl::unexpected(roots.error());
-    estimate.fileBytes = static_cast<double>(chunkFileHeaderBytes) + *roots;
-    estimate.seconds = secondsSince(start);
-    if (leafLevel(*shape) == 0) return estimate;
+    TRY_ASSIGN(const auto roots, rootBytes(context, scratch));
+    estimate.fileBytes = static_cast<double>(chunkFileHeaderBytes) + roots;
+    estimate.seconds = stopwatch.elapsedS();
+    if (leafLevel(shape) == 0) return estimate;
 
     const int threads = bakeThreads(settings);
-    const Result<Sample> sample = bakePlaces(context, placesToBake(*shape), threads, goOn);
-    if (!sample) return tl::unexpected(sample.error());
-    estimate.fileBytes += estimatedBlockBytes(*shape, *sample);
-    estimate.seconds += (sample->readS + sample->bakeS * static_cast<double>(estimate.samples) /
-                                             static_cast<double>(sample->finestSamples)) /
+    TRY_ASSIGN(const auto sample, bakePlaces(context, placesToBake(shape), threads, goOn));
+    estimate.fileBytes += estimatedBlockBytes(shape, sample);
+    estimate.seconds += (sample.readS + sample.bakeS * static_cast<double>(estimate.samples) /
+                                            static_cast<double>(sample.finestSamples)) /
                         threads;
     return estimate;
 }
@@ -208,12 +192,11 @@ Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings
                                   const std::function<bool()>& goOn, const ColourSource* colour) {
     Result<BakeEstimate> estimate = estimateHeights(source, settings, goOn);
     if (!estimate || !colour) return estimate;
-    const Result<ColourEstimate> colours =
-        estimateColours(*colour, settings.colour, bakeThreads(settings), defaultColourCacheBytes, goOn);
-    if (!colours) return tl::unexpected(colours.error());
-    estimate->fileBytes += colours->fileBytes;
-    estimate->seconds += colours->seconds;
-    estimate->colour = *colours;
+    TRY_ASSIGN(const auto colours, estimateColours(*colour, settings.colour, bakeThreads(settings),
+                                                   defaultColourCacheBytes, goOn));
+    estimate->fileBytes += colours.fileBytes;
+    estimate->seconds += colours.seconds;
+    estimate->colour = colours;
     return estimate;
 }
 

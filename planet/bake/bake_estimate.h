@@ -1,6 +1,6 @@
-// What a bake would cost, before it is done: by baking a few blocks of it in memory. Any thread; takes about
-// a second. Leaves out the search for the tight metric of the coarsest levels of a planet too large for a
-// tile to hold their cells: it reads few blocks.
+// Estimates the cost of a bake by baking a few of its blocks in memory, in about a second. Any thread. It
+// ignores the search for the tight metric of levels whose cells are wider than a tile, which reads few
+// blocks.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,7 @@ struct BakeEstimate {
     std::optional<ColourEstimate> colour{};  // of a bake with colours
 };
 
-// Blocks are chosen by a fixed seed, evenly over the sphere. The callback is asked between blocks; false
-// cancels.
+// Chooses blocks by a fixed seed, evenly over the sphere. Calls goOn between blocks; false cancels.
 Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings& settings,
                                   const std::function<bool()>& goOn = {},
                                   const ColourSource* colour = nullptr);

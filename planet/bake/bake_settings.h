@@ -31,9 +31,9 @@ struct BakeSettings {
     int compressionLevel = defaultCompressionLevel;
     // The bake also writes each level of each face to this folder, as a 16-bit PNG; empty: it does not.
     std::filesystem::path debugLevelsFolder{};
-    // The number of levels above the finest that one task bakes, [0, 10]. None: as many as make squares of
-    // 128 cells, but at least one. Neighbouring squares then sample little twice, and a square fits a core's
-    // cache. The chunks do not depend on it; the order of their blocks may.
+    // The number of levels above the finest that one task bakes, [0, 10]. None: enough for squares of 128
+    // cells, at least one. Neighbouring squares then sample little twice, and a square fits a core's cache.
+    // The chunks do not depend on it; the order of their blocks may.
     std::optional<int> tileLevels{};
     ColourBakeSettings colour{};              // used with a colour source
     FileCalls fileCalls = systemFileCalls();  // they write the output

@@ -8,8 +8,11 @@
 #include <span>
 
 #include "planet/bake/quantise.h"
+#include "planet/base/check_range.h"
 #include "planet/base/little_endian.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
+#include "planet/source/sample_tiles.h"
 #include "planet/sphere/chunk_surface.h"
 
 namespace planet {
@@ -37,22 +40,16 @@ std::vector<std::int16_t> everyOther(std::span<const std::int16_t> refined, std:
     return coarse;
 }
 
-void appendChecksum(std::vector<std::byte>& blocks, std::size_t blockStart, const ChunkId& parent) {
-    const std::uint64_t sum = siblingChecksum(std::span(blocks).subspan(blockStart), parent);
-    ByteWriter(blocks).put(sum);
-}
-
 BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile& tile,
                    std::span<const std::int16_t> steps) {
     const auto side = static_cast<std::size_t>(chunkSize(bake.shape));
-    const auto cells = static_cast<std::size_t>(chunkCells(bake.shape));
-    const std::size_t column = id.x * cells - static_cast<std::size_t>(tile.firstColumn);
-    const std::size_t row = id.y * cells - static_cast<std::size_t>(tile.firstRow);
+    const SampleTile square = tileOf(bake.shape, id);
     BakedChunk leaf;
     leaf.id = id;
     leaf.heights.resize(side * side);
     for (std::size_t j = 0; j < side; ++j) {
-        const auto from = steps.subspan((row + j) * static_cast<std::size_t>(tile.columns) + column, side);
+        const std::size_t at = indexIn(tile, square.firstColumn, square.firstRow + static_cast<int>(j));
+        const auto from = steps.subspan(at, side);
         std::copy(from.begin(), from.end(), leaf.heights.begin() + static_cast<std::ptrdiff_t>(j * side));
     }
     const auto [lowest, highest] = std::minmax_element(leaf.heights.begin(), leaf.heights.end());
@@ -76,19 +73,12 @@ BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, const SampleT
 }  // namespace
 
 Result<void> checkBakeSettings(const BakeSettings& settings) {
-    if (settings.compressionLevel < minCompressionLevel || settings.compressionLevel > maxCompressionLevel) {
-        return badInput(fmt::format("compression level: {} is out of range; expected [{}, {}]",
-                                    settings.compressionLevel, minCompressionLevel, maxCompressionLevel));
-    }
+    TRY(checkRange("compression level", settings.compressionLevel, minCompressionLevel, maxCompressionLevel));
     if (settings.threads < 0 || settings.threads > 1024) {
         return badInput(fmt::format("threads: {} is out of range; expected [1, 1024] or 0 (one per core)",
                                     settings.threads));
     }
-    if (settings.tileLevels.value_or(0) < 0 || settings.tileLevels.value_or(0) > 10) {
-        return badInput(
-            fmt::format("levels per tile: {} is out of range; expected [0, 10]", *settings.tileLevels));
-    }
-    return {};
+    return checkRange("levels per tile", settings.tileLevels.value_or(0), 0, 10);
 }
 
 Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& settings) {
@@ -113,8 +103,7 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
         return badInput(fmt::format("radius: {} m is out of range; expected (0, 1e9] m", settings.radiusM));
     }
     shape.radiusM = settings.radiusM;
-    if (auto chosen = chooseQuantum(source, settings.quantumM, shape); !chosen)
-        return tl::unexpected(chosen.error());
+    TRY(chooseQuantum(source, settings.quantumM, shape));
     if (shape.radiusM + heightM(shape, -32768) <= 0 && shape.radiusM + source.minM <= 0) {
         return badInput(
             fmt::format("{}: its lowest height, {} m, is below the centre of a planet of radius {} m",
@@ -128,22 +117,11 @@ int bakeThreads(const BakeSettings& settings) {
 }
 
 Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch) {
-    const int cells = faceCells(bake.shape) >> root.level;
-    const SampleTile tile{root.face,
-                          faceCells(bake.shape),
-                          static_cast<int>(root.x) * cells,
-                          static_cast<int>(root.y) * cells,
-                          cells + 1,
-                          cells + 1};
-    const auto count = static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows);
-    scratch.sampledM.resize(count);
-    scratch.steps.resize(count);
-    if (auto sampled = bake.source.sample(tile, scratch.sampledM); !sampled) {
-        return tl::unexpected(sampled.error());
-    }
-    if (auto fitted = quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps); !fitted) {
-        return tl::unexpected(fitted.error());
-    }
+    const SampleTile tile = tileOf(bake.shape, root);
+    scratch.sampledM.resize(samplesIn(tile));
+    scratch.steps.resize(samplesIn(tile));
+    TRY(bake.source.sample(tile, scratch.sampledM));
+    TRY(quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps));
     measureTile(bake.shape, root, scratch.steps, scratch.geometry, scratch.distances);
     BakedTile result;
     for (int level = scratch.distances.coarsestLevel;
@@ -183,7 +161,7 @@ BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
         for (const BakedChunk& child : children) putEntry(blocks, child.entry, offset);
     }
     encodeRefinement(refined, chunkCells(bake.shape), bake.compressionLevel, blocks);
-    appendChecksum(blocks, start, parent);
+    ByteWriter(blocks).put(siblingChecksum(std::span(blocks).subspan(start), parent));
     chunk.entry.children = {offset, static_cast<std::uint32_t>(blocks.size() - start)};
     return chunk;
 }

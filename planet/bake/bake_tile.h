@@ -1,5 +1,5 @@
-// The pieces of a bake: what turns a square of the source into chunks and their blocks. The bake and its
-// estimate share them. Pure functions but for the source; any thread, each with a scratch of its own.
+// Bakes a square of the source into chunks and their blocks, for the bake and its estimate. Pure functions
+// apart from the source; any thread, each with its own scratch.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace planet {
 
-// Blocks are made before their place in the file is known, as if their run began here.
+// Blocks are made before their place in the file is known, as if they began here.
 inline constexpr std::uint64_t provisionalOrigin = chunkFileHeaderBytes;
 
 struct BakedChunk {
@@ -32,12 +32,12 @@ struct BakedChunk {
 struct BakedTile {
     BakedChunk root;
     std::vector<std::byte> blocks;  // of everything under the root, the root's children last
-    // What the tile's finest samples lie off the chunks above it, metres: by level from coarsestLevelOfTiles
-    // to the one above the root, two above the finest at most.
+    // The largest distances of the tile's finest samples from the chunks above it, metres: by level from
+    // coarsestLevelOfTiles to the one above the root, at most to two above the finest.
     std::vector<double> offAboveM;
 };
 
-// Kept between calls so that nothing is allocated.
+// Memory that is reused between calls.
 struct BakeScratch {
     std::vector<float> sampledM;
     std::vector<std::int16_t> steps;
@@ -52,22 +52,22 @@ struct BakeContext {
     int compressionLevel = defaultCompressionLevel;
 };
 
-// Settings that no source can change: compression level and threads. The Error says what would be right.
+// Checks the settings that do not depend on a source. The Error names the setting and its range.
 Result<void> checkBakeSettings(const BakeSettings& settings);
 
-// The shape that a source and settings give. The Error names the setting and its range.
+// Returns the shape for a source and settings. The Error names the setting and its range.
 Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& settings);
 
-// 0 threads: one a core.
+// Returns the number of threads; one per core if the setting is 0.
 int bakeThreads(const BakeSettings& settings);
 
-// A tile is the subtree that one task bakes: samples its square and bakes it bottom-up. The Error names the
-// source's file, or a height that 16 bits cannot hold.
+// Samples the square of a tile, the subtree of one task, and bakes it bottom-up. The Error names the source's
+// file, or a height that 16 bits cannot hold.
 Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch);
 
-// Removes every other row and column: appends the block of the four children, returns their parent. Places in
-// the file count from origin, where the first of the blocks lies. finestDistanceM is the parent's; of a
-// leaf's parent it is found here.
+// Appends the block of four children and returns their parent, with every other row and column. Places in the
+// file count from origin, the place of the first block. finestDistanceM is the parent's; a leaf's parent
+// computes its own.
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
                          std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
                          std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks);

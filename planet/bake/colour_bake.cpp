@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <span>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "planet/bake/colour_tile_sampling.h"
 #include "planet/base/little_endian.h"
+#include "planet/base/parallel.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/format/colour_tile.h"
 #include "planet/sphere/chunk_id.h"
@@ -27,25 +27,11 @@ struct PackedTile {
 
 Result<PackedTile> packedTile(const ColourSource& source, ColourFormat format, const ChunkId& id) {
     std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
-    if (auto sampled = sampleColourTile(source, id, rgb); !sampled) return tl::unexpected(sampled.error());
+    TRY(sampleColourTile(source, id, rgb));
     PackedTile tile;
     tile.bytes = packColourTexels(format, colourTexels(format, rgb));
     tile.entry.packedBytes = static_cast<std::uint32_t>(tile.bytes.size());
     return tile;
-}
-
-// Calls work(i) for each i of [0, count) on so many threads, this one among them.
-template <class Work>
-void forEach(std::size_t count, int threads, const Work& work) {
-    std::atomic<std::size_t> next = 0;
-    const auto take = [&] {
-        for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    const std::size_t helpers =
-        std::min(static_cast<std::size_t>(threads), std::max<std::size_t>(count, 1)) - 1;
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 0; i < helpers; ++i) workers.emplace_back(take);
-    take();
 }
 
 // Makes the tiles of a level in quadtree order, some at a time, and writes them in blocks.
@@ -55,8 +41,8 @@ public:
                 const ColourProgress& progress)
         : source_(source), format_(format), threads_(threads), file_(file), progress_(progress) {}
 
-    // Tiles a block: four siblings, or a root alone. below: where the children of each tile lie, none at the
-    // finest level. Returns where each block lies.
+    // Writes a level. below: the places of each tile's children, empty at the finest level. Returns the place
+    // of each block.
     Result<std::vector<BlockLocation>> write(int level, const std::vector<BlockLocation>& below) {
         const std::size_t perBlock = level == 0 ? 1 : quadrantCount;
         const std::uint64_t count = std::uint64_t{faceCount} << (2 * level);
@@ -65,16 +51,14 @@ public:
         locations.reserve(count / perBlock);
         for (std::uint64_t first = 0; first < count; first += batch) {
             const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(batch, count - first));
-            auto tiles = make(level, first, now);
-            if (!tiles) return tl::unexpected(tiles.error());
+            TRY_ASSIGN(auto tiles, make(level, first, now));
             for (std::size_t i = 0; i < now; ++i) {
-                if (!below.empty()) (*tiles)[i].entry.children = below[first + i];
+                if (!below.empty()) tiles[i].entry.children = below[first + i];
             }
             for (std::size_t i = 0; i < now; i += perBlock) {
                 const ChunkId id = chunkInQuadtreeOrder(first + i, level);
-                const auto location = append(id, std::span(*tiles).subspan(i, perBlock));
-                if (!location) return tl::unexpected(location.error());
-                locations.push_back(*location);
+                TRY_ASSIGN(const auto location, append(id, std::span(tiles).subspan(i, perBlock)));
+                locations.push_back(location);
             }
             if (progress_ && !progress_(now)) return cancelled();
         }
@@ -84,13 +68,13 @@ public:
 private:
     Result<std::vector<PackedTile>> make(int level, std::uint64_t first, std::size_t count) const {
         std::vector<Result<PackedTile>> made(count, PackedTile{});
-        forEach(count, threads_, [&](std::size_t i) {
+        parallelFor(threads_, count, [&](std::size_t i) {
             made[i] = packedTile(source_, format_, chunkInQuadtreeOrder(first + i, level));
         });
         std::vector<PackedTile> tiles;
-        for (Result<PackedTile>& tile : made) {
-            if (!tile) return tl::unexpected(std::move(tile.error()));
-            tiles.push_back(*std::move(tile));
+        for (Result<PackedTile>& result : made) {
+            TRY_ASSIGN(auto tile, std::move(result));
+            tiles.push_back(std::move(tile));
         }
         return tiles;
     }
@@ -103,7 +87,7 @@ private:
         const std::uint64_t sum = firstTile.level == 0 ? colourRootChecksum(block, firstTile.face)
                                                        : colourSiblingChecksum(block, parentOf(firstTile));
         ByteWriter(block).put(sum);
-        if (auto appended = file_.append(block); !appended) return tl::unexpected(appended.error());
+        TRY(file_.append(block));
         return BlockLocation{offset, static_cast<std::uint32_t>(block.size())};
     }
 
@@ -131,18 +115,15 @@ Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings
 
 Result<ColourPyramid> bakeColour(const ColourSource& source, const ColourBakeSettings& settings, int threads,
                                  AtomicFile& file, const ColourProgress& progress) {
-    const Result<int> leaf = colourLeafLevel(source, settings);
-    if (!leaf) return tl::unexpected(leaf.error());
+    TRY_ASSIGN(const auto leaf, colourLeafLevel(source, settings));
     LevelWriter writer(source, settings.format, threads, file, progress);
     std::vector<BlockLocation> below;
-    for (int level = *leaf; level >= 0; --level) {
-        auto locations = writer.write(level, below);
-        if (!locations) return tl::unexpected(std::move(locations.error()));
-        below = *std::move(locations);
+    for (int level = leaf; level >= 0; --level) {
+        TRY_ASSIGN(below, writer.write(level, below));
     }
     ColourPyramid pyramid;
     pyramid.format = settings.format;
-    pyramid.leafLevel = *leaf;
+    pyramid.leafLevel = leaf;
     pyramid.source = source.description;
     std::copy(below.begin(), below.end(), pyramid.roots.begin());
     return pyramid;

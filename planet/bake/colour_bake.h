@@ -1,6 +1,6 @@
-// Bakes a colour source into the colour quadtree of a chunk file: level by level from the finest, so that
-// children's blocks come before their parents'. In memory at a time: a few tiles a thread, and 12 bytes for
-// each block of one level.
+// Bakes a colour source into the colour quadtree of a chunk file, level by level from the finest, so that
+// blocks of children precede those of their parents. It holds a few tiles per thread, and 12 bytes for each
+// block of one level.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace planet {
 
-// The finest level of a source's tiles. The Error names the setting and its range.
+// Returns the finest level of a source's tiles. The Error names the setting and its range.
 Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings& settings);
 
-// Called after every few tiles, by the calling thread, with how many more are done; false cancels.
+// Called by the calling thread after every few tiles, with the number of new tiles; false cancels.
 using ColourProgress = std::function<bool(std::uint64_t moreTiles)>;
 
-// Appends the blocks. The same source and settings give the same bytes whatever the number of threads.
+// Appends the blocks. The same source and settings give the same bytes with any number of threads.
 Result<ColourPyramid> bakeColour(const ColourSource& source, const ColourBakeSettings& settings, int threads,
                                  AtomicFile& file, const ColourProgress& progress);
 

@@ -1,13 +1,13 @@
 #include "planet/bake/colour_estimate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "planet/bake/colour_bake.h"
 #include "planet/bake/colour_tile_sampling.h"
 #include "planet/bake/spread_places.h"
-#include "planet/base/elapsed.h"
+#include "planet/base/stopwatch.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/format/colour_tile.h"
 #include "planet/format/tile_layout.h"
@@ -16,11 +16,9 @@ namespace planet {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::uint64_t leafTilesPacked = 12;
 constexpr std::uint64_t upperTilesPacked = 6;
-// A thread's own: linear colours, one channel of them, and the tile as sRGB, as texels and packed.
+// The memory of a thread: linear colours, one channel of them, and the tile as sRGB, as texels and packed.
 constexpr std::uint64_t bytesPerTexelAtWork = sizeof(glm::vec3) + sizeof(float) + 3 * 3;
 
 struct PackedTiles {
@@ -29,7 +27,7 @@ struct PackedTiles {
     double packedBytes = 0;  // of one tile
 };
 
-// One texel in its middle is enough to have the source read what lies around there.
+// Reads the texel in the middle of a tile, so that the source loads its blocks there.
 Result<void> readMiddle(const ColourSource& source, const ChunkId& id) {
     const int middle = colourTileCells / 2;
     glm::vec3 colour;
@@ -46,22 +44,21 @@ Result<PackedTiles> packTiles(const ColourSource& source, ColourFormat format, i
     const std::vector<ChunkId> places = spreadPlaces(level, wanted);
     for (const ChunkId& id : places) {
         if (goOn && !goOn()) return cancelled();
-        const Clock::time_point start = Clock::now();
-        if (auto read = readMiddle(source, id); !read) return tl::unexpected(read.error());
-        sum.readS += secondsSince(start);
-        const Clock::time_point packing = Clock::now();
-        if (auto sampled = sampleColourTile(source, id, rgb); !sampled)
-            return tl::unexpected(sampled.error());
+        const Stopwatch reading;
+        TRY(readMiddle(source, id));
+        sum.readS += reading.elapsedS();
+        const Stopwatch packing;
+        TRY(sampleColourTile(source, id, rgb));
         sum.packedBytes += static_cast<double>(packColourTexels(format, colourTexels(format, rgb)).size());
-        sum.tileS += secondsSince(packing);
+        sum.tileS += packing.elapsedS();
     }
     const auto count = static_cast<double>(places.size());
     return PackedTiles{sum.readS, sum.tileS / count, sum.packedBytes / count};
 }
 
-// Of all levels, one thread. A tile costs its packing, and its share of the source: each level reads the
-// whole of it, so a tile of a coarser level four times as much. What a coarser level's tile takes more in
-// the file than a finer one's it takes again on the next, no more than a tile may.
+// The cost of all levels on one thread. A tile costs its packing and its share of the source. Each level
+// reads the whole source, so that share grows by four per level. The bytes of a tile grow from level to level
+// by the measured growth, up to the largest size of a tile.
 struct AllTiles {
     double seconds = 0;
     double bytes = 0;
@@ -91,26 +88,24 @@ AllTiles allTiles(const PackedTiles& leaf, const PackedTiles& upper, int leafLev
 Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
                                        int threads, std::size_t cacheBytes,
                                        const std::function<bool()>& goOn) {
-    const Result<int> leafLevel = colourLeafLevel(source, settings);
-    if (!leafLevel) return tl::unexpected(leafLevel.error());
-    const auto leaf = packTiles(source, settings.format, *leafLevel, leafTilesPacked, goOn);
-    if (!leaf) return tl::unexpected(leaf.error());
-    PackedTiles upper = *leaf;
-    if (*leafLevel > 0) {
-        const auto packed = packTiles(source, settings.format, *leafLevel - 1, upperTilesPacked, goOn);
-        if (!packed) return tl::unexpected(packed.error());
-        upper = *packed;
+    TRY_ASSIGN(const auto leafLevel, colourLeafLevel(source, settings));
+    TRY_ASSIGN(const auto leaf, packTiles(source, settings.format, leafLevel, leafTilesPacked, goOn));
+    PackedTiles upper = leaf;
+    if (leafLevel > 0) {
+        TRY_ASSIGN(const auto packed,
+                   packTiles(source, settings.format, leafLevel - 1, upperTilesPacked, goOn));
+        upper = packed;
     }
-    const AllTiles all = allTiles(*leaf, upper, *leafLevel, settings.format);
+    const AllTiles all = allTiles(leaf, upper, leafLevel, settings.format);
 
     ColourEstimate estimate;
-    estimate.faceSize = (colourTileCells << *leafLevel) + 1;
-    estimate.levels = *leafLevel + 1;
-    estimate.tiles = tileCountOf(*leafLevel);
+    estimate.faceSize = (colourTileCells << leafLevel) + 1;
+    estimate.levels = leafLevel + 1;
+    estimate.tiles = tileCountOf(leafLevel);
     estimate.fileBytes = all.bytes;
-    estimate.seconds = leaf->readS + all.seconds / threads;
+    estimate.seconds = leaf.readS + all.seconds / threads;
     const std::uint64_t texelsOfTile = std::uint64_t{colourTileTexels} * colourTileTexels;
-    const std::uint64_t finestBlocks = (std::uint64_t{faceCount} << (2 * *leafLevel)) / quadrantCount + 1;
+    const std::uint64_t finestBlocks = (std::uint64_t{faceCount} << (2 * leafLevel)) / quadrantCount + 1;
     estimate.bakeBytes = cacheBytes +
                          static_cast<std::uint64_t>(threads) * texelsOfTile * bytesPerTexelAtWork +
                          finestBlocks * sizeof(BlockLocation);

@@ -1,4 +1,4 @@
-// What baking a colour source would cost, before it is done: by packing a few of its tiles. Any thread.
+// Estimates the cost of baking a colour source by packing a few of its tiles. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace planet {
 
-// Of the tiles of colour alone.
+// The cost of the tiles of colour alone.
 struct ColourEstimate {
     int faceSize = 0;                 // texels a side
     int levels = 0;                   // of tiles
@@ -21,7 +21,7 @@ struct ColourEstimate {
     std::uint64_t residentBytes = 0;  // memory, were all of them resident on the GPU
 };
 
-// cacheBytes: what the source was opened with. goOn is asked between tiles; false cancels.
+// cacheBytes: that of openColourSource. Calls goOn between tiles; false cancels.
 Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
                                        int threads, std::size_t cacheBytes = defaultColourCacheBytes,
                                        const std::function<bool()>& goOn = {});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planet/bake/colour_tile_sampling.h"
+#include "planet/base/try.h"
 #include "planet/format/colour_tile.h"
 
 namespace planet {
@@ -22,19 +23,18 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     ColourLevelReport& level = levels[parent.level + 1u];
     level.tiles += quadrantCount;
     level.bytes += block.size;
-    if (auto spent = spendOn(file, block, bytesLeft); !spent) return spent;
+    TRY(spendOn(file, block, bytesLeft));
     if (level.level == file.info().colour->leafLevel) return {};
-    const auto entries = file.readColourEntries(parent, block);
-    if (!entries) return tl::unexpected(entries.error());
-    for (std::size_t q = 0; q < entries->size(); ++q) {
+    TRY_ASSIGN(const auto entries, file.readColourEntries(parent, block));
+    for (std::size_t q = 0; q < entries.size(); ++q) {
         const ChunkId child = childOf(parent, static_cast<int>(q));
-        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels, bytesLeft); !done)
-            return done;
+        TRY(tallyChildren(file, child, entries[q].children, levels, bytesLeft));
     }
     return {};
 }
 
-// An edge between two tiles of a face, the same from both: along u or v, and where on the level's grid.
+// The key of an edge between two tiles of a face: the face, the level, whether it runs along v, and its place
+// on the grid.
 using TileEdge = std::tuple<Face, int, bool, std::uint32_t, std::uint32_t>;
 
 struct SeenTileEdge {
@@ -42,7 +42,7 @@ struct SeenTileEdge {
     std::uint64_t hash;
 };
 
-// Of the texels on an edge as they are drawn.
+// Returns the hash of the texels on an edge as they are drawn.
 std::uint64_t hashOfEdge(std::span<const std::uint8_t> rgb, Edge edge) {
     const bool upright = edge == Edge::West || edge == Edge::East;
     const int across = edge == Edge::East || edge == Edge::North ? colourTileCells : 0;
@@ -67,9 +67,9 @@ public:
             const auto root = file_.readColourRoot(face);
             if (!root) {
                 problem(root.error().message);
-            } else if (auto done = visit(*root); !done) {
-                return tl::unexpected(done.error());
+                continue;
             }
+            TRY(visit(*root));
         }
         return report_;
     }
@@ -81,7 +81,7 @@ private:
         const std::vector<std::uint8_t> rgb = rgbOfColourTexels(colour_.format, tile.texels);
         for (const Edge edge : allEdges) checkEdge(tile.id, edge, rgb);
         if (source_) {
-            if (auto compared = compare(tile); !compared) return compared;
+            TRY(compare(tile));
         }
         if (tile.id.level == colour_.leafLevel) return {};
         const auto children = file_.readColourChildren(tile.id, tile.children);
@@ -90,7 +90,7 @@ private:
             return {};
         }
         for (const TileData& child : *children) {
-            if (auto done = visit(child); !done) return done;
+            TRY(visit(child));
         }
         return {};
     }
@@ -115,7 +115,7 @@ private:
 
     Result<void> compare(const TileData& tile) {
         std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
-        if (auto sampled = sampleColourTile(*source_, tile.id, rgb); !sampled) return sampled;
+        TRY(sampleColourTile(*source_, tile.id, rgb));
         ++report_.compared;
         if (colourTexels(colour_.format, rgb) != tile.texels) {
             ++report_.sourceProblems;
@@ -151,10 +151,8 @@ Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file) {
         levels[0].tiles += 1;
         levels[0].bytes += block.size;
         if (colour.leafLevel == 0) continue;
-        const auto root = file.readColourRoot(face);
-        if (!root) return tl::unexpected(root.error());
-        if (auto done = tallyChildren(file, root->id, root->children, levels, bytesLeft); !done)
-            return tl::unexpected(done.error());
+        TRY_ASSIGN(const auto root, file.readColourRoot(face));
+        TRY(tallyChildren(file, root.id, root.children, levels, bytesLeft));
     }
     return levels;
 }

@@ -1,5 +1,5 @@
-// What a chunk file's colours are, and whether they are what they promise. Both read the file once, depth
-// first, holding one path of blocks.
+// Reports and verifies the colours of a chunk file. Both functions read the file once, depth first, and hold
+// one path of blocks.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct ColourLevelReport {
     std::uint64_t bytes = 0;  // of the blocks that hold them
 };
 
-// By level, the roots first; of a file with colours. Reads the index alone.
+// Returns the levels of a file with colours, the roots first. Reads the index alone.
 Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file);
 
 struct ColourVerifyReport {
@@ -32,9 +32,8 @@ struct ColourVerifyReport {
 };
 
 // Checks every block's checksum, that its texels unpack, and that tiles beside each other on a face have the
-// same texels on the edge they share. With the source it was baked from compares every texel. Damage is a
-// problem in the report; the Error is for a source that cannot be read, or for being cancelled: goOn is asked
-// before each tile.
+// same texels on the edge they share. With its source it compares every texel. Damage is a problem in the
+// report; the Error is for a source that cannot be read, or Cancelled: goOn is called before each tile.
 Result<ColourVerifyReport> verifyColours(const ChunkFile& file, const ColourSource* source,
                                          const std::function<bool()>& goOn = {});
 

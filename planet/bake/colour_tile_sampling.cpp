@@ -5,12 +5,12 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/format/colour_tile.h"
-#include "planet/sphere/face_fold.h"
+#include "planet/source/sample_tiles.h"
 
 namespace planet {
 
@@ -26,8 +26,8 @@ std::uint8_t srgbByFormula(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
-// The same by a table, which takes a tenth of the time: what a float's exponent and first seven bits are at
-// least, and from where on each value is the next one.
+// Gives the same result by a table, in a tenth of the time: the least value for a float's exponent and first
+// seven bits, and the float at which each value begins.
 class SrgbTable {
 public:
     SrgbTable() {
@@ -63,7 +63,7 @@ std::uint8_t srgbFromLinear(float linear) {
     return table(linear);
 }
 
-// Texels of a tile's square, by their columns and rows on the face's grid.
+// The texels of a tile's square, by their columns and rows on the face's grid.
 struct TexelSquare {
     Face face;
     int cells;  // of the face
@@ -93,45 +93,35 @@ Result<void> fillOnFace(const ColourSource& source, TexelRun columns, TexelRun r
     const SampleTile tile{
         square.face,          square.cells, columns.begin, rows.begin, columns.end - columns.begin,
         rows.end - rows.begin};
-    std::vector<glm::vec3> colours(static_cast<std::size_t>(tile.columns) *
-                                   static_cast<std::size_t>(tile.rows));
-    if (auto sampled = source.sample(tile, colours); !sampled) return sampled;
+    std::vector<glm::vec3> colours(samplesIn(tile));
+    TRY(source.sample(tile, colours));
     auto from = colours.begin();
     for (int row = rows.begin; row < rows.end; ++row, from += tile.columns)
         std::copy_n(from, tile.columns, &square.at(columns.begin, row));
     return {};
 }
 
-// Columns or rows are over one edge of the face.
+// Fills columns or rows that lie over one edge of the face.
 Result<void> fillBeyondEdge(const ColourSource& source, TexelRun columns, TexelRun rows,
                             TexelSquare& square) {
     if (columns.begin == columns.end || rows.begin == rows.end) return {};
     const auto folded = [&](int column, int row) {
         return foldedOver({square.face, column, row}, square.cells);
     };
-    const FaceGridPoint one = folded(columns.begin, rows.begin);
-    const FaceGridPoint other = folded(columns.end - 1, rows.end - 1);
-    const SampleTile tile{one.face,
-                          square.cells,
-                          std::min(one.column, other.column),
-                          std::min(one.row, other.row),
-                          std::abs(one.column - other.column) + 1,
-                          std::abs(one.row - other.row) + 1};
-    std::vector<glm::vec3> colours(static_cast<std::size_t>(tile.columns) *
-                                   static_cast<std::size_t>(tile.rows));
-    if (auto sampled = source.sample(tile, colours); !sampled) return sampled;
+    const SampleTile tile =
+        tileBetween(folded(columns.begin, rows.begin), folded(columns.end - 1, rows.end - 1), square.cells);
+    std::vector<glm::vec3> colours(samplesIn(tile));
+    TRY(source.sample(tile, colours));
     for (int row = rows.begin; row < rows.end; ++row) {
         for (int column = columns.begin; column < columns.end; ++column) {
             const FaceGridPoint place = folded(column, row);
-            square.at(column, row) = colours[static_cast<std::size_t>(place.row - tile.firstRow) *
-                                                 static_cast<std::size_t>(tile.columns) +
-                                             static_cast<std::size_t>(place.column - tile.firstColumn)];
+            square.at(column, row) = colours[indexIn(tile, place.column, place.row)];
         }
     }
     return {};
 }
 
-// Beyond a corner of the cube there is no fourth face: the corner's own colour.
+// Fills with the colour of the corner beyond a corner of the cube, where there is no fourth face.
 void fillBeyondCorner(TexelRun columns, TexelRun rows, TexelSquare& square) {
     for (int row = rows.begin; row < rows.end; ++row) {
         for (int column = columns.begin; column < columns.end; ++column)
@@ -143,10 +133,10 @@ void fillBeyondCorner(TexelRun columns, TexelRun rows, TexelSquare& square) {
 Result<void> fill(const ColourSource& source, TexelSquare& square) {
     const std::array<TexelRun, 3> columns = spansOf(square.firstColumn, square.cells);
     const std::array<TexelRun, 3> rows = spansOf(square.firstRow, square.cells);
-    if (auto filled = fillOnFace(source, columns[1], rows[1], square); !filled) return filled;
+    TRY(fillOnFace(source, columns[1], rows[1], square));
     for (const std::size_t outside : {0u, 2u}) {
-        if (auto filled = fillBeyondEdge(source, columns[outside], rows[1], square); !filled) return filled;
-        if (auto filled = fillBeyondEdge(source, columns[1], rows[outside], square); !filled) return filled;
+        TRY(fillBeyondEdge(source, columns[outside], rows[1], square));
+        TRY(fillBeyondEdge(source, columns[1], rows[outside], square));
         for (const std::size_t above : {0u, 2u}) fillBeyondCorner(columns[outside], rows[above], square);
     }
     return {};
@@ -160,7 +150,7 @@ Result<void> sampleColourTile(const ColourSource& source, const ChunkId& tile, s
                        static_cast<int>(tile.x) * colourTileCells - colourBorderBefore,
                        static_cast<int>(tile.y) * colourTileCells - colourBorderBefore,
                        std::vector<glm::vec3>(texelCount)};
-    if (auto filled = fill(source, square); !filled) return filled;
+    TRY(fill(source, square));
     for (std::size_t i = 0; i < texelCount; ++i) {
         for (int channel = 0; channel < 3; ++channel)
             rgb[3 * i + static_cast<std::size_t>(channel)] = srgbFromLinear(square.texels[i][channel]);

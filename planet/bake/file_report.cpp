@@ -15,18 +15,14 @@
 #include "planet/bake/finest_distance.h"
 #include "planet/bake/quantise.h"
 #include "planet/base/percentile.h"
+#include "planet/base/try.h"
+#include "planet/source/sample_tiles.h"
 #include "planet/sphere/chunk_surface.h"
 #include "planet/sphere/geometric_error.h"
 
 namespace planet {
 
 namespace {
-
-std::uint64_t chunkCount(const PlanetShape& shape) {
-    std::uint64_t count = 0;
-    for (int level = 0; level <= leafLevel(shape); ++level) count += std::uint64_t{faceCount} << (2 * level);
-    return count;
-}
 
 // --- reportFile
 // -----------------------------------------------------------------------------------------------------
@@ -50,15 +46,13 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     LevelTally& level = levels[parent.level + 1u];
     level.chunks += quadrantCount;
     level.bytes += block.size;
-    if (auto spent = spendOn(file, block, bytesLeft); !spent) return spent;
+    TRY(spendOn(file, block, bytesLeft));
     if (parent.level + 1 == leafLevel(file.info().shape)) return {};  // leaves: delta_c is 0, no index
-    const auto entries = file.readEntries(parent, block);
-    if (!entries) return tl::unexpected(entries.error());
-    for (const ChunkEntry& entry : *entries) level.add(entry.deltaCM, entry.deltaTightM);
-    for (std::size_t q = 0; q < entries->size(); ++q) {
+    TRY_ASSIGN(const auto entries, file.readEntries(parent, block));
+    for (const ChunkEntry& entry : entries) level.add(entry.deltaCM, entry.deltaTightM);
+    for (std::size_t q = 0; q < entries.size(); ++q) {
         const ChunkId child = childOf(parent, static_cast<int>(q));
-        if (auto done = tallyChildren(file, child, (*entries)[q].children, levels, bytesLeft); !done)
-            return done;
+        TRY(tallyChildren(file, child, entries[q].children, levels, bytesLeft));
     }
     return {};
 }
@@ -84,8 +78,8 @@ LevelReport summarise(int level, LevelTally& tally) {
 // --- verifyFile
 // -----------------------------------------------------------------------------------------------------
 
-// An edge of a chunk, the same key from both its sides: its level and twice its middle on the cube in whole
-// cells.
+// The key of an edge of a chunk, the same from both sides: its level, and twice its middle on the cube in
+// whole cells.
 struct EdgeKey {
     int level;
     glm::i64vec3 middle;
@@ -103,8 +97,8 @@ struct SeenEdge {
 
 using ReportProblem = std::function<void(const ChunkId& id, const std::string& what)>;
 
-// Recomputes the tight metric as a file is walked through, depth first: as a bake does, from the finest
-// heights of one tile at a time, and by a search where cells are wider than that.
+// Recomputes the tight metric during a depth-first walk of the file, as a bake does: from the finest heights
+// of one tile at a time, and by a search if cells are wider than a tile.
 class TightVerifier {
 public:
     explicit TightVerifier(const ChunkFile& file)
@@ -124,7 +118,7 @@ public:
         if (chunk.id.level == leafLevel(shape_)) placeLeaf(chunk);
     }
 
-    // Something under the chunk that was entered last cannot be read.
+    // Notes that a block under the chunk that was entered last cannot be read.
     void missed() { ++missed_; }
 
     struct Below {
@@ -180,7 +174,7 @@ private:
         }
     }
 
-    // What cannot be read has been told of already.
+    // The walk reports blocks that cannot be read.
     void search(const ChunkData& chunk, const Met& met, const ReportProblem& report) {
         const Result<double> offM = searchFinestDistance(shape_, chunk, [this](const ChunkData& parent) {
             return file_.readChildren(parent.id, parent.children, parent.heights);
@@ -220,7 +214,7 @@ public:
           source_(source),
           progress_(progress),
           shape_(file.info().shape),
-          total_(chunkCount(shape_)),
+          total_(chunkCountOf(shape_)),
           tight_(file) {}
 
     Result<VerifyReport> run() {
@@ -230,7 +224,7 @@ public:
                 problem(root.error().message);
                 continue;
             }
-            if (auto done = visit(*root); !done) return tl::unexpected(done.error());
+            TRY(visit(*root));
         }
         if (report_.problemCount == 0 && !openEdges_.empty()) {
             problem(fmt::format("{}: {} edges have no chunk on their other side", file_.name(),
@@ -271,7 +265,7 @@ private:
         const double deltaGM = checkError(chunk, *children);
         float largestTightM = 0;
         for (const ChunkData& child : *children) {
-            if (auto done = visit(child); !done) return done;
+            TRY(visit(child));
             largestTightM = std::max(largestTightM, child.deltaTightM);
         }
         tight_.leave(chunk, {deltaGM, largestTightM}, report);
@@ -301,7 +295,8 @@ private:
         }
     }
 
-    // The four edges' samples, each in the direction in which the cube point grows, so that both sides agree.
+    // Checks the samples of the four edges, each in the direction in which the cube point grows, so that both
+    // sides agree.
     void checkEdges(const ChunkData& chunk) {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const FaceSquare square = faceSquareOf(chunk.id);
@@ -339,7 +334,7 @@ private:
         openEdges_.erase(seen);
     }
 
-    // Its delta_g.
+    // Returns the chunk's delta_g.
     double checkError(const ChunkData& chunk, const std::array<ChunkData, quadrantCount>& children) {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const std::size_t refinedSide = 2 * side - 1;
@@ -364,17 +359,11 @@ private:
     }
 
     Result<void> compareWithSource(const ChunkData& chunk) {
-        const int cells = chunkCells(shape_);
-        const SampleTile tile{chunk.id.face,
-                              faceCells(shape_),
-                              static_cast<int>(chunk.id.x) * cells,
-                              static_cast<int>(chunk.id.y) * cells,
-                              cells + 1,
-                              cells + 1};
+        const SampleTile tile = tileOf(shape_, chunk.id);
         std::vector<float> heights(chunk.heights.size());
         std::vector<std::int16_t> steps(chunk.heights.size());
-        if (auto sampled = source_->sample(tile, heights); !sampled) return sampled;
-        if (auto fitted = quantise(shape_, *source_, heights, steps); !fitted) return fitted;
+        TRY(source_->sample(tile, heights));
+        TRY(quantise(shape_, *source_, heights, steps));
         report_.leafSamples += steps.size();
         int largest = 0;
         for (std::size_t i = 0; i < steps.size(); ++i)
@@ -405,14 +394,12 @@ Result<FileReport> reportFile(const ChunkFile& file) {
     std::vector<LevelTally> tallies(static_cast<std::size_t>(leafLevel(shape)) + 1);
     std::uint64_t bytesLeft = file.sizeBytes();
     for (const Face face : allFaces) {
-        const auto root = file.readRoot(face);
-        if (!root) return tl::unexpected(root.error());
+        TRY_ASSIGN(const auto root, file.readRoot(face));
         ++tallies[0].chunks;
         tallies[0].bytes += file.info().roots[static_cast<std::size_t>(face)].size;
-        tallies[0].add(root->deltaCM, root->deltaTightM);
+        tallies[0].add(root.deltaCM, root.deltaTightM);
         if (leafLevel(shape) == 0) continue;
-        if (auto done = tallyChildren(file, root->id, root->children, tallies, bytesLeft); !done)
-            return tl::unexpected(done.error());
+        TRY(tallyChildren(file, root.id, root.children, tallies, bytesLeft));
     }
     FileReport report;
     report.fileBytes = file.sizeBytes();
@@ -436,9 +423,7 @@ Result<ProbeReport> probeFile(const ChunkFile& file, const Geographic& place) {
     const PlanetShape& shape = file.info().shape;
     ProbeReport report;
     report.place = facePointFromDirection(directionFromGeographic(place));
-    auto root = file.readRoot(report.place.face);
-    if (!root) return tl::unexpected(root.error());
-    ChunkData chunk = *std::move(root);
+    TRY_ASSIGN(ChunkData chunk, file.readRoot(report.place.face));
     for (;;) {
         const FaceSquare square = faceSquareOf(chunk.id);
         const int cells = chunkCells(shape);
@@ -451,10 +436,9 @@ Result<ProbeReport> probeFile(const ChunkFile& file, const Geographic& place) {
         report.chain.push_back({chunk.id, chunk.deltaCM, chunk.deltaTightM, lowest, highest, report.heightM,
                                 chunkBounds(chunk.id, shape.radiusM, lowest, highest)});
         if (chunk.id.level == leafLevel(shape)) return report;
-        auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);
-        if (!children) return tl::unexpected(children.error());
+        TRY_ASSIGN(auto children, file.readChildren(chunk.id, chunk.children, chunk.heights));
         const ChunkId next = chunkAt(report.place, chunk.id.level + 1);
-        chunk = std::move((*children)[static_cast<std::size_t>(quadrantOf(next))]);
+        chunk = std::move(children[static_cast<std::size_t>(quadrantOf(next))]);
     }
 }
 

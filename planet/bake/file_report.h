@@ -1,5 +1,5 @@
-// What a chunk file holds, whether it holds what it promises, and what it says of one place. All read the
-// file once, depth first, holding one path of chunks.
+// Reports, verifies and probes a chunk file. All functions read the file once, depth first, and hold one path
+// of chunks.
 #pragma once
 
 #include <cstdint>
@@ -46,15 +46,14 @@ struct VerifyReport {
     std::vector<std::string> problems;  // the first 100, each naming its chunk
 };
 
-// Called every few hundred chunks with how many of how many are done; false cancels.
+// Called every few hundred chunks; false cancels.
 using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std::uint64_t chunksTotal)>;
 
-// Checks every block's checksum; that delta_c and the tight metric are what the heights give and never grow
-// downwards; that
-// extremes hold all finest heights and bounds hold every vertex; that every edge two chunks of a level share
-// is the same in both. With the source it was baked from, given with the same settings, compares the finest
-// heights too. Damage is a problem in the report; the Error is for a source that cannot be read or belongs to
-// another planet.
+// Checks every checksum; that delta_c and the tight metric match the heights and never grow downwards; that
+// extremes hold all finest heights and bounds hold every vertex; and that two chunks of a level have the same
+// edge where they meet. With its source, opened with the same settings, it compares the finest heights too.
+// Damage is a problem in the report; the Error is for a source that cannot be read or belongs to another
+// planet.
 Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
                                 const VerifyProgressCallback& progress = {});
 

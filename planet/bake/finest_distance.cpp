@@ -1,4 +1,5 @@
 #include "planet/bake/finest_distance.h"
+#include "planet/base/try.h"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,8 @@ struct MeasuredTile {
         return {grid.x[index], grid.y[index], grid.z[index]};
     }
 
-    // The largest squared distance of the samples first to last of a row from a line through from at column
-    // 0, which moves by step a column; columns count from the cell's west.
+    // Returns the largest squared distance of samples `first` to `last` of a row from a line that passes
+    // `from` at column 0 and moves by `step` per column; columns count from the cell's west.
     double largestSquared(std::size_t start, std::size_t first, std::size_t last, const glm::dvec3& from,
                           const glm::dvec3& step) const {
         const double* const x = grid.x.data() + start;
@@ -40,7 +41,8 @@ struct MeasuredTile {
         return largest;
     }
 
-    // Of all samples on a cell of a coarser level, edges included, from its two triangles.
+    // Returns the largest squared distance of all samples on a cell of a coarser level, edges included, from
+    // its two triangles.
     double largestSquaredOnCell(std::size_t column, std::size_t row, std::size_t cells) const {
         const glm::dvec3 southWest = at(column, row);
         const glm::dvec3 southEast = at(column + cells, row);
@@ -63,7 +65,7 @@ struct MeasuredTile {
     }
 };
 
-// The chunks of a level that lie within a tile, along one side; 1 above it.
+// Returns the number of chunks of a level along one side of a tile; 1 above it.
 std::size_t chunksAlong(int level, int tileLevel) {
     return std::size_t{1} << std::max(0, level - tileLevel);
 }
@@ -76,24 +78,23 @@ public:
            const std::function<bool()>& goOn)
         : shape_(shape), id_(chunk.id), readChildren_(readChildren), goOn_(goOn), own_(gridOf(chunk)) {}
 
-    // All that lies under a chunk, whose own vertices have been looked at.
+    // Searches everything under a chunk, whose own vertices have been compared.
     Result<void> descend(const ChunkData& chunk) {
         if (goOn_ && !goOn_()) return cancelled();
-        const auto children = readChildren_(chunk);
-        if (!children) return tl::unexpected(children.error());
+        TRY_ASSIGN(const auto children, readChildren_(chunk));
         std::array<std::pair<double, std::size_t>, quadrantCount> mostUnder;
-        for (std::size_t q = 0; q < children->size(); ++q) {
-            const ChunkData& child = (*children)[q];
+        for (std::size_t q = 0; q < children.size(); ++q) {
+            const ChunkData& child = children[q];
             const double atVerticesM = distanceToVerticesM(child);
             largestM_ = std::max(largestM_, atVerticesM);
             mostUnder[q] = {atVerticesM + child.deltaTightM, q};
         }
         if (chunk.id.level + 1 == leafLevel(shape_)) return {};
-        // The most promising first, so that the others can be left out.
+        // The largest bounds come first, so that the others can be skipped.
         std::sort(mostUnder.rbegin(), mostUnder.rend());
         for (const auto& [mostM, q] : mostUnder) {
             if (mostM <= largestM_) return {};
-            if (auto done = descend((*children)[q]); !done) return done;
+            TRY(descend(children[q]));
         }
         return {};
     }
@@ -112,7 +113,7 @@ private:
         return positions;
     }
 
-    // The point of the searched chunk's triangles at a place in its cells.
+    // Returns the point of the searched chunk's triangles at a place in its cells.
     glm::dvec3 surfaceM(double column, double row) const {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const std::size_t i = std::min(static_cast<std::size_t>(column), side - 2);
@@ -209,7 +210,7 @@ Result<double> searchFinestDistance(const PlanetShape& shape, const ChunkData& c
                                     const ReadChildren& readChildren, const std::function<bool()>& goOn) {
     assert(chunk.id.level < leafLevel(shape));
     Search search(shape, chunk, readChildren, goOn);
-    if (auto done = search.descend(chunk); !done) return tl::unexpected(done.error());
+    TRY(search.descend(chunk));
     return search.largestM();
 }
 

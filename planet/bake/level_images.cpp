@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planet/base/atomic_file.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file.h"
 
 namespace planet {
@@ -25,11 +26,10 @@ Result<void> visitRow(const ChunkFile& file, const ChunkData& above, int level, 
         visit(above);
         return {};
     }
-    const auto children = file.readChildren(above.id, above.children, above.heights);
-    if (!children) return tl::unexpected(children.error());
-    for (const ChunkData& child : *children) {
+    TRY_ASSIGN(const auto children, file.readChildren(above.id, above.children, above.heights));
+    for (const ChunkData& child : children) {
         if (row >> (level - child.id.level) != child.id.y) continue;
-        if (auto visited = visitRow(file, child, level, row, visit); !visited) return visited;
+        TRY(visitRow(file, child, level, row, visit));
     }
     return {};
 }
@@ -44,7 +44,7 @@ public:
           width_((cells_ << level) + 1),
           band_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(cells_ + 1)) {}
 
-    // Under another name, which it is to get, for messages.
+    // Writes the picture to a temporary file. path: its final name, for messages.
     Result<void> write(const std::filesystem::path& path, const std::filesystem::path& temporary) {
         const auto output = OIIO::ImageOutput::create(temporary.string());
         const OIIO::ImageSpec spec(width_, width_, 1, OIIO::TypeDesc::UINT16);
@@ -54,8 +54,8 @@ public:
         }
         int nextRow = 0;
         for (std::uint32_t row = 1u << level_; row-- > 0;) {
-            if (auto filled = fillBand(row); !filled) return filled;
-            // Neighbouring bands share a row; the southern one leaves it to the northern one.
+            TRY(fillBand(row));
+            // Neighbouring bands share a row; the southern band skips it.
             const int first = nextRow == 0 ? 0 : 1;
             for (int j = first; j <= cells_; ++j) {
                 const auto* const line =
@@ -101,19 +101,17 @@ private:
 }  // namespace
 
 Result<void> writeLevelImages(const std::filesystem::path& chunkFile, const std::filesystem::path& folder) {
-    const auto file = ChunkFile::open(chunkFile);
-    if (!file) return tl::unexpected(file.error());
+    TRY_ASSIGN(const auto file, ChunkFile::open(chunkFile));
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
     if (problem)
         return ioError(fmt::format("{}: cannot make this folder: {}", folder.string(), problem.message()));
     for (const Face face : allFaces) {
-        const auto root = file->readRoot(face);
-        if (!root) return tl::unexpected(root.error());
-        for (int level = 0; level <= leafLevel(file->info().shape); ++level) {
+        TRY_ASSIGN(const auto root, file.readRoot(face));
+        for (int level = 0; level <= leafLevel(file.info().shape); ++level) {
             const auto path = folder / fmt::format("{}_level{:02}.png", faceName(face), level);
             const auto written = writeAtomically(path, [&](const std::filesystem::path& temporary) {
-                return LevelImage(*file, *root, level).write(path, temporary);
+                return LevelImage(file, root, level).write(path, temporary);
             });
             if (!written) return written;
         }

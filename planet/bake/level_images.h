@@ -1,4 +1,4 @@
-// Pictures of a baked file, level by level, to look at with any image viewer.
+// Writes pictures of a baked file, level by level, for image viewers.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// From heights in metres to the 16-bit steps of a chunk file. Pure functions, any thread.
+// Converts heights in metres to the 16-bit steps of a chunk file. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace planet {
 
-// Sets the shape's quantum and base height so that 16 bits hold every height of the source: the wanted
-// quantum; else an integer source's own step, whose values are then kept exactly; else the finest 1-2-5 step
-// that holds its range. The Error says which quantum would do.
+// Sets the shape's quantum and base height so that 16 bits hold every height of the source. The quantum is
+// the wanted one; else an integer source's own step, which keeps its values exactly; else the finest 1-2-5
+// step that holds its range. The Error names a quantum that fits.
 Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wantedM, PlanetShape& shape);
 
-// Rounds to the nearest step. Heights beyond the source's own range, which a sharp filter gives beside a
-// cliff, are cut to it; one that 16 bits of the quantum cannot hold is an Error.
+// Rounds to the nearest step. Clamps heights to the source's range, which a sharp filter exceeds beside a
+// cliff. A height that 16 bits of the quantum cannot hold is an Error.
 Result<void> quantise(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
                       std::span<std::int16_t> steps);
 

@@ -1,4 +1,5 @@
 #include "planet/base/atomic_file.h"
+#include "planet/base/try.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ tl::unexpected<Error> systemError(const std::filesystem::path& path, const char*
     return ioError(fmt::format("{}: {}: {}", path.string(), what, lastSystemError()));
 }
 
-// The rename would put a file in the place of whatever is there, a device too.
+// The rename would replace anything of this name, even a device.
 Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& calls) {
     struct stat there {};
     if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) {
@@ -30,10 +31,10 @@ Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& call
         return systemError(path, "cannot be written");
     }
     if (S_ISREG(there.st_mode)) return {};
-    return ioError(path.string() + ": is a folder or a device; name a file");
+    return ioError(path.string() + ": is a folder or a device; expected a file");
 }
 
-// False where the lock was won on a file that its last writer has renamed or removed meanwhile.
+// Returns false if the last writer has renamed or removed the file that is now locked.
 Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& temporary,
                           const std::filesystem::path& path) {
     struct stat opened {};
@@ -52,7 +53,7 @@ std::filesystem::path folderOf(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// None where there is no file.
+// Returns nothing if there is no file.
 std::optional<mode_t> modeOf(const std::filesystem::path& path, const FileCalls& calls) {
     struct stat there {};
     if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) return std::nullopt;
@@ -69,13 +70,12 @@ Result<void> copyInto(AtomicFile& file, const std::filesystem::path& from) {
     std::error_code status;
     std::uintmax_t left = std::filesystem::file_size(from, status);
     if (status) return ioError(fmt::format("{}: cannot be read: {}", from.string(), status.message()));
-    const auto opened = OpenFile::open(from, O_RDONLY, systemFileCalls());
-    if (!opened) return tl::unexpected(opened.error());
+    TRY_ASSIGN(const auto opened, OpenFile::open(from, O_RDONLY, systemFileCalls()));
     std::vector<std::byte> piece;
     while (left > 0) {
         piece.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(left, pieceBytes)));
-        if (auto read = opened->read(file.size(), piece); !read) return read;
-        if (auto written = file.append(piece); !written) return written;
+        TRY(opened.read(file.size(), piece));
+        TRY(file.append(piece));
         left -= piece.size();
     }
     return {};
@@ -97,10 +97,9 @@ Result<std::filesystem::path> linkTarget(const std::filesystem::path& path) {
 }
 
 Result<void> checkWritable(const std::filesystem::path& path) {
-    if (Result<void> free = checkPlace(path, systemFileCalls()); !free) return free;
-    const Result<std::filesystem::path> target = linkTarget(path);
-    if (!target) return tl::unexpected(target.error());
-    const std::filesystem::path folder = folderOf(*target);
+    TRY(checkPlace(path, systemFileCalls()));
+    TRY_ASSIGN(const auto target, linkTarget(path));
+    const std::filesystem::path folder = folderOf(target);
     if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
     return ioError(fmt::format("{}: cannot be written: {}: {}; expected a writable folder that exists",
                                path.string(), folder.string(), lastSystemError()));
@@ -114,12 +113,11 @@ AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path target,
       file_(std::move(file)) {}
 
 Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const FileCalls& calls) {
-    if (auto free = checkPlace(path, calls); !free) return tl::unexpected(std::move(free.error()));
-    const Result<std::filesystem::path> target = linkTarget(path);
-    if (!target) return tl::unexpected(target.error());
-    std::filesystem::path temporary = *target;
-    temporary.replace_filename("." + target->filename().string() + ".part");
-    const std::optional<mode_t> mode = modeOf(*target, calls);
+    TRY(checkPlace(path, calls));
+    TRY_ASSIGN(const auto target, linkTarget(path));
+    std::filesystem::path temporary = target;
+    temporary.replace_filename("." + target.filename().string() + ".part");
+    const std::optional<mode_t> mode = modeOf(target, calls);
     const mode_t openedAs = mode.value_or(0644) | S_IRUSR | S_IWUSR;
     for (;;) {
         const int descriptor = uninterrupted(
@@ -130,16 +128,15 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const F
             if (errno == EWOULDBLOCK)
                 return ioError(path.string() +
                                ": another program is writing this file; wait for it or name another");
-            // Nobody can lock it, so it is nobody's.
+            // The file system has no locks, so no other writer holds this file.
             const auto problem = systemError(path, "cannot be locked");
             calls.unlink(temporary.c_str());
             return problem;
         }
-        // From here on the temporary file is removed on any Error.
-        AtomicFile file(path, *target, temporary, std::move(opened));
-        const Result<bool> own = stillHasName(file.file_, temporary, path);
-        if (!own) return tl::unexpected(own.error());
-        if (!*own) {
+        // The temporary file is removed on any Error from here on.
+        AtomicFile file(path, target, temporary, std::move(opened));
+        TRY_ASSIGN(const auto own, stillHasName(file.file_, temporary, path));
+        if (!own) {
             file.file_.close();
             continue;
         }
@@ -178,26 +175,26 @@ Result<void> AtomicFile::commit() {
         return systemError(path_, "writing failed");
     if (uninterrupted([&] { return calls.rename(temporary_.c_str(), target_.c_str()); }) != 0)
         return systemError(path_, "cannot take this name");
-    // What closing can still say was said by the sync.
+    // The sync has already reported any error that closing could report.
     file_.close();
-    // The name is durable once its folder is; where folders cannot be synced the file is whole all the same.
+    // The name is durable once its folder is synced. On file systems that cannot sync folders, the file is
+    // still whole.
     syncFolderOf(target_, calls);
     return {};
 }
 
 Result<void> writeAtomically(const std::filesystem::path& target,
                              const std::function<Result<void>(const std::filesystem::path&)>& write) {
-    // From here on no other may write the target, nor what is written beside it.
-    Result<AtomicFile> file = AtomicFile::create(target);
-    if (!file) return tl::unexpected(file.error());
+    // No other writer may write the target or its temporary files from here on.
+    TRY_ASSIGN(auto file, AtomicFile::create(target));
     const std::filesystem::path temporary =
-        file->target().parent_path() /
-        fmt::format(".{}.new{}", file->target().stem().string(), target.extension().string());
+        file.target().parent_path() /
+        fmt::format(".{}.new{}", file.target().stem().string(), target.extension().string());
     Result<void> written = write(temporary);
-    if (written) written = copyInto(*file, temporary);
+    if (written) written = copyInto(file, temporary);
     std::error_code status;
     std::filesystem::remove(temporary, status);
-    return written ? file->commit() : written;
+    return written ? file.commit() : written;
 }
 
 }  // namespace planet

@@ -1,4 +1,5 @@
-// A file that appears whole or not at all: written under a temporary name beside its place, synced, renamed.
+// Writes a file that appears whole or not at all: under a temporary name in the same folder, synced, then
+// renamed.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +14,10 @@
 
 namespace planet {
 
-// A symbolic link is kept: the file that it leads to is written, and the temporary file lies beside that one.
-// A file that is replaced keeps its mode.
-// Owns the temporary file; unless committed, the destructor removes it and what was there before stays. Only
-// one writer a path at a time: a second one gets an Error. What a killed writer left behind is written over.
-// One thread.
+// Keeps a symbolic link and writes the file that it leads to; the temporary file lies beside that file. A
+// replaced file keeps its mode. Owns the temporary file: the destructor removes it unless it was committed,
+// and the old file stays. A path has one writer at a time; a second one gets an Error. The temporary file of
+// a killed writer is overwritten. One thread.
 class AtomicFile {
 public:
     static Result<AtomicFile> create(const std::filesystem::path& path,
@@ -32,7 +32,7 @@ public:
     Result<void> append(std::span<const std::byte> bytes);
     // Replaces bytes that were appended before.
     Result<void> overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
-    // Fills out with bytes that were appended before. Any thread while none appends or overwrites.
+    // Fills out with bytes that were appended before. Any thread, while no thread appends or overwrites.
     Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
     // Makes the file durable and gives it its name.
     Result<void> commit();
@@ -48,15 +48,15 @@ private:
     std::uint64_t size_ = 0;
 };
 
-// Returns the file that a chain of symbolic links leads to, whether it exists or not; path itself if it is no
-// link.
+// Returns the file that a chain of symbolic links leads to, whether it exists or not; path itself if it is
+// not a link.
 Result<std::filesystem::path> linkTarget(const std::filesystem::path& path);
 
-// An Error where AtomicFile would find no place for a file of this name.
+// Returns an Error if AtomicFile could not create a file of this name.
 Result<void> checkWritable(const std::filesystem::path& path);
 
-// For libraries that write files by their names: calls write with a name beside the target that has the same
-// extension, and takes over what is there then. One writer a target at a time, as above.
+// Calls write with a name beside the target that has the same extension, and replaces the target by the file
+// written there. It serves libraries that write files by name. A target has one writer at a time.
 Result<void> writeAtomically(
     const std::filesystem::path& target,
     const std::function<Result<void>(const std::filesystem::path& temporary)>& write);

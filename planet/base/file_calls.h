@@ -1,6 +1,6 @@
-// The system calls by which chunk files and raw heights are read and files are written: what a test puts in
-// their place to play a failing disk. Each acts as the call of its name: below 0 is a failure, and errno says
-// which. Called from any thread, several at once.
+// The system calls that read chunk files and raw heights and write files. A test replaces them to simulate a
+// failing disk. Each acts as the call of its name: it returns less than 0 and sets errno on failure. Called
+// from any thread, several at once.
 #pragma once
 
 #include <sys/stat.h>
@@ -25,7 +25,7 @@ struct FileCalls {
     std::function<int(const char* path)> unlink;
 };
 
-// The system's own.
+// Returns the calls of the system.
 FileCalls systemFileCalls();
 
 }  // namespace planet

@@ -1,4 +1,4 @@
-// Numbers to and from bytes, little-endian on every machine, no alignment asked for. Any thread.
+// Converts numbers to and from bytes, little-endian on every machine and at any alignment. Any thread.
 #pragma once
 
 #include <bit>
@@ -36,6 +36,14 @@ struct UnsignedOfSize<8> {
 template <class T>
 concept Number = std::integral<T> || std::floating_point<T>;
 
+// Reads a number from the first sizeof(T) bytes.
+template <Number T>
+T readLittleEndian(const std::byte* from) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= std::to_integer<std::uint64_t>(from[i]) << (8 * i);
+    return std::bit_cast<T>(static_cast<typename detail::UnsignedOfSize<sizeof(T)>::Type>(bits));
+}
+
 // Appends numbers to bytes.
 class ByteWriter {
 public:
@@ -62,11 +70,7 @@ public:
     template <Number T>
     T get() {
         assert(bytes_.size() >= sizeof(T));
-        std::uint64_t bits = 0;
-        for (std::size_t i = 0; i < sizeof(T); ++i)
-            bits |= std::to_integer<std::uint64_t>(bytes_[i]) << (8 * i);
-        bytes_ = bytes_.subspan(sizeof(T));
-        return std::bit_cast<T>(static_cast<typename detail::UnsignedOfSize<sizeof(T)>::Type>(bits));
+        return readLittleEndian<T>(take(sizeof(T)).data());
     }
 
     std::span<const std::byte> take(std::size_t count) {

@@ -1,5 +1,5 @@
-// An open file, read and written whole pieces at a time whatever the system does: a call that a signal
-// interrupts is made again, one that does only a part is continued.
+// Reads and writes whole pieces of an open file: repeats calls that a signal interrupts, and continues
+// partial ones.
 #pragma once
 
 #include <cerrno>
@@ -14,7 +14,7 @@
 
 namespace planet {
 
-// Makes a call again for as long as a signal interrupts it. Not for close.
+// Repeats a call while a signal interrupts it. Do not use it for close.
 template <class Call>
 auto uninterrupted(const Call& call) {
     auto outcome = call();
@@ -22,15 +22,15 @@ auto uninterrupted(const Call& call) {
     return outcome;
 }
 
-// What errno says, in words.
+// Returns the message of errno.
 std::string lastSystemError();
 
-// Owns the descriptor. Reading is safe from any thread, and so is writing elsewhere in the file.
+// Owns the descriptor. Any thread may read, and write other parts of the file at the same time.
 class OpenFile {
 public:
     // flags: open's; O_CLOEXEC is added. The Error names the path.
     static Result<OpenFile> open(const std::filesystem::path& path, int flags, const FileCalls& calls);
-    // name: as messages call it.
+    // name: for messages.
     OpenFile(int descriptor, std::string name, FileCalls calls);
     OpenFile(OpenFile&& other) noexcept;
     OpenFile& operator=(OpenFile&&) = delete;
@@ -41,7 +41,7 @@ public:
     const FileCalls& calls() const { return calls_; }
     void close();
 
-    // Fills all of `out` from bytes that the file must have. The Errors name the file.
+    // Fills all of `out`; a shorter file is an Error. The Errors name the file.
     Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
     Result<void> write(std::uint64_t offset, std::span<const std::byte> bytes) const;
 

@@ -1,4 +1,4 @@
-// Work shared among oneTBB's threads. Internal to the library.
+// Shares work among oneTBB's threads. Internal to the library.
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
@@ -10,8 +10,8 @@
 
 namespace planet {
 
-// What one thread did before give() is seen by another after take(). oneTBB orders its tasks so already, but
-// by means inside its binary that the thread sanitizer does not see; so it is said once more where it does.
+// After take(), a thread sees everything that another thread did before give(). oneTBB orders its tasks
+// already, but inside its binary, where the thread sanitizer does not see it.
 class Handover {
 public:
     void give() { turn_.fetch_add(1, std::memory_order_release); }
@@ -21,8 +21,8 @@ private:
     std::atomic<unsigned> turn_ = 0;
 };
 
-// Work as a stage of a pipeline: after take(), and give() follows it. oneTBB keeps a stage in memory that it
-// uses anew unseen by the thread sanitizer; so reading the stage is not looked at, what it calls is.
+// Runs work as a stage of a pipeline, between take() and give(). The thread sanitizer does not see that oneTBB
+// reuses the memory of a stage, so it must not check the reads of the stage; it checks the work.
 template <class Work>
 class Stage {
 public:
@@ -52,11 +52,11 @@ private:
     const Work* work_;
 };
 
-// Calls body(index) for each index below count, several at once, and returns when all are done. Each is to
-// take longer than a microsecond. A pipeline, since tbb::parallel_for is compiled into its caller, where the
-// thread sanitizer sees what it does and not how it is ordered.
+// Calls body(index) for each index below count, several at once, and returns when all calls are done. A call
+// should take longer than a microsecond. It is a pipeline because tbb::parallel_for is compiled into its
+// caller, where the thread sanitizer sees the accesses but not their order.
 template <class Body>
-void forEachInParallel(std::size_t count, const Body& body) {
+void parallelFor(std::size_t count, const Body& body) {
     std::size_t next = 0;
     const auto nextIndex = [&](tbb::flow_control& control) {
         const std::size_t index = next;
@@ -74,6 +74,12 @@ void forEachInParallel(std::size_t count, const Body& body) {
         tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, Stage(handover, nextIndex)) &
             tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, Stage(handover, body)));
     handover.take();
+}
+
+// Does the same on at most `threads` threads, the caller's among them.
+template <class Body>
+void parallelFor(int threads, std::size_t count, const Body& body) {
+    tbb::task_arena(threads).execute([&] { parallelFor(count, body); });
 }
 
 }  // namespace planet

@@ -1,5 +1,4 @@
-// Percentiles by nearest rank: one of the values themselves, never a mixture of two. Pure functions, any
-// thread.
+// Percentiles by nearest rank: always one of the values, never interpolated. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +9,9 @@
 
 namespace planet {
 
-// The smallest value that a share of all values, [0, 1], does not exceed; so 0.5 is the median's lower one,
-// and 0 the smallest. 0 for no values. Values: std::vector or std::span of numbers; reorders them. Linear.
+// Returns the smallest value that a share of all values, [0, 1], does not exceed: 0.5 gives the lower median,
+// 0 the smallest value. Returns 0 if there are no values. Values: std::vector or std::span of numbers;
+// reorders them. Linear time.
 template <class Values>
 auto percentileOf(Values&& values, double share) {
     using Value = std::remove_cv_t<typename std::remove_reference_t<Values>::value_type>;

@@ -1,5 +1,5 @@
-// How planet reports what went wrong: as a value, with a message a user can act on.
-// Bad data and failing disks return an Error; misuse by the calling code asserts.
+// Errors as values, with a message that a user can act on. Bad data and failing disks return an Error; misuse
+// by the calling code asserts.
 #pragma once
 
 #include <string>

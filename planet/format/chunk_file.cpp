@@ -10,6 +10,7 @@
 
 #include "planet/base/little_endian.h"
 #include "planet/base/open_file.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/format/height_codec.h"
 
@@ -17,13 +18,13 @@ namespace planet {
 
 namespace {
 
-// No honest block is larger: the codec never needs 4 bytes a sample.
+// Returns a size that no valid block exceeds: the codec never needs 4 bytes per sample.
 std::uint64_t largestBlockBytes(const PlanetShape& shape) {
     const auto side = static_cast<std::uint64_t>(2 * chunkCells(shape) + 1);
     return side * side * 4 + 1024;
 }
 
-// One of the four quarters of a refined grid.
+// Returns one of the four quarters of a refined grid.
 std::vector<std::int16_t> cutQuarter(std::span<const std::int16_t> fine, int cells, int quadrant) {
     const auto side = static_cast<std::size_t>(cells) + 1;
     const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
@@ -45,11 +46,8 @@ bool isSane(const ChunkEntry& entry) {
 
 void describeLeaf(ChunkData& chunk) {
     const auto [lowest, highest] = std::minmax_element(chunk.heights.begin(), chunk.heights.end());
-    chunk.deltaCM = 0;
-    chunk.deltaTightM = 0;
     chunk.minStep = *lowest;
     chunk.maxStep = *highest;
-    chunk.children = {};
 }
 
 void describe(ChunkData& chunk, const ChunkEntry& entry) {
@@ -60,7 +58,14 @@ void describe(ChunkData& chunk, const ChunkEntry& entry) {
     chunk.children = entry.children;
 }
 
-// As messages call it.
+std::uint64_t checksumOf(std::span<const std::byte> content, const BlockId& id, bool isRoot) {
+    const ChunkId& key = id.parent;
+    if (id.kind == BlockKind::Colours)
+        return isRoot ? colourRootChecksum(content, key.face) : colourSiblingChecksum(content, key);
+    return isRoot ? rootChecksum(content, key.face) : siblingChecksum(content, key);
+}
+
+// Returns the name of a block for messages.
 std::string nameOf(const BlockId& id) {
     return (id.kind == BlockKind::Colours ? "colour tile " : "chunk ") + toString(id.parent);
 }
@@ -68,15 +73,14 @@ std::string nameOf(const BlockId& id) {
 }  // namespace
 
 Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path, const FileCalls& calls) {
-    // Opening a pipe would wait for somebody to write into it.
-    Result<OpenFile> opened = OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls);
-    if (!opened) return tl::unexpected(std::move(opened.error()));
-    const auto file = std::make_shared<const OpenFile>(std::move(*opened));
+    // Without O_NONBLOCK, opening a pipe would wait for a writer.
+    TRY_ASSIGN(auto opened, OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls));
+    const auto file = std::make_shared<const OpenFile>(std::move(opened));
     struct stat status {};
     if (uninterrupted([&] { return calls.fstat(file->descriptor(), &status); }) != 0)
         return ioError(fmt::format("{}: cannot be read: {}", file->name(), lastSystemError()));
     if (!S_ISREG(status.st_mode))
-        return badInput(fmt::format("{}: not a file; name a baked chunk file", file->name()));
+        return badInput(fmt::format("{}: is not a file; expected a baked chunk file", file->name()));
     return open(file->name(), static_cast<std::uint64_t>(status.st_size),
                 [file](std::uint64_t offset, std::span<std::byte> out) { return file->read(offset, out); });
 }
@@ -88,11 +92,9 @@ Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, Rea
                         sizeBytes, chunkFileHeaderBytes, sizeBytes == 0 ? "empty" : "truncated"));
     }
     std::array<std::byte, chunkFileHeaderBytes> header{};
-    if (auto read = readAt(0, header); !read) return tl::unexpected(read.error());
-    auto info = infoFromHeader(header, name, sizeBytes);
-    if (!info) return tl::unexpected(info.error());
+    TRY(readAt(0, header));
     ChunkFile file;
-    file.info_ = *std::move(info);
+    TRY_ASSIGN(file.info_, infoFromHeader(header, name, sizeBytes));
     file.name_ = std::move(name);
     file.sizeBytes_ = sizeBytes;
     file.readAt_ = std::move(readAt);
@@ -110,23 +112,26 @@ Result<std::vector<std::byte>> ChunkFile::readBlock(const BlockId& id, BlockLoca
             name_, nameOf(id), location.size, location.offset, sizeBytes_));
     }
     std::vector<std::byte> block(location.size);
-    if (auto read = readAt_(location.offset, block); !read) return tl::unexpected(read.error());
+    TRY(readAt_(location.offset, block));
     return block;
 }
 
-Result<std::span<const std::byte>> ChunkFile::checkedContent(const BlockId& id,
-                                                             std::span<const std::byte> block,
-                                                             std::uint64_t expectedChecksum) const {
-    if (ByteReader(block.last(checksumBytes)).get<std::uint64_t>() != expectedChecksum) {
+Result<std::vector<std::byte>> ChunkFile::readContent(const BlockId& id, bool isRoot, BlockLocation location,
+                                                      const BlockBytes& bytes) const {
+    TRY_ASSIGN(auto block, readBlock(id, location, bytes));
+    const std::size_t size = block.size() - checksumBytes;
+    const auto stored = readLittleEndian<std::uint64_t>(block.data() + size);
+    block.resize(size);
+    if (stored != checksumOf(block, id, isRoot)) {
         return badInput(fmt::format(
             "{}: the block of {} is damaged: its checksum does not match; bake it again", name_, nameOf(id)));
     }
-    return block.first(block.size() - checksumBytes);
+    return block;
 }
 
-Error ChunkFile::nonsense(const BlockId& id, std::string_view what) const {
-    return {ErrorKind::BadInput,
-            fmt::format("{}: the block of {} is invalid: {}; bake it again", name_, nameOf(id), what)};
+tl::unexpected<Error> ChunkFile::invalid(const BlockId& id, std::string_view what) const {
+    return badInput(
+        fmt::format("{}: the block of {} is invalid: {}; bake it again", name_, nameOf(id), what));
 }
 
 Result<ChunkData> ChunkFile::readRoot(Face face) const {
@@ -135,24 +140,20 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
     root.id = {face, 0, 0, 0};
     const bool leaf = leafLevel(info_.shape) == 0;
     const std::size_t entryBytes = leaf ? 0 : chunkEntryBytes;
-    const auto block =
-        readBlock(root.id, location, {entryBytes + checksumBytes, largestBlockBytes(info_.shape)});
-    if (!block) return tl::unexpected(block.error());
-    const auto sum = rootChecksum(std::span(*block).first(block->size() - checksumBytes), face);
-    auto content = checkedContent(root.id, *block, sum);
-    if (!content) return tl::unexpected(content.error());
+    TRY_ASSIGN(const auto block, readContent(root.id, true, location,
+                                             {entryBytes + checksumBytes, largestBlockBytes(info_.shape)}));
+    const std::span content(block);
     root.heights.resize(static_cast<std::size_t>(chunkVertexCount(info_.shape)));
-    if (auto decoded = decodeGrid(content->subspan(entryBytes), chunkSize(info_.shape), root.heights);
+    if (auto decoded = decodeGrid(content.subspan(entryBytes), chunkSize(info_.shape), root.heights);
         !decoded) {
-        return tl::unexpected(nonsense(root.id, decoded.error().message));
+        return invalid(root.id, decoded.error().message);
     }
     if (leaf) {
         describeLeaf(root);
         return root;
     }
-    const ChunkEntry entry = entryFrom(content->first<chunkEntryBytes>(), location.offset);
-    if (!isSane(entry))
-        return tl::unexpected(nonsense(root.id, "its errors, extremes or children are out of range"));
+    const ChunkEntry entry = entryFrom(content.first<chunkEntryBytes>(), location.offset);
+    if (!isSane(entry)) return invalid(root.id, "its errors, extremes or children are out of range");
     describe(root, entry);
     return root;
 }
@@ -162,19 +163,15 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
     assert(parent.level < leafLevel(info_.shape));
     const bool leaves = parent.level + 1 == leafLevel(info_.shape);
     const std::size_t entriesBytes = leaves ? 0 : quadrantCount * chunkEntryBytes;
-    const auto block =
-        readBlock(parent, location, {entriesBytes + checksumBytes, largestBlockBytes(info_.shape)});
-    if (!block) return tl::unexpected(block.error());
-    const auto sum = siblingChecksum(std::span(*block).first(block->size() - checksumBytes), parent);
-    const auto content = checkedContent(parent, *block, sum);
-    if (!content) return tl::unexpected(content.error());
-
+    TRY_ASSIGN(const auto block, readContent(parent, false, location,
+                                             {entriesBytes + checksumBytes, largestBlockBytes(info_.shape)}));
+    const std::span content(block);
     const int cells = chunkCells(info_.shape);
     const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
     std::vector<std::int16_t> fine(fineSide * fineSide);
-    if (auto decoded = decodeRefinement(content->subspan(entriesBytes), parentHeights, cells, fine);
+    if (auto decoded = decodeRefinement(content.subspan(entriesBytes), parentHeights, cells, fine);
         !decoded) {
-        return tl::unexpected(nonsense(parent, decoded.error().message));
+        return invalid(parent, decoded.error().message);
     }
     std::array<ChunkData, quadrantCount> children;
     for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) {
@@ -187,9 +184,8 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
             continue;
         }
         const ChunkEntry entry =
-            entryFrom(content->subspan(q * chunkEntryBytes).first<chunkEntryBytes>(), location.offset);
-        if (!isSane(entry))
-            return tl::unexpected(nonsense(child.id, "its errors, extremes or children are out of range"));
+            entryFrom(content.subspan(q * chunkEntryBytes).first<chunkEntryBytes>(), location.offset);
+        if (!isSane(entry)) return invalid(child.id, "its errors, extremes or children are out of range");
         describe(child, entry);
     }
     return children;
@@ -199,17 +195,15 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
                                                                      BlockLocation location) const {
     assert(parent.level + 1 < leafLevel(info_.shape));
     constexpr std::size_t entriesBytes = quadrantCount * chunkEntryBytes;
-    if (location.size < entriesBytes + checksumBytes)
-        return tl::unexpected(nonsense(parent, "it is too small for its index"));
-    const auto bytes = readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes});
-    if (!bytes) return tl::unexpected(bytes.error());
+    if (location.size < entriesBytes + checksumBytes) return invalid(parent, "it is too small for its index");
+    TRY_ASSIGN(const auto bytes,
+               readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes}));
     std::array<ChunkEntry, quadrantCount> entries;
     for (std::size_t q = 0; q < entries.size(); ++q) {
-        entries[q] = entryFrom(std::span(*bytes).subspan(q * chunkEntryBytes).first<chunkEntryBytes>(),
+        entries[q] = entryFrom(std::span(bytes).subspan(q * chunkEntryBytes).first<chunkEntryBytes>(),
                                location.offset);
         if (!isSane(entries[q])) {
-            return tl::unexpected(
-                nonsense(childOf(parent, static_cast<int>(q)), "its index entry is out of range"));
+            return invalid(childOf(parent, static_cast<int>(q)), "its index entry is out of range");
         }
     }
     return entries;
@@ -220,43 +214,37 @@ Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, B
     const ColourPyramid& pyramid = *info_.colour;
     const BlockId id(block, BlockKind::Colours);
     const std::size_t entriesBytes = tiles.size() * colourEntryBytes;
-    const auto bytes =
-        readBlock(id, location,
-                  {entriesBytes + checksumBytes,
-                   entriesBytes + tiles.size() * largestPackedColourTile(pyramid.format) + checksumBytes});
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto summed = std::span(*bytes).first(bytes->size() - checksumBytes);
-    const auto content = checkedContent(
-        id, *bytes,
-        tiles[0].level == 0 ? colourRootChecksum(summed, block.face) : colourSiblingChecksum(summed, block));
-    if (!content) return tl::unexpected(content.error());
+    const std::size_t least = entriesBytes + checksumBytes;
+    const std::size_t most = least + tiles.size() * largestPackedColourTile(pyramid.format);
+    TRY_ASSIGN(const auto bytes, readContent(id, tiles[0].level == 0, location, {least, most}));
+    const std::span content(bytes);
     std::vector<TileData> read;
-    std::span<const std::byte> packed = content->subspan(entriesBytes);
+    std::span<const std::byte> packed = content.subspan(entriesBytes);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const ColourEntry entry = colourEntryFrom(
-            content->subspan(i * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        const ColourEntry entry =
+            colourEntryFrom(content.subspan(i * colourEntryBytes).first<colourEntryBytes>(), location.offset);
         const BlockId tile(tiles[i], BlockKind::Colours);
         const bool mayHaveChildren = tiles[i].level < pyramid.leafLevel;
         if (entry.children.exists() != mayHaveChildren || entry.packedBytes > packed.size())
-            return tl::unexpected(nonsense(tile, "its children or size are out of range"));
-        // Children come before their parents.
+            return invalid(tile, "its children or size are out of range");
+        // Blocks of children precede those of their parents.
         if (mayHaveChildren && entry.children.size > location.offset - entry.children.offset)
-            return tl::unexpected(nonsense(tile, "its children's block overlaps its own"));
+            return invalid(tile, "its children's block overlaps its own");
         auto texels = unpackColourTexels(pyramid.format, packed.first(entry.packedBytes));
-        if (!texels) return tl::unexpected(nonsense(tile, texels.error().message));
+        if (!texels) return invalid(tile, texels.error().message);
         packed = packed.subspan(entry.packedBytes);
         read.push_back({tiles[i], entry.children, *std::move(texels)});
     }
-    if (!packed.empty()) return tl::unexpected(nonsense(id, "it is followed by other bytes"));
+    if (!packed.empty()) return invalid(id, "it is followed by other bytes");
     return read;
 }
 
 Result<TileData> ChunkFile::readColourRoot(Face face) const {
     assert(info_.colour);
     const ChunkId root{face, 0, 0, 0};
-    auto tiles = readColourBlock(root, info_.colour->roots[static_cast<std::size_t>(face)], {&root, 1});
-    if (!tiles) return tl::unexpected(std::move(tiles.error()));
-    return std::move(tiles->front());
+    TRY_ASSIGN(auto tiles,
+               readColourBlock(root, info_.colour->roots[static_cast<std::size_t>(face)], {&root, 1}));
+    return std::move(tiles.front());
 }
 
 Result<std::array<TileData, quadrantCount>> ChunkFile::readColourChildren(const ChunkId& parent,
@@ -265,10 +253,9 @@ Result<std::array<TileData, quadrantCount>> ChunkFile::readColourChildren(const 
     std::array<ChunkId, quadrantCount> ids;
     for (int quadrant = 0; quadrant < quadrantCount; ++quadrant)
         ids[static_cast<std::size_t>(quadrant)] = childOf(parent, quadrant);
-    auto tiles = readColourBlock(parent, location, ids);
-    if (!tiles) return tl::unexpected(std::move(tiles.error()));
+    TRY_ASSIGN(auto tiles, readColourBlock(parent, location, ids));
     std::array<TileData, quadrantCount> children;
-    std::move(tiles->begin(), tiles->end(), children.begin());
+    std::move(tiles.begin(), tiles.end(), children.begin());
     return children;
 }
 
@@ -277,17 +264,16 @@ Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(cons
     assert(info_.colour && parent.level + 1 < info_.colour->leafLevel);
     constexpr std::size_t entriesBytes = quadrantCount * colourEntryBytes;
     if (location.size < entriesBytes + checksumBytes)
-        return tl::unexpected(nonsense({parent, BlockKind::Colours}, "it is too small for its index"));
-    const auto bytes = readBlock({parent, BlockKind::Colours}, {location.offset, entriesBytes},
-                                 {entriesBytes, entriesBytes});
-    if (!bytes) return tl::unexpected(bytes.error());
+        return invalid({parent, BlockKind::Colours}, "it is too small for its index");
+    TRY_ASSIGN(const auto bytes, readBlock({parent, BlockKind::Colours}, {location.offset, entriesBytes},
+                                           {entriesBytes, entriesBytes}));
     std::array<ColourEntry, quadrantCount> entries;
     for (std::size_t q = 0; q < entries.size(); ++q) {
-        entries[q] = colourEntryFrom(
-            std::span(*bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(), location.offset);
+        entries[q] = colourEntryFrom(std::span(bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(),
+                                     location.offset);
         if (!entries[q].children.exists())
-            return tl::unexpected(nonsense({childOf(parent, static_cast<int>(q)), BlockKind::Colours},
-                                           "its index entry is out of range"));
+            return invalid({childOf(parent, static_cast<int>(q)), BlockKind::Colours},
+                           "its index entry is out of range");
     }
     return entries;
 }

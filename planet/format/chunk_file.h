@@ -4,19 +4,16 @@
 //   blocks     children's before their parents', root blocks last
 //   colours    where there are any: the colour quadtree's blocks (colour_tile.h), the finest level's first
 //
-// A sibling block holds the four children of one chunk as one refinement of that chunk's grid: of the
-// (2^(k+1) + 1)^2 samples that the four cover together, only those the parent does not have (see
-// height_codec.h). A root block holds a face's root chunk whole. Each block says, for its chunks, delta_c,
-// the tight metric (finest_distance.h), the lowest and highest finest height under them, and where their own
-// children lie; so the index is paged with the data. Everything is little-endian; each block ends in an XXH3
-// checksum seeded with the chunk's key, so that a block read for the wrong chunk fails too. README.md beside it
-// has the layout byte by byte.
+// A sibling block holds the four children of a chunk as a refinement of its grid (height_codec.h); a root
+// block holds a face's root chunk whole. Each block also stores the errors and extremes of its chunks and the
+// places of their children, so the index is paged with the data. Each block ends in a checksum seeded with
+// the chunk's key, so a block that is read for the wrong chunk fails too. README.md has the layout byte by
+// byte.
 //
-// A colour block holds the four tiles that are the children of one tile, or a root tile alone: for each tile
-// where its own children lie and how many bytes it takes, then the packed tiles, then such a checksum.
+// A colour block holds the four children of a tile, or a root tile.
 //
-// The file is hostile until checked: every offset, size and count is checked before use, and a bad one is an
-// Error that names the file and the chunk.
+// The file is hostile until checked: every offset, size and count is checked before use, and the Error names
+// the file and the chunk.
 #pragma once
 
 #include <array>
@@ -46,7 +43,7 @@ class ChunkFile {
 public:
     static Result<ChunkFile> open(const std::filesystem::path& path,
                                   const FileCalls& calls = systemFileCalls());
-    // The same over any bytes. The name is for messages.
+    // Opens any bytes as a chunk file. The name is for messages.
     static Result<ChunkFile> open(std::string name, std::uint64_t sizeBytes, ReadAt readAt);
 
     const ChunkFileInfo& info() const { return info_; }
@@ -55,37 +52,40 @@ public:
 
     Result<ChunkData> readRoot(Face face) const;
 
-    // The four children of a chunk whose heights and children's place are known, in quadrant order.
+    // Reads the four children of a chunk, in quadrant order. location: the place of their block.
     Result<std::array<ChunkData, quadrantCount>> readChildren(
         const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const;
 
-    // The index alone, not the heights and unchecked by the checksum: what the block of a chunk's children
-    // says of each. The children must not be leaves, which have no entries.
+    // Reads the entries of a chunk's four children alone, not the heights, without the checksum. The children
+    // must not be leaves, which have no entries.
     Result<std::array<ChunkEntry, quadrantCount>> readEntries(const ChunkId& parent,
                                                               BlockLocation location) const;
 
-    // Of a file with colours. As for chunks: where its children lie is known of a tile that has been read.
+    // Read the tiles of a file with colours as those of chunks: a tile that has been read names the place of
+    // its children.
     Result<TileData> readColourRoot(Face face) const;
     Result<std::array<TileData, quadrantCount>> readColourChildren(const ChunkId& parent,
                                                                    BlockLocation location) const;
-    // As readEntries: where the four tiles' own children lie, of tiles above the finest level.
+    // Reads the entries of a tile's four children, which must lie above the finest level, without the
+    // checksum.
     Result<std::array<ColourEntry, quadrantCount>> readColourEntries(const ChunkId& parent,
                                                                      BlockLocation location) const;
 
 private:
     ChunkFile() = default;
-    // bytes: what the block needs at least, and what no honest one exceeds.
+    // The sizes of a block, checksum included.
     struct BlockBytes {
         std::uint64_t least;
         std::uint64_t most;
     };
     Result<std::vector<std::byte>> readBlock(const BlockId& id, BlockLocation location,
                                              const BlockBytes& bytes) const;
+    // Returns a whole block without its checksum, which is checked. isRoot: the id is a root's own.
+    Result<std::vector<std::byte>> readContent(const BlockId& id, bool isRoot, BlockLocation location,
+                                               const BlockBytes& bytes) const;
     Result<std::vector<TileData>> readColourBlock(const ChunkId& block, BlockLocation location,
                                                   std::span<const ChunkId> tiles) const;
-    Result<std::span<const std::byte>> checkedContent(const BlockId& id, std::span<const std::byte> block,
-                                                      std::uint64_t expectedChecksum) const;
-    Error nonsense(const BlockId& id, std::string_view what) const;
+    tl::unexpected<Error> invalid(const BlockId& id, std::string_view what) const;
 
     ChunkFileInfo info_;
     std::string name_;
@@ -93,9 +93,9 @@ private:
     ReadAt readAt_;
 };
 
-// Bounds a walk of the index, which no checksum covers: a hostile one leads to the same block by many ways,
-// or in circles. Subtracts a block from the bytes that the file's blocks can have in all, sizeBytes() at
-// first; the Error says that the index tells of more.
+// Bounds a walk of the index, which no checksum covers: a hostile index can name a block many times, or form
+// a ring. Subtracts the size of a block from bytesLeft, which begins as sizeBytes(); the Error says that the
+// index names more bytes than the file has.
 Result<void> spendOn(const ChunkFile& file, BlockLocation block, std::uint64_t& bytesLeft);
 
 }  // namespace planet

@@ -27,7 +27,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
 
-// Cuts at a character's start, so that what is left is UTF-8 if the whole was.
+// Cuts at the start of a character, so that UTF-8 stays UTF-8.
 std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
     if (text.size() <= maxBytes) return text;
     std::size_t end = maxBytes;
@@ -35,8 +35,8 @@ std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
     return text.substr(0, end);
 }
 
-// What a block says of its place: the distance back to it from the block that tells, 0 for none. One beyond
-// the file's start wraps to an offset that no file has; the reader refuses it.
+// Returns the distance back to a block from the block whose entry names it; 0 for none. The reader refuses a
+// distance beyond the start of the file, because it wraps to an offset that no file has.
 std::uint64_t distanceTo(const BlockLocation& location, std::uint64_t blockOffset) {
     return location.exists() ? blockOffset - location.offset : 0;
 }
@@ -50,7 +50,7 @@ void putText(ByteWriter& out, std::string_view text, std::size_t maxBytes) {
     for (const char c : kept) out.put(c);
 }
 
-// False where it is said to be longer than it may be.
+// Returns false if the text is longer than maxBytes.
 bool readText(ByteReader& in, std::size_t maxBytes, std::string& text) {
     const auto bytes = in.get<std::uint16_t>();
     if (bytes > maxBytes) return false;
@@ -70,7 +70,7 @@ void putColour(ByteWriter& out, const std::optional<ColourPyramid>& colour) {
     putText(out, colour->source, maxColourSourceBytes);
 }
 
-// The Error is what contradicts itself.
+// The Error does not name the file.
 Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
     const auto kind = in.get<std::uint8_t>();
     if (kind == 0) return std::nullopt;
@@ -89,7 +89,7 @@ Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
     return colour;
 }
 
-// Empty where the root blocks of colours lie in the file, apart from each other and from those of heights.
+// Returns an empty text if the root blocks of colours lie in the file and overlap no other root block.
 std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileBytes) {
     struct Place {
         BlockLocation block;
@@ -123,7 +123,7 @@ std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileByte
     return {};
 }
 
-// Empty where the shape is one that this program bakes.
+// Returns an empty text if the shape is within the limits of a bake.
 std::string shapeProblem(const PlanetShape& shape) {
     if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("radius {} m", shape.radiusM);
     if (!(shape.quantumM > 0 && shape.quantumM <= 1e6)) return fmt::format("quantum {} m", shape.quantumM);
@@ -240,17 +240,11 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
                         name));
     }
     const auto version = in.get<std::uint32_t>();
-    if (version > chunkFileVersion) {
-        return badInput(
-            fmt::format("{}: version {} of the chunk file; this program reads version {}: update it, or bake "
-                        "the source again",
-                        name, version, chunkFileVersion));
-    }
-    if (version < oldestChunkFileVersion) {
+    if (version != chunkFileVersion) {
         return badInput(fmt::format(
-            "{}: version {} of the chunk file, which lacks what version {} holds; bake the source "
-            "again with `worldy bake SOURCE -o OUT.chk`",
-            name, version, chunkFileVersion));
+            "{}: chunk file version: {} is not supported; expected {}: {}bake the source again with `worldy "
+            "bake SOURCE -o OUT.chk`",
+            name, version, chunkFileVersion, version > chunkFileVersion ? "update this program, or " : ""));
     }
     const std::uint64_t expected = headerChecksum(header.first<chunkFileHeaderBytes - checksumBytes>());
     if (ByteReader(header.last<checksumBytes>()).get<std::uint64_t>() != expected) {
@@ -293,7 +287,6 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     if (!hasText || info.minStep > info.maxStep) {
         return badInput(fmt::format("{}: the header is inconsistent; bake it again", name));
     }
-    // Older files have zeros there, which mean none.
     auto colour = readColour(in);
     if (!colour)
         return badInput(fmt::format("{}: invalid header: {}; bake it again", name, colour.error().message));

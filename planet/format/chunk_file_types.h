@@ -17,7 +17,6 @@ namespace planet {
 
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
 inline constexpr std::uint32_t chunkFileVersion = 3;
-inline constexpr std::uint32_t oldestChunkFileVersion = 2;  // it has no colours; the reader still accepts it
 
 // The place of a block in the file. Offset 0 is the header, so it means "none".
 struct BlockLocation {
@@ -28,7 +27,7 @@ struct BlockLocation {
     bool operator==(const BlockLocation&) const = default;
 };
 
-// One chunk as the file holds it.
+// A chunk as the file holds it.
 struct ChunkData {
     ChunkId id;
     float deltaCM = 0;  // metres, finite, >= 0; 0 at a leaf
@@ -51,7 +50,7 @@ struct ChunkEntry {
     BlockLocation children;
 };
 
-// One tile of a quadtree of tiles: of colours as the file holds it, or of normals as derived from heights.
+// A tile of colours as the file holds it, or of normals as derived from heights.
 struct TileData {
     ChunkId id;
     BlockLocation children;  // none at the finest level, nor where the tile is derived

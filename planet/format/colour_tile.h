@@ -1,12 +1,13 @@
 // A tile of the colour quadtree: how its texels are encoded for the GPU and packed for the file. Pure
 // functions, any thread.
 //
-// tile_layout.h says what a tile covers. Two neighbouring tiles hold the same values in their shared texels.
+// tile_layout.h describes the square of a tile. Two neighbouring tiles hold the same values in their shared
+// texels.
 //
 // The quadtree is the mip chain too: a level's texels are the source filtered to that level's spacing.
 //
-// BC1: 4 x 4 texels in 8 bytes (S3TC, Iourcha et al. 1999). The border is such that the blocks of two tiles
-// of a face cover the same texels, so that these too are the same after encoding.
+// BC1: 4 x 4 texels in 8 bytes (S3TC, Iourcha et al. 1999). The size of the border makes the blocks of two
+// neighbouring tiles of a face cover the same texels, so that shared texels stay equal after encoding.
 #pragma once
 
 #include <cstddef>

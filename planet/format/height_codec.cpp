@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "planet/base/little_endian.h"
+#include "planet/base/try.h"
 #include "planet/format/height_prediction.h"
 #include "planet/format/height_residual_coder.h"
 
@@ -16,13 +18,13 @@ namespace planet {
 
 namespace {
 
-// A coded refinement begins with one of these in a byte. Plain: the missing samples as they are, row by row
-// of each pass. Entropy: a byte a pass (PassChoice), then what ResidualEncoder wrote.
+// The first byte of a coded refinement. Plain: the missing samples follow as they are, row by row of each
+// pass. Entropy: one byte per pass (PassChoice) follows, then the output of ResidualEncoder.
 enum class Storage : std::uint8_t { Plain, Entropy };
 
 constexpr std::size_t passCount = allRefinementPasses.size();
 
-// How a pass is coded: predictor in the low 3 bits; above them, what is added to every width, plus
+// A pass's byte has the predictor in the low 3 bits; above them, the shift of every width plus
 // widthShiftBias.
 constexpr int predictorBits = 3;
 constexpr int widthShiftBias = 23;
@@ -52,32 +54,22 @@ std::size_t missingSamples(int coarseCells) {
     return gridSamples(2 * coarseCells) - gridSamples(coarseCells);
 }
 
-// Where a pass's samples lie in the fine grid.
+// The place of a pass's first sample in the fine grid.
 struct PassLayout {
     int firstRow;
     int firstColumn;
 };
 
-PassLayout layoutOf(RefinementPass pass) {
-    switch (pass) {
-        case RefinementPass::Middle:
-            return {1, 1};
-        case RefinementPass::OddRow:
-            return {1, 0};
-        case RefinementPass::OddColumn:
-            break;
-    }
-    return {0, 1};
-}
+constexpr std::array<PassLayout, passCount> passLayouts = {{{1, 1}, {1, 0}, {0, 1}}};
 
-// The first sample of a pass's row in the fine grid; the next ones are every other from there.
+// Returns the first sample of a row of a pass in the fine grid; the row's samples are every other from there.
 std::size_t rowStart(RefinementPass pass, int row, int coarseCells) {
-    const PassLayout layout = layoutOf(pass);
+    const PassLayout layout = passLayouts[static_cast<std::size_t>(pass)];
     return static_cast<std::size_t>((layout.firstRow + 2 * row) * (2 * coarseCells + 1) + layout.firstColumn);
 }
 
 // Widths are the exponent and two bits of the mantissa of the expected error: its logarithm in quarter
-// octaves. Width 0 is kept for where no error at all is expected.
+// octaves. Width 0 means that no error is expected.
 void toWidths(std::span<const float> expected256, int widthShift, std::span<std::uint8_t> widths) {
     constexpr int mantissaBits = 23;
     constexpr int widthOf256 = (127 + 8) << 2;
@@ -89,13 +81,13 @@ void toWidths(std::span<const float> expected256, int widthShift, std::span<std:
     }
 }
 
-// Residuals and expected errors of one pass under one predictor.
+// The residuals and expected errors of one pass under one predictor.
 struct CodedPass {
     std::vector<std::int16_t> residuals;
     std::vector<float> expected256;
 };
 
-// Scratch for one row, as long as the longest and cut to the pass's own.
+// Memory for one row of a pass.
 class RowBuffers {
 public:
     explicit RowBuffers(int columns) : columns_(static_cast<std::size_t>(columns)) {}
@@ -141,7 +133,7 @@ CodedPass predictPass(RefinementPredictor& predictor, RefinementPass pass, int c
     return coded;
 }
 
-// What a pass costs with a width shift, in 1/256 bit, from every step-th sample.
+// Returns the cost of a pass with a width shift, in 1/256 bit, from every step-th sample.
 std::int64_t costOf(const CodedPass& coded, int widthShift, std::size_t step) {
     std::int64_t cost = 0;
     for (std::size_t i = 0; i < coded.residuals.size(); i += step) {
@@ -152,7 +144,7 @@ std::int64_t costOf(const CodedPass& coded, int widthShift, std::size_t step) {
     return cost;
 }
 
-// What a compression level above 0 spends.
+// The effort of a compression level above 0.
 struct Effort {
     int predictors;    // how many of a pass's predictors are tried
     std::size_t step;  // costs are counted on every step-th sample
@@ -163,7 +155,7 @@ Effort effortOf(int compressionLevel) {
     return efforts[static_cast<std::size_t>(compressionLevel - 1)];
 }
 
-// Walks downhill from a shift: the cost has one valley.
+// Descends from a shift to the least cost, which has one minimum.
 std::int64_t bestShift(const CodedPass& coded, std::size_t step, int& widthShift) {
     std::int64_t best = costOf(coded, widthShift, step);
     for (const int direction : {-1, 1}) {
@@ -197,7 +189,7 @@ ChosenPass choosePass(RefinementPredictor& predictor, RefinementPass pass, std::
             chosen = {{candidate, shift}, std::move(coded)};
         }
     }
-    // The next pass looks at this one's errors: they must be those of the choice.
+    // The next pass uses the errors of this one, so they must be those of the choice.
     const auto columns = static_cast<std::size_t>(passColumns(pass, coarseCells));
     for (int row = 0; row < passRows(pass, coarseCells); ++row) {
         const std::size_t start = static_cast<std::size_t>(row) * columns;
@@ -213,7 +205,7 @@ void addPass(const CodedPass& coded, std::size_t columns, int widthShift, Residu
         encoder.addRow(std::span(coded.residuals).subspan(i, columns), std::span(widths).subspan(i, columns));
 }
 
-// Every step-th row and column of a grid.
+// Returns every step-th row and column of a grid.
 std::vector<std::int16_t> thinned(std::span<const std::int16_t> grid, int size, int step) {
     const auto side = static_cast<std::size_t>(size);
     const auto stride = static_cast<std::size_t>(step);
@@ -238,18 +230,6 @@ void encodeEntropy(std::span<const std::int16_t> fine, int coarseCells, int comp
     encoder.finish(out);
 }
 
-void appendSample(std::int16_t sample, std::vector<std::byte>& out) {
-    const auto bits = static_cast<std::uint16_t>(sample);
-    out.push_back(static_cast<std::byte>(bits & 0xff));
-    out.push_back(static_cast<std::byte>(bits >> 8));
-}
-
-std::int16_t sampleAt(std::span<const std::byte> bytes, std::size_t index) {
-    const auto low = std::to_integer<unsigned>(bytes[2 * index]);
-    const auto high = std::to_integer<unsigned>(bytes[2 * index + 1]);
-    return static_cast<std::int16_t>(static_cast<std::uint16_t>(low | high << 8));
-}
-
 // Visits the index into fine of every missing sample, in the order of Storage::Plain.
 template <class Visit>
 void forEachMissing(int coarseCells, const Visit& visit) {
@@ -263,7 +243,8 @@ void forEachMissing(int coarseCells, const Visit& visit) {
 
 void encodePlain(std::span<const std::int16_t> fine, int coarseCells, std::vector<std::byte>& out) {
     out.push_back(static_cast<std::byte>(Storage::Plain));
-    forEachMissing(coarseCells, [&](std::size_t index) { appendSample(fine[index], out); });
+    ByteWriter writer(out);
+    forEachMissing(coarseCells, [&](std::size_t index) { writer.put(fine[index]); });
 }
 
 Result<void> decodePlain(std::span<const std::byte> coded, int coarseCells, std::span<std::int16_t> fine) {
@@ -271,12 +252,12 @@ Result<void> decodePlain(std::span<const std::byte> coded, int coarseCells, std:
     if (coded.size() != wanted)
         return badInput(
             fmt::format("height block: {} bytes of plain samples; expected {}", coded.size(), wanted));
-    std::size_t next = 0;
-    forEachMissing(coarseCells, [&](std::size_t index) { fine[index] = sampleAt(coded, next++); });
+    ByteReader reader(coded);
+    forEachMissing(coarseCells, [&](std::size_t index) { fine[index] = reader.get<std::int16_t>(); });
     return {};
 }
 
-// Decodes one pass; false where the bytes end early.
+// Decodes one pass; returns false if the bytes end early.
 bool decodePass(RefinementPredictor& predictor, RefinementPass pass, PassChoice choice,
                 ResidualDecoder& decoder, int coarseCells, std::span<std::int16_t> fine) {
     RowBuffers row(passColumns(pass, coarseCells));
@@ -359,57 +340,45 @@ Result<void> decodeRefinement(std::span<const std::byte> coded, std::span<const 
 
 namespace {
 
-// A coded grid: its four corners, then refinements from a coarse grid of one cell upwards, each behind its
-// length.
+// A coded grid has its four corners, then the refinements from a grid of one cell upwards, each after its
+// length (u32).
 constexpr std::size_t cornerBytes = 4 * sizeof(std::int16_t);
-constexpr std::size_t lengthBytes = 4;
 
 [[maybe_unused]] bool isGridSize(int size) {
     return size >= 2 && size <= maxGridSize && std::has_single_bit(static_cast<unsigned>(size - 1));
-}
-
-void writeLength(std::size_t length, std::span<std::byte> to) {
-    for (std::size_t i = 0; i < lengthBytes; ++i) to[i] = static_cast<std::byte>(length >> (8 * i) & 0xff);
-}
-
-std::size_t readLength(std::span<const std::byte> from) {
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < lengthBytes; ++i) length |= std::to_integer<std::size_t>(from[i]) << (8 * i);
-    return length;
 }
 
 }  // namespace
 
 void encodeGrid(std::span<const std::int16_t> grid, int size, std::vector<std::byte>& out) {
     assert(isGridSize(size) && grid.size() == gridSamples(size - 1));
-    for (const std::int16_t corner : thinned(grid, size, size - 1)) appendSample(corner, out);
+    ByteWriter writer(out);
+    for (const std::int16_t corner : thinned(grid, size, size - 1)) writer.put(corner);
     for (int cells = 1; cells < size - 1; cells *= 2) {
-        const std::size_t lengthAt = out.size();
-        out.resize(lengthAt + lengthBytes);
-        encodeRefinement(thinned(grid, size, (size - 1) / (2 * cells)), cells, maxCompressionLevel, out);
-        writeLength(out.size() - lengthAt - lengthBytes, std::span(out).subspan(lengthAt, lengthBytes));
+        std::vector<std::byte> coded;
+        encodeRefinement(thinned(grid, size, (size - 1) / (2 * cells)), cells, maxCompressionLevel, coded);
+        writer.put(static_cast<std::uint32_t>(coded.size()));
+        out.insert(out.end(), coded.begin(), coded.end());
     }
 }
 
 Result<void> decodeGrid(std::span<const std::byte> coded, int size, std::span<std::int16_t> grid) {
     assert(isGridSize(size) && grid.size() == gridSamples(size - 1));
-    if (coded.size() < cornerBytes) return badInput("height block: coded data ends early");
+    const auto endsEarly = [] { return badInput("height block: coded data ends early"); };
+    if (coded.size() < cornerBytes) return endsEarly();
+    ByteReader reader(coded);
     std::vector<std::int16_t> coarse;
-    for (std::size_t i = 0; i < 4; ++i) coarse.push_back(sampleAt(coded, i));
-    coded = coded.subspan(cornerBytes);
+    for (int corner = 0; corner < 4; ++corner) coarse.push_back(reader.get<std::int16_t>());
     for (int cells = 1; cells < size - 1; cells *= 2) {
-        if (coded.size() < lengthBytes) return badInput("height block: coded data ends early");
-        const std::size_t length = readLength(coded);
-        coded = coded.subspan(lengthBytes);
-        if (coded.size() < length) return badInput("height block: coded data ends early");
+        if (reader.rest().size() < sizeof(std::uint32_t)) return endsEarly();
+        const auto length = reader.get<std::uint32_t>();
+        if (reader.rest().size() < length) return endsEarly();
         std::vector<std::int16_t> fine(gridSamples(2 * cells));
-        if (auto decoded = decodeRefinement(coded.first(length), coarse, cells, fine); !decoded)
-            return decoded;
-        coded = coded.subspan(length);
+        TRY(decodeRefinement(reader.take(length), coarse, cells, fine));
         coarse = std::move(fine);
     }
-    if (!coded.empty())
-        return badInput(fmt::format("height block: {} bytes left over after its last sample", coded.size()));
+    if (const std::size_t left = reader.rest().size(); left > 0)
+        return badInput(fmt::format("height block: {} bytes left over after its last sample", left));
     std::ranges::copy(coarse, grid.begin());
     return {};
 }

@@ -1,9 +1,9 @@
 // The lossless height codec of the chunk file: one refinement of a square grid.
 //
-// A coarse grid of (c + 1)^2 steps and the fine grid of (2c + 1)^2 that it is every other row and column of.
-// Only the fine samples that the coarse grid lacks are coded: each is predicted from samples known by then
-// (height_prediction.h), and the differences are entropy coded (height_residual_coder.h). A block needs
-// nothing but its coarse grid. Grids are row-major.
+// A coarse grid of (c + 1)^2 steps is every other row and column of a fine grid of (2c + 1)^2. The codec
+// stores only the other fine samples: each is predicted from samples known by then (height_prediction.h), and
+// the differences are entropy coded (height_residual_coder.h). A block needs only its coarse grid. Grids are
+// row-major.
 //
 // Pure functions, any thread. Encoding and decoding are bit-identical on every machine.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace planet {
 
-// How hard the encoder tries. Decoding speed does not change.
+// The effort of the encoder. Decoding speed does not change.
 //   0  the samples as they are, 2 bytes each
 //   1  one predictor; how widely its errors spread is measured
 //   2  the likelier half of the predictors tried, their cost judged from every 8th sample
@@ -35,13 +35,12 @@ inline constexpr int maxGridSize = 2 * maxCoarseCells + 1;
 void encodeRefinement(std::span<const std::int16_t> fine, int coarseCells, int compressionLevel,
                       std::vector<std::byte>& out);
 
-// Rebuilds the fine grid from the coarse grid and the coded bytes, which must be all of them and nothing
-// more. Hostile bytes give an Error or a wrong grid, never a read outside. After an Error fine holds
-// anything.
+// Rebuilds the fine grid from the coarse grid and exactly the coded bytes. Hostile bytes give an Error or a
+// wrong grid, never a read out of bounds. After an Error the content of fine is undefined.
 Result<void> decodeRefinement(std::span<const std::byte> coded, std::span<const std::int16_t> coarse,
                               int coarseCells, std::span<std::int16_t> fine);
 
-// A whole grid of size x size samples that nothing coarser is known of: the six root chunks. size is a power
+// Code a whole grid of size x size samples without a coarser grid, as of the six root chunks. size is a power
 // of two plus one, in [2, maxGridSize].
 void encodeGrid(std::span<const std::int16_t> grid, int size, std::vector<std::byte>& out);
 Result<void> decodeGrid(std::span<const std::byte> coded, int size, std::span<std::int16_t> grid);

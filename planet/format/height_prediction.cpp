@@ -9,12 +9,12 @@ namespace planet {
 
 namespace {
 
-// What a plane's border is taken to be, beyond the block's edge: the inner sample again, the edge's own, or
-// the straight line through both.
+// The border of a plane beyond the block's edge: the inner sample again, the sample on the edge, or the
+// straight line through both.
 enum class BeyondEdge { Mirror, Hold, Continue };
 
-// Weights in 1/1024, summing to 1024 over all the samples that they are for. Found by least squares over
-// ETOPO5's own grid and over grids that oversample it, then rounded.
+// Weights are in 1/1024, and their sum over all samples is 1024. Found by least squares over ETOPO5's own
+// grid and over grids that oversample it, then rounded.
 constexpr int weightBits = 10;
 
 struct MiddleWeights {
@@ -24,7 +24,8 @@ struct MiddleWeights {
     BeyondEdge beyond;
 };
 
-// Seen along the line of its two coarse samples, and across it, where its two middles are.
+// Weights of a sample between two coarse samples; "along" is along their line, and the two middles lie across
+// it.
 struct OddWeights {
     int near;         // the 2 coarse samples
     int middle;       // the 2 middles
@@ -35,7 +36,7 @@ struct OddWeights {
     BeyondEdge beyond;
 };
 
-// The likelier ones first: a fast encoder tries only those.
+// The likelier predictors come first, because a fast encoder tries only those.
 constexpr std::array<MiddleWeights, refinementPredictorCount> middlePredictors = {{
     {331, -39, 3, BeyondEdge::Continue},
     {340, -48, 12, BeyondEdge::Continue},
@@ -96,7 +97,7 @@ std::int32_t beyondEdge(std::int32_t edge, std::int32_t inner, BeyondEdge beyond
     return 2 * edge - inner;
 }
 
-// Halfway between b and c of four in a row, by the cubic through all of them.
+// Returns the value halfway between b and c of four in a row, by the cubic through all of them.
 std::int32_t halfway(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     return (9 * (b + c) - a - d + 8) >> 4;
 }
@@ -125,8 +126,8 @@ void extendCoarse(BorderedPlane& coarse, BeyondEdge beyond) {
     }
 }
 
-// The edge between the block's outermost middles and those beyond is interpolated from the coarse samples on
-// it.
+// Extends the middles: the edge between the outermost middles and those beyond is interpolated from its
+// coarse samples.
 void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, BeyondEdge beyond) {
     const int cells = middle.rows;
     const auto edgeInRow = [&](int y, int x) {
@@ -148,7 +149,7 @@ void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, BeyondEdge
     }
 }
 
-// Only above and below: OddColumn looks no further. The edge is a row of coarse samples.
+// Extends odd rows above and below, which is all that OddColumn uses. The edge is a row of coarse samples.
 void extendOddRow(BorderedPlane& oddRow, const BorderedPlane& coarse, BeyondEdge beyond) {
     const int cells = oddRow.rows;
     for (int x = 0; x <= cells; ++x) {
@@ -157,7 +158,7 @@ void extendOddRow(BorderedPlane& oddRow, const BorderedPlane& coarse, BeyondEdge
     }
 }
 
-// How much the coarse grid bends at the four samples around a middle, both ways.
+// Returns the curvature of the coarse grid at the four samples around a middle, along both axes.
 std::int32_t bendsAround(const BorderedPlane& bendX, const BorderedPlane& bendY, int y, int x) {
     const std::int32_t* const x1 = bendX.row(y) + x;
     const std::int32_t* const x2 = bendX.row(y + 1) + x;
@@ -209,7 +210,7 @@ void RefinementPredictor::setCoarse(std::span<const std::int16_t> coarse) {
         }
     }
     if (side < 3) return;
-    // On the edge the line goes straight on: take the bend next to it.
+    // The line continues straight over the edge, so the edge takes the bend next to it.
     for (int i = 0; i < side; ++i) {
         bendX_.row(i)[0] = bendX_.row(i)[1];
         bendX_.row(i)[side - 1] = bendX_.row(i)[side - 2];
@@ -232,8 +233,7 @@ void RefinementPredictor::beginPass(RefinementPass pass, int predictor) {
     }
 }
 
-// Each pass also makes up a row of errors above its first: about what the surface's bends, or the pass
-// before, suggest.
+// Each pass also estimates a row of errors above its first, from the curvature or from the pass before.
 
 void RefinementPredictor::beginMiddle() {
     extendCoarse(coarse_, middlePredictors[predictor_].beyond);
@@ -289,8 +289,7 @@ void RefinementPredictor::expectErrors(int row, std::span<float> expected256) co
 }
 
 // In the loops below k0 k1 k2 k3 are coarse rows from above to below, m middles, r odd rows, b bends, e
-// errors. What they write is of another type than what they read, which lets a compiler take several samples
-// at once.
+// errors. They write another type than they read, which lets a compiler vectorise them.
 
 void RefinementPredictor::predictMiddle(int row, std::span<std::int16_t> predicted) const {
     const MiddleWeights w = middlePredictors[predictor_];

@@ -1,7 +1,7 @@
-// What the height codec expects of the samples that a refinement adds, from the samples known by then.
+// Predicts the samples that a refinement adds from the samples known by then, for the height codec.
 //
-// The missing samples of a fine grid of (2c + 1)^2 come in three passes, each seeing all of the passes
-// before:
+// The missing samples of a fine grid of (2c + 1)^2 come in three passes, each of which uses all passes before
+// it:
 //
 //   K s K s K     K  known, the coarse grid: (c + 1)^2
 //   r m r m r     m  Middle: odd row, odd column, c^2, from the coarse samples around
@@ -9,9 +9,9 @@
 //   r m r m r     s  OddColumn: even row, odd column, (c + 1) x c, from those and four of OddRow
 //   K s K s K
 //
-// Within a pass nothing of the same row is looked at, so that a row is predicted in one go. The prediction is
-// a weighted sum; the expected size of its error is another, of the errors around and of how much the surface
-// bends. Integers only: bit-identical on every machine.
+// A pass does not use samples of the same row, so a whole row is predicted at once. The prediction is a
+// weighted sum. The expected size of its error is another, of the errors around and of the curvature of the
+// surface. Only integers are used, so the results are bit-identical on every machine.
 #pragma once
 
 #include <array>
@@ -26,11 +26,11 @@ enum class RefinementPass : std::uint8_t { Middle, OddRow, OddColumn };
 inline constexpr std::array allRefinementPasses = {RefinementPass::Middle, RefinementPass::OddRow,
                                                    RefinementPass::OddColumn};
 
-// How many samples a pass has, at a coarse grid of that many cells a side.
+// Return the numbers of rows and columns of a pass over a coarse grid of that many cells a side.
 int passRows(RefinementPass pass, int coarseCells);
 int passColumns(RefinementPass pass, int coarseCells);
 
-// A pass has this many predictors to choose from, in [0, refinementPredictorCount).
+// The number of predictors of a pass.
 inline constexpr int refinementPredictorCount = 8;
 
 // A plane of integers with a border of one cell on every side: rows and columns from -1.
@@ -44,7 +44,7 @@ struct BorderedPlane {
     const std::int32_t* row(int y) const { return cells.data() + (y + 1) * (columns + 2) + 1; }
 };
 
-// One block's samples and errors so far, for the encoder and the decoder alike.
+// Holds the samples and errors of one block so far, for the encoder and the decoder.
 class RefinementPredictor {
 public:
     explicit RefinementPredictor(int coarseCells);  // c in [1, 128]
@@ -52,12 +52,12 @@ public:
     // coarse: (c + 1)^2, row-major.
     void setCoarse(std::span<const std::int16_t> coarse);
 
-    // Starts a pass anew, with a predictor in [0, refinementPredictorCount). The passes before must be
+    // Starts or restarts a pass with a predictor in [0, refinementPredictorCount). The passes before must be
     // complete.
     void beginPass(RefinementPass pass, int predictor);
 
-    // What one row is expected to be and the |error| expected, in 1/256 steps, >= 0. Rows go in order: a
-    // row's errors must be told before the next is asked for, its samples before the next pass begins.
+    // Predict one row and the |error| expected, in 1/256 steps, >= 0. Rows go in order: set the errors of a
+    // row before predicting the next, and its samples before the next pass.
     void predictRow(int row, std::span<std::int16_t> predicted) const;
     void expectErrors(int row, std::span<float> expected256) const;
     void setErrors(int row, std::span<const std::int16_t> errors);

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "planet/base/little_endian.h"
+
 namespace planet {
 
 namespace {
@@ -13,15 +15,15 @@ namespace {
 constexpr int frequencyBits = 12;
 constexpr std::uint32_t frequencyTotal = 1u << frequencyBits;
 
-// Symbols are residuals in [-127, 127] shifted by their width's raw bits; the last one says that the whole
+// Symbols are residuals in [-127, 127] shifted by their width's raw bits; after the last symbol the whole
 // residual follows as 16 raw bits.
 constexpr int symbolCount = 256;
 constexpr int symbolOfZero = 127;
 constexpr int escapeSymbol = 255;
 constexpr int escapeRawBits = 16;
 
-// Up to this width a residual is one symbol; each octave above takes one more low bit as it is, so that the
-// four distributions of the last octave serve all that are wider.
+// Up to this width a residual is one symbol. Each octave above codes one more low bit as it is, so that the
+// four distributions of the last octave serve all wider ones.
 constexpr int unshiftedWidths = residualWidthOfOne + 12;
 constexpr int shiftedWidths = 4;
 constexpr int distributionCount = unshiftedWidths + shiftedWidths;
@@ -56,7 +58,7 @@ namespace {
 using Interval = ResidualDistribution::Interval;
 using Distribution = ResidualDistribution;
 
-// Student's t with 2p - 1 degrees of freedom, up to a factor: (1 + t^2 / (2p - 1))^-p.
+// Returns the density of Student's t with 2p - 1 degrees of freedom, up to a factor: (1 + t^2 / (2p - 1))^-p.
 double studentDensity(double x, double width) {
     const double t = x / width;
     const double base = 1 + t * t / (2 * studentPower - 1);
@@ -65,7 +67,7 @@ double studentDensity(double x, double width) {
     return 1 / power;
 }
 
-// The mass of [low, low + 1], by the midpoints of slices.
+// Returns the mass of [low, low + 1], by the midpoints of slices.
 double studentMass(double low, double width) {
     constexpr int slices = 8;
     double sum = 0;
@@ -73,8 +75,8 @@ double studentMass(double low, double width) {
     return sum / slices;
 }
 
-// The mean |residual| that a width stands for: quarter octaves, straight within each octave. Width 0 is much
-// narrower, for where nothing has been off so far.
+// Returns the mean |residual| of a width: quarter octaves, linear within each octave. Width 0 is much
+// narrower, for places without errors so far.
 double expectedMagnitude(int widthIndex) {
     if (widthIndex == 0) return 1.0 / 1024;
     const int octave = widthIndex / 4 - residualWidthOfOne / 4;
@@ -82,7 +84,8 @@ double expectedMagnitude(int widthIndex) {
     return octave >= 0 ? mantissa * (1 << octave) : mantissa / (1 << -octave);
 }
 
-// Integer frequencies for the masses: rounded, at least one for the escape, the rest to the likeliest symbol.
+// Returns integer frequencies for the masses: rounded, at least one for the escape, with the remainder given
+// to symbolOfZero.
 std::array<std::uint32_t, symbolCount> toFrequencies(const std::array<double, symbolCount>& masses,
                                                      double total) {
     std::array<std::uint32_t, symbolCount> frequencies{};
@@ -100,7 +103,7 @@ std::array<std::uint32_t, symbolCount> toFrequencies(const std::array<double, sy
     return frequencies;
 }
 
-// A distribution's mass in each symbol but the escape, and what follows from it.
+// The mass of a distribution in each symbol but the escape, their sum, and the mean |residual|.
 struct Masses {
     std::array<double, symbolCount> mass{};
     double total = 0;
@@ -121,7 +124,7 @@ Masses massesOf(double width, double lower) {
     return masses;
 }
 
-// The masses at the width whose mean magnitude is the one wanted: by a factor that shrinks whenever it
+// Finds the masses of the width with the given mean magnitude, by a factor that shrinks whenever it
 // overshoots.
 Masses massesOfMean(double meanMagnitude, double lower) {
     double width = meanMagnitude;
@@ -176,7 +179,7 @@ constexpr WidthCode codeOfWidth(int widthIndex) {
     return {unshiftedWidths + above % shiftedWidths, 1 + above / shiftedWidths};
 }
 
-// How one residual is coded under a width.
+// The coding of one residual under a width.
 struct SymbolCode {
     Interval interval;
     int rawBitCount;
@@ -194,7 +197,7 @@ SymbolCode codeOf(int widthIndex, int residual) {
     return {intervals[at(escapeSymbol)], escapeRawBits, static_cast<std::uint16_t>(residual)};
 }
 
-// log2(value) in 1/256, rounded down, for value > 0: the fraction bit by bit, by squaring.
+// Returns log2(value) in 1/256, rounded down, for value > 0; computes the fraction bit by bit, by squaring.
 int log2Times256(std::uint32_t value) {
     const int whole = static_cast<int>(std::bit_width(value)) - 1;
     std::uint64_t mantissa = (std::uint64_t{value} << 31) >> whole;  // in [2^31, 2^32)
@@ -218,17 +221,6 @@ const std::array<std::int16_t, frequencyTotal + 1>& costsOfFrequencies() {
     return made;
 }
 
-void appendLittleEndian(std::uint64_t value, int bytes, std::vector<std::byte>& out) {
-    for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i)));
-}
-
-template <int Bytes>
-std::uint64_t readLittleEndian(const std::byte* from) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < Bytes; ++i) value |= std::to_integer<std::uint64_t>(from[i]) << (8 * i);
-    return value;
-}
-
 }  // namespace
 
 int residualCost(int widthIndex, int residual) {
@@ -245,7 +237,7 @@ void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<
     }
 }
 
-// Last in, first out: the states run backwards over the tokens, and the words they gave up come out
+// The coder is last in, first out: the states run backwards over the tokens, and their words are written
 // backwards.
 void ResidualEncoder::finish(std::vector<std::byte>& out) const {
     std::array<std::uint64_t, 2> states = {stateMin, stateMin};
@@ -254,7 +246,7 @@ void ResidualEncoder::finish(std::vector<std::byte>& out) const {
     for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
         std::uint64_t& state = states[token->state];
         const std::uint64_t frequency = token->frequency;
-        // From here on the state would leave its range.
+        // The state would leave its range from this limit on.
         const std::uint64_t limit = (stateMin >> frequencyBits << wordBits >> token->rawBitCount) * frequency;
         if (state >= limit) {
             words.push_back(static_cast<std::uint32_t>(state));
@@ -263,8 +255,9 @@ void ResidualEncoder::finish(std::vector<std::byte>& out) const {
         state = state << token->rawBitCount | token->rawBits;
         state = (state / frequency << frequencyBits) + state % frequency + token->start;
     }
-    for (const std::uint64_t state : states) appendLittleEndian(state, stateBytes, out);
-    for (auto word = words.rbegin(); word != words.rend(); ++word) appendLittleEndian(*word, wordBytes, out);
+    ByteWriter writer(out);
+    for (const std::uint64_t state : states) writer.put(state);
+    for (auto word = words.rbegin(); word != words.rend(); ++word) writer.put(*word);
 }
 
 ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)
@@ -278,7 +271,7 @@ ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)
         return;
     }
     for (std::uint64_t& state : states_) {
-        state = readLittleEndian<stateBytes>(next_);
+        state = readLittleEndian<std::uint64_t>(next_);
         next_ += stateBytes;
         if (state < stateMin || state >= stateMin << wordBits) failed_ = true;
     }
@@ -305,9 +298,9 @@ inline std::int16_t ResidualDecoder::readOne(std::uint64_t& state, int widthInde
     if constexpr (MayEnd) {
         if (state < stateMin) refillNearEnd(state);
     } else {
-        // A select rather than a branch: whether a word is due is anyone's guess.
+        // Selects instead of branching, because a branch here is unpredictable.
         const bool refill = state < stateMin;
-        const std::uint64_t refilled = state << wordBits | readLittleEndian<wordBytes>(next_);
+        const std::uint64_t refilled = state << wordBits | readLittleEndian<std::uint32_t>(next_);
         state = refill ? refilled : state;
         next_ += refill ? wordBytes : 0;
     }
@@ -320,7 +313,7 @@ void ResidualDecoder::refillNearEnd(std::uint64_t& state) {
         state = stateMin;
         return;
     }
-    state = state << wordBits | readLittleEndian<wordBytes>(next_);
+    state = state << wordBits | readLittleEndian<std::uint32_t>(next_);
     next_ += wordBytes;
 }
 
@@ -341,7 +334,7 @@ void ResidualDecoder::readRowAs(std::span<const std::uint8_t> widths, std::span<
 
 void ResidualDecoder::readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals) {
     assert(residuals.size() == widths.size());
-    // At most one word a residual, and the look at the one after.
+    // Each residual takes at most one word, and one word is read ahead.
     const std::size_t mostBytes = (residuals.size() + 1) * wordBytes;
     if (static_cast<std::size_t>(end_ - next_) >= mostBytes)
         readRowAs<false>(widths, residuals);

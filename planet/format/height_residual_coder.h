@@ -2,10 +2,10 @@
 // "Asymmetric numeral systems", arXiv:1311.2540) over a fixed family of distributions, two states
 // interleaved.
 //
-// Nothing but the residuals is coded: which distribution codes one follows from a width that both sides work
-// out from what they know already. A width step is a quarter octave of the expected |residual|. The
-// distributions are Student's t, whose tails fit terrain, as integer frequencies made once with IEEE
-// additions, multiplications and divisions only, so that every machine makes the same ones.
+// Only the residuals are coded: the distribution of each follows from a width that both sides compute from
+// what they know already. A width step is a quarter octave of the expected |residual|. The distributions are
+// Student's t, whose tails fit terrain, as integer frequencies. They are made once with IEEE additions,
+// multiplications and divisions only, so they are the same on every machine.
 //
 // Residuals are taken modulo 2^16.
 #pragma once
@@ -22,7 +22,7 @@ namespace planet {
 inline constexpr int residualWidthCount = 84;
 inline constexpr int residualWidthOfOne = 24;
 
-// What a residual costs under a width, in 1/256 bit. For choosing between ways to code.
+// Returns the cost of a residual under a width, in 1/256 bit, for choosing between codings.
 int residualCost(int widthIndex, int residual);
 
 // Collects residuals in the order the decoder will ask for them.
@@ -30,9 +30,9 @@ class ResidualEncoder {
 public:
     explicit ResidualEncoder(std::size_t expectedResiduals) { tokens_.reserve(expectedResiduals); }
 
-    // One row: the decoder must ask for the same row. Widths in [0, residualWidthCount).
+    // Adds one row, which the decoder must read as one row. Widths are in [0, residualWidthCount).
     void addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths);
-    // Codes all that was added and appends it.
+    // Codes all rows and appends the bytes.
     void finish(std::vector<std::byte>& out) const;
 
 private:
@@ -48,17 +48,18 @@ private:
 
 struct ResidualDistribution;
 
-// Reads what ResidualEncoder wrote. Hostile bytes make it fail, or give other residuals; never a read
-// outside.
+// Reads the bytes of ResidualEncoder. Hostile bytes make it fail or give other residuals, never a read out of
+// bounds.
 class ResidualDecoder {
 public:
     explicit ResidualDecoder(std::span<const std::byte> coded);
 
     void readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals);
 
-    // The bytes ended before the residuals did, or can't be a start. What readRow gave is then meaningless.
+    // Returns whether the bytes ended before the residuals, or had an invalid start. The residuals are then
+    // meaningless.
     bool failed() const { return failed_; }
-    // All bytes are used up and both states are back where the encoder's began.
+    // Returns whether all bytes are used and both states are where the encoder's began.
     bool ended() const;
 
 private:

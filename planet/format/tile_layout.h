@@ -1,8 +1,8 @@
-// What a tile covers, of colours as of normals.
+// The layout of a tile of colours or of normals.
 //
 // A tile of level l covers one of the 2^l x 2^l squares of its face, in the grid of tileCells << l cells a
-// side. It holds its own (cells + 1)^2 texels, those on its edges shared with the tiles beside it, and a
-// border of texels beyond them, over a face's edge the next face's; so that filtering never leaves the tile.
+// side. It holds its own (cells + 1)^2 texels, and shares those on its edges with its neighbours. A border of
+// texels surrounds them, over a face's edge those of the next face, so that filtering never leaves the tile.
 // Rows run along v upwards.
 #pragma once
 

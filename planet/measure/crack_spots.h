@@ -1,4 +1,4 @@
-// Pixels where ground is missing between chunks, connected into spots. Pure functions, any thread.
+// Connects pixels where ground is missing between chunks into clusters. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,9 @@ struct CrackSpot {
     glm::dvec3 placeM{0, 0, 0};  // of the pixel nearest to the centre
 };
 
-// Pixels that touch, corners included, and lie between the same two chunks: one spot. The largest first, then
-// from the top. Pixels in any order, each at most once, inside the picture.
+// Returns the clusters, the largest first, then from the top. Pixels that touch, corners included, and lie
+// between the same two chunks form a cluster. Pixels may come in any order, each at most once, inside the
+// picture.
 std::vector<CrackSpot> crackSpots(std::span<const CrackPixel> pixels, int widthPx, int heightPx);
 
 }  // namespace planet

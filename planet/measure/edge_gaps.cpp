@@ -18,7 +18,7 @@ bool isUpright(Edge edge) {
     return edge == Edge::West || edge == Edge::East;
 }
 
-// A point of the cube, on an edge of a chunk: how far along it, [0, 1]. Exact.
+// Returns how far along an edge of a chunk a point of the cube lies, [0, 1]. Exact.
 double alongEdge(const ChunkId& id, Edge edge, const glm::dvec3& cube) {
     const FaceSquare square = faceSquareOf(id);
     const FaceAxes& axes = faceAxes(id.face);
@@ -71,12 +71,13 @@ glm::dvec3 pointAt(const EdgeLine& line, double along) {
     return glm::mix(line.positionM[before], line.positionM[before + 1], share);
 }
 
-// Pixels between two points, as a picture that is turned towards them has them.
+// Returns the pixels between two points in a view that is turned to face them.
 double facingPx(const View& view, double scalePx, const glm::dvec3& a, const glm::dvec3& b) {
     return scalePx * glm::length(glm::normalize(a - view.eyeM) - glm::normalize(b - view.eyeM));
 }
 
-// In the flat picture; 0 unless the first of them lies in it and the other before it.
+// Returns the pixels in the flat picture; 0 unless the first point lies in it and the other before the
+// camera.
 double screenPx(const View& view, double scalePx, const glm::dvec3& a, const glm::dvec3& b) {
     const auto inCamera = [&](const glm::dvec3& p) {
         const glm::dvec3 fromEye = p - view.eyeM;
@@ -130,7 +131,7 @@ EdgeGap gapOf(const DrawnGround& ground, const DrawnPair& pair, const View& view
     return gap;
 }
 
-// How far each item may be from any other beside it.
+// Returns the largest possible distance between each item and its neighbours.
 std::vector<float> mostApartOfEachM(const ChunkTree& tree, ErrorMetric metric,
                                     std::span<const DrawItem> items, std::span<const DrawnPair> pairs) {
     std::vector<float> apartM(items.size(), 0);

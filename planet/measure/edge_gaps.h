@@ -1,11 +1,11 @@
-// How far the edges of drawn neighbours lie apart, and how deep a skirt has to hang to cover that.
+// Measures the gaps between the edges of drawn neighbours, and the skirt depth that covers them.
 //
-// Both sides of an edge that two drawn chunks share are lines with straight pieces: so is the way from a
-// point of one to the point of the other at the same place, and its length is largest at a vertex of either.
+// Both sides of an edge between two drawn chunks are piecewise linear, so the vector between their points at
+// the same place is too, and its length is largest at a vertex of either.
 //
-// A gap along the radius is what skirts are there for. Edges also part sideways, by far less: a coarse edge
-// is a chord and the finer one follows the curve that it cuts short. So a skirt as deep as the gap is the
-// least that can hold, and where a gap is seen from right above it may take more; the crack meter says.
+// Skirts cover gaps along the radius. Edges also part sideways, by far less, because a coarse edge is a chord
+// of the curve that the finer one follows. So the depth of the gap is a lower bound of the skirt depth; a gap
+// seen from above may need more, which the crack meter measures.
 //
 // Pure functions, any thread.
 #pragma once
@@ -29,7 +29,7 @@ namespace planet {
 using HeightsOf = std::function<std::span<const std::int16_t>(const DrawItem&)>;
 HeightsOf heightsIn(const ChunkTree& tree);  // the tree must outlive it
 
-// What an instrument has to know of the drawn ground, beside the renderer that holds it.
+// The drawn ground, for instruments without a renderer.
 struct DrawnGround {
     PlanetShape shape;
     std::span<const DrawItem> items;
@@ -37,27 +37,27 @@ struct DrawnGround {
     bool stitched = false;  // as in gl::RenderSettings
 };
 
-// Two drawn chunks side by side: indices of the drawn items. Of two of one level the finer is the one of the
-// lower id.
+// Two drawn neighbours, as indices of the drawn items. Of two chunks of one level, the one with the lower id
+// counts as the finer.
 struct DrawnPair {
     std::uint32_t finer = 0;
     std::uint32_t coarser = 0;
     Edge finerEdge = Edge::West;
     Edge coarserEdge = Edge::West;
-    // Where the finer chunk's edge begins and ends on the coarser one's, [0, 1] from that one's west or south
-    // end. The second is the smaller where the axes of two faces run against each other.
+    // The begin and end of the finer chunk's edge on the coarser one's, [0, 1] from that one's west or south
+    // end. The end is the smaller if the axes of two faces run against each other.
     std::array<double, 2> span{0, 1};
 };
 
-// Each pair once, in the order of the items.
+// Returns each pair once, in the order of the items.
 std::vector<DrawnPair> drawnPairs(std::span<const DrawItem> items);
 
-// Finds pairs by where they are.
+// Finds pairs by their place.
 class PairFinder {
 public:
     PairFinder(std::span<const DrawnPair> pairs, std::size_t itemCount);
-    // The pair beside an item's edge at a place along it, [0, 1] from the west or south; none where nothing
-    // is drawn beyond.
+    // Returns the pair at a place along an item's edge, [0, 1] from the west or south; nothing if no chunk is
+    // drawn beyond it.
     std::optional<std::uint32_t> at(std::uint32_t item, Edge edge, double along) const;
 
 private:
@@ -81,21 +81,21 @@ struct EdgeGap {
     float coarserSkirtM = 0;
 };
 
-// Of all pairs, those without a gap too; the largest gapM first. A vertex in the file's heights counts to the
-// last bit: chunks of one level and one morph have a gap of 0.
+// Return the gaps of all pairs, also those of 0; the largest gapM first. Vertices are exact, so chunks of one
+// level and one morph have a gap of 0.
 std::vector<EdgeGap> edgeGaps(const DrawnGround& ground, const View& view);
 std::vector<EdgeGap> edgeGaps(const DrawnGround& ground, std::span<const DrawnPair> pairs, const View& view);
 
-// The depth that each item's skirt needs to reach down to all edges beside its own, metres; 0 for none.
+// Returns the depth that each item's skirt needs to reach down to all neighbouring edges, metres; 0 for none.
 std::vector<double> requiredSkirtDepthsM(std::span<const EdgeGap> gaps, std::size_t itemCount);
 
-// What LodSettings::skirtFactor makes of the items' skirts: selection's own rule, told apart from the rest of
-// selecting so that other factors can be tried on what was selected. The items must be nodes of the tree.
+// Returns the skirt depths for a LodSettings::skirtFactor, by the rule of selection, so that other factors
+// can be tried on the same items. The items must be nodes of the tree.
 std::vector<float> automaticSkirtDepthsM(const ChunkTree& tree, ErrorMetric metric,
                                          std::span<const DrawItem> items, std::span<const DrawnPair> pairs,
                                          double skirtFactor);
 
-// The smallest depth and the smallest factor by which every item's skirt is as deep as it needs to be.
+// The smallest depth, and the smallest factor, with which every item's skirt is deep enough.
 struct RequiredSkirts {
     double depthM = 0;
     double factor = 0;  // infinity where none is enough: something is wrong with a chunk's error

@@ -22,7 +22,7 @@ std::vector<ChunkId> missingFrom(const ChunkTable& table, const std::vector<Chun
     return missing;
 }
 
-// The chunk itself or one above it.
+// Returns whether one chunk is the other or lies above it.
 bool coversOne(const ChunkTable& drawn, ChunkId id) {
     while (!drawn.contains(id)) {
         if (id.level == 0) return false;
@@ -44,7 +44,8 @@ void LodChanges::add(const Selection& selection, double timeS) {
     drawn.reserve(selection.draw.size());
     for (const DrawItem& item : selection.draw) drawn.push_back(item.id);
     if (splits != splits_) {
-        // What is split now was drawn before, itself or as part of a coarser chunk; else it was out of view.
+        // A chunk that is split now was drawn before, itself or as part of a coarser one; otherwise it was
+        // out of view.
         if (const auto begun = missingFrom(tableOf(splits_), splits); !begun.empty()) {
             const ChunkTable drawnBefore = tableOf(drawn_);
             for (const ChunkId& id : begun) {

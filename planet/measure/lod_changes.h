@@ -1,5 +1,5 @@
-// How what is drawn changes from frame to frame: splits, merges, and chunks that flip back and forth. Plain
-// data fed with one selection a frame; no clock. One thread at a time.
+// Counts the changes of the drawn chunks from frame to frame: splits, merges, and chunks that flip back and
+// forth. It takes one selection per frame and uses no clock. One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ struct LodChange {
 
 class LodChanges {
 public:
-    // Compares with the selection before. A chunk that is culled or comes into view is no change of level; of
-    // a jump over several levels each chunk that is split now and was not, or the reverse, is one. A time
-    // before the last one forgets everything first.
+    // Compares with the selection before. A chunk that is culled or comes into view is not a change of level.
+    // A jump over several levels counts each chunk whose split begins or ends. A time before the last one
+    // clears everything first.
     void add(const Selection& selection, double timeS);
-    // Forgets everything: for another planet.
+    // Clears everything, for another planet.
     void clear();
 
-    // Of the last keptS seconds, oldest first; of one frame splits first.
+    // Returns the changes of the last keptS seconds, oldest first; splits come first in a frame.
     const std::deque<LodChange>& recent() const { return recent_; }
     double splitsPerS() const;  // over the last second
     double mergesPerS() const;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// With two axes across it: across, up and along are right-handed, all of unit length.
+// A ray with two axes across it: across, up and along are right-handed, all of unit length.
 struct Ray {
     glm::dvec3 eyeM;
     glm::dvec3 along;
@@ -34,13 +34,13 @@ Ray makeRay(const glm::dvec3& eyeM, const glm::dvec3& direction) {
     return {eyeM, along, across, glm::cross(along, across)};
 }
 
-// A point as the ray sees it: beside it, and how far along.
+// A point in the ray's axes.
 glm::dvec3 fromRay(const Ray& ray, const glm::dvec3& pointM) {
     const glm::dvec3 offset = pointM - ray.eyeM;
     return {glm::dot(offset, ray.across), glm::dot(offset, ray.up), glm::dot(offset, ray.along)};
 }
 
-// Where the ray enters a box, 0 where it starts inside; infinity where it misses.
+// Returns the distance at which the ray enters a box; 0 if it starts inside, infinity if it misses.
 double entryM(const OrientedBox& box, const Ray& ray) {
     const glm::dvec3 offset = box.centreM - ray.eyeM;
     double entry = 0;
@@ -62,14 +62,14 @@ double entryM(const OrientedBox& box, const Ray& ray) {
     return entry <= exit ? entry : infinity;
 }
 
-// Twice the area of the triangle of the ray and an edge, positive where the ray lies to its left. Exactly the
-// opposite for the edge walked the other way, so no ray slips through between two triangles.
+// Returns twice the area of the triangle of the ray and an edge, positive if the ray lies to its left. The
+// reversed edge gives exactly the negative, so no ray passes between two triangles.
 double sideOf(const glm::dvec3& from, const glm::dvec3& to) {
     return from.x * to.y - from.y * to.x;
 }
 
-// The distance along the ray to a triangle, given as the ray sees it, or infinity. Front faces only: seen
-// from their front, corners run counter-clockwise; the ray looks along +z, so here they run clockwise.
+// Returns the distance along the ray to a triangle in the ray's axes, or infinity. Hits front faces only:
+// seen from their front, corners run counter-clockwise; the ray looks along +z, so here they run clockwise.
 double triangleM(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double overA = sideOf(c, b);
     const double overB = sideOf(a, c);
@@ -81,7 +81,7 @@ double triangleM(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) 
     return alongM >= 0 ? alongM : infinity;
 }
 
-// Smallest and largest beside the ray.
+// The extent of points across the ray.
 struct Extent {
     glm::dvec2 low{infinity, infinity};
     glm::dvec2 high{-infinity, -infinity};
@@ -95,7 +95,7 @@ struct Extent {
     }
 };
 
-// Chunks are searched in tiles of so many cells a side, since most tiles can be passed over at once.
+// Chunks are searched in tiles of so many cells a side, because most tiles can be skipped.
 constexpr int pickCells = 8;
 constexpr int pickSide = pickCells + 1;
 
@@ -117,8 +117,8 @@ struct PickTile {
     }
 };
 
-// Whether the ray may meet one of the tile's triangles. Every direction in a square of side s lies within
-// 3 s^2 / 8 of the bilinear hull of its corners' (see bounds.cpp).
+// Returns whether the ray may meet one of the tile's triangles. Every direction in a square of side s lies
+// within 3 s^2 / 8 of the bilinear hull of its corners' directions (bounds.cpp).
 bool mayBeHit(const PickTile& tile, const Ray& ray) {
     std::int16_t lowest = std::numeric_limits<std::int16_t>::max();
     std::int16_t highest = std::numeric_limits<std::int16_t>::min();
@@ -193,7 +193,7 @@ std::optional<SurfaceHit> pickSurface(const ChunkTree& tree, std::span<const Dra
         const double entry = entryM(tree.nodes[item.node].bounds.box, ray);
         if (entry < infinity) candidates.push_back({entry, item.node});
     }
-    // Nearest first, so that what lies behind the hit is not searched.
+    // The nearest chunks come first, so that chunks behind the hit are not searched.
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate& a, const Candidate& b) { return a.entryM < b.entryM; });
     SurfaceHit hit;

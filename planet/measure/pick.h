@@ -1,4 +1,4 @@
-// What a ray hits first: exact, on the triangles that are drawn. Pure functions, any thread.
+// Finds the first hit of a ray, exactly, on the drawn triangles. Pure functions, any thread.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,9 +17,9 @@ struct SurfaceHit {
     double distanceM = 0;           // from the eye
 };
 
-// Of chunks in any order; their nodes must be in the tree. Skirts are not hit; morph and stitched edges are
-// left out of account. Triangles are hit from above only, as they are drawn: from under the ground one sees
-// out. The direction has any length but 0.
+// The chunks may come in any order; their nodes must be in the tree. Ignores skirts, morph and stitched
+// edges. Hits front faces only, as they are drawn: one can see out from under the ground. The direction has
+// any length but 0.
 std::optional<SurfaceHit> pickSurface(const ChunkTree& tree, std::span<const DrawItem> items,
                                       const glm::dvec3& eyeM, const glm::dvec3& direction);
 

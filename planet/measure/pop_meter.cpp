@@ -4,13 +4,14 @@
 #include <chrono>
 #include <cmath>
 
-#include "planet/base/elapsed.h"
 #include "planet/base/parallel.h"
 #include "planet/base/percentile.h"
+#include "planet/base/stopwatch.h"
 
 namespace planet {
 
-// One place whose level has changed: a coarser chunk of one frame, and what covers its place in the other.
+// A place whose level has changed: a coarser chunk of one frame, and the chunks that cover its place in the
+// other.
 struct PopMeter::Switch {
     ChunkId chunk;
     bool merged = false;        // the coarser one is drawn now
@@ -23,7 +24,7 @@ struct PopMeter::Switch {
 
 namespace {
 
-// The chunk above one that is drawn in a frame; null where there is none.
+// Returns the drawn chunk above one; null if there is none.
 const std::uint32_t* drawnAbove(const ChunkTable& places, ChunkId id) {
     while (id.level > 0) {
         id = parentOf(id);
@@ -32,13 +33,13 @@ const std::uint32_t* drawnAbove(const ChunkTable& places, ChunkId id) {
     return nullptr;
 }
 
-// The drawn chunk that covers a place from its level up.
+// Returns the drawn chunk that is the given one or lies above it.
 const std::uint32_t* drawnOver(const ChunkTable& places, const ChunkId& id) {
     const std::uint32_t* found = places.find(id);
     return found ? found : drawnAbove(places, id);
 }
 
-// Whether the settings ask for children that are not there.
+// Returns whether a chunk needs children that are not resident.
 bool isWaiting(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
     return children != ChildrenState::None && children != ChildrenState::Resident &&
            item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
@@ -48,14 +49,13 @@ bool isStitched(const LodSettings& settings) {
     return settings.seams == SeamMode::Stitched;
 }
 
-// Whether it is drawn in spite of them.
+// Returns whether a chunk is drawn although it needs such children.
 bool isHeldBack(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
     return isStitched(settings) && children == ChildrenState::Resident &&
            item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
 }
 
-// Whether two frames' settings choose the same levels for one camera. How a chunk slides and what hides its
-// seams changes no level.
+// Returns whether two settings choose the same levels for one camera. Morphs and seams do not change levels.
 bool chooseAlike(const LodSettings& a, const LodSettings& b) {
     return a.metric == b.metric && a.tauPx == b.tauPx && a.hysteresis == b.hysteresis &&
            a.maxLevel == b.maxLevel && a.frustumCulling == b.frustumCulling &&
@@ -66,7 +66,7 @@ bool projectAlike(const View& a, const View& b) {
     return a.horizontalFovRad == b.horizontalFovRad && a.widthPx == b.widthPx && a.heightPx == b.heightPx;
 }
 
-// Whether a chunk that is split is to stay so by its own error.
+// Returns whether a split chunk stays split by its own error.
 bool keepsSplit(const ChildrenRequest& split, const LodSettings& settings) {
     return split.parentId.level<settings.maxLevel&& static_cast<double>(split.priority)> 1 -
            settings.hysteresis;
@@ -128,12 +128,12 @@ void PopMeter::add(const ChunkTree& tree, const Selection& selection, const View
     std::vector<Switch> switches;
     if (before_) switches = findSwitches(now);
     if (!switches.empty()) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch measuring;
         if (before_->exaggeration == now.exaggeration) {
             measure(tree.shape, now, switches);
             measureBeside(tree.shape, now, switches);
         }
-        totals_.measuringS += secondsSince(start);
+        totals_.measuringS += measuring.elapsedS();
         now.drawn = std::make_shared<DrawnFrame>(DrawnFrame{selection.draw, view, isStitched(settings)});
         for (Switch& change : switches) {
             change.why = whyOf(now, change);
@@ -154,7 +154,7 @@ void PopMeter::clear() {
 std::vector<PopMeter::Switch> PopMeter::findSwitches(const Frame& now) {
     std::vector<Switch> switches;
     std::unordered_map<ChunkId, std::size_t> known;
-    // What is drawn in one frame, lies below what is drawn in the other, and is drawn there no more.
+    // Finds the chunks of one frame that lie below a chunk of the other frame and are not drawn there.
     const auto find = [&](const Frame& fine, const Frame& coarse, bool merged, std::uint64_t& unmatched) {
         for (std::uint32_t i = 0; i < fine.chunks.size(); ++i) {
             const ChunkId& id = fine.chunks[i].item.id;
@@ -174,7 +174,7 @@ std::vector<PopMeter::Switch> PopMeter::findSwitches(const Frame& now) {
     std::uint64_t went = 0;
     find(now, *before_, false, came);
     find(*before_, now, true, went);
-    // A coarser chunk that was exchanged lies above what was counted, so it is unmatched itself.
+    // A coarser chunk that was exchanged lies above a counted chunk, so it has no match itself.
     for (const Switch& change : switches) --(change.merged ? came : went);
     totals_.cameIntoView += came;
     totals_.wentOutOfView += went;
@@ -188,7 +188,7 @@ void PopMeter::measure(const PlanetShape& shape, const Frame& now, std::vector<S
         const KeptChunk& chunk = frame.chunks[place];
         return DrawnChunk{chunk.item, chunk.heights, isStitched(frame.settings)};
     };
-    forEachInParallel(switches.size(), [&](std::size_t i) {
+    parallelFor(switches.size(), [&](std::size_t i) {
         Switch& change = switches[i];
         const Frame& coarse = change.merged ? now : *before_;
         const Frame& fine = change.merged ? *before_ : now;
@@ -199,8 +199,8 @@ void PopMeter::measure(const PlanetShape& shape, const Frame& now, std::vector<S
     });
 }
 
-// Whether a place that has changed is drawn in both frames: the coarser chunk draws all of it, the finer ones
-// what is not culled.
+// Returns whether a place that has changed is drawn in both frames: the coarser chunk draws all of it, the
+// finer chunks the part that is not culled.
 bool PopMeter::isDrawn(const Frame& now, const Switch& change, const ChunkId& place) const {
     const Frame& fine = change.merged ? *before_ : now;
     return std::any_of(change.finer.begin(), change.finer.end(), [&](std::uint32_t i) {
@@ -209,7 +209,7 @@ bool PopMeter::isDrawn(const Frame& now, const Switch& change, const ChunkId& pl
     });
 }
 
-// An unchanged chunk's edge follows what its neighbour does, so it may jump when that is exchanged.
+// The edge of an unchanged chunk follows its neighbour, so it may jump when the neighbour is exchanged.
 void PopMeter::measureBeside(const PlanetShape& shape, const Frame& now,
                              std::vector<Switch>& switches) const {
     ChunkTable switched(switches.size());
@@ -226,7 +226,7 @@ void PopMeter::measureBeside(const PlanetShape& shape, const Frame& now,
             if (sameEdge(was.item, chunk.item, edge)) continue;
             const ChunkId neighbour = neighbourOf(chunk.item.id, edge);
             const std::uint32_t* beside = drawnOver(switched, neighbour);
-            // Where what lies beyond has left the view, so has the edge.
+            // If the neighbour has left the view, so has the edge.
             if (!beside || !isDrawn(now, switches[*beside], neighbour)) continue;
             const SurfaceJump jump = edgeJump(shape, drawnChunk(*before_, was), drawnChunk(now, chunk), edge,
                                               now.view, now.conditions.seaM);
@@ -275,7 +275,7 @@ PopMeter::Why PopMeter::whyOf(const Frame& now, const Switch& change) const {
     return {PopCause::CameraMoved, jumped};
 }
 
-// The switch of this frame that has drawn a chunk in a coarser one's place; null where none has.
+// Returns the switch of this frame that replaced a coarser chunk by this one; null if there is none.
 const PopMeter::Switch* PopMeter::switchAbove(const ChunkId& chunk, std::span<const Switch> switches) const {
     const std::uint32_t* above = before_ ? drawnAbove(before_->places, chunk) : nullptr;
     if (!above) return nullptr;
@@ -286,7 +286,7 @@ const PopMeter::Switch* PopMeter::switchAbove(const ChunkId& chunk, std::span<co
     return found != switches.end() && found->chunk == split ? &*found : nullptr;
 }
 
-// Of a drawn chunk whose split is due and waits from this frame on.
+// Returns the cause for a drawn chunk whose split is due and waits from this frame on.
 PopMeter::Why PopMeter::whyOfWaiting(const Frame& now, const ChunkId& chunk,
                                      std::span<const Switch> switches) const {
     const bool jumped = now.conditions.cameraJumped;
@@ -299,7 +299,7 @@ PopMeter::Why PopMeter::whyOfWaiting(const Frame& now, const ChunkId& chunk,
             return {cause, jumped};
         return {neighbourCameOrWent(now, chunk) ? PopCause::Culling : PopCause::SeamLimit, jumped};
     }
-    // It is on its way to a finer level still.
+    // The chunk will be split further.
     if (const Switch* above = switchAbove(chunk, switches)) return above->why;
     return {cameraOrSettings(now), jumped};
 }
@@ -318,7 +318,7 @@ PopMeter::Decided PopMeter::findDecided(const Frame& now, const Selection& selec
         if (afterJump) decided.loadsAfterJump.insert(id);
     }
     if (!now.settings.morph || now.settings.fadeS == 0) return decided;
-    // Parents come first: what a chunk's merge takes with it merges for the same reason.
+    // Parents come first: the merges below a merge have the same cause.
     for (const ChildrenRequest& split : selection.splits) {
         const ChunkId& id = split.parentId;
         const auto above = id.level > 0 ? decided.merges.find(parentOf(id)) : decided.merges.end();

@@ -1,18 +1,17 @@
-// Measures what one sees when the level of detail changes: how far the drawn surface jumps on screen in the
-// frame of a switch (a pop), and how long chunks are drawn though they are too coarse because their children
-// have not come (late arrivals). Plain data, fed with one selection a frame; no clock, no GL. One thread at a
-// time; it works on several cores itself where much switches at once.
+// Measures the visible effects of changes of level: the jump of the drawn surface on screen in the frame of a
+// switch (a pop), and the time that chunks are drawn too coarse because their children have not loaded (late
+// arrivals). It takes one selection per frame and uses no clock and no GL. One thread at a time; frames with
+// many switches use several cores.
 //
 // A pop is the distance on screen, through the new view, between the surface as it was drawn in the frame
-// before, morph included, and as it is drawn now at the same place. A camera that moves does not count, but
-// what vertices slide in that frame anyway does. Only places in the picture are looked at; whether something
-// hides them is not asked, but for a drawn sea: places under it do not count.
+// before, morph included, and as it is drawn now at the same place. The motion of the camera does not count,
+// but the sliding of vertices in that frame does. Only places in the picture count, hidden by ground or not;
+// places under a drawn sea do not count.
 //
-// A jump of the camera, and the first frame of all, begin loads and fades that say nothing about a camera
-// that moves. Every switch that comes of what was wanted in such a frame is marked as after a jump, until
-// none of it waits any more.
+// A jump of the camera, and the first frame, begin loads and fades that do not represent a moving camera.
+// Every switch that results from such a frame is marked as after a jump, until none of them waits any more.
 //
-// What comes into view or goes out of it is no change of level.
+// A chunk that comes into view or leaves it is not a change of level.
 #pragma once
 
 #include <array>
@@ -31,8 +30,8 @@
 namespace planet {
 
 // Why a place changed its level. A switch that fades is drawn many frames after it was decided: it has the
-// cause of the frame that decided it, and so have those below and above it that it is followed by. Where the
-// settings and the camera change in one frame, the settings are the cause.
+// cause of the frame that decided it, and so do the switches above and below that follow it. If the settings
+// and the camera change in one frame, the settings are the cause.
 enum class PopCause : std::uint8_t {
     CameraMoved,      // its error crossed the tolerance
     SettingsChanged,  // what chooses the level, field of view, picture size or exaggeration changed
@@ -50,7 +49,7 @@ struct PopConditions {
     std::optional<double> seaM{};  // level of a sea that is drawn as water, metres above the radius
 };
 
-// What was drawn in a frame, for looking at it again.
+// The drawn chunks of a switch, for showing them again.
 struct DrawnFrame {
     std::vector<DrawItem> items;
     View view;
@@ -76,13 +75,14 @@ struct PopEvent {
     std::weak_ptr<const DrawnFrame> frameAfter;
 };
 
-// Whether an event counts: it is seen, and not after a jump.
+// Returns whether an event counts: it is seen, and not after a jump.
 inline bool counts(const PopEvent& event) {
     return event.jump.places > 0 && !event.afterJump;
 }
-// Why it does not: "not measured", "outside picture", "under sea" or "after jump"; "" where it counts.
+// Returns why it does not count: "not measured", "outside picture", "under sea" or "after jump"; "" if it
+// counts.
 const char* popNote(const PopEvent& event);
-// Those that count first, of either kind the largest jump first, and of equal ones the earliest.
+// Orders events that count first, then by the largest jump, then by the earliest.
 bool isWorsePop(const PopEvent& a, const PopEvent& b);
 
 enum class LateEnd : std::uint8_t {
@@ -92,7 +92,7 @@ enum class LateEnd : std::uint8_t {
     OutOfView,
 };
 
-// A chunk that was drawn though its eps was over tau, since its children were not resident.
+// A chunk that was drawn with eps over tau, because its children were not resident.
 struct LateArrival {
     ChunkId chunk;
     double sinceS = 0;
@@ -103,7 +103,7 @@ struct LateArrival {
     LateEnd end = LateEnd::Open;
 };
 
-// Since the meter was cleared.
+// Totals since the meter was cleared.
 struct PopTotals {
     std::array<std::uint64_t, popCauseCount> byCause{};
     std::uint64_t switches = 0;
@@ -122,22 +122,23 @@ struct PopTotals {
 
 class PopMeter {
 public:
-    // One frame: what is drawn now, the view that shows it, and the settings that chose it. A time before the
-    // last one forgets everything first. Across another exaggeration all heights jump: switches are counted by
-    // cause, but no jump of theirs is measured.
+    // Adds a frame: the drawn chunks, the view that shows them, and the settings that chose them. A time
+    // before the last one clears everything first. When the exaggeration changes, all heights jump: switches
+    // are counted by cause, but their jumps are not measured.
     void add(const ChunkTree& tree, const Selection& selection, const View& view, const LodSettings& settings,
              double timeS, const PopConditions& conditions = {});
-    // Forgets everything: for another planet.
+    // Clears everything, for another planet.
     void clear();
 
-    // Of the last keptS seconds and at most mostEvents, oldest first; of one frame by chunk.
+    // Returns the switches of the last keptS seconds, at most mostEvents, oldest first; those of one frame by
+    // chunk.
     const std::deque<PopEvent>& events() const { return events_; }
-    // The same, by when they ended; those still open last.
+    // Returns the late arrivals in the order in which they ended; those that have not ended are last.
     const std::deque<LateArrival>& late() const { return late_; }
     std::size_t lateOpen() const { return open_.size(); }
     const PopTotals& totals() const { return totals_; }
-    // The jump that a share, [0, 1], of the kept switches that count does not exceed: nearest rank. 0
-    // where there are none.
+    // Returns the jump that a share, [0, 1], of the kept switches that count does not exceed, by nearest
+    // rank; 0 if there are none.
     double percentilePx(double share) const;
     double measuredUsPerSwitch() const;  // time that measuring one switch takes, on average
     double lastTimeS() const { return nowS_; }

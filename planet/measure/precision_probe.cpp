@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-// The shader's positionOf in floats as there, and its slides in an order of their own.
+// Mirrors the shader's positionOf in floats; its slides have an order of their own.
 struct ShaderVertices {
     const PlanetShape& shape;
     const VertexFrame& frame;
@@ -23,7 +23,7 @@ struct ShaderVertices {
         const auto index = static_cast<std::size_t>(vertex.y * chunkSize(shape) + vertex.x);
         return vertexFromEyeM(frame, id.face, gridU, gridV, heights[index]);
     }
-    // From one part on, since shares are rounded too and do not come to just 1.
+    // The sum starts from one part, because the rounded shares do not add up to exactly 1.
     glm::vec3 blended(const VertexBlend& blend) const {
         const glm::vec3 last = own(blend.parts[blend.count - 1].vertex);
         glm::vec3 sum = last;

@@ -1,5 +1,5 @@
-// How exact the floats of the vertex shader are: where it puts a vertex, against doubles. The shader's maths
-// is that of vertex_position.h; morph and stitched edges are counted in on both sides, skirts are left out.
+// Measures the float precision of the vertex shader: its vertex positions against doubles. The shader's maths
+// is that of vertex_position.h; both sides include morph and stitched edges, without skirts.
 //
 // Pixels are K' |a/|a| - b/|b||, a and b from the eye: as if the view were turned to face the vertex.
 //
@@ -30,20 +30,20 @@ struct VertexPrecision {
     glm::dvec3 positionM{0, 0, 0};  // in doubles, as drawn; metres from the planet's centre
     double distanceM = 0;           // from the eye
     FloatPosition shader;           // as it is drawn: relative to the eye, from a reference point beside it
-    // For comparison, what it would be with a float position from the planet's centre, less a float eye.
+    // For comparison, the error of a float position from the planet's centre minus a float eye.
     FloatPosition fromCentre;
 };
 
-// One vertex. Frame: vertexFrame(shape, view.eyeM), as the shader has it.
+// Measures one vertex. frame: vertexFrame(shape, view.eyeM), as in the shader.
 VertexPrecision vertexPrecision(const PlanetShape& shape, const VertexFrame& frame, const DrawItem& item,
                                 std::span<const std::int16_t> heights, bool stitched, const View& view,
                                 glm::ivec2 vertex);
 
-// The chunk's vertex whose shader error is largest in pixels.
+// Returns the chunk's vertex with the largest shader error in pixels.
 VertexPrecision worstPrecision(const PlanetShape& shape, const VertexFrame& frame, const DrawItem& item,
                                std::span<const std::int16_t> heights, bool stitched, const View& view);
 
-// The chunk's vertex, as drawn, that stands nearest to a point.
+// Returns the chunk's drawn vertex nearest to a point.
 glm::ivec2 nearestVertex(const PlanetShape& shape, const DrawItem& item,
                          std::span<const std::int16_t> heights, bool stitched, const glm::dvec3& pointM);
 

@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-// Nearer than this nothing is drawn.
+// The distance of the near plane.
 constexpr double clipM = 1e-3;
 
 double crossOf(const glm::dvec2& a, const glm::dvec2& b) {
@@ -102,7 +102,7 @@ std::optional<SeenMesh::Hit> SeenMesh::frontAt(int x, int y) const {
         return at ? hit.farthestM < best->farthestM : hit.offPx < best->offPx;
     };
     for (const Triangle& triangle : triangles_) {
-        // A pixel is as far as one may be off and still be taken for the closest.
+        // A triangle counts as the closest only within a pixel.
         const bool outside = centre.x < triangle.low.x - 1 || centre.y < triangle.low.y - 1 ||
                              centre.x > triangle.high.x + 1 || centre.y > triangle.high.y + 1;
         if (outside) continue;

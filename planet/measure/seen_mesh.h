@@ -1,8 +1,8 @@
-// Triangles as a rasteriser sees them, in doubles: which of them are at a pixel's centre, and how far away.
+// Finds the triangles at a pixel's centre and their distances, as a rasteriser does, in doubles.
 //
-// A rasteriser moves vertices to a grid of 1/256 pixel or finer, so what it shows at a pixel's centre may lie
-// that far beside it. On a triangle seen nearly edge-on that is a long way in depth: distances here come as
-// the range that a triangle has within slackPx of the centre.
+// A rasteriser moves vertices to a grid of 1/256 pixel or finer, so the point that it shows at a pixel's
+// centre may lie that far beside it. On a triangle seen nearly edge-on, that is a large difference in depth.
+// So distances are ranges: those of a triangle within slackPx of the centre.
 //
 // Pure, any thread.
 #pragma once
@@ -20,8 +20,8 @@ namespace planet {
 
 class SeenMesh {
 public:
-    // Two vertices of an edge may each be moved by half a step of the coarsest grid that OpenGL allows for
-    // such pictures in use, 1/256 pixel, and the sample point lies between: twice that is on the safe side.
+    // Two vertices of an edge may each move by half a step of the coarsest grid in use, 1/256 pixel, and the
+    // sample point lies between; twice that is a safe margin.
     static constexpr double slackPx = 1.0 / 128;
 
     // Distances are metres along the view's direction.
@@ -35,16 +35,17 @@ public:
 
     explicit SeenMesh(const View& view);
 
-    // Corners in metres from the planet's centre. Parts behind the eye are left out.
+    // Adds a triangle; corners are metres from the planet's centre. Clips the part behind the eye.
     void add(const std::array<glm::dvec3, 3>& cornersM, std::uint32_t label = 0);
 
-    // At the centre of the pixel, columns from the left and rows from the top: the triangle whose farthest
-    // point within the slack is nearest; where there is none, the one that is closest to it in the picture.
+    // Returns the triangle at the centre of a pixel, columns from the left and rows from the top, whose
+    // farthest point within the slack is nearest; if there is none, the triangle closest to the centre in the
+    // picture.
     std::optional<Hit> frontAt(int x, int y) const;
-    // The nearest that any triangle comes within the slack of the centre.
+    // Returns the least distance of any triangle within the slack of the centre.
     std::optional<double> nearestAtM(int x, int y) const;
 
-    // The point that a pixel's centre shows at a distance along the view's direction, metres from the
+    // Returns the point at a pixel's centre, at a distance along the view's direction, metres from the
     // planet's centre.
     static glm::dvec3 pointAt(const View& view, int x, int y, double distanceM);
 

@@ -15,7 +15,7 @@ namespace planet {
 
 namespace {
 
-// A view as points are projected into it, and the sea that is drawn in it.
+// The projection of a view, and the sea that is drawn in it.
 struct Screen {
     const View& view;
     double scalePx;                      // K'
@@ -34,7 +34,7 @@ struct ScreenPoint {
     bool inPicture = false;
 };
 
-// One place as it was and as it is now.
+// A place before and after.
 struct ComparedPlace {
     glm::dvec2 px{0, 0};       // on screen, after
     glm::dvec2 movedPx{0, 0};  // from where it was before
@@ -52,20 +52,20 @@ ScreenPoint onScreen(const Screen& screen, const glm::dvec3& fromEyeM) {
     return {px, true, 2 * std::abs(px.x) <= view.widthPx && 2 * std::abs(px.y) <= view.heightPx};
 }
 
-// Triangles between the sea's vertices dip below it by less than this at the levels that are drawn beside
-// each other; ground so little above it is not told from it.
+// Triangles between the sea's vertices dip below it by less than this at neighbouring levels; ground within
+// this height counts as the sea.
 bool isUnderSea(const Screen& screen, const glm::dvec3& pointM) {
     constexpr double roundingM = 1e-3;
     return screen.seaRadiusM && glm::length(pointM) <= *screen.seaRadiusM + roundingM;
 }
 
-// Of a triangle, a corner of what the picture's border leaves.
+// A corner of a triangle that is clipped at the picture's border.
 struct JumpCorner {
     glm::dvec2 px{0, 0};
     glm::dvec2 movedPx{0, 0};
 };
 
-// What lies on the near side of one border of the picture: side * px[axis] <= limit.
+// Clips to the inner side of one border of the picture: side * px[axis] <= limit.
 std::vector<JumpCorner> clippedAt(const std::vector<JumpCorner>& polygon, int axis, double side,
                                   double limit) {
     std::vector<JumpCorner> kept;
@@ -83,8 +83,9 @@ std::vector<JumpCorner> clippedAt(const std::vector<JumpCorner>& polygon, int ax
     return kept;
 }
 
-// The mean length over a triangle of a vector that is linear between its corners. Where corners move opposite
-// ways it is less than the mean of their lengths, so it is taken in the middles of smaller triangles.
+// Returns the mean length over a triangle of a vector that is linear between its corners. If corners move in
+// opposite directions, it is less than the mean of their lengths, so it is sampled in the middles of smaller
+// triangles.
 double meanLength(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     constexpr int along = 6;
     double total = 0;
@@ -100,7 +101,7 @@ double meanLength(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     return total / (along * along);
 }
 
-// Adds places up, one by one, and the triangles between them.
+// Adds up places and the triangles between them.
 struct Sum {
     const Screen& screen;
     SurfaceJump jump{};
@@ -177,7 +178,7 @@ struct Sum {
     }
 };
 
-// The drawn position of a vertex: a vertex below the sea's level is drawn at that level.
+// Returns the drawn position of a vertex: a vertex below the sea's level is drawn at that level.
 glm::dvec3 aboveSea(const Screen& screen, const glm::dvec3& positionM) {
     const double radiusM = glm::length(positionM);
     if (!screen.seaRadiusM || radiusM >= *screen.seaRadiusM) return positionM;
@@ -190,13 +191,13 @@ DrawnGrid gridOf(const PlanetShape& shape, const DrawnChunk& chunk, const Screen
     return grid;
 }
 
-// What is drawn at a grid point of the chunk, whether or not its own vertex is still there.
+// Returns the drawn point at a grid point of the chunk, whether or not its own vertex is still there.
 glm::dvec3 drawnAt(const DrawnGrid& grid, int column, int row) {
     const auto index = static_cast<std::size_t>(row * (grid.cells + 1) + column);
     return grid.place[index] == glm::dvec2(column, row) ? grid.positionM[index] : pointOn(grid, column, row);
 }
 
-// In cells, from a cell's south-west corner: within either triangle, however its cell is cut.
+// Places in cells, from a cell's south-west corner: one within either triangle, for both diagonals.
 constexpr std::array<glm::dvec2, 2> triangleMiddles = {{{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}}};
 
 void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAfter, Sum& sum) {
@@ -255,7 +256,7 @@ SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const D
     const int cells = chunkCells(shape);
     Sum sum{screen};
     if (before.stitched || after.stitched) {
-        // Other vertices of the chunk that morph in these rows do so without the edge.
+        // Other vertices of the chunk in these rows morph independently of the edge.
         const auto index = static_cast<std::size_t>(edge);
         DrawnChunk edgeAfter = before;
         edgeAfter.stitched = after.stitched;

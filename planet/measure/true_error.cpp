@@ -14,6 +14,7 @@
 
 #include "planet/base/parallel.h"
 #include "planet/base/percentile.h"
+#include "planet/base/try.h"
 #include "planet/select/drawn_surface.h"
 #include "planet/select/screen_error.h"
 
@@ -23,13 +24,13 @@ namespace {
 
 constexpr int mostChunkSize = 129;
 
-// A subtree of a drawn chunk that one thread measures.
+// The part of a drawn chunk that one task measures.
 struct Piece {
     std::size_t item = 0;
     ChunkId top;
 };
 
-// What a piece comes to.
+// The result of a piece.
 struct PieceError {
     double chordSquared = -1;   // |a/|a| - b/|b||^2, the largest
     double errorM = 0;          // there
@@ -66,7 +67,7 @@ Camera cameraOf(const View& view, const FaceAxes& axes) {
     return camera;
 }
 
-// One row of samples of a leaf, from the eye, in the face's axes.
+// A row of samples of a leaf, relative to the eye, in the face's axes.
 struct Row {
     int count = 0;
     std::array<double, mostChunkSize> drawnX, drawnY, drawnZ;
@@ -93,7 +94,8 @@ public:
     const DrawnGrid& grid() const { return grid_; }
     int finestCells() const { return grid_.cells * perCell_; }
 
-    // Whether a finest sample lies in a cell that stitching has changed: of an edge's two outermost rows.
+    // Returns whether a finest sample lies in a cell that stitching changes: one of the two outermost rows of
+    // an edge.
     bool inSeam(int x, int y) const {
         if (!grid_.stitched) return false;
         const int last = grid_.cells - 1;
@@ -104,7 +106,8 @@ public:
                (row <= 1 && moved(Edge::South)) || (row >= last - 1 && moved(Edge::North));
     }
 
-    // The drawn points at finest samples x, x + 1, ... of a row, counted from the chunk's west and south.
+    // Computes the drawn points at finest samples x, x + 1, ... of a row, counted from the chunk's west and
+    // south.
     void fill(int x, int y, Row& out) const {
         const int row = std::min(y / perCell_, grid_.cells - 1);
         const double t = static_cast<double>(y - row * perCell_) / perCell_;
@@ -133,7 +136,7 @@ private:
         }
     }
 
-    // On each of a cell's two triangles the drawn point is linear along the row.
+    // The drawn point is linear along the row on each of a cell's two triangles.
     void fillCell(glm::ivec2 cell, double t, int x, int first, int end, Row& out) const {
         const auto side = static_cast<std::size_t>(grid_.cells) + 1;
         const std::size_t at = static_cast<std::size_t>(cell.y) * side + static_cast<std::size_t>(cell.x);
@@ -169,8 +172,8 @@ private:
     std::vector<glm::dvec3> local_;  // the grid's vertices from the eye, in the face's axes
 };
 
-// Nowell's map in a face's own axes: with u and v of one row only the root of the normal's part depends on
-// both.
+// Computes Nowell's map in a face's own axes; within a row, only the root of the normal's component depends
+// on both u and v.
 struct LeafColumns {
     std::array<double, mostChunkSize> u, uSquared, uRoot;
 };
@@ -203,8 +206,8 @@ void fillTruth(const PlanetShape& shape, const LeafColumns& columns, double v, c
     }
 }
 
-// The chord between the directions of a and b = a + e: its sine from the cross product of a and e, so that
-// nothing cancels where they are almost the same.
+// Returns the chord between the directions of a and b = a + e. Its sine comes from the cross product of a and
+// e, which avoids cancellation if they are almost equal.
 void compare(Row& row) {
     constexpr double nearestSquared = nearestM * nearestM;
     const auto count = static_cast<std::size_t>(row.count);
@@ -233,7 +236,7 @@ void compare(Row& row) {
     }
 }
 
-// Four sums side by side, added up in a fixed order.
+// Four parallel sums, added up in a fixed order.
 double sumOf(const Row& row) {
     std::array<double, 4> sums{};
     int i = 0;
@@ -244,8 +247,8 @@ double sumOf(const Row& row) {
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// How far two directions a chord apart lie at most in the picture, in tangents: the stretch 1 / cos^2 along
-// the way outwards from a corner.
+// Returns the largest distance in the picture, in tangents, of two directions a chord apart: the stretch is 1
+// / cos^2 outwards from a corner.
 double largestInPicture(const Camera& camera, double chord) {
     const double apartRad = 2 * std::asin(std::min(chord / 2, 1.0));
     const double outerRad = camera.cornerRad + apartRad;
@@ -290,7 +293,7 @@ void takeRow(const Surface& surface, const Camera& camera, const Row& row, int x
     if (most * most > found.screenSquared) projectRow(camera, row, found);
 }
 
-// Samples on an edge that two leaves share are compared once, but for those of the chunk's own edges.
+// Samples on an edge between two leaves are compared once, except those on the chunk's own edges.
 void measureLeaf(const PlanetShape& shape, const Surface& surface, const Camera& camera,
                  const HeldChunk& leaf, Row& row, PieceError& found) {
     const int cells = chunkCells(shape);
@@ -311,7 +314,7 @@ void measureLeaf(const PlanetShape& shape, const Surface& surface, const Camera&
     }
 }
 
-// Where every vertex is a finest sample at its own place there is nothing to compare.
+// If every vertex is a finest sample at its own place, there is nothing to compare.
 bool isExact(const DrawItem& item, const DrawnSnapshot& snapshot) {
     if (item.id.level < leafLevel(snapshot.shape) || item.morph > 0) return false;
     for (std::size_t edge = 0; edge < edgeCount; ++edge) {
@@ -326,7 +329,7 @@ std::uint64_t samplesUnder(const PlanetShape& shape, const ChunkId& id) {
     return side * side;
 }
 
-// Of at most 64 leaves each, as long as that makes no more than 4096 of a chunk.
+// Splits a chunk into pieces of at most 64 leaves, while that makes at most 4096 pieces.
 void addPieces(const ChunkId& id, int levels, std::size_t item, std::vector<Piece>& pieces) {
     if (levels == 0) {
         pieces.push_back({item, id});
@@ -346,7 +349,7 @@ std::vector<Piece> piecesOf(const DrawnSnapshot& snapshot) {
     return pieces;
 }
 
-// All pieces, by several threads.
+// Measures all pieces, on several threads.
 class Measuring {
 public:
     Measuring(const DrawnSnapshot& snapshot, FinestHeights& heights, const TrueErrorProgress& progress)
@@ -358,7 +361,7 @@ public:
     }
 
     Result<void> run() {
-        forEachInParallel(pieces_.size(), [this](std::size_t i) {
+        parallelFor(pieces_.size(), [this](std::size_t i) {
             if (!stopped_) measure(i);
         });
         if (problem_) return tl::unexpected(problem_->error);
@@ -366,7 +369,7 @@ public:
         return {};
     }
 
-    // In their order, so that sums do not depend on which thread was first.
+    // Adds results in the order of the pieces, so that sums do not depend on the threads.
     void addTo(std::vector<ChunkError>& chunks) const {
         const double scale = screenScalePx(snapshot_.view);
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -411,7 +414,7 @@ private:
         report(found.samples);
     }
 
-    // Of several problems the first piece's is told.
+    // Reports the problem of the first piece, if several failed.
     void fail(std::size_t piece, const Error& error) {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
@@ -501,7 +504,7 @@ Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHe
             chunks[i].samples = samplesUnder(snapshot.shape, chunks[i].id);
     }
     Measuring measuring(snapshot, heights, progress);
-    if (Result<void> measured = measuring.run(); !measured) return tl::unexpected(measured.error());
+    TRY(measuring.run());
     measuring.addTo(chunks);
     for (ChunkError& chunk : chunks) {
         if (chunk.samples > 0) chunk.meanPx /= static_cast<double>(chunk.samples);

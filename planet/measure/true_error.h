@@ -1,5 +1,5 @@
-// True error: how far what is drawn lies from the finest data, chunk by chunk, beside the bound of what is
-// drawn (drawn_bound.h).
+// Measures the true error: the distance of the drawn surface from the finest data, chunk by chunk, with the
+// bound of the drawn surface (drawn_bound.h).
 //
 // Every finest sample under a drawn chunk, at its true height a, is compared with the point b of the drawn
 // surface at the same place (drawn_surface.h: morph and stitched edges included, skirts left out). Two
@@ -13,11 +13,11 @@
 //           up to 1 / cos^2 of the angle there. Only samples that project into the picture, with b before the
 //           camera, count; hidden ones too.
 //
-// The cells beside a stitched edge have no proven bound (drawn_bound.h): violations whose worst place lies
-// there are told apart.
+// The cells beside a stitched edge have no proven bound (drawn_bound.h), so violations whose worst place lies
+// there are counted separately.
 //
-// Heights are drawn as high as the shape says, so exaggeration is counted in. No reliance on a delta_c or an
-// extreme of the file: every sample is looked at. The result is the same whatever the number of threads.
+// Heights include the exaggeration of the shape. Every sample is compared, without relying on a delta_c or an
+// extreme of the file. The result does not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@
 
 namespace planet {
 
-// A selection with all that measuring it needs: holds while the planet goes on.
+// A selection with all data for measuring it, independent of the planet's next steps.
 struct DrawnSnapshot {
     PlanetShape shape;
     View view;                      // for which they were selected; pixels are counted in it
@@ -53,19 +53,19 @@ struct ChunkError {
     double errorM = 0;           // |a - b| where facingPx is largest
     double meanPx = 0;           // of facingPx over all samples
     glm::dvec3 worstM{0, 0, 0};  // a there, metres from the planet's centre
-    // Whether it lies in one of the two cells beside an edge that is stitched to a coarser chunk, or about
-    // to.
+    // Whether the worst place lies in one of the two cells beside an edge that is, or will be, stitched to a
+    // coarser chunk.
     bool worstInSeam = false;
     std::uint64_t samples = 0;  // compared
 
     bool operator==(const ChunkError&) const = default;
 };
 
-// Returns whether the error is over the bound of what is drawn by more than floats round: facing > bound
-// (1 + 1e-4) + 1e-3 px.
+// Returns whether the error exceeds the bound by more than the rounding of floats: facing > bound (1 + 1e-4)
+// + 1e-3 px.
 bool isViolation(const ChunkError& error);
 
-// The share of the bound that was not needed, 1 - facing / bound; 0 where the bound is 0.
+// Returns the unused share of the bound, 1 - facing / bound; 0 if the bound is 0.
 double slackOf(const ChunkError& error);
 
 struct TrueErrorReport {
@@ -74,7 +74,7 @@ struct TrueErrorReport {
     double worstDrawnBoundPx = 0;
     double worstFacingPx = 0;
     double worstScreenPx = 0;
-    // Of chunks, each counting once whatever its size: the nearest-rank 99th percentile of its largest.
+    // The nearest-rank 99th percentile of the chunks' largest errors.
     double p99FacingPx = 0;
     double p99ScreenPx = 0;
     double meanSlack = 0;                 // over the chunks with a bound over 0; at most 1
@@ -85,7 +85,7 @@ struct TrueErrorReport {
     bool operator==(const TrueErrorReport&) const = default;
 };
 
-// Told from time to time, by one thread at a time, how many samples of how many are compared; false cancels.
+// Called from one thread at a time, a few times per second; false cancels.
 using TrueErrorProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
 
 // The Error names the file and the chunk that could not be read, or is of kind Cancelled.

@@ -11,7 +11,7 @@ namespace planet {
 
 namespace {
 
-// A file that fails everywhere must not fill the memory. What is forgotten is tried anew.
+// Bounds the memory if all reads fail. A forgotten block is read again.
 constexpr std::size_t mostKnown = 4096;
 
 }  // namespace

@@ -1,10 +1,9 @@
-// What is known of the blocks of one kind that could not be read: how often each was tried, why it failed,
-// and when it may be asked for again. It outlives the nodes, so that a block whose parent is dropped and
-// comes back is not tried anew. Inside the library only; one thread.
+// Remembers the blocks of one kind that could not be read: the number of attempts, the reason, and the time
+// of the next retry. It outlives the nodes, so a block keeps its attempts when its parent is dropped and
+// loaded again. Internal to the library; one thread.
 //
-// A read that fails is tried again after the delay, after twice the delay, after four times, ...; as often as
-// the rules say, then the block has failed for good. What was read and is wrong has failed for good at once:
-// it would be as wrong again.
+// A failed read is retried after the delay, then after twice the delay, four times, and so on, as often as
+// the rules say; then the block has failed for good. Corrupt blocks are never retried.
 #pragma once
 
 #include <cstddef>
@@ -39,30 +38,30 @@ struct RetryRules {
 
 class BlockFailures {
 public:
-    // Times are seconds of one clock, from one call to the next never less, until clear().
+    // Times are seconds of one clock that never runs backwards until clear().
 
-    // A read has failed. True: for good.
+    // Notes a failed read. Returns true if the block has failed for good.
     bool failed(const ChunkId& parent, Error error, double nowS, const RetryRules& rules);
-    // Forgets it: it was read after all, or is to be tried as if it had never failed.
+    // Forgets the failures of a block.
     void forget(const ChunkId& parent);
     void clear();
 
     bool isForGood(const ChunkId& parent) const;
-    // The message of the last failure, with the number of attempts where there were several.
+    // Returns the message of the last failure, with the number of attempts if there were several.
     std::string messageOf(const ChunkId& parent) const;
-    // Of a block whose node has just become resident, and is Absent.
+    // Returns the state of a block whose parent has just become resident.
     ChildrenState stateAt(const ChunkId& parent, double nowS) const;
 
-    // What is wanted is asked about once a step: whether it is Absent, to be asked for. One that awaits its
-    // retry becomes that once its time has come.
+    // Call mayAsk once per step for each wanted block, after beginStep. It returns true if the block is
+    // Absent; a block that awaits its retry becomes Absent when its time has come.
     void beginStep();
     bool mayAsk(const ChunkId& parent, ChildrenState& state, double nowS);
-    // When the first of those that had to wait, in this step, may be asked for.
+    // Returns the time of the first retry that a block of this step waits for.
     std::optional<double> nextRetryS() const { return nextRetryS_; }
 
     std::size_t count() const { return blocks_.size(); }
     std::size_t countForGood() const { return forGood_; }
-    // In the order of the blocks.
+    // Appends the failed blocks in their order.
     void appendTo(std::vector<FailedBlock>& out, BlockKind kind, double nowS) const;
 
 private:

@@ -1,10 +1,10 @@
-// The paging of one kind of blocks: which blocks are resident, which are requested, and which make room.
-// Heights (chunk_paging.h), colours and normals (tile_paging.h) share what is here; what differs is virtual.
-// Internal to the library; one thread.
+// The paging of one kind of blocks: it decides which are resident, which are requested, and which make room.
+// Heights (chunk_paging.h), colours and normals (tile_paging.h) share this class; virtual functions hold the
+// differences. Internal to the library; one thread.
 //
-// Slots of the kind's pool come in fours, one four for each block. Each page-in that is queued or being read
-// has a four reserved for it, but no particular one: free_.size() >= reserved_. So a block that arrives
-// always finds room.
+// Slots of the pool come in groups of four, one group per block. Each page-in that is queued or being read
+// has a group reserved, but no particular one: free_.size() >= reserved_. So a block that arrives always
+// finds room.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct MergedRequest {
     std::array<float, maxViews> viewPriority{};
 };
 
-// Both sorted by priority, highest first.
+// The requests of a step, sorted by priority, highest first.
 struct MergedRequests {
     std::vector<MergedRequest> wanted;  // blocks that a view lacks
     std::vector<MergedRequest> splits;  // resident blocks that a view uses
@@ -63,39 +63,39 @@ public:
 
     // Gives pending page-ins of blocks that are still wanted their new priority.
     void renew(PagingQueue& queue, const std::vector<MergedRequest>& wanted, const PagingRun& run) const;
-    // Queues page-ins for the wanted blocks that are not pending, as far as there is room.
+    // Queues page-ins for the wanted blocks that are not pending, while there is room.
     void request(PagingQueue& queue, const MergedRequests& requests, PagingRun& run);
     // Undoes request() for a page-in of this kind that was taken out of the queue before its read.
     void withdraw(const PagingRequest& cancelled, PagingRun& run);
-    // Whether the read of a request of this kind is still to be used.
+    // Returns whether the read of a request of this kind will be used.
     bool isKept(const PagingRequest& request) const { return request.ticket >= oldestTicketKept_; }
-    // Takes a read of this kind: makes its block resident, or notes the failure.
+    // Takes a finished read of this kind: makes its block resident, or notes the failure.
     void finish(FinishedLoad&& load, PagingRun& run, const UploadChunk& upload);
 
     // Withdraws the page-ins of this kind; results of reads in progress will be discarded.
     void discardRequests(PagingQueue& queue, PagingRun& run);
-    // Evicts every block and discards all reads. To be called with no request of this kind queued.
+    // Evicts every block and discards all reads. No request of this kind may be queued.
     virtual void dropAll(PagingQueue& queue, PagingRun& run) = 0;
-    // Resets to the state just after opening and forgets failures. To be called with no request queued and no
-    // read in progress.
+    // Resets to the state just after opening and forgets failures. No request may be queued, and no read in
+    // progress.
     void startAnew(PagingRun& run);
 
     // Lets blocks that failed be requested again: all, or one.
     void retryAll();
     void retryOne(const ChunkId& parent);
 
-    // Whether a block that had to wait for room may still get it, because some block is about to make room.
+    // Returns whether a block that waits for room may still get it, because another is about to make room.
     virtual bool roomIsComing() const = 0;
-    // Updates the counters of what is so now.
+    // Updates the counters of the present state.
     void count();
 
 protected:
-    // Every slot is free but those below firstFree; the lowest are taken first.
+    // Frees every slot from firstFree on; the lowest are taken first.
     void resetSlots(std::uint32_t capacity, std::uint32_t firstFree);
     void freeSlots(std::uint32_t firstSlot) { free_.push_back(firstSlot); }
     std::uint32_t takeSlots();
     std::size_t reserved() const { return reserved_; }
-    // Discards requests that are no longer queued: they are being read, or finished.
+    // Discards the requests that are being read or have finished.
     void discardReads(const PagingRun& run);
     // Sets the state of a node that has just become resident, given the known failures of its children.
     void recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const;
@@ -107,17 +107,17 @@ private:
     virtual std::size_t nodeCount() const = 0;            // free nodes included
     virtual std::size_t residentCount() const = 0;
     virtual ChildrenState& stateOf(NodeIndex parent) = 0;
-    // Adds what a loader needs to a page-in.
+    // Adds the fields that a loader needs to a page-in.
     virtual void describe(NodeIndex parent, PagingRequest& request) const = 0;
     // Evicts a block in favour of one that is wanted, if there is one to evict.
     virtual bool makeRoom(PagingQueue& queue, const MergedRequest& wanted,
                           const std::vector<MergedRequest>& splits, PagingRun& run) = 0;
-    // Whether a block that was read without error may become resident.
+    // Checks a block before it becomes resident.
     virtual Result<void> check(NodeIndex parent, const LoadedBlock& block) const = 0;
     virtual void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
                              const UploadChunk& upload) = 0;
     virtual void beginRequests() {}  // request() begins
-    // A stand-in is shown in place of a block that has failed for good. Heights and normals have none.
+    // Shows a stand-in in place of a block that has failed for good. Heights and normals have none.
     virtual bool hasStandIn() const { return false; }
     virtual void addStandIn(NodeIndex, PagingRun&) {}
     virtual void dropStandIn(NodeIndex) {}
@@ -137,7 +137,7 @@ private:
     BlockCounters counters_;
 };
 
-// Whether no node of a group of four has children that are resident or on their way.
+// Returns whether no node of a group of four has children that are resident or requested.
 template <class Tree>
 bool isBottom(const Tree& tree, NodeIndex firstChild) {
     for (NodeIndex child = firstChild; child < firstChild + quadrantCount; ++child) {

@@ -12,7 +12,7 @@ namespace planet {
 
 namespace {
 
-// A few per frame, since what yields is drawn coarser at once.
+// Limits the blocks per frame, because their ground becomes coarser at once.
 constexpr std::size_t yieldsPerFrame = 8;
 
 constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any
@@ -48,9 +48,9 @@ void ChunkPaging::describe(NodeIndex parent, PagingRequest& request) const {
 }
 
 Result<void> ChunkPaging::check(NodeIndex parent, const LoadedBlock& block) const {
-    auto checked = checkChildren(tree, parent, std::get<SiblingBlock>(block));
-    if (!checked) return tl::unexpected(namingFile(file_.get(), std::move(checked.error())));
-    return {};
+    return checkChildren(tree, parent, std::get<SiblingBlock>(block)).map_error([&](Error error) {
+        return namingFile(file_.get(), std::move(error));
+    });
 }
 
 void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
@@ -63,7 +63,7 @@ void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& 
     ++blocksLoaded_;
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
         ChunkNode& node = tree.nodes[child];
-        // Counts as used by the frame that requested it, in case this frame no longer uses it.
+        // The chunk counts as used by the frame that requested it, in case this frame no longer uses it.
         node.lastUsedFrame = run.frame - 1;
         node.loadedAtS = run.nowS;
         node.loadOrder = blocksLoaded_;
@@ -80,7 +80,7 @@ void ChunkPaging::use(PagingQueue& queue, NodeIndex index, PagingRun& run) {
     if (node.parent == noNode || quadrantOf(node.id) != 0) return;
     watched_.push_back(index);
     if (!wasOutOfUse) return;
-    // Wanted after all: the two requests cancel each other.
+    // The page-in and the pending page-out cancel each other.
     const ChunkId parentId = parentOf(node.id);
     if (const PagingRequest* pageOut = queue.find(parentId)) {
         run.log.ended(*pageOut, PagingOutcome::Cancelled, run.nowS);
@@ -93,7 +93,7 @@ void ChunkPaging::markUsed(PagingQueue& queue, std::span<const Selection* const>
     usedChunks_ = 0;
     for (const Selection* view : views) {
         for (const VisitedNode& visited : view->touched) use(queue, visited.node, run);
-        // The children that will be drawn once a fade lets them.
+        // Children that wait for a fade are in use too.
         for (const DrawItem& item : view->draw) {
             for (NodeIndex q = 0; item.splitWaits && q < quadrantCount; ++q)
                 use(queue, tree.nodes[item.node].firstChild + q, run);
@@ -128,7 +128,7 @@ bool ChunkPaging::makeRoom(PagingQueue& queue, const MergedRequest&, const std::
     return false;
 }
 
-// Also ends the page-out that may be pending. Does not change watched_.
+// Evicts a block and ends its page-out, if one is pending. Does not change watched_.
 void ChunkPaging::evict(PagingQueue& queue, NodeIndex parent, PagingRun& run) {
     PagingRequest request{.parent = tree.nodes[parent].id, .type = PagingType::PageOut, .askedAtS = run.nowS};
     if (auto pending = queue.pop(request.parent)) request = std::move(*pending);
@@ -138,7 +138,7 @@ void ChunkPaging::evict(PagingQueue& queue, NodeIndex parent, PagingRun& run) {
     noteEviction(request, true, run);
 }
 
-// A block that several views split is worth what it is worth to the one that wants it most.
+// Requests are merged, so a block that several views split has the highest of their priorities.
 void ChunkPaging::chooseYielding(const MergedRequests& requests) {
     std::vector<MergedRequest> least = requests.splits;
     std::erase_if(least, [&](const MergedRequest& split) {
@@ -170,7 +170,7 @@ bool ChunkPaging::roomIsComing() const {
     return counters().budgetWaits > 0 && (tree.residentChunks > usedChunks_ || isYielding());
 }
 
-// A freed node has no parent, and only roots have none else, which are never watched.
+// A freed node has no parent. The roots have none either, but they are never watched.
 void ChunkPaging::forgetGone() {
     std::erase_if(watched_, [&](NodeIndex index) { return tree.nodes[index].parent == noNode; });
 }
@@ -179,8 +179,8 @@ bool ChunkPaging::isOver(std::size_t blocks) const {
     return (tree.residentChunks - faceCount) / quadrantCount + reserved() > blocks;
 }
 
-// Drops blocks last used before a frame until there are few enough or no more such blocks: least recently
-// used first, of those the deepest. In rounds, since dropping a block can free the one above it.
+// Drops blocks last used before a frame, until few enough are left or no such block remains: least recently
+// used first, then deepest first. Works in rounds, because dropping a block can free the one above it.
 void ChunkPaging::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore,
                                  PagingRun& run) {
     if (!isOver(blocks)) return;
@@ -211,8 +211,8 @@ void ChunkPaging::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::ui
     }
 }
 
-// Blocks that no view uses go first, then the requests that are wanted least, then the least recently used
-// blocks. Where even those are held up by reads of the blocks below them, those reads are discarded.
+// Evicts the blocks that no view uses, then cancels the requests with the lowest priority, then evicts the
+// least recently used blocks. Reads that keep even those resident are discarded.
 void ChunkPaging::resize(PagingQueue& queue, std::uint32_t capacity, PagingRun& run) {
     const std::size_t blocks = (capacity - faceCount) / quadrantCount;
     evictLeastUsed(queue, blocks, run.frame, run);

@@ -1,8 +1,8 @@
 // The paging of heights: the resident chunks, their page-outs, and the blocks that yield when the budget is
 // full. Internal to the library; one thread.
 //
-// A chunk that is dropped may be in this step's draw lists, so during a step blocks in use are dropped only
-// before the selection (dropYielding). After resize and dropAll the views must be selected again.
+// A chunk that is dropped may be in this step's draw lists, so a step drops blocks in use only before the
+// selection (dropYielding). Select the views again after resize and dropAll.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@
 
 namespace planet {
 
-// The Error with the name of the file that the chunks come from, if any: for chunks whose checksums match but
-// whose contents are wrong.
+// Adds the name of the chunks' file, if any, to an Error: for chunks with matching checksums and wrong
+// contents.
 Error namingFile(const ChunkFile* file, Error error);
 
 class ChunkPaging final : public BlockPaging {
@@ -30,21 +30,21 @@ public:
 
     ChunkTree tree;
 
-    // Keeps as page-outs the blocks that no view uses. Least recently used first; of those the deepest first,
-    // so that children go before their parents. A block that is used again leaves the queue.
+    // Keeps a page-out for each block that no view uses: least recently used first, then deepest first, so
+    // that children go before their parents. A block that is used again leaves the queue.
     void markUsed(PagingQueue& queue, std::span<const Selection* const> views, PagingRun& run);
-    // Whether blocks that are wanted have to wait, and no block is out of use.
+    // Returns whether wanted blocks wait while every resident block is in use.
     bool lacksRoom() const { return counters().budgetWaits > 0 && tree.residentChunks <= usedChunks_; }
-    // Chooses blocks that the next step drops, since others are wanted yieldFactor times as much. Call it if
-    // room is lacking. This evens out the errors of views that the budget cannot pay for: without it, chunks
+    // Chooses blocks that the next step drops, because others are wanted more than yieldFactor times as much.
+    // Call it if lacksRoom(). This evens out the errors of views that exceed the budget: otherwise the chunks
     // that came first would stay fine, and those that the camera has approached since would stay coarse.
     void chooseYielding(const MergedRequests& requests);
     bool isYielding() const { return !yielding_.empty(); }
     void dropYielding(PagingQueue& queue, PagingRun& run);
-    // No block yields any more, since the selections are made again.
+    // Keeps the blocks that were to yield, because the selections are made again.
     void cancelYielding();
 
-    // Another number of slots. Evicts down to it and renumbers every slot.
+    // Sets the number of slots. Evicts down to it and renumbers every slot.
     void resize(PagingQueue& queue, std::uint32_t capacity, PagingRun& run);
     void dropAll(PagingQueue& queue, PagingRun& run) override;
     bool roomIsComing() const override;
@@ -76,9 +76,9 @@ private:
     std::uint32_t blocksLoaded_ = 0;  // for ChunkNode::loadOrder
 };
 
-// The slots that a budget pays for: the roots' six and then whole sibling blocks, and no more than the planet
-// has chunks. The Error says what the least is: enough that the finest level can be reached in one place,
-// even where four chunks meet.
+// Returns the number of slots that fit a budget: six for the roots and then whole sibling blocks, at most as
+// many as the planet has chunks. The Error names the smallest budget: it allows the finest level at one
+// place, even where four chunks meet.
 Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::size_t budgetBytes);
 
 }  // namespace planet

@@ -1,10 +1,12 @@
 #include "planet/paging/disk_simulator.h"
 
-#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <array>
+
+#include "planet/base/check_range.h"
+#include "planet/base/try.h"
 
 namespace planet {
 
@@ -28,10 +30,6 @@ double share(std::uint64_t drawn) {
     return static_cast<double>(drawn >> 11) * 0x1p-53;
 }
 
-bool within(double value, double most) {
-    return value >= 0 && value <= most;  // false for NaN
-}
-
 }  // namespace
 
 bool isTrouble(const BadDiskSettings& settings) {
@@ -39,19 +37,9 @@ bool isTrouble(const BadDiskSettings& settings) {
 }
 
 Result<void> checkBadDisk(const BadDiskSettings& settings) {
-    if (!within(settings.latencyMs, mostLatencyMs)) {
-        return badInput(fmt::format("injected latency: {} ms is out of range; expected [0, {}] ms",
-                                    settings.latencyMs, mostLatencyMs));
-    }
-    if (!within(settings.bandwidthMBs, mostBandwidthMBs)) {
-        return badInput(fmt::format("injected bandwidth: {} MB/s is out of range; expected [0, {}] MB/s",
-                                    settings.bandwidthMBs, mostBandwidthMBs));
-    }
-    if (!within(settings.failureRate, 1)) {
-        return badInput(
-            fmt::format("injected failure rate: {} is out of range; expected [0, 1]", settings.failureRate));
-    }
-    return {};
+    TRY(checkRange("injected latency", settings.latencyMs, 0.0, mostLatencyMs, "ms"));
+    TRY(checkRange("injected bandwidth", settings.bandwidthMBs, 0.0, mostBandwidthMBs, "MB/s"));
+    return checkRange("injected failure rate", settings.failureRate, 0.0, 1.0);
 }
 
 DiskFault diskFault(const BadDiskSettings& settings, const BlockId& block, std::uint32_t attempt,

@@ -1,4 +1,5 @@
 #include "planet/paging/finest_heights.h"
+#include "planet/base/try.h"
 
 #include <cassert>
 #include <utility>
@@ -79,7 +80,7 @@ void FinestHeights::setCacheBytes(std::size_t bytes) {
     dropSurplus();
 }
 
-// Locked.
+// Call it with the mutex locked.
 void FinestHeights::dropSurplus() {
     while (bytes_ > cacheBytes_) {
         bytes_ -= kept_.back().bytes;
@@ -93,9 +94,8 @@ Result<std::shared_ptr<const HeldBlock>> FinestHeights::childrenOf(const HeldChu
     const std::uint64_t key = keyOf(chunk.id);
     if (const auto found = resident.find(key); found != resident.end()) return found->second;
     if (std::shared_ptr<const HeldBlock> kept = find(key)) return kept;
-    Result<SiblingBlock> children = load_(chunk.id, chunk.children, *chunk.heights);
-    if (!children) return tl::unexpected(std::move(children.error()));
-    const std::shared_ptr<const HeldBlock> block = heldBlock(std::move(*children));
+    TRY_ASSIGN(auto children, load_(chunk.id, chunk.children, *chunk.heights));
+    const std::shared_ptr<const HeldBlock> block = heldBlock(std::move(children));
     keep(key, block);
     return block;
 }
@@ -105,9 +105,8 @@ Result<HeldChunk> FinestHeights::chunkUnder(const HeldChunk& top, const ChunkId&
     assert(id.level >= top.id.level);
     HeldChunk at = top;
     while (at.id.level < id.level) {
-        const auto block = childrenOf(at, resident);
-        if (!block) return tl::unexpected(block.error());
-        at = (**block)[static_cast<std::size_t>(quadrantTowards(at.id, id))];
+        TRY_ASSIGN(const auto block, childrenOf(at, resident));
+        at = (*block)[static_cast<std::size_t>(quadrantTowards(at.id, id))];
     }
     return at;
 }
@@ -116,9 +115,8 @@ Result<bool> FinestHeights::visitLeaves(const PlanetShape& shape, const HeldChun
                                         const ResidentBlocks& resident,
                                         const std::function<bool(const HeldChunk& leaf)>& visit) {
     if (top.id.level >= leafLevel(shape)) return visit(top);
-    const auto block = childrenOf(top, resident);
-    if (!block) return tl::unexpected(block.error());
-    for (const HeldChunk& child : **block) {
+    TRY_ASSIGN(const auto block, childrenOf(top, resident));
+    for (const HeldChunk& child : *block) {
         const Result<bool> goOn = visitLeaves(shape, child, resident, visit);
         if (!goOn || !*goOn) return goOn;
     }
@@ -128,8 +126,7 @@ Result<bool> FinestHeights::visitLeaves(const PlanetShape& shape, const HeldChun
 Result<void> FinestHeights::forEachLeaf(const PlanetShape& shape, const HeldChunk& top,
                                         const ResidentBlocks& resident,
                                         const std::function<bool(const HeldChunk& leaf)>& visit) {
-    const Result<bool> visited = visitLeaves(shape, top, resident, visit);
-    if (!visited) return tl::unexpected(visited.error());
+    TRY(visitLeaves(shape, top, resident, visit));
     return {};
 }
 

@@ -1,7 +1,8 @@
-// The finest data under any chunk: blocks decoded from the chunk downwards, the last used ones kept.
+// Reads the finest data under any chunk: decodes blocks from the chunk downwards and caches the last used
+// ones.
 //
-// What is read is what the truth is for the instruments, so nothing here relies on a delta_c, a bound or an
-// extreme of the file: only on heights, which a checksum guards.
+// The instruments take this data as the truth, so nothing here relies on a delta_c, a bound or an extreme of
+// the file, only on heights, which a checksum protects.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@
 
 namespace planet {
 
-// A chunk whose heights are at hand, and where its children lie.
+// A chunk with its heights, and the place of its children.
 struct HeldChunk {
     ChunkId id;
     SharedHeights heights;   // never null
@@ -30,30 +31,30 @@ struct HeldChunk {
 // The four children of a chunk, in quadrant order.
 using HeldBlock = std::array<HeldChunk, quadrantCount>;
 
-// Blocks that are resident in a tree, by keyOf their parent; they are used without reading.
+// The blocks that are resident in a tree, by keyOf(parent); they are used without reading.
 using ResidentBlocks = std::unordered_map<std::uint64_t, std::shared_ptr<const HeldBlock>>;
 
-// The children of a node that is resident, and of all resident nodes under it.
+// Adds the children of a resident node, and of all resident nodes under it.
 void addResidentBlocks(const ChunkTree& tree, NodeIndex node, ResidentBlocks& blocks);
 
-// Reads and keeps decoded blocks. Any thread, several at once; a block that two want at once may be read
-// twice.
+// Reads and caches decoded blocks. Any thread, several at once; a block that two threads want at once may be
+// read twice.
 class FinestHeights {
 public:
     static constexpr std::size_t usualCacheBytes = std::size_t{256} << 20;
 
-    // cacheBytes: of decoded heights that are kept, >= 0; less: blocks are read again.
+    // cacheBytes: the limit of cached heights, >= 0. Blocks beyond it are read again.
     explicit FinestHeights(LoadChildren load, std::size_t cacheBytes = usualCacheBytes);
     explicit FinestHeights(std::shared_ptr<const ChunkFile> file, std::size_t cacheBytes = usualCacheBytes);
 
-    // The Error names the file and the chunk. The chunk must not be a leaf.
+    // Returns the children of a chunk, which must not be a leaf. The Error names the file and the chunk.
     Result<std::shared_ptr<const HeldBlock>> childrenOf(const HeldChunk& chunk,
                                                         const ResidentBlocks& resident);
 
-    // The chunk of an id at or under one that is held.
+    // Returns the chunk of an id that lies at or under a held one.
     Result<HeldChunk> chunkUnder(const HeldChunk& top, const ChunkId& id, const ResidentBlocks& resident);
 
-    // Every chunk of the leaf level at or under one, in quadrant order; visit returns false to end early.
+    // Visits every leaf at or under a chunk, in quadrant order; visit returns false to end early.
     Result<void> forEachLeaf(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 

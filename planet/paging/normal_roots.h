@@ -1,6 +1,6 @@
-// Derives the normal tiles of the six whole faces, without which no tile of normals can be shown. They are
-// not in the file: deriving one reads all heights of its level. Internal to the library; one thread, except
-// that follow() derives the tiles on a thread of its own, one after the other.
+// Derives the normal tiles of the six whole faces, which all other tiles of normals need. They are not in the
+// file: deriving one reads all heights of its level. Internal to the library; one thread, except that
+// follow() derives the tiles on a thread of its own, one after the other.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@
 
 namespace planet {
 
-// For data without which a planet has nothing to show: a read that fails is repeated at once.
+// Reads data that a planet cannot be shown without: repeats a failed read at once.
 template <class Read>
 auto readRoot(const Read& read) {
     constexpr int attempts = 3;
@@ -37,7 +37,7 @@ public:
     // The slots that normals get once their roots are derived; 0 if they are off.
     std::uint32_t capacity() const { return capacity_; }
     const std::string& problem() const { return problem_; }
-    // Whether normals begin as soon as their roots are derived.
+    // Returns whether normals will begin as soon as their roots are derived.
     bool arePending(const TilePaging& normals) const { return normals.capacity() != capacity_; }
 
     // Sets the number of slots, and the bytes of heights that are kept to derive tiles from. problem: why

@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "planet/base/try.h"
 #include "planet/sphere/face_fold.h"
 
 namespace planet {
@@ -26,7 +27,7 @@ struct Slope {
     double alongV = 0;
 };
 
-// Of Nowell's map at (u, v), along the face's normal, u and v.
+// The tangents of Nowell's map at (u, v), along the face's normal, u and v.
 struct Tangents {
     glm::dvec3 alongU;
     glm::dvec3 alongV;
@@ -38,13 +39,13 @@ Tangents tangentsAt(double u, double v) {
             {v * (u * u / 3 - 0.5) / roots.x, -u * v / 6 / roots.y, roots.z}};
 }
 
-// alpha in the header, of the edge u = +-1; of the edge v = +-1 with u and v exchanged.
+// Returns alpha of the header for the edge u = +-1; exchange u and v for the edge v = +-1.
 double bendAt(double u, double v) {
     const Tangents tangents = tangentsAt(u, v);
     return glm::dot(tangents.alongU, tangents.alongV) / glm::dot(tangents.alongV, tangents.alongV);
 }
 
-// The heights of one level's grid, wherever on the planet.
+// The heights of one level's grid over the whole planet.
 class LevelGrid {
 public:
     LevelGrid(const PlanetShape& shape, int level, const std::array<HeldChunk, faceCount>& roots,
@@ -52,10 +53,10 @@ public:
         : shape_(shape), level_(level), roots_(roots), heights_(heights) {}
 
     int cells() const { return chunkCells(shape_) << level_; }
-    // Of the first chunk that could not be read; what is told of its heights is 0.
+    // Returns the Error of the first chunk that could not be read; its heights are given as 0.
     const std::optional<Error>& problem() const { return problem_; }
 
-    // The vertices of a chunk of the level; null once there is a problem.
+    // Returns the vertices of a chunk of the level; null once there is a problem.
     const std::int16_t* chunk(Face face, int column, int row) {
         const ChunkId id{face, static_cast<std::uint8_t>(level_), static_cast<std::uint32_t>(column),
                          static_cast<std::uint32_t>(row)};
@@ -67,7 +68,7 @@ public:
         return lastHeights_;
     }
 
-    // A point on a face or over one of its edges.
+    // Returns the height of a point on a face or over one of its edges, in steps.
     double step(const FaceGridPoint& point) {
         const FaceGridPoint on = foldedOver(point, cells());
         const int size = chunkCells(shape_);
@@ -108,7 +109,7 @@ private:
     std::optional<Error> problem_;
 };
 
-// Steps of a part of a face's grid.
+// The steps of a part of a face's grid.
 struct Window {
     int firstColumn = 0;
     int firstRow = 0;
@@ -122,7 +123,7 @@ struct Window {
     }
 };
 
-// What a chunk covers of a window, [first, end) columns or rows.
+// The columns or rows [first, end) of a window that a chunk covers.
 struct Covered {
     int first;
     int end;
@@ -144,7 +145,7 @@ void copyChunk(LevelGrid& grid, Face face, int size, int column, int row, Window
     }
 }
 
-// The part of a square of texels that lies on the face, and one vertex around it.
+// Reads the part of a square of texels that lies on the face, and one vertex around it.
 Window readWindow(LevelGrid& grid, Face face, int size, int firstColumn, int firstRow) {
     const auto clamped = [&](int vertex) { return std::clamp(vertex, 0, grid.cells()); };
     Window window;
@@ -163,7 +164,7 @@ Window readWindow(LevelGrid& grid, Face face, int size, int firstColumn, int fir
     return window;
 }
 
-// Of a vertex on a face's edge, by its neighbours on both faces.
+// Returns the slope at a vertex on an edge of a face, from its neighbours on both faces.
 Slope slopeOnEdge(LevelGrid& grid, const FaceGridPoint& point) {
     const int cells = grid.cells();
     const auto step = [&](int columnsOn, int rowsOn) {
@@ -191,8 +192,8 @@ Slope slopeOnFace(LevelGrid& grid, const FaceGridPoint& point) {
     return {(step(1, 0) - step(-1, 0)) * perUnit, (step(0, 1) - step(0, -1)) * perUnit};
 }
 
-// Of a texel over one edge, along the axes of the tile's own face, as if its lines went on: for filters that
-// reach there.
+// Returns the slope at a texel over one edge, along the axes of the tile's own face, for filters that reach
+// there.
 Slope slopeBeyondEdge(LevelGrid& grid, const FaceGridPoint& point) {
     const int cells = grid.cells();
     const FaceGridPoint on = foldedOver(point, cells);
@@ -213,8 +214,8 @@ Slope slopeBeyondEdge(LevelGrid& grid, const FaceGridPoint& point) {
     return {alongU, across + 2 * bendAt(side, 2.0 * point.column / cells - 1) * alongU};
 }
 
-// Slow: only of texels on a face's edge and beyond. Beyond a corner of the cube there is no fourth face: the
-// corner's own.
+// Returns the slope at a texel on an edge of a face or beyond it, slowly. Beyond a corner of the cube, where
+// there is no fourth face, it is the slope at the corner.
 Slope slopeAround(LevelGrid& grid, FaceGridPoint point) {
     const int cells = grid.cells();
     const auto isOver = [&](int vertex) { return vertex < 0 || vertex > cells; };
@@ -226,8 +227,8 @@ Slope slopeAround(LevelGrid& grid, FaceGridPoint point) {
     return slopeOnFace(grid, point);
 }
 
-// The nearest half float, to even (after Giesen, "Float->half variants", 2012): some ten times as fast as
-// glm's.
+// Rounds to the nearest half float, ties to even (after Giesen, "Float->half variants", 2012): about ten
+// times as fast as glm.
 std::uint16_t halfOf(double value) {
     constexpr std::uint32_t smallestNormal = 0x38800000;  // 2^-14
     constexpr std::uint32_t subnormalStep = 0x3F000000;   // 0.5, whose last bit is worth 2^-24
@@ -302,9 +303,7 @@ Result<TileData> NormalDeriver::tile(const ChunkId& id) {
 Result<TileBlock> NormalDeriver::childrenOf(const ChunkId& parent) {
     TileBlock block;
     for (int q = 0; q < quadrantCount; ++q) {
-        Result<TileData> child = tile(childOf(parent, q));
-        if (!child) return tl::unexpected(std::move(child.error()));
-        block[static_cast<std::size_t>(q)] = std::move(*child);
+        TRY_ASSIGN(block[static_cast<std::size_t>(q)], tile(childOf(parent, q)));
     }
     return block;
 }

@@ -11,7 +11,7 @@ namespace planet {
 
 namespace {
 
-// Reading may allocate a lot and may run code that the caller supplied; neither may end the program.
+// Reading may run out of memory, and the caller's code may throw; neither may end the program.
 Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& request) {
     const auto asLoaded = [](auto&& block) { return LoadedBlock(std::forward<decltype(block)>(block)); };
     try {
@@ -42,7 +42,7 @@ Pager::Pager(BlockLoaders load, int threads) : load_(std::move(load)) {
 }
 
 Pager::~Pager() {
-    // All are told before the first is joined, so that they end side by side.
+    // All threads are told to stop before the first is joined, so that they stop in parallel.
     for (std::jthread& thread : threads_) thread.request_stop();
 }
 
@@ -55,7 +55,7 @@ void Pager::setThreads(int threads) {
     for (std::size_t i = 0; i < loadersWanted_; ++i) {
         if (loaders_[i].running) continue;  // one that was about to go stays
         loaders_[i].running = true;
-        // The thread that was here before has nothing left to do, so joining it takes no time.
+        // The previous thread in this place has ended, so joining it does not wait.
         threads_[i] = std::jthread([this, i](const std::stop_token& stop) { runLoader(i, stop); });
     }
 }
@@ -127,7 +127,7 @@ DiskFault Pager::nextFault(const PagingRequest& request) {
     return diskFault(badDisk_, request.block(), attempts_[request.block()]++, request.location.size);
 }
 
-// Takes a request and sees it through. Locked before and after.
+// Takes and serves one request. Locked on entry and return.
 void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     const std::uint64_t epoch = epoch_;
     PagingRequest request = takeNext();
@@ -150,7 +150,8 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     loadFinished_.notify_all();
 }
 
-// Waits as long as the bad disk says, and by its new word when that changes. True if the read fails.
+// Waits as long as the injected fault says, also if the settings change meanwhile. Returns true if the read
+// fails.
 bool Pager::sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock) {
     const std::uint64_t epoch = epoch_;
     while (isTrouble(badDisk_) && !stop.stop_requested() && epoch == epoch_) {
@@ -219,7 +220,7 @@ void Pager::startVirtualReads() {
     }
 }
 
-// Of those that end first the one that was taken first; there must be one.
+// Returns the read that ends first; of equals, the one taken first. There must be one.
 std::size_t Pager::nextVirtualEnd() const {
     const auto next =
         std::min_element(virtualReadings_.begin(), virtualReadings_.end(),
@@ -284,7 +285,7 @@ std::vector<BlockId> Pager::takeTaken(const PagingQueue& lockedQueue) {
     return std::exchange(taken_, {});
 }
 
-// What a virtual loader has waited for is read now.
+// Reads the block of the first virtual read that has ended.
 std::optional<FinishedLoad> Pager::readFinished(Lock& lock) {
     if (virtuallyFinished_.empty()) return std::nullopt;
     VirtualReading reading = std::move(virtuallyFinished_.front());

@@ -1,10 +1,10 @@
 // The loader threads: they take page-ins from the paging queue, best first, read and decode them, and leave
 // what they loaded in a list for the owning thread. One thread owns a pager and makes all calls.
 //
-// By simulated time no thread reads. As many virtual loaders take requests as there would be threads, at the
-// moment they are free and something is queued. A read lasts as long as diskFault() says, nothing without a
-// bad disk, and is over once advance() has reached its end; takeFinished() then reads the block, at once. So
-// the same calls give the same loads in the same order, on any machine.
+// In simulated time no thread reads. Virtual loaders, as many as the threads, take requests as soon as they
+// are free and a request is queued. A read lasts as long as diskFault() says, or no time without a bad disk,
+// and ends when advance() has reached its end; takeFinished() then reads the block. So the same calls give
+// the same loads in the same order, on any machine.
 #pragma once
 
 #include <array>
@@ -31,17 +31,17 @@ namespace planet {
 
 using SiblingBlock = std::array<ChunkData, quadrantCount>;
 using TileBlock = std::array<TileData, quadrantCount>;
-// By the request's kind.
+// The alternative follows from the kind of the request.
 using LoadedBlock = std::variant<SiblingBlock, TileBlock>;
 
 // Reads the four children of a chunk, as ChunkFile::readChildren does. Called from loader threads, several at
 // once.
 using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, BlockLocation location,
                                                         std::span<const std::int16_t> parentHeights)>;
-// The same for a tile of colour, as ChunkFile::readColourChildren does.
+// Reads the four children of a tile of colours, as ChunkFile::readColourChildren does.
 using LoadColours = std::function<Result<TileBlock>(const ChunkId& parent, BlockLocation location)>;
 
-// Derives the four children of a tile of normals. Called as the others are.
+// Derives the four children of a tile of normals. Called from loader threads too.
 using LoadNormals = std::function<Result<TileBlock>(const ChunkId& parent)>;
 
 struct BlockLoaders {
@@ -73,13 +73,13 @@ struct PagerStatus {
     bool held = false;  // paused, and no queued page-in is let through
 
     bool idle() const { return queued + loading + finished == 0; }
-    // Nothing is on its way, and nothing will be by itself.
+    // No read is in progress or finished, and no queued request can start.
     bool atRest() const { return loading + finished == 0 && (queued == 0 || held); }
 };
 
 inline constexpr int maxLoaderThreads = 64;
 
-// By what a read's end is decided.
+// Decides when a read ends.
 enum class PagingTime : std::uint8_t {
     Clock,      // loader threads, as fast as they are
     Simulated,  // virtual loaders, by the bad disk's settings and seed, in the time of advance()
@@ -90,73 +90,72 @@ class Pager {
 public:
     // threads: [1, maxLoaderThreads].
     Pager(BlockLoaders load, int threads);
-    // Lets the blocks being read come to their end and drops everything else.
+    // Waits for the blocks being read and drops everything else.
     ~Pager();
     Pager(const Pager&) = delete;
     Pager& operator=(const Pager&) = delete;
 
-    // Calls edit(PagingQueue&) while no loader touches the queue, and wakes the loaders. Keep it short.
+    // Calls edit(PagingQueue&) with the queue locked, then wakes the loaders. Keep it short.
     template <class Edit>
     auto withQueue(Edit&& edit) {
-        // Destroyed in reverse: virtual loaders take, then the lock is gone, then the threads wake.
+        // Destruction runs in reverse: virtual loaders take requests, the lock is released, then the threads
+        // wake.
         const Wake wake{workArrived_};
         const std::lock_guard lock(mutex_);
         const VirtualLoaders loaders{*this};
         return edit(queue_);
     }
-    // The same for looking only: wakes nobody.
+    // Calls look(const PagingQueue&) with the queue locked; wakes no loader.
     template <class Look>
     auto readQueue(Look&& look) const {
         const std::lock_guard lock(mutex_);
         return look(queue_);
     }
 
-    // How many loaders take requests from now on. Waits for no read: a loader that is one too many goes when
-    // its read is done, so for that long there may be more.
+    // Sets the number of loaders. Does not wait: a loader beyond the number stops when its read is done.
     void setThreads(int threads);
 
-    // While paused the loaders take nothing but what loadOne() lets through, one request a call; with nothing
-    // queued it does nothing.
+    // While paused, the loaders take only the requests that loadOne() lets through, one per call. With
+    // nothing queued, loadOne() does nothing.
     void setPaused(bool paused);
     void loadOne();
 
-    // Reads are slowed and fail as these say, those that wait already included. A block's attempts are
-    // counted while there is trouble, and anew after each change.
+    // Sets the injected faults, also for reads that are waiting. The attempts of a block are counted while
+    // faults are injected, and from 0 after each change.
     void setBadDisk(const BadDiskSettings& settings);
-    // So that the bad disk's troubles come again as they came.
+    // Counts attempts from 0, so that the injected faults repeat.
     void forgetAttempts();
 
-    // Another time from now on; simulated seconds begin at 0. What was being read, or has been read and not
-    // been taken, is given up: its requests are returned, as they were taken, and their results come to
-    // nothing.
+    // Sets the paging's time; simulated seconds begin at 0. Gives up the reads in progress and the finished
+    // reads that have not been taken: returns their requests and discards their results.
     std::vector<PagingRequest> setTime(PagingTime time);
-    // The same without another time.
+    // Gives up the same reads without changing the time.
     std::vector<PagingRequest> giveUp();
     PagingTime time() const;
-    // Only of Simulated and Recorded: lets so many seconds, >= 0, pass.
+    // In simulated and recorded time: lets seconds, >= 0, pass.
     void advance(double seconds);
-    // Only of Simulated: seconds until the next read ends; nothing while none is under way.
+    // In simulated time: returns the seconds until the next read ends; nothing if none is in progress.
     std::optional<double> untilNextEnd() const;
-    // Only of Recorded: starts the read of a queued block, and ends one that was started. False where there
-    // is none such. Of several reads of the same block all but the last taken are such as will be thrown
-    // away.
+    // In recorded time: take starts the read of a queued block, and finish ends one. They return false if
+    // there is no such read. Of several reads of one block, all but the last result are discarded.
     bool take(const BlockId& block);
-    // failure: of what kind, where the read is to fail.
+    // failure: the kind of the failure, if the read fails.
     bool finish(const BlockId& block, std::optional<ErrorKind> failure, bool last = true);
 
-    // The blocks that were taken since the last call of this, in order. withQueue sees to it that none is
-    // taken in between: call it from there.
+    // Returns the blocks that were taken since the last call, in order. Call it inside withQueue, so that no
+    // block is taken meanwhile.
     std::vector<BlockId> takeTaken(const PagingQueue& lockedQueue);
 
-    // The finished loads in the order they finished, one a call. But for Clock the block is read here.
+    // Returns the next finished load, in the order they finished. Except with PagingTime::Clock, it reads the
+    // block here.
     std::optional<FinishedLoad> takeFinished();
 
-    // Waits until a load is finished, but not past a moment, nor while there is nothing to wait for. True if
-    // one is.
+    // Waits until a load is finished, `until` has passed, or there is nothing to wait for. Returns whether a
+    // load is finished.
     bool waitForFinished(std::chrono::steady_clock::time_point until);
 
     PagerStatus status() const;
-    // Longest first.
+    // Returns the reads in progress, longest first.
     std::vector<LoadInProgress> loadingNow() const;
 
 private:
@@ -170,7 +169,7 @@ private:
         PagingRequest request;
         Clock::time_point since;
     };
-    // Of a virtual loader, in the order they were taken. Seconds of the pager's own time.
+    // The reads of virtual loaders, in the order they were taken. Times are seconds of the pager's own time.
     struct VirtualReading {
         PagingRequest request;
         double sinceS = 0;

@@ -1,5 +1,5 @@
-// The record of what paging did: how requests ended, problems for a log, and the moves that a recording
-// keeps. Internal to the library; one thread.
+// Records the paging: how requests ended, problems for a log, and the moves for a recording. Internal to the
+// library; one thread.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,13 @@ struct PagingLog {
     PagingMoves moves;
     std::uint64_t discarded = 0;  // reads whose result was not used
 
-    // A request has ended at nowS, seconds since the planet was opened. load: its read, if there was one.
+    // Notes that a request ended at nowS, seconds since the planet was opened. load: its read, if there was
+    // one.
     void ended(const PagingRequest& request, PagingOutcome outcome, double nowS,
                const FinishedLoad* load = nullptr);
-    // A read has ended. badData: it failed because the block is corrupt.
+    // Notes that a read ended. badData: it failed because the block is corrupt.
     void arrived(const FinishedLoad& load, PagingOutcome outcome, double nowS, bool badData = false);
-    // A read came to nothing: its result, if any, is not used.
+    // Notes that the result of a read, if any, is discarded.
     void discardedRead(const PagingRequest& request, double nowS);
     void report(std::string problem);
 };

@@ -1,9 +1,9 @@
-// What is to be loaded and dropped next, in order of urgency (paging queues after Zhu, MSV 2004).
+// The blocks to load and to drop next, in order of urgency (paging queues after Zhu, MSV 2004).
 //
-// A request is about the sibling block under a chunk or a tile of colours or normals: page it in or page it
-// out. At most one is pending for a block. Asking for the same again merges the two: in the same frame the
-// higher priority holds, in a later one the new one, since the eye has moved. Asking for the opposite cancels
-// both, since the block is then to stay as it is. Not safe for several threads at once.
+// A request pages a block in or out. At most one is pending for a block. An equal request is merged with the
+// pending one: in the same frame the higher priority holds, in a later frame the new one, because the eye has
+// moved. The opposite request cancels both, because the block then stays as it is. Not safe for several
+// threads at once.
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@
 
 namespace planet {
 
-// A block used in one of the last frames is not dropped: a camera that shakes would have it loaded and
-// dropped in turns.
+// Hysteresis: a block used in one of these last frames is not dropped, so that a shaking camera does not load
+// and drop it in turns.
 inline constexpr std::uint64_t framesKept = 4;
 
-// Where all that is resident is in use, a block yields to one that is wanted this many times as much: so many
-// times that the two never take turns.
+// If all resident blocks are in use, a block yields to one with a priority this many times as high; the
+// factor keeps the two from taking turns.
 inline constexpr float yieldFactor = 1.5f;
 
 enum class PagingType : std::uint8_t { PageIn, PageOut };
@@ -41,11 +41,10 @@ struct PagingRequest {
     std::uint64_t renewedFrame = 0;  // last frame it was asked for
     double askedAtS = 0;             // when it was first asked for, seconds since the planet was opened
     std::uint32_t timesAsked = 1;    // merged ones included
-    // What each view that wants it gives it, by the view's index; 0 where a view does not. priority is the
-    // largest.
+    // The priorities by view; 0 if the view does not want the block. `priority` is the largest.
     std::array<float, maxViews> viewPriority{};
 
-    // A page-in only: what a loader needs, and a number that no other request ever has.
+    // Only for page-ins: the fields for a loader, and a unique number.
     BlockLocation location{};
     SharedHeights parentHeights{};  // null for tiles
     std::uint64_t ticket = 0;
@@ -53,7 +52,7 @@ struct PagingRequest {
     BlockId block() const { return {parent, kind}; }
 };
 
-// Totals, of both types together unless said otherwise.
+// Totals over both types, unless they are by type.
 struct PagingQueueCounters {
     std::array<std::uint64_t, pagingTypeCount> added{};      // by type
     std::array<std::uint64_t, pagingTypeCount> popped{};     // by type
@@ -73,28 +72,28 @@ class PagingQueue {
 public:
     SubmitOutcome submit(PagingRequest request);
 
-    // The request with the highest or lowest priority of a type; null if there is none. Valid until the next
-    // change.
+    // Return the request with the highest or lowest priority of a type; null if there is none. Valid until
+    // the next change.
     const PagingRequest* best(PagingType type) const;
     const PagingRequest* worst(PagingType type) const;
-    // The same of one kind of block; looks at those that are worse.
+    // Returns the worst request for one kind of block; visits all requests that are worse.
     const PagingRequest* worst(PagingType type, BlockKind kind) const;
-    // The pending request about a block, of whatever type.
+    // Returns the pending request for a block, of either type.
     const PagingRequest* find(const BlockId& block) const;
 
     // Takes a request out to serve it.
     std::optional<PagingRequest> popBest(PagingType type);
     std::optional<PagingRequest> pop(BlockId block);
-    // The one whose place is smallest; looks at each.
+    // Takes out the request with the smallest place, to serve it; visits all.
     std::optional<PagingRequest> popFirst(PagingType type,
                                           const std::function<std::uint64_t(const BlockId&)>& placeOf);
     // Takes a request out unserved.
     std::optional<PagingRequest> cancel(BlockId block);
-    // Takes out all of a type that were last asked for before a frame.
+    // Takes out all requests of a type that were last renewed before a frame.
     std::vector<PagingRequest> cancelNotRenewed(PagingType type, std::uint64_t sinceFrame);
 
     std::size_t count(PagingType type) const { return order(type).size(); }
-    // A copy for display, best first.
+    // Returns a copy for display, best first.
     std::vector<PagingRequest> sorted(PagingType type) const;
     const PagingQueueCounters& counters() const { return counters_; }
 

@@ -1,4 +1,4 @@
-// Paging's settings, counters, events and changes: plain data that a Planet is given and tells.
+// The settings, counters, events and changes of a Planet's paging, as plain data.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ struct PagingSettings {
     // Retries of failed reads: their number, and the delay before the first one, which doubles with each.
     // Corrupt blocks are never retried.
     RetryRules retry{};
-    // With colours: the share of the budget for their tiles, [0.01, 0.9]; larger: sharper colours, and
-    // coarser ground when the budget is full.
+    // The share of the budget for tiles of colours, if the planet has any, [0.01, 0.9]; larger: sharper
+    // colours, and coarser ground when the budget is full.
     double colourShare = 0.25;
     std::uint32_t maxColourTiles = 2048;  // the renderer's pool holds at most so many
     // Loads tiles of normals (normal_tile.h) if the heights fill any. Off: they take no memory, and no view
@@ -50,7 +50,7 @@ struct PagingSettings {
 };
 
 enum class PagingOutcome : std::uint8_t { Loaded, Failed, Evicted, Cancelled };
-// How a request ended. A block that is requested again after it has failed is a new request.
+// The end of a request. A block that is requested again after a failure is a new request.
 struct PagingEvent {
     ChunkId parent;  // of the block
     BlockKind kind = BlockKind::Heights;

@@ -74,10 +74,10 @@ bool TilePaging::evictLessWanted(const MergedRequest& wanted, const std::vector<
                                  PagingRun& run) {
     for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
         if (wanted.priority <= yieldFactor * split->priority) return false;
-        // A tile may be wanted more than the one above it, since their bounds do not lie in each other; it is
-        // needed all the same.
+        // A tile may have a higher priority than its parent, because their bounds are not nested. The parent
+        // is needed all the same.
         if (split->parent == tree.nodes[wanted.parent].parent) continue;
-        // Another of this step's requests may have had it already.
+        // Another request of this step may have evicted it already.
         if (!mayBeEvicted(split->parent) || tree.nodes[split->parent].id != split->parentId) continue;
         evict(split->parent, run);
         return true;
@@ -112,7 +112,7 @@ void TilePaging::addTilesUnder(NodeIndex parent, TileBlock&& tiles, const Paging
     const std::uint32_t slot = takeSlots();
     const NodeIndex first = addTiles(tree, parent, tiles, slot);
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
-        // Counts as used by the frame that requested it, in case this frame no longer uses it.
+        // The tile counts as used by the frame that requested it, in case this frame no longer uses it.
         tree.nodes[child].lastUsedFrame = run.frame - 1;
         recallFailure(tree.nodes[child].id, tree.nodes[child].childrenState, run.sinceAnewS);
     }
@@ -136,7 +136,7 @@ void TilePaging::dropStandIn(NodeIndex parent) {
 
 Result<std::uint32_t> tileSlotsFor(const TilePyramid& pyramid, std::size_t budgetBytes, std::uint32_t most) {
     const std::size_t bytes = pyramid.tileBytes;
-    // One path down, with the siblings of each tile beside it and the same once more where it meets others.
+    // Counts one path to the finest level with the siblings of each tile, twice, for places where tiles meet.
     const std::uint64_t wanted =
         faceCount + 2 * quadrantCount * static_cast<std::uint64_t>(pyramid.leafLevel);
     const std::uint64_t all = tileCountOf(pyramid.leafLevel);

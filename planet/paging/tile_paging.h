@@ -1,7 +1,7 @@
 // The paging of tiles of colours or of normals. Internal to the library; one thread.
 //
-// A tile that is dropped is no longer drawn in the very step that drops it, since the renderer looks its
-// tiles up in every frame. So blocks are dropped at once where others are wanted, without page-outs.
+// The renderer looks its tiles up in every frame, so a step no longer draws a tile that it drops. Blocks are
+// therefore dropped at once when others need room, without page-outs.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace planet {
 
 class TilePaging final : public BlockPaging {
 public:
-    // Off, until begin().
+    // Paging is off until begin().
     explicit TilePaging(BlockKind kind) : BlockPaging(kind) {}
 
     int leafLevel = -1;  // of the pyramid; -1: the planet has none
@@ -29,11 +29,11 @@ public:
     TileTree tree;                    // empty if the kind is off
     std::vector<TileChange> changes;  // for Planet::takeTileChanges()
 
-    // Evicts every block and begins with the roots alone, in a pool of so many slots; with nothing if the
-    // capacity is 0. Keeps failures. To be called with no request pending.
+    // Evicts every block and begins with the roots alone, in a pool of `capacity` slots; turns paging off if
+    // it is 0. Keeps failures. No request may be pending.
     void begin(std::uint32_t capacity, double sinceAnewS);
 
-    // Marks what views have looked at in a frame.
+    // Marks the tiles that a view used in a frame.
     void use(const std::vector<NodeIndex>& touched, std::uint64_t frame);
 
     void dropAll(PagingQueue& queue, PagingRun& run) override;
@@ -64,12 +64,13 @@ private:
     void remove(NodeIndex parent);
     void addTilesUnder(NodeIndex parent, TileBlock&& tiles, const PagingRun& run);
 
-    // In the last step something waited for a block that has not been out of use for long enough yet.
+    // True if a request of the last step waits for a block to be out of use for long enough.
     bool roomIsComing_ = false;
 };
 
-// The tiles that a share of a budget pays for: the roots' six and then whole blocks, no more than there are
-// or than `most`. The Error says what the least is: enough that the finest level can be reached in one place.
+// Returns the number of tiles that fit a share of the budget: six roots and then whole blocks, at most as
+// many as there are, and at most `most`. The Error names the smallest number: it allows the finest level at
+// one place.
 struct TilePyramid {
     const char* name = "";  // "colour tiles"
     int leafLevel = 0;

@@ -17,7 +17,7 @@ namespace planet {
 
 namespace {
 
-// The farthest that one of the chunk's vertices slides, metres.
+// Returns the largest slide of the chunk's vertices, metres.
 double mostSlideM(const DrawItem& item, ErrorMetric metric) {
     const auto parentM = static_cast<double>(item.parentDeltaM);
     return metric == ErrorMetric::Additive ? std::max(parentM - static_cast<double>(item.deltaCM), 0.0)
@@ -28,7 +28,7 @@ double distanceOf(const DrawItem& item) {
     return static_cast<double>(std::max(item.distanceM, item.nearestSampleM));
 }
 
-// The distance to the nearest vertex; of a leaf the vertices are the finest samples.
+// Returns the distance to the nearest vertex; the vertices of a leaf are the finest samples.
 double nearestVertexM(const PlanetShape& shape, const ChunkNode& node, const glm::dvec3& eyeM) {
     const int cells = chunkCells(shape);
     const FaceSquare square = faceSquareOf(node.id);
@@ -55,7 +55,7 @@ double edgeSlideM(std::span<const DrawItem> items, const DrawItem& item, std::si
         own, item.coarserBy[edge] > 0 ? static_cast<double>(other.deltaCM) : mostSlideM(other, metric));
 }
 
-// Of a chunk by itself: its inside, and those of its edges that are not stitched to a coarser chunk.
+// Returns the bound of the inside of a chunk and of its edges that are not stitched to a coarser chunk.
 double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const DrawnNeighbours& neighbours,
                   double spanM, double screenScalePx, ErrorMetric metric, bool stitched) {
     const auto eps = static_cast<double>(item.epsPx);
@@ -94,8 +94,7 @@ double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const D
 
 }  // namespace
 
-// On the unit sphere a step along either axis of the cube is at most as long as on the cube, whose faces are
-// 2 a side.
+// A step along either axis is at most as long on the unit sphere as on the cube, whose faces have side 2.
 double cellSpanM(const PlanetShape& shape, const ChunkNode& node) {
     const double cellSide = 2.0 / static_cast<double>(std::uint64_t{1} << node.id.level) / chunkCells(shape);
     const double highestM = shape.radiusM + static_cast<double>(node.maxHeightM);

@@ -1,6 +1,6 @@
-// The bound of what is drawn, pixels: how far the drawn surface of a chunk may lie from the finest data, with
-// its morph, the morphs of its edges and stitched edges counted in. eps bounds the chunk's own surface only.
-// Without morph and stitched edges the two are the same.
+// The bound of the drawn surface, pixels: its largest possible distance from the finest data, with the morph
+// of the chunk, the morphs of its edges, and stitched edges. eps bounds the chunk's own surface only; without
+// morph and stitched edges the two are equal.
 //
 // A chunk has the error delta and the morph m, its parent the error delta_P; s is the farthest that a vertex
 // slides at morph 1. A vertex is a finest sample, so s <= delta_P; by the additive metric delta_P is at least
@@ -20,13 +20,13 @@
 //                     ((1 - m) delta + m delta_P + |m_e - m| s_e) K' / D_e
 //                     (delta + max(m s, m_e s_e)) K' / D_e
 //
-// D is the distance to the chunk's box or, where that is more, nearestSampleM. The box of a large chunk reaches
+// D is the distance to the chunk's box, or nearestSampleM if that is larger. The box of a large chunk reaches
 // far above its ground and below it, and may hold an eye that is kilometres away from any sample.
 //
-// Along an edge that is stitched to a coarser chunk a triangle has two of that one's vertices and one of the
-// chunk's own, so both errors are added up; while vertices are gathered (drawn_surface.h), s_e counts once
-// more. In those cells this is no proven bound: triangles there reach over several cells of the chunk, which
-// no delta_c looks at.
+// Along an edge that is stitched to a coarser chunk, a triangle has two of that chunk's vertices and one of
+// its own, so both errors are added; while vertices are gathered (drawn_surface.h), s_e is added again. This
+// is not a proven bound in those cells, because their triangles reach over several cells of the chunk, which
+// no delta_c measures.
 //
 // Pure functions, any thread.
 #pragma once
@@ -44,7 +44,7 @@ namespace planet {
 
 inline constexpr std::uint32_t noNeighbour = ~std::uint32_t{0};
 
-// By edge, west to north: the index of the drawn chunk beyond it, of the same level or coarser, or
+// The drawn neighbours by edge, west to north: the index of a chunk of the same level or coarser, or
 // noNeighbour.
 using DrawnNeighbours = std::array<std::uint32_t, edgeCount>;
 
@@ -60,7 +60,7 @@ double nearestSampleM(const PlanetShape& shape, const ChunkNode& node, const glm
 void fillDrawnBounds(std::span<DrawItem> items, std::span<const DrawnNeighbours> neighbours,
                      std::span<const double> cellSpansM, double screenScalePx, ErrorMetric metric,
                      bool stitched);
-// The same for items in any order, whose neighbours are looked up among them.
+// Does the same for items in any order; looks up their neighbours among them.
 void fillDrawnBounds(std::span<DrawItem> items, std::span<const double> cellSpansM, double screenScalePx,
                      ErrorMetric metric, bool stitched);
 

@@ -19,12 +19,12 @@ std::optional<Edge> edgeOf(glm::ivec2 vertex, int last) {
     return std::nullopt;
 }
 
-// Of an odd vertex: the next one that is a multiple of four.
+// Returns the next multiple of four beside an odd vertex.
 int gatherPoint(int vertex) {
     return (vertex & 3) == 1 ? vertex - 1 : vertex + 1;
 }
 
-// The share of the way that an edge's odd vertices are gathered.
+// Returns the share of the way that an edge's odd vertices have moved.
 double gatheredAt(float edgeMorph) {
     return std::max(4 * static_cast<double>(edgeMorph) - 3, 0.0);
 }
@@ -33,8 +33,8 @@ void add(VertexBlend& blend, glm::ivec2 vertex, double share) {
     if (share > 0) blend.parts[blend.count++] = {vertex, share};
 }
 
-// The ends are equally far to either side. They come first, so that sums are the same to the last bit
-// whichever of them comes before: chunks beside each other may count an edge in opposite directions.
+// The two ends are equally far away and come first, so that sums are bit-identical in either order:
+// neighbours may count an edge in opposite directions.
 void addBetween(VertexBlend& blend, glm::ivec2 vertex, glm::ivec2 aside, double amount, double share) {
     add(blend, vertex - aside, 0.5 * amount * share);
     add(blend, vertex + aside, 0.5 * amount * share);
@@ -102,7 +102,7 @@ DrawnVertex blended(glm::ivec2 itself, const VertexBlend& blend, const OwnPositi
     return drawn;
 }
 
-// The point of a triangle over a place, or nothing where the triangle does not cover it.
+// Returns the point of a triangle over a place, or nothing if the triangle does not cover it.
 std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const CellTriangle& triangle,
                                           glm::dvec2 place) {
     const std::array<std::size_t, 3>& vertex = triangle.vertices;

@@ -16,14 +16,14 @@ namespace planet {
 
 namespace {
 
-// How a chunk was drawn in the frame before.
+// The state of a chunk in the frame before.
 struct Shown {
     float morph = 0;
     std::array<float, edgeCount> edgeMorph{};
     std::array<bool, edgeCount> onCoarser{};  // stitched: the edge showed a coarser chunk's vertices
 };
 
-// What of the selection before counts for this one.
+// The parts of the selection before that this one uses.
 struct Memory {
     std::optional<ChunkTable> splits;  // for hysteresis and fading
     std::optional<ChunkTable> drawn;   // for fading: each chunk's place in shown
@@ -32,14 +32,14 @@ struct Memory {
 
     bool fades() const { return drawn.has_value(); }
     bool wasSplit(const ChunkId& id) const { return splits && splits->contains(id); }
-    // Null where it was not drawn.
+    // Returns null if it was not drawn.
     const Shown* find(const ChunkId& id) const {
         const std::uint32_t* found = drawn ? drawn->find(id) : nullptr;
         return found ? &shown[*found] : nullptr;
     }
 };
 
-// What every node of one frame is compared with.
+// The values that all nodes of a frame share.
 struct Frame {
     const ChunkTree& tree;
     const LodSettings& settings;
@@ -52,7 +52,7 @@ struct Frame {
     std::unordered_set<NodeIndex> seamLimit;  // drawn though they could be split, for stitched seams
 };
 
-// What a node needs to know of its parent.
+// The values that a node takes from its parent.
 struct Above {
     double epsPx = 0;        // 0 for a root
     double deltaM = 0;       // by the metric, metres
@@ -67,13 +67,13 @@ struct Seen {
     double distanceM = 0;
 };
 
-// 1 where the parent is about to take the chunk's place, 0 where it is far from it.
+// Returns the natural morph: 1 if the parent is about to replace the chunk, 0 if it is far from that.
 //
-// The chunk must show its own surface when its own children take its place, or it theirs: so it may not have
-// begun to slide while its eps is over tau (1 - hysteresis). The parent's eps is at least delta(parent) /
-// delta times the chunk's, where the parent's box holds the chunk's; where it does not, the ratio of the
-// eps themselves is the smaller. Without hysteresis a ratio of 1 leaves no range, and needs none: the two
-// surfaces are the same. With it, a range too short would be a pop of its own, so a quarter of it is kept.
+// The chunk must show its own surface when it is exchanged with its children, so it must not slide while its
+// eps is over tau (1 - hysteresis). The parent's eps is at least delta(parent) / delta times the chunk's if
+// the parent's box holds the chunk's; otherwise the ratio of the eps is smaller. Without hysteresis a ratio
+// of 1 leaves no range and needs none, because the two surfaces are equal. With hysteresis a short range
+// would be a pop of its own, so at least a quarter of it is kept.
 double naturalMorph(const LodSettings& settings, const Above& above, double deltaM, double epsPx) {
     if (!settings.morph || above.epsPx == 0) return 0;
     const double overTau = above.epsPx / settings.tauPx;
@@ -92,7 +92,7 @@ float faded(const Memory& before, float last, float target) {
     return target > last ? last + before.fadeStep : last - before.fadeStep;
 }
 
-// From where it was in the frame before towards its target.
+// Moves a morph from its value in the frame before towards its target.
 float fadedMorph(const Memory& before, const ChunkId& id, const Above& above, float target) {
     if (!before.fades()) return target;
     if (above.justSplit) return 1;
@@ -123,13 +123,13 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     out.counters.worstEpsPx = std::max(out.counters.worstEpsPx, item.epsPx);
 }
 
-// Only where the children are still there: hysteresis keeps what is, and asks for nothing.
+// Hysteresis applies only if the children are still resident; it requests nothing.
 bool staysSplit(const Frame& frame, const ChunkNode& node, const Seen& seen) {
     return frame.settings.hysteresis > 0 && node.childrenState == ChildrenState::Resident &&
            seen.deltaM * frame.mergeReach > seen.distanceM && frame.before.wasSplit(node.id);
 }
 
-// Whether the node should be drawn as its children.
+// Returns whether the node should be drawn as its children.
 bool wantsSplit(const Frame& frame, const Seen& seen, const Above& above) {
     const ChunkNode& node = frame.tree.nodes[seen.index];
     if (node.childrenState == ChildrenState::None || node.id.level >= frame.settings.maxLevel) return false;
@@ -143,7 +143,7 @@ bool edgeShowed(const Memory& before, const ChunkId& id, const ChunkId& towards,
     return !edge || shown->edgeMorph[static_cast<std::size_t>(*edge)] == morph;
 }
 
-// Whether the chunks of its children's level beyond a chunk's edge show no more than the chunk does there.
+// Returns whether the chunks of the children's level beyond an edge show the same edge as the chunk.
 bool finerNeighboursFit(const Memory& before, const ChunkId& id, Edge edge) {
     const ChunkId beyond = neighbourOf(id, edge);
     for (int q = 0; q < quadrantCount; ++q) {
@@ -154,8 +154,8 @@ bool finerNeighboursFit(const Memory& before, const ChunkId& id, Edge edge) {
     return true;
 }
 
-// Whether the split would be seen: the node does not show its own surface yet, or a finer chunk beside it not
-// yet the same edge.
+// Returns whether the split would be visible: the node does not show its own surface yet, or a finer
+// neighbour does not show the same edge yet.
 bool splitMustWait(const Memory& before, const ChunkId& id, const Above& above) {
     if (!before.fades()) return false;
     if (above.justSplit) return true;
@@ -168,7 +168,7 @@ bool splitMustWait(const Memory& before, const ChunkId& id, const Above& above) 
     });
 }
 
-// Whether a chunk showed its parent's surface, its edges included, or nothing at all.
+// Returns whether a chunk showed its parent's surface, its edges included, or was not drawn.
 bool showedItsParent(const Memory& before, const ChunkId& id) {
     if (before.wasSplit(id)) return false;
     const Shown* shown = before.find(id);
@@ -180,8 +180,8 @@ bool showedItsParent(const Memory& before, const ChunkId& id) {
     return true;
 }
 
-// Whether the merge of a node that should not be split would be seen: its children do not show its surface
-// yet, or a chunk beside them not yet the same edge. Those that were culled show nothing.
+// Returns whether the merge of a node would be visible: its children do not show its surface yet, or a
+// neighbour does not show the same edge yet. Culled children show nothing.
 bool mergeMustWait(const Frame& frame, NodeIndex index) {
     const ChunkNode& node = frame.tree.nodes[index];
     const Memory& before = frame.before;
@@ -229,7 +229,7 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
     for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, here, out);
 }
 
-// What lies beyond an edge of a drawn chunk.
+// The neighbour beyond an edge of a drawn chunk.
 struct Beyond {
     static constexpr std::uint32_t nothing = noNeighbour;
     std::uint32_t item = nothing;  // the drawn chunk there, of the same level or coarser
@@ -237,7 +237,7 @@ struct Beyond {
     bool finer = false;            // finer chunks are drawn there
 };
 
-// What the edges of the drawn chunks have beyond them, and what hides the gap there.
+// Finds the neighbours of the drawn chunks, and sets the morphs, stitches and skirts of their edges.
 class EdgeJoiner {
 public:
     EdgeJoiner(const Frame& frame, Selection& out)
@@ -257,7 +257,7 @@ public:
     }
 
 private:
-    // Where an edge's morph starts from.
+    // Returns the value that an edge's morph starts from.
     struct Start {
         bool known = false;
         bool switched = false;    // only now drawn, in the place of its children or its parent
@@ -298,7 +298,7 @@ private:
         }
         for (std::uint32_t i = 0; i < draw.size(); ++i) {
             for (std::size_t e = 0; e < edgeCount; ++e) {
-                // Of the same level or coarser; finer ones find this chunk themselves.
+                // The neighbour is of the same level or coarser; finer neighbours find this chunk themselves.
                 const std::uint32_t* found =
                     drawn.findHolder(neighbourOf(draw[i].id, allEdges[e]), coarsestLevel);
                 if (!found) continue;
@@ -322,7 +322,7 @@ private:
         beyond_[beyond.item][static_cast<std::size_t>(*back)].finer = true;
     }
 
-    // Where levels differ, with fading: both sides show the coarser one's own edge, as far as one level goes.
+    // With fading, both sides show the coarser chunk's own edge if they differ by one level.
     float targetOf(std::uint32_t index, std::size_t edge) const {
         const DrawItem& item = out_.draw[index];
         const Beyond& beyond = beyond_[index][edge];
@@ -341,7 +341,7 @@ private:
         const Start& start = starts_[index];
         const bool level = beyond.item != Beyond::nothing && out_.draw[index].coarserBy[edge] == 0;
         if (!level) return !start.known ? target : startedAt(start, start.edgeMorph[edge], target);
-        // Both sides must find the same.
+        // Both sides must compute the same morph.
         const Start& other = starts_[beyond.item];
         if (start.switched && other.switched) return std::max(start.edgeMorph[0], other.edgeMorph[0]);
         if (start.switched) return start.edgeMorph[edge];
@@ -401,7 +401,7 @@ private:
         }
     }
 
-    // 0 where the bound does not depend on it.
+    // The span is 0 if the bound does not depend on it.
     float nearestSampleOf(const DrawItem& item, const ChunkNode& node) const {
         const bool slides = item.morph > 0 || std::any_of(item.edgeMorph.begin(), item.edgeMorph.end(),
                                                           [](float morph) { return morph > 0; });
@@ -435,9 +435,9 @@ private:
     std::vector<Start> starts_;
 };
 
-// For each seam that is too wide to be stitched, the chunk that must be drawn instead of the finer one: its
-// ancestor of the finest level that can be stitched to the coarser one. No finer drawing can do without any
-// of them, since the coarser one would only be coarser. False if there is none.
+// Finds, for each seam that is too wide to be stitched, the chunk that must replace the finer one: its
+// ancestor of the finest level that can be stitched to the coarser one. Every valid selection needs these,
+// because the coarser chunk can only become coarser. Returns false if there is none.
 bool limitSeams(Frame& frame, const Selection& selection) {
     const int widest = frame.tree.shape.chunkCellsLog2 - 1;
     const std::size_t before = frame.seamLimit.size();
@@ -461,7 +461,7 @@ void selectOnce(const Frame& frame, Selection& out) {
     clear(out);
     const OpenTests all = openTests(frame.settings.frustumCulling, frame.settings.horizonCulling);
     for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, {}, out);
-    // Before sorting, while neighbours lie close together in memory.
+    // This runs before sorting, while neighbours lie close together in memory.
     EdgeJoiner(frame, out).join();
 }
 
@@ -515,7 +515,7 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
                 memoryOf(out, settings, elapsedS),
                 {}};
     selectOnce(frame, out);
-    // Each round draws fewer and coarser chunks, so there is a last one; almost always it is the first.
+    // Each round draws fewer and coarser chunks, so the loop ends, almost always after the first round.
     while (settings.seams == SeamMode::Stitched && limitSeams(frame, out)) selectOnce(frame, out);
 
     std::sort(out.draw.begin(), out.draw.end(), [](const DrawItem& a, const DrawItem& b) {

@@ -13,9 +13,9 @@ namespace planet {
 enum class SeamMode : std::uint8_t { None, Skirts, Stitched };
 enum class SkirtDepth : std::uint8_t { Automatic, Fixed };
 
-// Which bound of a chunk's error counts. Additive: delta_c, a sum over the levels under it; safe and loose.
-// Tight: the largest measured distance between the chunk's surface, or that of one under it, and the finest
-// data; fewer triangles for the same tau.
+// The error bound of a chunk. Additive: delta_c, a sum over the levels under it; conservative. Tight: the
+// largest measured distance of the surface of the chunk, or of one under it, from the finest data; fewer
+// triangles for the same tau.
 enum class ErrorMetric : std::uint8_t { Additive, Tight };
 
 struct LodSettings {
@@ -28,17 +28,18 @@ struct LodSettings {
     bool frustumCulling = true;       // off: chunks beside and behind the view are drawn and loaded too
     bool horizonCulling = true;       // off: chunks on the planet's far side are drawn and loaded too
     bool morph = true;                // off: chunks pop when their level changes
-    // Share of tau over which a chunk slides onto its parent's surface, (0, 4]; larger: slower, and more of
-    // the picture is coarser than it could be.
+    // The share of tau over which a chunk slides onto its parent's surface, (0, 4]; larger: slower, and more
+    // of the picture is coarser than necessary.
     double morphRange = 0.3;
-    // With morph: seconds that a chunk takes to slide all the way where its level changes at once: children
-    // that come late, a new tau, a fast camera. [0, 10]; 0: at once, with a pop.
+    // With morph: the seconds of a chunk's whole slide if its level changes at once, because of late
+    // children, a new tau or a fast camera. [0, 10]; 0: at once, with a pop.
     double fadeS = 0.25;
     SeamMode seams = SeamMode::Skirts;
     SkirtDepth skirtDepth = SkirtDepth::Automatic;
     double skirtDepthM = 1000;  // of Fixed, metres, >= 0; less than the gaps: cracks show
-    // For Automatic: skirt depth / (delta_c of the chunk + the largest delta_c among its drawn neighbours).
-    // At 1 no crack shows, because each surface is within its delta_c of the finest data. 0: no skirts.
+    // For Automatic: the ratio of the skirt depth to (delta_c of the chunk + the largest delta_c among its
+    // drawn neighbours). At 1 no crack shows, because each surface is within its delta_c of the finest data.
+    // 0: no skirts.
     double skirtFactor = 1;
 
     bool operator==(const LodSettings&) const = default;
@@ -58,19 +59,19 @@ struct DrawItem {
     float skirtDepthM = 0;     // metres, towards the planet's centre; 0 unless seams are Skirts
     float morph = 0;           // [0, 1]: 0 own surface, 1 the parent's
     bool splitWaits = false;   // its children would be drawn, but it has not shown just its own surface
-    // A chunk above it would be drawn, but the chunks below that one have not all shown its surface.
+    // A chunk above it should be drawn, but waits until all chunks below that one show its surface.
     bool mergeWaits = false;
-    // By edge, west to north: the levels by which the drawn neighbour is coarser; 0 where it is not coarser.
+    // The levels by which the drawn neighbour is coarser, by edge, west to north; 0 if it is not coarser.
     std::array<std::uint8_t, edgeCount> coarserBy{};
-    // By edge: the morph of the edge's vertices. Two chunks of one level have the same on both sides: the
-    // larger of their morphs. Beside a coarser chunk, if seams are Stitched, it is that chunk's morph and
-    // applies to that chunk's vertices. Otherwise it is the chunk's own morph, or with fading 1, while the
-    // coarser chunk has 0 there: both then show the coarser chunk's edge, and neither edge changes when the
-    // two come to be of one level.
+    // The morph of the vertices of each edge. Two chunks of one level have the same on both sides: the larger
+    // of their morphs. Beside a coarser chunk, if seams are Stitched, it is that chunk's morph and applies to
+    // that chunk's vertices. Otherwise it is the chunk's own morph, or with fading 1, while the coarser chunk
+    // has 0 there: both then show the coarser chunk's edge, and neither edge changes when the two come to be
+    // of one level.
     std::array<float, edgeCount> edgeMorph{};
 };
 
-// Two drawn chunks of different levels side by side.
+// Two drawn neighbours of different levels.
 struct LevelSeam {
     ChunkId finer;
     ChunkId coarser;
@@ -118,7 +119,7 @@ struct Selection {
     std::vector<ChildrenRequest> requests;  // highest priority first; children absent or on their way
     std::vector<ChildrenRequest> splits;    // those whose children are resident, parents first
     std::vector<LevelSeam> seams;
-    // All visited nodes, parents first: the drawn ones, those above them, and the culled siblings of either.
+    // All visited nodes, parents first: the drawn ones, their ancestors, and the culled siblings of both.
     // Drawing this view again needs them resident.
     std::vector<VisitedNode> touched;
     SelectionCounters counters;

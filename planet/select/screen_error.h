@@ -1,5 +1,5 @@
-// How large a chunk's error is on the screen: eps = delta K' / D, with delta by the metric, K' as
-// screenScalePx() gives it and D the distance from the eye to the chunk's bounds. Pure functions, any thread.
+// The screen-space error of a chunk: eps = delta K' / D, with delta by the metric, K' = screenScalePx() and D
+// the distance from the eye to the chunk's bounds. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>

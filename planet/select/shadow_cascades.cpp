@@ -23,8 +23,8 @@ SunAxes sunAxes(const glm::dvec3& sun) {
     return {x, glm::cross(towards, x), towards};
 }
 
-// Of the piece of a view between two distances along its direction: the smallest sphere around it has its
-// middle on the view's axis.
+// Returns the smallest sphere around the piece of a view between two distances along its direction; its
+// centre lies on the view's axis.
 struct PieceSphere {
     double alongM = 0;
     double radiusM = 0;
@@ -38,7 +38,7 @@ PieceSphere sphereAround(const View& view, double startM, double endM) {
     return {alongM, std::sqrt((endM - alongM) * (endM - alongM) + endM * endM * aside2)};
 }
 
-// A coordinate relative to the eye, moved so that it is a whole number of texels from the planet's centre.
+// Moves a coordinate relative to the eye to a whole number of texels from the planet's centre.
 double wholeTexels(double eyeM, double relativeM, double texelM) {
     return std::round((eyeM + relativeM) / texelM) * texelM - eyeM;
 }
@@ -63,7 +63,7 @@ ShadowCascade cascadeAround(const View& view, const SunAxes& axes, const PieceSp
     return cascade;
 }
 
-// So that the sizes of texels, which follow from it, change seldom.
+// Rounds the distance, so that the sizes of texels, which follow from it, change rarely.
 double powerOfTwoBelow(double value) {
     return std::exp2(std::floor(std::log2(value)));
 }
@@ -79,7 +79,7 @@ ShadowCascades shadowCascades(const View& view, const glm::dvec3& sun, double gr
     double startM = firstM;
     for (std::size_t i = 0; i < shadowCascadeCount; ++i) {
         const double share = static_cast<double>(i + 1) / static_cast<double>(shadowCascadeCount);
-        // Steps of the same ratio suit perspective; a part of even steps keeps the first from being tiny.
+        // Steps of the same ratio suit perspective; a share of even steps keeps the first from being tiny.
         const double evenM = firstM + (reachM - firstM) * share;
         const double endM = 0.85 * firstM * std::pow(reachM / firstM, share) + 0.15 * evenM;
         cascades[i] = cascadeAround(view, axes, sphereAround(view, startM, endM), endM, mapSizePx);

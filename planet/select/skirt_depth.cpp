@@ -8,7 +8,7 @@ namespace planet {
 
 namespace {
 
-// How far a chunk that slides that much towards its parent may be from the truth, metres.
+// Returns the error of a chunk with a morph towards its parent, metres.
 float boundM(const ChunkTree& tree, ErrorMetric metric, const DrawItem& item, float morph) {
     if (morph == 0) return item.deltaCM;
     const NodeIndex parent = tree.nodes[item.node].parent;

@@ -1,5 +1,5 @@
-// How deep a skirt hangs when its depth is Automatic (LodSettings::skirtDepth): one rule, for selecting and
-// for what measures skirts. Pure functions, any thread.
+// The automatic skirt depth (LodSettings::skirtDepth), for selection and for instruments. Pure functions, any
+// thread.
 #pragma once
 
 #include "planet/select/lod_types.h"
@@ -7,20 +7,19 @@
 
 namespace planet {
 
-// How far two drawn chunks side by side may be apart along their edge, metres: what both may be from the
-// truth there, by the metric, with the morph of each one's edge. The finer one of two of one level is either;
-// then the edge of the other is not looked at, since both have the same morph. Both must be nodes of the
-// tree.
+// Returns the largest possible gap between two drawn neighbours along their edge, metres: the sum of their
+// errors there, by the metric, with the morph of each edge. Of two chunks of one level, either may be given
+// as the finer; both have the same morph. Both must be nodes of the tree.
 float mostApartM(const ChunkTree& tree, ErrorMetric metric, const DrawItem& finer, Edge finerEdge,
                  const DrawItem& coarser, Edge coarserEdge);
 
-// Shallower than this no automatic skirt is, metres: edges that agree exactly still part by rounding, of
-// heights and of pixels.
+// The least automatic depth, metres: edges that agree exactly still part by the rounding of heights and
+// pixels.
 float leastSkirtDepthM(const ChunkTree& tree, const DrawItem& item);
 
-// The depth of a chunk's skirt, metres, where it may be that far from any chunk beside it. Both sides of an
-// edge have a skirt that covers both errors, so whichever of the two lies higher there, its skirt reaches
-// below the other. factor: LodSettings::skirtFactor, >= 0; 0: no skirt.
+// Returns the depth of a chunk's skirt, metres, for the largest possible gap to its neighbours. Both sides of
+// an edge have a skirt that covers both errors, so the skirt of the higher side reaches below the other.
+// factor: LodSettings::skirtFactor, >= 0; 0: no skirt.
 float automaticSkirtDepthM(const ChunkTree& tree, const DrawItem& item, float apartM, double factor);
 
 }  // namespace planet

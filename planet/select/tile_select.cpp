@@ -19,7 +19,7 @@ struct TileFrame {
     Culling culling;
 };
 
-// The chunk that covers a tile: of its level where that is resident, else the finest above it.
+// Returns the chunk that covers a tile: of its level if that is resident, else the finest above it.
 NodeIndex chunkOver(const ChunkTree& chunks, NodeIndex above, const ChunkId& tile) {
     const ChunkNode& node = chunks.nodes[above];
     if (node.id.level >= tile.level || node.childrenState != ChildrenState::Resident) return above;

@@ -1,4 +1,4 @@
-// Chooses which tiles of colours or of normals a view wants, independent of which chunks it draws.
+// Chooses the tiles of colours or of normals for a view, independent of the drawn chunks.
 //
 // A texel of level l is at most s_l = 2 R / (tileCells 2^l) metres wide: Nowell's map gives the cube's
 // grid its own spacing at the middle of a face's edges, and stretches it nowhere more (in a face's middle it
@@ -6,8 +6,8 @@
 //
 //   texels a pixel = D / (s_l K')  >=  the wanted,
 //
-// with K' as for chunks (view.h) and D the distance to the bounds of the ground under the tile. Those bounds
-// follow the chunks that are resident there.
+// with K' as for chunks (view.h) and D the distance to the bounds of the ground under the tile, which follow
+// the resident chunks there.
 //
 // A pure function of its arguments, as selectChunks is. Any thread.
 #pragma once
@@ -23,8 +23,8 @@
 namespace planet {
 
 struct TileSettings {
-    // On: tiles are requested, and the changes of Planet::takeTileChanges() are to be taken. Off: none below
-    // the roots.
+    // On: tiles are requested; take the changes of Planet::takeTileChanges(). Off: there are none below the
+    // roots.
     bool enabled = false;
     // Larger: sharper, and four times the tiles for twice as many; [0.1, 4].
     double texelsPerPixel = 1;
@@ -40,18 +40,18 @@ struct TileCounters {
 };
 
 struct TileSelection {
-    // Priority: how many times too few texels a pixel the parent has. Highest first; nodes of the tree
-    // of tiles.
+    // The priority is the factor by which the parent has too few texels per pixel. Highest first; nodes of
+    // the tree of tiles.
     std::vector<ChildrenRequest> requests;
     std::vector<ChildrenRequest> splits;  // those whose children are resident and wanted, parents first
     std::vector<NodeIndex> touched;  // all visited, parents first: what is shown, and what stands above it
     TileCounters counters;
 };
 
-// s_l above.
+// Returns s_l above.
 double texelM(const PlanetShape& shape, int level);
 
-// Refills the selection, keeping its capacity. Culling as the settings of the chunks have it.
+// Refills the selection, keeping its capacity. Culls as the settings of the chunks say.
 void selectTiles(const TileTree& tiles, const ChunkTree& chunks, const View& lodView,
                  const TileSettings& settings, const LodSettings& lod, TileSelection& selection);
 

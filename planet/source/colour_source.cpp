@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/source/height_source.h"
+#include "planet/source/sample_tiles.h"
 
 namespace planet {
 
@@ -16,38 +18,19 @@ constexpr int channelCount = 3;
 
 using Channels = std::array<HeightSource, channelCount>;
 
-// Samples a side. Channels are sampled in turn, piece by piece: where a piece lies in the image is worked out
-// once for the three.
+// Samples a side. The channels are sampled in turn, piece by piece, so that the place of a piece in the image
+// is computed once for the three.
 constexpr int colourPieceSide = 65;
 
-// out: the piece's first colour; stride: from one row of it to the next.
+// Samples a piece into out; its rows are stride colours apart.
 Result<void> samplePiece(const Channels& channels, const SampleTile& piece, glm::vec3* out,
                          std::size_t stride) {
     const auto columns = static_cast<std::size_t>(piece.columns);
-    std::vector<float> values(columns * static_cast<std::size_t>(piece.rows));
+    std::vector<float> values(samplesIn(piece));
     for (int channel = 0; channel < channelCount; ++channel) {
-        const auto sampled = channels[static_cast<std::size_t>(channel)].sample(piece, values);
-        if (!sampled) return sampled;
+        TRY(channels[static_cast<std::size_t>(channel)].sample(piece, values));
         for (std::size_t i = 0; i < values.size(); ++i)
             out[i / columns * stride + i % columns][channel] = std::clamp(values[i], 0.0f, 1.0f);
-    }
-    return {};
-}
-
-Result<void> sampleChannels(const Channels& channels, const SampleTile& tile, std::span<glm::vec3> out) {
-    const auto stride = static_cast<std::size_t>(tile.columns);
-    for (int row = 0; row < tile.rows; row += colourPieceSide) {
-        for (int column = 0; column < tile.columns; column += colourPieceSide) {
-            const SampleTile piece{tile.face,
-                                   tile.faceCells,
-                                   tile.firstColumn + column,
-                                   tile.firstRow + row,
-                                   std::min(colourPieceSide, tile.columns - column),
-                                   std::min(colourPieceSide, tile.rows - row)};
-            glm::vec3* const to =
-                out.data() + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
-            if (auto sampled = samplePiece(channels, piece, to, stride); !sampled) return sampled;
-        }
     }
     return {};
 }
@@ -60,16 +43,17 @@ Result<ColourSource> openColourSource(const std::filesystem::path& path, std::si
         HeightSourceSettings settings;
         settings.colourChannel = channel;
         settings.cacheBytes = cacheBytes / channelCount;
-        Result<HeightSource> opened = openHeightSource(path, settings);
-        if (!opened) return tl::unexpected(std::move(opened.error()));
-        channels[static_cast<std::size_t>(channel)] = *std::move(opened);
+        TRY_ASSIGN(channels[static_cast<std::size_t>(channel)], openHeightSource(path, settings));
     }
     ColourSource source;
     source.description = channels[0].description;
     source.naturalFaceSize = channels[0].naturalFaceSize;
     source.notice = std::ranges::max_element(channels, {}, &HeightSource::seamEdges)->notice;
     source.sample = [channels = std::move(channels)](const SampleTile& tile, std::span<glm::vec3> out) {
-        return sampleChannels(channels, tile, out);
+        return sampleInPieces(tile, colourPieceSide, out,
+                              [&](const SampleTile& piece, glm::vec3* to, std::size_t stride) {
+                                  return samplePiece(channels, piece, to, stride);
+                              });
     };
     return source;
 }

@@ -1,4 +1,5 @@
 #include "planet/source/geo_tags.h"
+#include "planet/base/try.h"
 
 #include <fmt/format.h>
 #include <tiffio.h>
@@ -55,7 +56,7 @@ int ignoreMessage(TIFF*, void*, const char*, const char*, va_list) {
 }
 
 TiffPtr openTiff(const std::filesystem::path& path) {
-    // Handlers of this file alone: those of the process are OpenImageIO's.
+    // These handlers are of this file alone; OpenImageIO sets those of the process.
     const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                                TIFFOpenOptionsFree);
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), ignoreMessage, nullptr);
@@ -64,7 +65,7 @@ TiffPtr openTiff(const std::filesystem::path& path) {
     return {TIFFOpenExt(path.c_str(), "rm", options.get()), TIFFClose};
 }
 
-// The values of a tag, valid while the file is open; none where it is absent or of another type.
+// Returns the values of a tag, valid while the file is open; none if it is absent or of another type.
 template <class T>
 std::span<const T> valuesOf(TIFF* tiff, std::uint32_t tag, TIFFDataType type) {
     const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
@@ -99,7 +100,7 @@ public:
     }
 
 private:
-    // Key, location, count, value; the first four numbers of the directory are its header.
+    // Returns key, location, count and value; the first four numbers of the directory are its header.
     std::span<const std::uint16_t> entryOf(int key) const {
         for (std::size_t at = 4; at + 4 <= directory_.size(); at += 4) {
             if (directory_[at] == key) return directory_.subspan(at, 4);
@@ -111,7 +112,7 @@ private:
     std::span<const double> doubles_;
 };
 
-// Sets the coordinates of the raster's origin and steps; false where the tags are of no use.
+// Sets the coordinates of the raster's origin and steps; returns false if the tags lack them.
 bool setCoordinates(TIFF* tiff, GeoPlacement& placement) {
     const auto matrix = valuesOf<double>(tiff, modelTransformationTag, TIFF_DOUBLE);
     if (matrix.size() >= 16) {
@@ -148,8 +149,8 @@ double knownRadiusM(std::optional<int> code) {
     return code == 4088 ? 6371007 : 0;
 }
 
-// Equirectangular with its true scale along the equator, in metres, on a sphere or ellipsoid whose size the
-// file tells: the scale of its degrees is that of the equator.
+// Accepts equirectangular projections with true scale along the equator, in metres, on a sphere or ellipsoid
+// of known size: their degrees have the scale of the equator.
 void setProjectedModel(const GeoKeys& keys, GeoPlacement& placement) {
     placement.model = GeoModel::Other;
     placement.modelText = projectionText(keys);
@@ -209,7 +210,7 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
 }
 
-// The text of the first element of a name whose start tag passes a test; empty if there is none.
+// Returns the text of the first element of a name whose start tag passes a test; empty if there is none.
 template <class Test>
 std::string elementText(const std::string& xml, const std::string& name, const Test& test) {
     for (std::size_t at = xml.find('<' + name); at != std::string::npos; at = xml.find('<' + name, at + 1)) {
@@ -248,7 +249,8 @@ std::string contentOf(const std::filesystem::path& file) {
     return content;
 }
 
-// The world file beside an image: its extension's first and last letter and a w, all of it and a w, or wld.
+// Returns the world file beside an image, whose extension is the first and last letter of the image's and a
+// w, all of it and a w, or wld.
 std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
     std::string extension = image.extension().string();
     if (extension.size() < 2) return {};
@@ -277,7 +279,8 @@ std::vector<double> numbersIn(std::string text) {
     return numbers;
 }
 
-// Six lines: x by column, y by column, x by row, y by row, and the first sample's centre.
+// Reads the six lines of a world file: x by column, y by column, x by row, y by row, and the first sample's
+// centre.
 Result<std::optional<GeoPlacement>> worldFilePlacement(const std::filesystem::path& image) {
     const std::filesystem::path file = worldFileBeside(image);
     if (file.empty()) return std::nullopt;
@@ -298,7 +301,7 @@ Result<std::optional<GeoPlacement>> worldFilePlacement(const std::filesystem::pa
     return placement;
 }
 
-// GDAL's sidecar; the placement there counts from the corner of the first sample.
+// Reads GDAL's sidecar, whose placement counts from the corner of the first sample.
 Result<void> takeAuxiliary(const std::filesystem::path& image, GeoTags& tags) {
     const std::filesystem::path file = image.string() + ".aux.xml";
     std::error_code status;
@@ -354,12 +357,9 @@ Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff) {
     Result<GeoTags> tags = isTiff ? readGeoTags(image) : GeoTags();
     if (!tags) return tags;
     if (!tags->placement) {
-        Result<std::optional<GeoPlacement>> placement = worldFilePlacement(image);
-        if (!placement) return tl::unexpected(std::move(placement.error()));
-        tags->placement = *std::move(placement);
+        TRY_ASSIGN(tags->placement, worldFilePlacement(image));
     }
-    if (Result<void> taken = takeAuxiliary(image, *tags); !taken)
-        return tl::unexpected(std::move(taken.error()));
+    TRY(takeAuxiliary(image, *tags));
     return tags;
 }
 

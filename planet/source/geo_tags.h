@@ -36,7 +36,7 @@ struct GeoPlacement {
 struct GeoTags {
     std::optional<GeoPlacement> placement;
     std::optional<double> noDataValue;  // GDAL_NODATA; NaN is left out, since it is missing anyway
-    // For the first band, height = (offset + scale * value) units.
+    // The height of a sample of the first band is (offset + scale * value) units.
     std::optional<double> scale;
     std::optional<double> offset;
     std::string unit;  // "m", "ft"; empty: not told
@@ -44,17 +44,17 @@ struct GeoTags {
     bool operator==(const GeoTags&) const = default;
 };
 
-// Returns the tags of an image, and what they do not tell from the files beside it: a world file (.tfw, .pgw,
-// .jgw, .wld and alike) or GDAL's .aux.xml. isTiff: the file has tags of its own.
+// Returns the tags of an image, completed from the files beside it: a world file (.tfw, .pgw, .jgw, .wld and
+// similar) or GDAL's .aux.xml. isTiff: the file has tags of its own.
 Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff);
 
 // Returns the files beside an image that geoTagsOf would read.
 std::vector<std::filesystem::path> sidecarsOf(const std::filesystem::path& image);
 
-// Returns one unit in metres, by its name in tags; none of an unknown one. No name is metres.
+// Returns one unit in metres, by its name in tags; nothing for an unknown name. An empty name is metres.
 std::optional<double> metresIn(const std::string& unit);
 
-// The tags of a TIFF file; an Error where it cannot be read or its tags contradict themselves.
+// Reads the tags of a TIFF file. The Error says that it cannot be read, or that its tags are inconsistent.
 Result<GeoTags> readGeoTags(const std::filesystem::path& path);
 
 }  // namespace planet

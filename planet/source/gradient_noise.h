@@ -1,5 +1,5 @@
-// Hashes and gradient noise: what made terrain is made of. Pure functions, any thread; the same input gives
-// the same bits everywhere.
+// Hashes and gradient noise for procedural terrain. Pure functions, any thread; the same input gives the same
+// bits on every machine.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ constexpr std::uint64_t scrambled64(std::uint64_t value) {
     return value ^ (value >> 31);
 }
 
-// A hash as a number in [0, 1).
+// Maps a hash to a number in [0, 1).
 constexpr double unitOf(std::uint64_t hash) {
     return static_cast<double>(hash >> 11) * 0x1p-53;
 }
 
-// A hash of a point of the integer lattice.
+// Hashes a point of the integer lattice.
 constexpr std::uint32_t latticeHash(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed) {
     std::uint32_t h = seed + static_cast<std::uint32_t>(x) * 0x8DA6B343u +
                       static_cast<std::uint32_t>(y) * 0xD8163841u +
@@ -36,7 +36,7 @@ constexpr std::uint32_t latticeHash(std::int32_t x, std::int32_t y, std::int32_t
 // coordinate within +-2^30.
 double gradientNoise(const glm::dvec3& point, std::uint32_t seed);
 
-// Its root mean square, and the mean of (1 - |noise|)^2; both measured.
+// The root mean square of gradientNoise, and the mean of (1 - |noise|)^2; both measured.
 inline constexpr double gradientNoiseRms = 0.2700;
 inline constexpr double meanRidge = 0.6325;
 

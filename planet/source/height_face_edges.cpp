@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/sphere/face_fold.h"
 
 namespace planet {
@@ -18,14 +19,14 @@ namespace {
 
 constexpr int cubeEdgeCount = 12;
 
-// One edge of the cube, as the end points of its samples on two faces. Sample k lies k / (size - 1) of the
-// way from first to last on both.
+// An edge of the cube, as the end points of its samples on two faces. Sample k lies k / (size - 1) of the way
+// from first to last on both.
 struct SharedEdge {
     std::array<FaceGridPoint, 2> first;
     std::array<FaceGridPoint, 2> last;
 };
 
-// The edges between each face and those later in enum order.
+// Returns the edges between each face and those later in enum order.
 std::vector<SharedEdge> sharedEdges(int cells) {
     std::vector<SharedEdge> edges;
     for (const Face face : allFaces) {
@@ -45,15 +46,14 @@ std::vector<SharedEdge> sharedEdges(int cells) {
     return edges;
 }
 
-// The samples from first to last, which share a column or a row. Rows of the grid rise, those of the image
-// fall.
+// Reads the samples from first to last, which share a column or a row. Rows of the grid run upwards, those of
+// the image downwards.
 Result<std::vector<float>> readLine(const HeightRaster& raster, const FaceGridPoint& first,
                                     const FaceGridPoint& last, int cells) {
     const RasterRect rect{std::min(first.column, last.column), cells - std::max(first.row, last.row),
                           std::abs(first.column - last.column) + 1, std::abs(first.row - last.row) + 1};
     std::vector<float> heights(static_cast<std::size_t>(cells) + 1);
-    const auto read = raster.read(rect, heights.data(), static_cast<std::size_t>(rect.width));
-    if (!read) return tl::unexpected(read.error());
+    TRY(raster.read(rect, heights.data(), static_cast<std::size_t>(rect.width)));
     if (first.column > last.column || first.row < last.row) std::reverse(heights.begin(), heights.end());
     return heights;
 }
@@ -84,9 +84,7 @@ Result<EdgeDifference> differenceAlong(const std::array<HeightRaster, faceCount>
     std::array<std::vector<float>, 2> both;
     for (std::size_t i = 0; i < 2; ++i) {
         const HeightRaster& raster = faces[static_cast<std::size_t>(edge.first[i].face)];
-        Result<std::vector<float>> line = readLine(raster, edge.first[i], edge.last[i], lines.size - 1);
-        if (!line) return tl::unexpected(std::move(line.error()));
-        both[i] = *std::move(line);
+        TRY_ASSIGN(both[i], readLine(raster, edge.first[i], edge.last[i], lines.size - 1));
     }
     EdgeDifference difference{edge};
     const auto clamped = [&](float value) { return std::clamp(value, comparison.least, comparison.most); };
@@ -103,14 +101,13 @@ Result<EdgeDifference> differenceAlong(const std::array<HeightRaster, faceCount>
     return difference;
 }
 
-// The differences along all edges of the cube.
+// Returns the differences along all edges of the cube.
 Result<std::vector<EdgeDifference>> differencesOf(const std::array<HeightRaster, faceCount>& faces,
                                                   const FaceLines& lines, const Comparison& comparison) {
     std::vector<EdgeDifference> differences;
     for (const SharedEdge& edge : sharedEdges(lines.size - 1)) {
-        Result<EdgeDifference> difference = differenceAlong(faces, edge, lines, comparison);
-        if (!difference) return tl::unexpected(std::move(difference.error()));
-        differences.push_back(*difference);
+        TRY_ASSIGN(auto difference, differenceAlong(faces, edge, lines, comparison));
+        differences.push_back(difference);
     }
     return differences;
 }
@@ -158,26 +155,24 @@ std::string seamNotice(const EdgeDifference& worst, std::size_t edges, const Fac
 
 Result<void> checkHeightEdges(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
                               const std::string& stem, double toleranceM) {
-    Result<std::vector<EdgeDifference>> found = differencesOf(faces, lines, {.tolerance = toleranceM});
-    if (!found) return tl::unexpected(std::move(found.error()));
-    std::erase_if(*found, [](const EdgeDifference& difference) { return difference.samples == 0; });
-    if (found->empty()) return {};
-    const EdgeDifference& worst = *std::ranges::max_element(*found, {}, &EdgeDifference::largest);
-    return tl::unexpected(heightError(worst, found->size(), lines, stem, toleranceM));
+    TRY_ASSIGN(auto found, differencesOf(faces, lines, {.tolerance = toleranceM}));
+    std::erase_if(found, [](const EdgeDifference& difference) { return difference.samples == 0; });
+    if (found.empty()) return {};
+    const EdgeDifference& worst = *std::ranges::max_element(found, {}, &EdgeDifference::largest);
+    return tl::unexpected(heightError(worst, found.size(), lines, stem, toleranceM));
 }
 
 Result<ColourSeams> findColourSeams(const std::array<HeightRaster, faceCount>& faces, const FaceLines& lines,
                                     const std::string& stem) {
-    Result<std::vector<EdgeDifference>> found =
-        differencesOf(faces, lines, {.tolerance = visibleDifference, .least = 0, .most = 1});
-    if (!found) return tl::unexpected(std::move(found.error()));
+    TRY_ASSIGN(auto found,
+               differencesOf(faces, lines, {.tolerance = visibleDifference, .least = 0, .most = 1}));
     // Single samples may differ in lossy pictures.
-    std::erase_if(*found, [&](const EdgeDifference& difference) {
+    std::erase_if(found, [&](const EdgeDifference& difference) {
         return std::int64_t{10} * difference.samples <= lines.size;
     });
-    if (found->empty()) return ColourSeams();
-    const EdgeDifference& worst = *std::ranges::max_element(*found, {}, &EdgeDifference::samples);
-    return ColourSeams{static_cast<int>(found->size()), seamNotice(worst, found->size(), lines, stem)};
+    if (found.empty()) return ColourSeams();
+    const EdgeDifference& worst = *std::ranges::max_element(found, {}, &EdgeDifference::samples);
+    return ColourSeams{static_cast<int>(found.size()), seamNotice(worst, found.size(), lines, stem)};
 }
 
 }  // namespace planet

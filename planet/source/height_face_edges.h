@@ -11,15 +11,15 @@
 
 namespace planet {
 
-// How the outermost samples of the faces are read and compared.
+// The outermost samples of the faces and their comparison.
 struct FaceLines {
     int size = 0;             // samples a side, at least 2
     bool hasMissing = false;  // samples of value fill may be missing ones, which agree with anything
     float fill = 0;
 };
 
-// Both read the outermost samples of all faces, in the order of allFaces, on any thread. stem: of the files'
-// names, for the message.
+// Both functions read the outermost samples of all faces, given in the order of allFaces, on any thread.
+// stem: that of the files' names, for messages.
 
 // The Error names the two faces and sides that differ most, by how many metres and where, and on how many
 // edges there are differences. Differences up to toleranceM are rounding.

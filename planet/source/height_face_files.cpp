@@ -53,7 +53,7 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-// Whether OpenImageIO reads a format of this extension: its list reads "png:png;tiff:tif,tiff,env;...".
+// Returns whether OpenImageIO reads a format of this extension. Its list is "png:png;tiff:tif,tiff,env;...".
 bool isHeightExtension(const std::string& extension) {
     if (extension.size() < 2) return false;
     const std::string wanted = lowerCase(extension.substr(1));
@@ -68,7 +68,8 @@ bool isHeightExtension(const std::string& extension) {
     return false;
 }
 
-// The extension that most of the faces have: .raw first, then by the alphabet. Empty where there is none.
+// Returns the extension that most of the faces have; .raw first, then in alphabetical order. Empty if there
+// is none.
 std::string extensionOfFaces(const std::filesystem::path& folder, const std::string& stem) {
     std::map<std::string, int> facesWith;
     std::error_code problem;

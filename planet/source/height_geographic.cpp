@@ -7,13 +7,13 @@ namespace planet {
 
 namespace {
 
-// The angle of (x, y) above the x axis, both >= 0: [0, pi/2]; 0 where both are 0.
-// Written in selects and plain arithmetic, so that a compiler can do several at once, with the same bits.
+// Returns the angle of (x, y) above the x axis, [0, pi/2], for x, y >= 0; 0 if both are 0. Selects and plain
+// arithmetic let a compiler vectorise it with the same bits.
 inline double quadrantAngleRad(double x, double y) {
     constexpr double tanOfEighth = 0.41421356237309503;  // tan(pi / 8)
     const double low = y < x ? y : x;
     const double high = y < x ? x : y;
-    // Above pi/8: atan(t) = pi/4 + atan((t - 1) / (t + 1)).
+    // Above pi/8, atan(t) = pi/4 + atan((t - 1) / (t + 1)).
     const bool reduce = low > tanOfEighth * high;
     const double numerator = reduce ? low - high : low;
     const double denominator = (reduce ? low + high : high) + 1e-300;
@@ -46,7 +46,7 @@ void geographicRow(Face face, int faceCells, int firstColumn, int row, const Geo
     double* const latitudes = out.latitudeRad.data();
     double* const rings = out.ring.data();
     for (int i = 0; i < count; ++i) {
-        // As in cubePoint and sphereFromCube.
+        // This repeats cubePoint and sphereFromCube.
         const double u = (firstColumn + i) * perCell - 1;
         const double x = base.x + u * along.x;
         const double y = base.y + u * along.y;

@@ -1,4 +1,4 @@
-// Where a row of a face's grid lies on the sphere, many samples at a time. Internal to the library.
+// Computes latitude and longitude of a row of a face's grid, many samples at a time. Internal to the library.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ struct GeographicRow {
     std::span<double> ring;          // cos(latitude), [0, 1], exact to the last digits at the poles too
 };
 
-// Samples firstColumn, firstColumn + 1, ... of row `row` of a face's grid of (faceCells + 1)^2. Each is
-// computed from its point of the cube alone, in the same operations wherever it stands in a row and whichever
-// face it is asked through, so it comes out bit-identical. Within 4e-16 rad times a few of exact. Any thread.
+// Fills out with samples firstColumn, firstColumn + 1, ... of a row of a face's grid of (faceCells + 1)^2.
+// Each follows from its point of the cube alone, by the same operations in any row and through any face, so
+// it is bit-identical. The error is a few times 4e-16 rad. Any thread.
 void geographicRow(Face face, int faceCells, int firstColumn, int row, const GeographicRow& out);
 
 }  // namespace planet

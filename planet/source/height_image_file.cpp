@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "planet/base/try.h"
 #include "planet/source/height_raster.h"
 
 namespace planet {
@@ -21,55 +22,24 @@ using ReaderPtr = std::unique_ptr<OIIO::ImageInput>;
 constexpr int maxSide = 1 << 22;                   // samples
 constexpr std::size_t maxTileSamples = 64u << 20;  // a larger tile could not be read in bounded memory
 
+constexpr std::array<OIIO::TypeDesc::BASETYPE, sampleTypeCount> baseTypes = {
+    OIIO::TypeDesc::UINT8,  OIIO::TypeDesc::INT8,  OIIO::TypeDesc::UINT16, OIIO::TypeDesc::INT16,
+    OIIO::TypeDesc::UINT32, OIIO::TypeDesc::INT32, OIIO::TypeDesc::FLOAT,  OIIO::TypeDesc::DOUBLE};
+
 OIIO::TypeDesc readAs(SampleType type) {
-    switch (type) {
-        case SampleType::Uint8:
-            return OIIO::TypeDesc::UINT8;
-        case SampleType::Int8:
-            return OIIO::TypeDesc::INT8;
-        case SampleType::Uint16:
-            return OIIO::TypeDesc::UINT16;
-        case SampleType::Int16:
-            return OIIO::TypeDesc::INT16;
-        case SampleType::Uint32:
-            return OIIO::TypeDesc::UINT32;
-        case SampleType::Int32:
-            return OIIO::TypeDesc::INT32;
-        case SampleType::Float:
-            return OIIO::TypeDesc::FLOAT;
-        case SampleType::Double:
-            return OIIO::TypeDesc::DOUBLE;
-    }
-    assert(false);
-    return OIIO::TypeDesc::UNKNOWN;
+    return baseTypes[static_cast<std::size_t>(type)];
 }
 
 std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& format) {
-    switch (format.basetype) {
-        case OIIO::TypeDesc::UINT8:
-            return SampleType::Uint8;
-        case OIIO::TypeDesc::INT8:
-            return SampleType::Int8;
-        case OIIO::TypeDesc::UINT16:
-            return SampleType::Uint16;
-        case OIIO::TypeDesc::INT16:
-            return SampleType::Int16;
-        case OIIO::TypeDesc::UINT32:
-            return SampleType::Uint32;
-        case OIIO::TypeDesc::INT32:
-            return SampleType::Int32;
-        case OIIO::TypeDesc::HALF:  // exact as floats, and no integers, so not normalised
-        case OIIO::TypeDesc::FLOAT:
-            return SampleType::Float;
-        case OIIO::TypeDesc::DOUBLE:
-            return SampleType::Double;
-        default:
-            return std::nullopt;
-    }
+    // Half floats are exact as floats.
+    if (format.basetype == OIIO::TypeDesc::HALF) return SampleType::Float;
+    const auto found = std::ranges::find(baseTypes, format.basetype);
+    if (found == baseTypes.end()) return std::nullopt;
+    return static_cast<SampleType>(found - baseTypes.begin());
 }
 
-// A reader decodes on the thread that asks: the bake has threads of its own. Colours come as they are stored,
-// not darkened by an alpha beside them.
+// Opens a reader that decodes on the calling thread, because the bake has its own threads, and gives colours
+// as they are stored, not multiplied by alpha.
 ReaderPtr openReader(const std::filesystem::path& path) {
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);
@@ -87,7 +57,7 @@ std::string channelNames(const OIIO::ImageSpec& spec) {
     return names;
 }
 
-// What a PNG's header says of its bits a sample, which OpenImageIO keeps to itself; 0 for other files.
+// Returns the bits per sample in a PNG's header, which OpenImageIO does not report; 0 for other files.
 int pngBits(const std::filesystem::path& path) {
     constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
     constexpr std::size_t bitsAt = 24;
@@ -100,15 +70,15 @@ int pngBits(const std::filesystem::path& path) {
 Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::ImageSpec& spec, bool colour) {
     const std::string file = path.string();
     if (colour && (spec.nchannels < 1 || spec.nchannels > 4)) {
-        return badInput(fmt::format("{}: expected a grey or an RGB image, found {} channels ({})", file,
+        return badInput(fmt::format("{}: has {} channels ({}); expected a grey or an RGB image", file,
                                     spec.nchannels, channelNames(spec)));
     }
     if (!colour && spec.nchannels != 1) {
-        return badInput(fmt::format("{}: expected one grey channel, found {} ({})", file, spec.nchannels,
-                                    channelNames(spec)));
+        return badInput(fmt::format("{}: has {} channels ({}); expected one grey channel", file,
+                                    spec.nchannels, channelNames(spec)));
     }
     if (spec.deep || spec.depth > 1) {
-        return badInput(fmt::format("{}: expected a flat image, found a deep or volume image", file));
+        return badInput(fmt::format("{}: is a deep or volume image; expected a flat image", file));
     }
     if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
         return badInput(fmt::format("{}: is {} x {} samples; expected [1, {}] per side", file, spec.width,
@@ -130,7 +100,7 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
     const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", pngBits(path));
     const int readBits = static_cast<int>(spec.format.size()) * 8;
     if (storedBits != 0 && storedBits != readBits) {
-        // They come scaled to the next whole type, so the file's own values are lost.
+        // The samples are scaled to the next whole type, so the file's own values are lost.
         return badInput(fmt::format("{}: has {} bits per sample; expected 8, 16 or 32", file, storedBits));
     }
     if (spec.tile_width > 0 && spec.tile_pixels() > maxTileSamples) {
@@ -158,7 +128,7 @@ Result<void> checkIsFile(const std::filesystem::path& path) {
 
 }  // namespace
 
-// Readers that nobody uses just now; one more is opened where none is left.
+// The readers that are not in use; another is opened if none is left.
 struct ImageFile::Readers {
     std::mutex mutex;
     std::vector<ReaderPtr> idle;
@@ -188,29 +158,27 @@ ImageFile::~ImageFile() = default;
 
 Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& path,
                                                    std::optional<int> colourChannel) {
-    if (Result<void> check = checkIsFile(path); !check) return tl::unexpected(std::move(check.error()));
+    TRY(checkIsFile(path));
     ReaderPtr reader = openReader(path);
     if (!reader) {
         OIIO::geterror();  // about its plug-ins or its decoders; kept for the next failure if nobody takes it
         return badInput(fmt::format(
-            "{}: not an image that can be read; expected GeoTIFF, TIFF, PNG, JPEG or another image format",
+            "{}: is not a readable image; expected GeoTIFF, TIFF, PNG, JPEG or another image format",
             path.string()));
     }
-    Result<ImageLayout> layout = layoutOf(path, reader->spec(), colourChannel.has_value());
-    if (!layout) return tl::unexpected(std::move(layout.error()));
-    Result<GeoTags> tags = geoTagsOf(path, std::string_view(reader->format_name()) == "tiff");
-    if (!tags) return tl::unexpected(std::move(tags.error()));
-    layout->geoTags = *std::move(tags);
-    // One or two channels: grey, without or with alpha.
+    TRY_ASSIGN(auto layout, layoutOf(path, reader->spec(), colourChannel.has_value()));
+    TRY_ASSIGN(auto tags, geoTagsOf(path, std::string_view(reader->format_name()) == "tiff"));
+    layout.geoTags = std::move(tags);
+    // One or two channels are grey, without or with alpha.
     const int channel = reader->spec().nchannels < 3 ? 0 : colourChannel.value_or(0);
     auto readers = std::make_unique<Readers>();
     readers->giveBack(std::move(reader));
-    return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(*layout), channel, std::move(readers)));
+    return std::shared_ptr<ImageFile>(new ImageFile(path, std::move(layout), channel, std::move(readers)));
 }
 
 namespace {
 
-// Some readers fail without a word, and libtiff with the row 2^32 - 1.
+// Some readers fail without a message, and libtiff with the row 2^32 - 1.
 std::string reasonOf(const OIIO::ImageInput& reader) {
     const std::string error = reader.geterror();
     const bool tellsNothing = error.empty() || error.find("4294967295") != std::string::npos;
@@ -248,7 +216,7 @@ Result<void> ImageFile::readRows(int firstRow, int count, std::span<std::byte> n
     const int begin = layout_.originY + firstRow;
     const bool read = reader->read_scanlines(0, 0, begin, begin + count, 0, channel_, channel_ + 1,
                                              readAs(layout_.type), native.data());
-    // A strip that is cut off leaves an error message behind a result of true.
+    // A truncated strip leaves an error message although the call returns true.
     if (!read || reader->has_error()) {
         return ioError(fmt::format("{}: rows {} to {} cannot be read: {}", path_.string(), firstRow,
                                    firstRow + count - 1, reasonOf(*reader)));

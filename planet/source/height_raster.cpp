@@ -1,4 +1,5 @@
 #include "planet/source/height_raster.h"
+#include "planet/base/try.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@ T loadSample(const std::byte* from, bool swapBytes) {
     return value;
 }
 
-// True where a value is the one that means "missing"; a float file cannot hold every double exactly.
+// Returns whether a value means "missing"; a float file cannot hold every double exactly.
 template <class T>
 bool isNoData(T value, double noDataValue) {
     if constexpr (std::is_same_v<T, float>) {
@@ -64,22 +65,8 @@ HeightStatistics convertSamples(const HeightConversion& conversion, std::span<co
 }  // namespace
 
 std::size_t bytesOf(SampleType type) {
-    switch (type) {
-        case SampleType::Uint8:
-        case SampleType::Int8:
-            return 1;
-        case SampleType::Uint16:
-        case SampleType::Int16:
-            return 2;
-        case SampleType::Uint32:
-        case SampleType::Int32:
-        case SampleType::Float:
-            return 4;
-        case SampleType::Double:
-            return 8;
-    }
-    assert(false);
-    return 8;
+    constexpr std::array<std::size_t, sampleTypeCount> bytes = {1, 1, 2, 2, 4, 4, 4, 8};
+    return bytes[static_cast<std::size_t>(type)];
 }
 
 void addTo(HeightStatistics& sum, const HeightStatistics& part) {
@@ -91,35 +78,20 @@ void addTo(HeightStatistics& sum, const HeightStatistics& part) {
 HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
                                  std::span<float> out) {
     assert(native.size() == out.size() * bytesOf(conversion.type));
-    switch (conversion.type) {
-        case SampleType::Uint8:
-            return convertSamples<std::uint8_t>(conversion, native, out);
-        case SampleType::Int8:
-            return convertSamples<std::int8_t>(conversion, native, out);
-        case SampleType::Uint16:
-            return convertSamples<std::uint16_t>(conversion, native, out);
-        case SampleType::Int16:
-            return convertSamples<std::int16_t>(conversion, native, out);
-        case SampleType::Uint32:
-            return convertSamples<std::uint32_t>(conversion, native, out);
-        case SampleType::Int32:
-            return convertSamples<std::int32_t>(conversion, native, out);
-        case SampleType::Float:
-            return convertSamples<float>(conversion, native, out);
-        case SampleType::Double:
-            return convertSamples<double>(conversion, native, out);
-    }
-    assert(false);
-    return {};
+    constexpr std::array<decltype(&convertSamples<float>), sampleTypeCount> converters = {
+        convertSamples<std::uint8_t>, convertSamples<std::int8_t>,   convertSamples<std::uint16_t>,
+        convertSamples<std::int16_t>, convertSamples<std::uint32_t>, convertSamples<std::int32_t>,
+        convertSamples<float>,        convertSamples<double>};
+    return converters[static_cast<std::size_t>(conversion.type)](conversion, native, out);
 }
 
 Result<HeightBlockCache::Block> HeightBlockCache::get(
     std::uint64_t key, const std::function<Result<std::vector<float>>()>& load) {
     if (Block kept = find(key)) return kept;
-    // Loaded outside the lock: two threads may load the same block, which costs time but is never wrong.
-    Result<std::vector<float>> loaded = load();
-    if (!loaded) return tl::unexpected(std::move(loaded.error()));
-    Block block = std::make_shared<const std::vector<float>>(std::move(*loaded));
+    // The block is loaded without the lock: two threads may load the same block, which costs time but is
+    // correct.
+    TRY_ASSIGN(auto loaded, load());
+    Block block = std::make_shared<const std::vector<float>>(std::move(loaded));
     insert(key, block);
     return block;
 }
@@ -185,9 +157,7 @@ Result<std::vector<float>> HeightRaster::loadBlock(int blockX, int blockY,
     const auto width = static_cast<std::size_t>(blocks_.width);
     const std::size_t sampleBytes = bytesOf(conversion_.type);
     std::vector<std::byte> native(width * static_cast<std::size_t>(blocks_.height) * sampleBytes);
-    if (Result<void> read = blocks_.read(blockX, blockY, native); !read) {
-        return tl::unexpected(std::move(read.error()));
-    }
+    TRY(blocks_.read(blockX, blockY, native));
     const RasterRect rect = blockRect(blockX, blockY);
     const auto inside = static_cast<std::size_t>(rect.width);
     std::vector<float> heights(inside * static_cast<std::size_t>(rect.height));
@@ -202,7 +172,7 @@ Result<std::vector<float>> HeightRaster::loadBlock(int blockX, int blockY,
 
 namespace {
 
-// Copies what two rectangles share, from the samples of one to those of the other.
+// Copies the intersection of two rectangles from the samples of one to those of the other.
 void copyShared(const RasterRect& from, const float* samples, const RasterRect& to, float* out,
                 std::size_t strideSamples) {
     const int x0 = std::max(from.x, to.x);
@@ -233,10 +203,9 @@ Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t 
             const std::uint64_t key = (static_cast<std::uint64_t>(blocks_.cacheSlot) << 60) |
                                       (static_cast<std::uint64_t>(blockY) << 30) |
                                       static_cast<std::uint64_t>(blockX);
-            const Result<HeightBlockCache::Block> block =
-                blocks_.cache->get(key, [&] { return loadBlock(blockX, blockY, nullptr); });
-            if (!block) return tl::unexpected(block.error());
-            copyShared(blockRect(blockX, blockY), (*block)->data(), rect, out, strideSamples);
+            TRY_ASSIGN(const auto block,
+                       blocks_.cache->get(key, [&] { return loadBlock(blockX, blockY, nullptr); }));
+            copyShared(blockRect(blockX, blockY), block->data(), rect, out, strideSamples);
         }
     }
     return {};
@@ -247,8 +216,7 @@ Result<HeightStatistics> HeightRaster::statistics() const {
     HeightStatistics statistics;
     for (int blockY = 0; blockY * blocks_.height < height_; ++blockY) {
         for (int blockX = 0; blockX * blocks_.width < width_; ++blockX) {
-            const Result<std::vector<float>> block = loadBlock(blockX, blockY, &statistics);
-            if (!block) return tl::unexpected(block.error());
+            TRY(loadBlock(blockX, blockY, &statistics));
         }
     }
     return statistics;

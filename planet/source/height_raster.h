@@ -1,4 +1,4 @@
-// A rectangular grid of heights in metres, out of an image or a raw file: held whole where it is small, else
+// A rectangular grid of heights in metres from an image or a raw file: a small one is held whole, others are
 // read block by block through a cache of bounded size. Internal to the library.
 #pragma once
 
@@ -23,9 +23,10 @@
 namespace planet {
 
 enum class SampleType : std::uint8_t { Uint8, Int8, Uint16, Int16, Uint32, Int32, Float, Double };
+inline constexpr std::size_t sampleTypeCount = 8;
 std::size_t bytesOf(SampleType type);
 
-// How stored values become metres.
+// The conversion of stored values to metres.
 struct HeightConversion {
     SampleType type = SampleType::Int16;
     bool swapBytes = false;    // the other byte order than this machine's
@@ -47,14 +48,14 @@ void addTo(HeightStatistics& sum, const HeightStatistics& part);
 HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
                                  std::span<float> out);
 
-// Keeps the blocks used last, at most maxBytes of them beside those in use. Any thread.
+// Caches the blocks used last, at most maxBytes besides those in use. Any thread.
 class HeightBlockCache {
 public:
     using Block = std::shared_ptr<const std::vector<float>>;
 
     explicit HeightBlockCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
 
-    // The block of a key, loaded by load() where it is not kept.
+    // Returns the block of a key; calls load() if it is not cached.
     Result<Block> get(std::uint64_t key, const std::function<Result<std::vector<float>>()>& load);
     std::size_t bytes() const;  // held now
 
@@ -80,7 +81,7 @@ struct RasterRect {
     int height = 0;
 };
 
-// Copies share what is open. Every function from any thread.
+// Copies share the open files. Any thread may call every function.
 class HeightRaster {
 public:
     struct Blocks {
@@ -95,7 +96,7 @@ public:
     HeightRaster() = default;
     static HeightRaster whole(int width, int height, std::vector<float> heightsM,
                               const HeightStatistics& statistics);
-    // statistics: where they are known already, which spares the scan.
+    // statistics: if they are known already, which saves the scan.
     static HeightRaster inBlocks(int width, int height, const HeightConversion& conversion, Blocks blocks,
                                  const std::optional<HeightStatistics>& statistics = {});
 
@@ -105,7 +106,8 @@ public:
     // Copies a rectangle of the grid; row r of it starts at out + r * strideSamples.
     Result<void> read(const RasterRect& rect, float* out, std::size_t strideSamples) const;
 
-    // Of all samples; looks at each once, a block at a time, where they are not known yet.
+    // Returns the statistics of all samples; reads each sample once, a block at a time, if they are not known
+    // yet.
     Result<HeightStatistics> statistics() const;
 
 private:
@@ -120,7 +122,7 @@ private:
     Blocks blocks_;
 };
 
-// What an image's header says.
+// The header of an image.
 struct ImageLayout {
     int width = 0;
     int height = 0;
@@ -133,7 +135,7 @@ struct ImageLayout {
     GeoTags geoTags;       // of a TIFF
 };
 
-// One channel of an image, open for reading by several threads: each borrows an open reader of its own.
+// A channel of an image, open for reading by several threads: each borrows its own reader.
 class ImageFile {
 public:
     // colourChannel as in HeightSourceSettings; without it the image must have one grey channel. Errors:
@@ -145,9 +147,9 @@ public:
     const std::filesystem::path& path() const { return path_; }
     const ImageLayout& layout() const { return layout_; }
 
-    // Native samples of the tile that holds (x, y), counted from the first sample.
+    // Reads the native samples of the tile that holds (x, y), counted from the first sample.
     Result<void> readTile(int x, int y, std::span<std::byte> native);
-    // Native samples of rows [firstRow, firstRow + count); rising from call to call is fastest.
+    // Reads the native samples of rows [firstRow, firstRow + count); ascending calls are fastest.
     Result<void> readRows(int firstRow, int count, std::span<std::byte> native);
 
 private:
@@ -166,13 +168,14 @@ struct RasterMemory {
     std::size_t wholeLimitBytes = 0;  // an untiled image is held whole up to this
 };
 
-// A tiled image is read tile by tile. An untiled one is held whole where it fits; else it is copied once to
-// a temporary file that has no name, and so is gone with the raster however the program ends.
+// Opens an image. A tiled image is read tile by tile. An untiled one is held whole if it fits; else it is
+// copied once to a temporary file without a name, which disappears with the raster even if the program is
+// killed.
 Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
                                      const HeightConversion& conversion, const RasterMemory& memory,
                                      const FileCalls& calls = systemFileCalls());
 
-// A headerless file of size x size samples, rows from the top. The file's length must have been checked.
+// Opens a headerless file of size x size samples, rows from the top. The caller has checked its length.
 Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
                                    const HeightConversion& conversion, const RasterMemory& memory,
                                    const FileCalls& calls = systemFileCalls());

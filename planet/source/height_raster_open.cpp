@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planet/base/open_file.h"
+#include "planet/base/try.h"
 #include "planet/source/height_raster.h"
 
 namespace planet {
@@ -20,8 +21,8 @@ constexpr int spillBlockWidth = 256;         // samples
 constexpr int spillBlockHeight = 64;         // samples
 constexpr std::size_t bandBytes = 8u << 20;  // rows of an image read at once
 
-// In the system's temporary folder, and without a name, so that it is gone however the program ends. Where
-// the folder's file system knows no such files it has one for a moment.
+// Creates a file without a name in the system's temporary folder, so that it disappears even if the program
+// is killed. On file systems without such files it has a name for a moment.
 Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& calls) {
     std::error_code problem;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
@@ -38,7 +39,7 @@ Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& cal
     return std::make_shared<const OpenFile>(descriptor, name, calls);
 }
 
-// Where the spilled file keeps its blocks: one after another, row-major, whole ones at the edges too.
+// The layout of the temporary file: whole blocks one after another, row-major, at the edges too.
 struct SpillLayout {
     std::uint64_t blocksAcross = 0;
     std::uint64_t blockBytes = 0;
@@ -49,7 +50,7 @@ struct SpillLayout {
           blockBytes(bytesOf(image.type) * spillBlockWidth * spillBlockHeight),
           sampleBytes(bytesOf(image.type)) {}
 
-    // Of a sample in the first column of a block.
+    // Returns the offset of a sample in the first column of a block.
     std::uint64_t offsetOf(int blockX, int y) const {
         const auto block = static_cast<std::uint64_t>(y / spillBlockHeight) * blocksAcross +
                            static_cast<std::uint64_t>(blockX);
@@ -58,7 +59,7 @@ struct SpillLayout {
     }
 };
 
-// Writes rows, whole ones of the image, all of one row of blocks.
+// Writes whole rows of the image that lie in one row of blocks.
 Result<void> spillRows(const OpenFile& file, const ImageLayout& image, int firstRow, int count,
                        std::span<const std::byte> native) {
     const SpillLayout layout(image);
@@ -73,16 +74,14 @@ Result<void> spillRows(const OpenFile& file, const ImageLayout& image, int first
             std::copy(from.begin(), from.end(),
                       piece.begin() + static_cast<std::ptrdiff_t>(row * pieceBytes));
         }
-        if (Result<void> written = file.write(layout.offsetOf(blockX, firstRow), piece); !written) {
-            return written;
-        }
+        TRY(file.write(layout.offsetOf(blockX, firstRow), piece));
     }
     return {};
 }
 
 using RowsCallback = std::function<Result<void>(int firstRow, int count, std::span<const std::byte> native)>;
 
-// Hands over all rows from the top, some at a time; never rows of two rows of spill blocks at once.
+// Passes all rows to the callback from the top, some at a time, never rows of two rows of blocks at once.
 Result<void> forRows(ImageFile& image, const RowsCallback& callback) {
     const ImageLayout& layout = image.layout();
     const std::size_t rowBytes = static_cast<std::size_t>(layout.width) * bytesOf(layout.type);
@@ -92,8 +91,8 @@ Result<void> forRows(ImageFile& image, const RowsCallback& callback) {
         const int blockEnd = (row / spillBlockHeight + 1) * spillBlockHeight;
         const int count = std::min({most, blockEnd - row, layout.height - row});
         const std::span band(native.data(), rowBytes * static_cast<std::size_t>(count));
-        if (Result<void> read = image.readRows(row, count, band); !read) return read;
-        if (Result<void> done = callback(row, count, band); !done) return done;
+        TRY(image.readRows(row, count, band));
+        TRY(callback(row, count, band));
         row += count;
     }
     return {};
@@ -104,33 +103,28 @@ Result<HeightRaster> openWhole(ImageFile& image, const HeightConversion& convers
     const auto width = static_cast<std::size_t>(layout.width);
     std::vector<float> heights(width * static_cast<std::size_t>(layout.height));
     HeightStatistics statistics;
-    const Result<void> read =
-        forRows(image, [&](int firstRow, int count, std::span<const std::byte> native) -> Result<void> {
-            const std::span rows = std::span(heights).subspan(static_cast<std::size_t>(firstRow) * width,
-                                                              static_cast<std::size_t>(count) * width);
-            addTo(statistics, convertToMetres(conversion, native, rows));
-            return {};
-        });
-    if (!read) return tl::unexpected(read.error());
+    TRY(forRows(image, [&](int firstRow, int count, std::span<const std::byte> native) -> Result<void> {
+        const std::span rows = std::span(heights).subspan(static_cast<std::size_t>(firstRow) * width,
+                                                          static_cast<std::size_t>(count) * width);
+        addTo(statistics, convertToMetres(conversion, native, rows));
+        return {};
+    }));
     return HeightRaster::whole(layout.width, layout.height, std::move(heights), statistics);
 }
 
 Result<HeightRaster> openSpilled(ImageFile& image, const HeightConversion& conversion,
                                  const RasterMemory& memory, const FileCalls& calls) {
-    const Result<std::shared_ptr<const OpenFile>> file = createTemporaryFile(calls);
-    if (!file) return tl::unexpected(file.error());
+    TRY_ASSIGN(const auto file, createTemporaryFile(calls));
     const ImageLayout layout = image.layout();
     HeightStatistics statistics;
     std::vector<float> heights;
-    const Result<void> copied =
-        forRows(image, [&](int firstRow, int count, std::span<const std::byte> native) {
-            heights.resize(native.size() / bytesOf(layout.type));
-            addTo(statistics, convertToMetres(conversion, native, heights));
-            return spillRows(**file, layout, firstRow, count, native);
-        });
-    if (!copied) return tl::unexpected(copied.error());
-    const auto readBlock = [file = *file, layout](int blockX, int blockY, std::span<std::byte> native) {
-        // The last row of blocks ends where the image does.
+    TRY(forRows(image, [&](int firstRow, int count, std::span<const std::byte> native) {
+        heights.resize(native.size() / bytesOf(layout.type));
+        addTo(statistics, convertToMetres(conversion, native, heights));
+        return spillRows(*file, layout, firstRow, count, native);
+    }));
+    const auto readBlock = [file, layout](int blockX, int blockY, std::span<std::byte> native) {
+        // The last row of blocks ends with the image.
         const int rows = std::min(spillBlockHeight, layout.height - blockY * spillBlockHeight);
         const std::size_t bytes = static_cast<std::size_t>(rows) * spillBlockWidth * bytesOf(layout.type);
         return file->read(SpillLayout(layout).offsetOf(blockX, blockY * spillBlockHeight),
@@ -166,9 +160,8 @@ Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
 Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
                                    const HeightConversion& conversion, const RasterMemory& memory,
                                    const FileCalls& calls) {
-    Result<OpenFile> opened = OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls);
-    if (!opened) return tl::unexpected(std::move(opened.error()));
-    const auto file = std::make_shared<const OpenFile>(std::move(*opened));
+    TRY_ASSIGN(auto opened, OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls));
+    const auto file = std::make_shared<const OpenFile>(std::move(opened));
     const std::size_t sampleBytes = bytesOf(conversion.type);
     const auto readBlock = [=](int blockX, int blockY, std::span<std::byte> native) -> Result<void> {
         const int x = blockX * rawBlockSide;
@@ -180,7 +173,7 @@ Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
                 static_cast<std::uint64_t>(x);
             const auto into = native.subspan(static_cast<std::size_t>(row) * rawBlockSide * sampleBytes,
                                              columns * sampleBytes);
-            if (Result<void> read = file->read(sample * sampleBytes, into); !read) return read;
+            TRY(file->read(sample * sampleBytes, into));
         }
         return {};
     };

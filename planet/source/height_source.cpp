@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "planet/base/try.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"
 
@@ -48,20 +49,19 @@ bool asRead(const HeightSourceSettings& settings) {
 }
 
 Result<HeightSource> openTerrain(const std::filesystem::path& text, const HeightSourceSettings& settings) {
-    const Result<TerrainSource> terrain = terrainFromText(text);
-    if (!terrain) return tl::unexpected(terrain.error());
-    const auto* const detail = std::get_if<DetailTerrain>(&terrain->settings);
+    TRY_ASSIGN(const auto terrain, terrainFromText(text));
+    const auto* const detail = std::get_if<DetailTerrain>(&terrain.settings);
     if (!detail) {
-        if (asRead(settings)) return makeTerrain(terrain->settings);
+        if (asRead(settings)) return makeTerrain(terrain.settings);
         return badInput(
             fmt::format("{}: is procedural terrain, so units, offset, no-data value, fill and raw formats do "
                         "not apply; expected settings in its own text, such as offset_m=100",
                         text.string()));
     }
-    Result<HeightSource> source = openHeightSource(terrain->of, settings);
+    Result<HeightSource> source = openHeightSource(terrain.of, settings);
     if (!source) return source;
     Result<HeightSource> result = amplified(*std::move(source), *detail);
-    // Whoever has only the description should find the file again.
+    // The description alone must be enough to open the source again.
     if (result) result->description = wholeTerrainText(text).value_or(result->description);
     return result;
 }
@@ -70,12 +70,10 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
 
 Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings) {
-    if (Result<void> check = checkSettings(settings); !check) {
-        return tl::unexpected(std::move(check.error()));
-    }
+    TRY(checkSettings(settings));
     if (isTerrainText(path)) return openTerrain(path, settings);
     if (const std::optional<FaceFiles> faces = findFaceFiles(path)) {
-        // Lossy pictures differ a little along their edges, which is no error in colours.
+        // Lossy pictures differ slightly along their edges, which is not an error for colours.
         const FaceEdges edges = settings.colourChannel ? FaceEdges::MayDiffer : FaceEdges::MustAgree;
         return openFaceSource(*faces, settings, edges);
     }

@@ -1,8 +1,8 @@
 // Opens a height source: an elevation image, six cube faces or procedural terrain (terrain.h).
 //
 // An elevation image is equirectangular, of the whole planet, north up, with one grey channel. GeoTIFF tags
-// tell where its samples lie; without them an image of 2 n + 1 by n + 1 samples, or 2 n by n + 1, holds the
-// points of a grid whose first lies at longitude -180 on the north pole, and any other has its samples at
+// give the place of its samples; without them an image of 2 n + 1 by n + 1 samples, or 2 n by n + 1, holds
+// the points of a grid whose first lies at longitude -180 on the north pole, and any other has its samples at
 // pixel centres, from longitude -180 to 180. Face images are seen as in cube_sphere.h: row 0 at v = +1,
 // column 0 at u = -1, outermost samples on the cube's edges, where neighbouring faces hold the same heights.
 // Raw faces are headerless, rows in the same order.
@@ -17,8 +17,8 @@
 
 namespace planet {
 
-// The files that a path stands for, taken as openHeightSource takes it. A terrain's text stands for those of
-// the source that it is added to, if any.
+// The files that openHeightSource would open for a path. The text of a detail terrain has the files of its
+// source.
 struct HeightSourceFiles {
     std::string stem;  // "elevation", "earth4097" of earth4097_z_pos.raw, "ridged" of noise:ridged,seed=7
     std::vector<std::filesystem::path>
@@ -26,7 +26,8 @@ struct HeightSourceFiles {
                 // files and .aux.xml beside them
 };
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path);
-// Whether there is something to bake: an image, a face, or a good terrain's text. A chunk file is none.
+// Returns whether a path names a source: an image, a face, or a valid terrain's text. A chunk file is not a
+// source.
 bool heightSourceExists(const std::filesystem::path& path);
 
 // Opens a terrain's text ("noise:ridged,seed=7", terrain.h), an elevation image, or the six cube faces that

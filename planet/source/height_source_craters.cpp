@@ -1,12 +1,12 @@
-// Craters over rolling ground.
+// Makes craters over rolling ground.
 //
-// Those that reach a piece of a tile are gathered first, always in the same order: size by size, each in the
-// order of its lattice. What does not reach a sample adds nothing to it, so its height does not depend on the
-// piece.
+// The craters that reach a piece of a tile are gathered first, always in the same order: size by size, each
+// in the order of its lattice. A crater that does not reach a sample adds nothing to it, so the height does
+// not depend on the piece.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "planet/source/terrain_sources.h"
@@ -38,7 +38,7 @@ struct Crater {
     double flatness = 0;  // 0: a bowl, 1: a flat floor with a peak
 };
 
-// At a distance from the middle in radii; 0 from ejectaReach on.
+// Returns the height at a distance from the middle in radii; 0 from ejectaReach on.
 double profileM(const Crater& crater, double x) {
     const double rimM = rimShare * crater.depthM;
     if (x >= 1) {
@@ -52,8 +52,8 @@ double profileM(const Crater& crater, double x) {
     return bowlM + crater.flatness * (flatM - bowlM);
 }
 
-// The crater of a cell of a size's lattice: where a random point of the cell lies near the sphere, it is put
-// onto it. A shell as thick as a cell gives a cell's share of craters for each cell's area.
+// Finds the crater of a cell of a size's lattice: a random point of the cell that lies near the sphere is
+// moved onto it. A shell as thick as a cell gives each cell's area one cell's share of craters.
 bool craterOf(const CraterField& field, int size, const glm::ivec3& cell, Crater& crater) {
     const double diameter = field.diameterRad(size);
     const std::uint64_t key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x)) << 32) ^
@@ -77,7 +77,7 @@ bool craterOf(const CraterField& field, int size, const glm::ivec3& cell, Crater
     return true;
 }
 
-// Those of a size that may reach a ball around a point of the sphere.
+// Gathers the craters of a size that may reach a ball around a point of the sphere.
 void gather(const CraterField& field, int size, const glm::dvec3& middle, double radius,
             std::vector<Crater>& found) {
     const double diameter = field.diameterRad(size);
@@ -88,7 +88,7 @@ void gather(const CraterField& field, int size, const glm::dvec3& middle, double
     for (int z = low.z; z <= high.z; ++z) {
         for (int y = low.y; y <= high.y; ++y) {
             for (int x = low.x; x <= high.x; ++x) {
-                // A cell that the shell misses has none.
+                // A cell outside the shell has no crater.
                 const double off = glm::length((glm::dvec3(x, y, z) + 0.5) * diameter) - 1;
                 if (std::abs(off) > 1.4 * diameter) continue;
                 Crater crater;
@@ -127,8 +127,7 @@ Result<void> samplePiece(const CraterField& field, const SampleTile& piece, floa
     std::vector<glm::dvec3> directions;
     for (int row = piece.firstRow; row < piece.firstRow + piece.rows; ++row) {
         for (int column = piece.firstColumn; column < piece.firstColumn + piece.columns; ++column) {
-            directions.push_back(sphereFromCube(
-                cubePoint(piece.face, 2.0 * column / piece.faceCells - 1, 2.0 * row / piece.faceCells - 1)));
+            directions.push_back(directionOf(piece.face, piece.faceCells, column, row));
         }
     }
     if (directions.empty()) return {};
@@ -151,28 +150,16 @@ Result<void> samplePiece(const CraterField& field, const SampleTile& piece, floa
 }  // namespace
 
 HeightSource craterSource(const CraterTerrain& terrain) {
-    auto field = std::make_shared<CraterField>();
-    field->settings = terrain;
-    field->octaves =
-        octavesOf(terrain.seed, terrain.octaves, radFromDeg(terrain.featureDeg), 2, terrain.gain);
-    field->groundScaleM = terrain.amplitudeM / (noiseReach * fractalRms(field->octaves));
-    field->minM = terrain.offsetM - terrain.amplitudeM - depthsDeep * terrain.depthM;
-    field->maxM = terrain.offsetM + terrain.amplitudeM + depthsDeep * rimShare * terrain.depthM;
-
-    HeightSource source;
-    source.description = terrainText({terrain, {}});
-    const double smallestRad = field->diameterRad(terrain.sizes - 1) / stepsACrater;
-    source.naturalFaceSize = naturalCells(std::min(smallestRad, field->octaves.back().cellRad / 2)) + 1;
-    source.minM = field->minM;
-    source.maxM = field->maxM;
-    source.sample = [shared = std::shared_ptr<const CraterField>(field)](const SampleTile& tile,
-                                                                         std::span<float> out) {
-        return sampleInPieces(tile, craterPieceSide, out,
-                              [&](const SampleTile& piece, float* to, std::size_t stride) {
-                                  return samplePiece(*shared, piece, to, stride);
-                              });
-    };
-    return source;
+    CraterField field;
+    field.settings = terrain;
+    field.octaves = octavesOf(terrain.seed, terrain.octaves, radFromDeg(terrain.featureDeg), 2, terrain.gain);
+    field.groundScaleM = terrain.amplitudeM / (noiseReach * fractalRms(field.octaves));
+    field.minM = terrain.offsetM - terrain.amplitudeM - depthsDeep * terrain.depthM;
+    field.maxM = terrain.offsetM + terrain.amplitudeM + depthsDeep * rimShare * terrain.depthM;
+    const double smallestRad = field.diameterRad(terrain.sizes - 1) / stepsACrater;
+    const int cells = naturalCells(std::min(smallestRad, field.octaves.back().cellRad / 2));
+    const TerrainExtent extent{cells, field.minM, field.maxM};
+    return pieceSource(terrain, extent, craterPieceSide, std::move(field), samplePiece);
 }
 
 }  // namespace planet

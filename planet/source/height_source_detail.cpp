@@ -1,8 +1,8 @@
-// Detail below a source's own resolution, as high as the source is rough there.
+// Adds detail below a source's own resolution, in proportion to its local roughness.
 //
-// Roughness is measured on the source's own grid: at each of its samples, the range over it and its eight
-// neighbours, over the edges of the cube too (at a corner of the cube, six). Between them it is interpolated
-// along both sides of a cell, which on an edge of the cube is the same from both faces.
+// Roughness is measured on the source's own grid: at each sample, it is the range of the sample and its eight
+// neighbours, also over the edges of the cube (six at a corner of the cube). Between samples it is bilinear,
+// which gives the same on an edge of the cube from both faces.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/source/terrain_sources.h"
 
 namespace planet {
@@ -24,7 +25,7 @@ struct Detail {
     int cells = 0;       // of the source's own grid
 };
 
-// Samples of the source's own grid that may reach one step over the edges of their face.
+// Samples of the source's own grid, which may reach one step over the edges of their face.
 class OwnGrid {
 public:
     OwnGrid(int firstColumn, int firstRow, int columns, int rows)
@@ -39,17 +40,19 @@ public:
         const int cells = detail.cells;
         const int left = std::max(firstColumn_, 0), right = std::min(firstColumn_ + columns_ - 1, cells);
         const int bottom = std::max(firstRow_, 0), top = std::min(firstRow_ + rows_ - 1, cells);
-        Result<void> done = readPart(detail, face, left, bottom, right, top);
-        if (done && firstColumn_ < 0) done = readPart(detail, face, -1, bottom, -1, top);
-        if (done && firstColumn_ + columns_ - 1 > cells)
-            done = readPart(detail, face, cells + 1, bottom, cells + 1, top);
-        if (done && firstRow_ < 0) done = readPart(detail, face, left, -1, right, -1);
-        if (done && firstRow_ + rows_ - 1 > cells)
-            done = readPart(detail, face, left, cells + 1, right, cells + 1);
-        return done;
+        TRY(readPart(detail, face, left, bottom, right, top));
+        for (const int column : {-1, cells + 1}) {
+            if (column == std::clamp(column, firstColumn_, firstColumn_ + columns_ - 1))
+                TRY(readPart(detail, face, column, bottom, column, top));
+        }
+        for (const int row : {-1, cells + 1}) {
+            if (row == std::clamp(row, firstRow_, firstRow_ + rows_ - 1))
+                TRY(readPart(detail, face, left, row, right, row));
+        }
+        return {};
     }
 
-    // The range around a sample, metres. What lies beyond a corner is not there.
+    // Returns the range around a sample, metres. Samples beyond a corner of the cube do not exist.
     double reliefAt(int column, int row) const {
         float low = std::numeric_limits<float>::infinity();
         float high = -low;
@@ -70,25 +73,16 @@ private:
                static_cast<std::size_t>(column - firstColumn_);
     }
 
-    // A rectangle of the face, or over one edge of it.
+    // Reads a rectangle of the face, or one over one of its edges.
     Result<void> readPart(const Detail& detail, Face face, int left, int bottom, int right, int top) {
-        const FaceGridPoint a = foldedOver({face, left, bottom}, detail.cells);
-        const FaceGridPoint b = foldedOver({face, right, top}, detail.cells);
-        const SampleTile tile{a.face,
-                              detail.cells,
-                              std::min(a.column, b.column),
-                              std::min(a.row, b.row),
-                              std::abs(a.column - b.column) + 1,
-                              std::abs(a.row - b.row) + 1};
-        std::vector<float> read(static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows));
-        if (Result<void> sampled = detail.source.sample(tile, read); !sampled) return sampled;
+        const SampleTile tile = tileBetween(foldedOver({face, left, bottom}, detail.cells),
+                                            foldedOver({face, right, top}, detail.cells), detail.cells);
+        std::vector<float> read(samplesIn(tile));
+        TRY(detail.source.sample(tile, read));
         for (int row = bottom; row <= top; ++row) {
             for (int column = left; column <= right; ++column) {
                 const FaceGridPoint place = foldedOver({face, column, row}, detail.cells);
-                heights_[indexOf(column, row)] =
-                    read[static_cast<std::size_t>(place.row - tile.firstRow) *
-                             static_cast<std::size_t>(tile.columns) +
-                         static_cast<std::size_t>(place.column - tile.firstColumn)];
+                heights_[indexOf(column, row)] = read[indexIn(tile, place.column, place.row)];
             }
         }
         return {};
@@ -112,7 +106,8 @@ struct Relief {
         return valuesM[static_cast<std::size_t>(row - firstRow) * static_cast<std::size_t>(columns) +
                        static_cast<std::size_t>(column - firstColumn)];
     }
-    // At a place in steps of the own grid. Each product is exact or alike from both faces of an edge.
+    // Returns the relief at a place in steps of the own grid. Each product is exact, or the same from both
+    // faces of an edge.
     double between(double column, double row) const {
         const int c = static_cast<int>(column), r = static_cast<int>(row);
         const double s = column - c, t = row - r;
@@ -133,7 +128,7 @@ Result<Relief> reliefOf(const Detail& detail, const SampleTile& tile) {
     relief.columns = lastColumn - relief.firstColumn + 1;
     OwnGrid grid(relief.firstColumn - 1, relief.firstRow - 1, relief.columns + 2,
                  lastRow - relief.firstRow + 3);
-    if (Result<void> read = grid.read(detail, tile.face); !read) return tl::unexpected(read.error());
+    TRY(grid.read(detail, tile.face));
     for (int row = relief.firstRow; row <= lastRow; ++row) {
         for (int column = relief.firstColumn; column <= lastColumn; ++column) {
             relief.valuesM.push_back(grid.reliefAt(column, row));
@@ -142,7 +137,7 @@ Result<Relief> reliefOf(const Detail& detail, const SampleTile& tile) {
     return relief;
 }
 
-// Within about +-the octaves' weights, its mean 0.
+// Returns noise within about +-the sum of the octaves' weights, with mean 0.
 double noiseAt(const Detail& detail, std::size_t held, const glm::dvec3& direction) {
     double sum = 0;
     for (std::size_t i = 0; i < held; ++i) {
@@ -155,7 +150,7 @@ double noiseAt(const Detail& detail, std::size_t held, const glm::dvec3& directi
     return sum;
 }
 
-// The height of a noise of 1, metres.
+// Returns the height of a noise of 1, metres.
 double heightOfNoise(const Detail& detail, double reliefM, double heightM) {
     const DetailTerrain& s = detail.settings;
     const double rough = smoothly(s.flatM, 3 * s.flatM, reliefM);
@@ -164,11 +159,10 @@ double heightOfNoise(const Detail& detail, double reliefM, double heightM) {
 }
 
 Result<void> sampleTile(const Detail& detail, const SampleTile& tile, std::span<float> out) {
-    if (Result<void> sampled = detail.source.sample(tile, out); !sampled) return sampled;
+    TRY(detail.source.sample(tile, out));
     const std::size_t held = heldBy(detail.octaves, gridStepRad(tile.faceCells));
     if (held == 0 || out.empty()) return {};
-    const Result<Relief> relief = reliefOf(detail, tile);
-    if (!relief) return tl::unexpected(relief.error());
+    TRY_ASSIGN(const auto relief, reliefOf(detail, tile));
     const double perStep = static_cast<double>(detail.cells) / tile.faceCells;
     const double limitM = detail.settings.limitM;
     std::size_t at = 0;
@@ -176,10 +170,9 @@ Result<void> sampleTile(const Detail& detail, const SampleTile& tile, std::span<
         for (int column = tile.firstColumn; column < tile.firstColumn + tile.columns; ++column) {
             const double baseM = static_cast<double>(out[at]);
             const double scaleM =
-                heightOfNoise(detail, relief->between(column * perStep, row * perStep), baseM);
+                heightOfNoise(detail, relief.between(column * perStep, row * perStep), baseM);
             if (scaleM > 0) {
-                const glm::dvec3 direction = sphereFromCube(
-                    cubePoint(tile.face, 2.0 * column / tile.faceCells - 1, 2.0 * row / tile.faceCells - 1));
+                const glm::dvec3 direction = directionOf(tile.face, tile.faceCells, column, row);
                 const double addedM = scaleM * noiseAt(detail, held, direction);
                 out[at] = static_cast<float>(baseM + std::clamp(addedM, -limitM, limitM));
             }
@@ -192,7 +185,7 @@ Result<void> sampleTile(const Detail& detail, const SampleTile& tile, std::span<
 }  // namespace
 
 Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail) {
-    if (Result<void> good = checkTerrain(detail); !good) return tl::unexpected(good.error());
+    TRY(checkTerrain(detail));
     auto shared = std::make_shared<Detail>();
     shared->settings = detail;
     shared->cells = powerOfTwoCells(source.naturalFaceSize - 1);

@@ -1,9 +1,8 @@
-// Samples an equirectangular image of the whole planet, north up, whose samples lie where ImagePlacement
-// says.
+// Samples an equirectangular image of the whole planet, north up, placed by ImagePlacement.
 //
 // The image continues without end: columns wrap, and a row beyond a pole is the row as far on this side of
-// it, half a turn on. The kernel covers a grid cell's (pi/2) / faceCells radians, in longitude over
-// cos(latitude); at a pole that is the whole row.
+// it, half a turn on. The kernel covers a grid cell's (pi/2) / faceCells radians, divided by cos(latitude) in
+// longitude; at a pole that is the whole row.
 
 #include <fmt/format.h>
 
@@ -15,11 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_geographic.h"
 #include "planet/source/height_raster.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/image_placement.h"
+#include "planet/source/sample_tiles.h"
 
 namespace planet {
 
@@ -28,12 +29,12 @@ namespace {
 constexpr int pieceSide = 65;                    // samples of a tile worked on at once, a side
 constexpr std::size_t regionSamples = 3u << 20;  // of the image held at once: 12 MB
 
-// Rows from pole to pole.
+// Returns the number of rows from pole to pole.
 int rowsToPole(const ImagePlacement& placement, int height) {
     return placement.hasPoleRows ? height - 1 : height;
 }
 
-// How the samples of a grid fall on the image.
+// The projection of a grid's samples onto the image.
 struct Projection {
     ImagePlacement placement;
     int width = 0;  // columns once around the planet
@@ -93,7 +94,7 @@ void tapsOfRow(const Projection& projection, const GeographicRow& places, std::s
     const double wholeRow = width / 4;  // stretched more than this, the kernel would meet itself
     const int wholeRowGroups = (projection.width + 3) / 4;
     const double reachRows = 2.0 * projection.stretchRows;
-    // Added before truncating to an int, which then is floor.
+    // The bias makes truncation to an int a floor.
     const int columnBias = 2 * projection.width + 4;
     const int rowBias = 2 * projection.height + 4;
     const auto count = static_cast<int>(places.ring.size());
@@ -138,8 +139,8 @@ PieceTaps tapsOfPiece(const Projection& projection, const SampleTile& piece) {
     return taps;
 }
 
-// The smallest region that holds all taps. First columns west of the middle are moved a turn east where
-// that makes it narrower: across the date line.
+// Returns the smallest region that holds all taps. Moves columns west of the middle a turn east if that makes
+// the region narrower, across the date line.
 Region regionOf(const Projection& projection, PieceTaps& taps) {
     const int half = static_cast<int>(projection.placement.zeroColumn + 0.5);
     int low = taps.firstColumn[0], high = low, lowMoved = low + projection.width, highMoved = 0;
@@ -161,13 +162,13 @@ Region regionOf(const Projection& projection, PieceTaps& taps) {
     return {lowMoved, top, highMoved - lowMoved, bottom - top};
 }
 
-// Reads some columns, wrapped, of rows that the image has.
+// Reads columns, wrapped, of rows of the image.
 Result<void> readWrapped(const HeightRaster& image, int period, int column, int row, int columns, int rows,
                          float* out, std::size_t stride) {
     for (int done = 0; done < columns;) {
         const int from = wrapped(column + done, period);
         const int count = std::min(columns - done, period - from);
-        if (Result<void> read = image.read({from, row, count, rows}, out + done, stride); !read) return read;
+        TRY(image.read({from, row, count, rows}, out + done, stride));
         done += count;
     }
     return {};
@@ -181,22 +182,18 @@ Result<void> readRegion(const HeightRaster& image, const ImagePlacement& placeme
     for (int done = 0; done < region.rows;) {
         const int turned = wrapped(region.row + done, turn);
         const bool beyondPole = turned >= image.height();
-        // The row of a pole has no other one beyond it.
+        // The row of a pole is not repeated beyond it.
         const int row = beyondPole ? turn - (placement.hasPoleRows ? 0 : 1) - turned : turned;
         const int column = region.column + (beyondPole ? placement.period / 2 : 0);
         const int count = beyondPole ? 1 : std::min(region.rows - done, image.height() - row);
         float* const to = out.data() + static_cast<std::size_t>(done) * stride;
-        if (Result<void> read =
-                readWrapped(image, placement.period, column, row, region.columns, count, to, stride);
-            !read) {
-            return read;
-        }
+        TRY(readWrapped(image, placement.period, column, row, region.columns, count, to, stride));
         done += count;
     }
     return {};
 }
 
-// Filters the samples of a piece out of regions of the image, one band of rows after another.
+// Filters the samples of a piece from regions of the image, one band of rows after another.
 class PieceFilter {
 public:
     PieceFilter(const Projection& projection, const PieceTaps& taps)
@@ -204,7 +201,7 @@ public:
         rowWeights_.resize(static_cast<std::size_t>(tapCount(stretchRows_)));
     }
 
-    // Adds what the rows of a band give to a sample; bands come in rising order.
+    // Adds the rows of a band to a sample; bands come in ascending order.
     Float4 add(Float4 sum, std::size_t sample, const Region& band, const float* samples) {
         const int firstRow = taps_.firstRow[sample] - band.row;
         const float* const from = samples + (taps_.firstColumn[sample] - band.column);
@@ -268,7 +265,7 @@ struct Equirectangular {
     float finished(Float4 sum) const { return std::clamp(sumOfLanes(sum), minM, maxM); }
 };
 
-// Where a piece's samples lie in an image of a size.
+// The place of a piece's samples in an image of a size.
 struct PiecePlace {
     Projection projection;
     PieceTaps taps;
@@ -280,8 +277,8 @@ bool sameSquare(const SampleTile& a, const SampleTile& b) {
            a.firstRow == b.firstRow && a.columns == b.columns && a.rows == b.rows;
 }
 
-// Kept by each thread for its last piece: the three channels of a colour image lie alike, and are sampled one
-// after the other. Holds until the next call.
+// Returns the place of a piece, valid until the next call. Each thread caches its last piece, because the
+// three channels of a colour image are sampled one after the other.
 const PiecePlace& placeOf(const Equirectangular& source, const SampleTile& piece) {
     thread_local std::optional<PiecePlace> last;
     thread_local SampleTile lastPiece;
@@ -298,7 +295,7 @@ const PiecePlace& placeOf(const Equirectangular& source, const SampleTile& piece
     return *last;
 }
 
-// out: the piece's first sample; stride: from one row of the piece to the next.
+// Samples a piece into out; its rows are stride samples apart.
 Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece, float* out,
                          std::size_t stride) {
     const PiecePlace& place = placeOf(source, piece);
@@ -311,7 +308,7 @@ Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece,
     for (int done = 0; done < region.rows; done += bandRows) {
         const Region band{region.column, region.row + done, region.columns,
                           std::min(bandRows, region.rows - done)};
-        if (Result<void> read = readRegion(source.image, source.placement, band, samples); !read) return read;
+        TRY(readRegion(source.image, source.placement, band, samples));
         for (std::size_t i = 0; i < taps.firstColumn.size(); ++i) {
             float* const sum = lanes.data() + 4 * i;
             storeFloat4(sum, filter.add(loadFloat4(sum), i, band, samples.data()));
@@ -326,7 +323,7 @@ Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece,
 
 Result<void> sampleTile(const Equirectangular& source, const SampleTile& tile, std::span<float> out) {
     assert(tile.faceCells > 0 && tile.columns >= 0 && tile.rows >= 0);
-    assert(out.size() == static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows));
+    assert(out.size() == samplesIn(tile));
     return sampleInPieces(tile, pieceSide, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
         return samplePiece(source, piece, to, stride);
     });
@@ -336,30 +333,23 @@ Result<void> sampleTile(const Equirectangular& source, const SampleTile& tile, s
 
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
                                                const HeightSourceSettings& settings) {
-    const Result<std::shared_ptr<ImageFile>> file = ImageFile::open(path, settings.colourChannel);
-    if (!file) return tl::unexpected(file.error());
-    const ImageLayout& layout = (*file)->layout();
-    const Result<ImagePlacement> placement =
-        placementOf(path.string(), layout.width, layout.height, layout.geoTags);
-    if (!placement) return tl::unexpected(placement.error());
-    const Result<HeightConversion> conversion =
-        conversionFor(path.string(), settings, layout.type, layout.geoTags);
-    if (!conversion) return tl::unexpected(conversion.error());
+    TRY_ASSIGN(const auto file, ImageFile::open(path, settings.colourChannel));
+    const ImageLayout& layout = (file)->layout();
+    TRY_ASSIGN(const auto placement, placementOf(path.string(), layout.width, layout.height, layout.geoTags));
+    TRY_ASSIGN(const auto conversion, conversionFor(path.string(), settings, layout.type, layout.geoTags));
     const RasterMemory memory{std::make_shared<HeightBlockCache>(settings.cacheBytes), 0,
                               settings.cacheBytes};
-    const Result<HeightRaster> image = openImageRaster(*file, *conversion, memory, settings.fileCalls);
-    if (!image) return tl::unexpected(image.error());
-    const Result<HeightStatistics> statistics = image->statistics();
-    if (!statistics) return tl::unexpected(statistics.error());
+    TRY_ASSIGN(const auto image, openImageRaster(file, conversion, memory, settings.fileCalls));
+    TRY_ASSIGN(const auto statistics, image.statistics());
 
     HeightSource source;
     source.description = fmt::format("{}, {} x {} {}, {}", path.filename().string(), layout.width,
-                                     layout.height, layout.typeName, placementText(*placement, layout.width));
-    // Under Nowell's map a grid step covers at most 2 / cells radians.
-    source.naturalFaceSize = powerOfTwoCells(placement->period / std::numbers::pi) + 1;
+                                     layout.height, layout.typeName, placementText(placement, layout.width));
+    // A grid step covers at most 2 / cells radians under Nowell's map.
+    source.naturalFaceSize = powerOfTwoCells(placement.period / std::numbers::pi) + 1;
     source.sampleCount = static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
-    describeHeights(source, *conversion, *statistics);
-    source.sample = [shared = Equirectangular{*image, *placement, statistics->minM, statistics->maxM}](
+    describeHeights(source, conversion, statistics);
+    source.sample = [shared = Equirectangular{image, placement, statistics.minM, statistics.maxM}](
                         const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);
     };

@@ -1,10 +1,9 @@
 // Samples six cube faces, each a square grid whose outermost samples lie on the cube's edges.
 //
-// Neighbouring faces repeat the samples of the edge between them; files whose faces differ there by more than
+// Neighbouring faces repeat the samples of their common edge; files whose faces differ there by more than
 // rounding are refused. A sample on an edge or corner of the cube is taken from the first of its faces in
-// enum order, whichever face it is asked through, so a difference by rounding leaves no crack. The kernel
-// reaches over an edge onto the next face. Beyond a corner, where three faces meet and no fourth is there,
-// the next face's rows are mirrored.
+// enum order, so a difference by rounding leaves no crack. The kernel reaches over an edge onto the next
+// face. Beyond a corner, where there is no fourth face, the rows of the next face are mirrored.
 
 #include <fmt/format.h>
 
@@ -17,10 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/source/height_face_edges.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_raster.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/sample_tiles.h"
 #include "planet/sphere/face_fold.h"
 #include "planet/sphere/planet_shape.h"
 
@@ -46,7 +47,7 @@ struct FaceSample {
     int row = 0;
 };
 
-// A sample that lies over one edge of its face, up to a face's width: folded down onto the next face.
+// Folds a sample that lies over one edge of its face, by up to its width, down onto the next face.
 FaceSample foldedSample(Face face, int column, int row, int size) {
     const int last = size - 1;
     const FaceGridPoint next = foldedOver({face, column, last - row}, last);
@@ -66,7 +67,7 @@ Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rec
                           std::abs(first.column - last.column) + 1, std::abs(first.row - last.row) + 1};
     const auto fromStride = static_cast<std::size_t>(from.width);
     std::vector<float> samples(fromStride * static_cast<std::size_t>(from.height));
-    if (Result<void> read = set[first.face].read(from, samples.data(), fromStride); !read) return read;
+    TRY(set[first.face].read(from, samples.data(), fromStride));
     for (int row = 0; row < rect.height; ++row) {
         for (int column = 0; column < rect.width; ++column) {
             const FaceSample place = at(column, row);
@@ -78,7 +79,7 @@ Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rec
     return {};
 }
 
-// The row of a face that stands in beside a corner for one above its top or below its bottom.
+// Returns the row of a face that replaces a row above its top or below its bottom beside a corner.
 int mirroredRow(int row, int size) {
     const int last = size - 1;
     return std::clamp(row < 0 ? -row : 2 * last - row, 0, last);
@@ -92,7 +93,7 @@ Result<void> readRegion(const FaceSet& set, Face face, const RasterRect& rect, s
     const int bottom = rect.y + rect.height;
     const int faceLeft = std::clamp(0, rect.x, right);
     const int faceRight = std::clamp(set.size, rect.x, right);
-    // The face's own rows all at once, those beyond it one by one.
+    // Reads the rows of the face at once, and those beyond it one by one.
     for (int y = rect.y; y < bottom;) {
         const bool inside = y >= 0 && y < set.size;
         const int rows = inside ? std::min(bottom, set.size) - y : 1;
@@ -123,8 +124,8 @@ struct AxisTaps {
     int end() const { return *std::max_element(first.begin(), first.end()) + tapsEach; }
 };
 
-// Samples firstCell, firstCell + step, ...; cell k of the grid lies at source sample k last / faceCells,
-// which is exact, since faceCells is a power of two.
+// Returns the taps of samples firstCell, firstCell + step, ...; cell k of the grid lies at source sample k
+// (size - 1) / faceCells, which is exact, because faceCells is a power of two.
 AxisTaps tapsAlong(int firstCell, int step, int count, int faceCells, int size) {
     const double perCell = static_cast<double>(size - 1) / faceCells;
     const double stretch = std::max(1.0, perCell);
@@ -143,7 +144,7 @@ AxisTaps tapsAlong(int firstCell, int step, int count, int faceCells, int size) 
     return taps;
 }
 
-// Filters one row of source samples, the first of them source column `column`, to one row of the piece.
+// Filters one row of source samples, from source column `column` on, to one row of the piece.
 void filterAcross(const AxisTaps& taps, int column, const float* samples, float* out) {
     const auto each = static_cast<std::size_t>(taps.tapsEach);
     for (std::size_t i = 0; i < taps.first.size(); ++i) {
@@ -155,7 +156,7 @@ void filterAcross(const AxisTaps& taps, int column, const float* samples, float*
     }
 }
 
-// across holds the rows of source from taps.begin() on, already filtered across.
+// Filters down. across: the source rows from taps.begin() on, already filtered across.
 void filterDown(const FaceSet& set, const AxisTaps& taps, const std::vector<float>& across,
                 std::size_t columns, float* out, std::size_t stride) {
     const int top = taps.begin();
@@ -173,10 +174,10 @@ void filterDown(const FaceSet& set, const AxisTaps& taps, const std::vector<floa
     }
 }
 
-// out: the piece's first sample; stride: from one row of the piece to the next.
+// Samples a piece into out; its rows are stride samples apart.
 Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out, std::size_t stride) {
     const AxisTaps across = tapsAlong(piece.firstColumn, 1, piece.columns, piece.faceCells, set.size);
-    // The grid's rows rise with v, the source's fall.
+    // Rows of the grid run upwards along v, those of the source downwards.
     const AxisTaps down =
         tapsAlong(piece.faceCells - piece.firstRow, -1, piece.rows, piece.faceCells, set.size);
     const int left = across.begin();
@@ -190,10 +191,7 @@ Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out
     std::vector<float> samples;
     for (int done = 0; done < height; done += bandRows) {
         const int rows = std::min(bandRows, height - done);
-        if (Result<void> read = readRegion(set, piece.face, {left, top + done, width, rows}, samples);
-            !read) {
-            return read;
-        }
+        TRY(readRegion(set, piece.face, {left, top + done, width, rows}, samples));
         for (int row = 0; row < rows; ++row) {
             filterAcross(across, left,
                          samples.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(width),
@@ -204,9 +202,9 @@ Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out
     return {};
 }
 
-// Every sample as this face has it, those on the cube's edges too.
+// Samples this face alone, also on the cube's edges.
 Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
-    // Smaller pieces where a sample covers many of the source's, to bound memory.
+    // Pieces are smaller if a sample covers many source samples, to bound memory.
     const int side = set.size > 64 * tile.faceCells ? 16 : 65;
     return sampleInPieces(tile, side, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
         return samplePiece(set, piece, to, stride);
@@ -215,7 +213,7 @@ Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span
 
 Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out);
 
-// Samples a line of the tile, from the next face that it lies on too, into the tile's own places.
+// Samples a line of the tile from the next face, which has the line too, into the tile's places.
 Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, const SampleTile& line, Face next,
                                 std::span<float> out) {
     const FaceGridPoint first =
@@ -223,31 +221,24 @@ Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, cons
     const FaceGridPoint last =
         placeOnFace(next, {tile.face, line.firstColumn + line.columns - 1, line.firstRow + line.rows - 1},
                     tile.faceCells);
-    const SampleTile there{next,
-                           tile.faceCells,
-                           std::min(first.column, last.column),
-                           std::min(first.row, last.row),
-                           std::abs(first.column - last.column) + 1,
-                           std::abs(first.row - last.row) + 1};
-    std::vector<float> heights(static_cast<std::size_t>(there.columns) *
-                               static_cast<std::size_t>(there.rows));
-    if (Result<void> sampled = sampleTile(set, there, heights); !sampled) return sampled;
+    const SampleTile there = tileBetween(first, last, tile.faceCells);
+    std::vector<float> heights(samplesIn(there));
+    TRY(sampleTile(set, there, heights));
     const bool reversed = first.column > last.column || first.row > last.row;
     if (reversed) std::reverse(heights.begin(), heights.end());
     const auto stride = static_cast<std::size_t>(tile.columns);
-    const std::size_t begin = static_cast<std::size_t>(line.firstRow - tile.firstRow) * stride +
-                              static_cast<std::size_t>(line.firstColumn - tile.firstColumn);
+    const std::size_t begin = indexIn(tile, line.firstColumn, line.firstRow);
     const std::size_t step = line.columns > 1 ? 1 : stride;
     for (std::size_t i = 0; i < heights.size(); ++i) out[begin + i * step] = heights[i];
     return {};
 }
 
-// Each call goes to faces earlier in enum order, so it ends.
+// The recursion ends, because each call goes to faces earlier in enum order.
 Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
     assert(tile.faceCells > 0 && tile.columns >= 0 && tile.rows >= 0);
-    assert(out.size() == static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows));
+    assert(out.size() == samplesIn(tile));
     if (tile.columns == 0 || tile.rows == 0) return {};
-    if (Result<void> own = sampleOwnFace(set, tile, out); !own) return own;
+    TRY(sampleOwnFace(set, tile, out));
     const FaceAxes& axes = faceAxes(tile.face);
     const int cells = tile.faceCells;
     const auto takeFrom = [&](const glm::dvec3& outward, bool touches,
@@ -271,7 +262,7 @@ Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<fl
     return taken;
 }
 
-// What the six files hold.
+// The format of the six files.
 struct FaceFormat {
     int size = 0;
     SampleType type = SampleType::Uint16;
@@ -305,7 +296,7 @@ Result<std::uint64_t> lengthOf(const std::filesystem::path& path) {
     return std::uint64_t{bytes};
 }
 
-// The side of a square of so many samples, or 0.
+// Returns the side of a square of so many samples, or 0.
 int squareSide(std::uint64_t samples) {
     const auto side = static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(samples))));
     return side * side == samples && side < (1u << 30) ? static_cast<int>(side) : 0;
@@ -313,7 +304,7 @@ int squareSide(std::uint64_t samples) {
 
 Result<int> rawSideByLength(const FaceFiles& files, const HeightSourceSettings& settings,
                             std::uint64_t bytes) {
-    // 8 or 16 bits: the length and half of it are never squares both.
+    // The length and half of it are never both squares, so the bits are unambiguous.
     if (settings.rawBits != 16 && squareSide(bytes) > 0) return squareSide(bytes);
     if (settings.rawBits != 8 && bytes % 2 == 0 && squareSide(bytes / 2) > 0) return squareSide(bytes / 2);
     return badInput(
@@ -328,8 +319,8 @@ Result<int> rawSideOf(const FaceFiles& files, const HeightSourceSettings& settin
     return rawSideByLength(files, settings, bytes);
 }
 
-// Says how to give the faces' size where the number that their name ends in is none. side: the samples a side
-// that they have; below 2: not known.
+// Returns a hint for names that end in a number that is not the size. side: the actual samples per side;
+// below 2 if unknown.
 std::string otherSizeHint(const FaceFiles& files, const HeightSourceSettings& settings, int side) {
     if (settings.rawSize || !files.sizeInName || side < 2) return {};
     return fmt::format("; if the {} in the name is not the size, use --raw-size {}", *files.sizeInName, side);
@@ -337,33 +328,30 @@ std::string otherSizeHint(const FaceFiles& files, const HeightSourceSettings& se
 
 Result<FaceFormat> rawFormat(const FaceFiles& files, const HeightSourceSettings& settings) {
     const std::string file = files.paths[0].filename().string();
-    const Result<std::uint64_t> bytes = lengthOf(files.paths[0]);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const Result<int> side = rawSideOf(files, settings, *bytes);
-    if (!side) return tl::unexpected(side.error());
-    if (Result<void> check = checkSize(file, *side); !check) return tl::unexpected(check.error());
-    const std::uint64_t samples = static_cast<std::uint64_t>(*side) * static_cast<std::uint64_t>(*side);
-    const bool fits8 = *bytes == samples && settings.rawBits != 16;
-    const bool fits16 = *bytes == 2 * samples && settings.rawBits != 8;
+    TRY_ASSIGN(const auto bytes, lengthOf(files.paths[0]));
+    TRY_ASSIGN(const auto side, rawSideOf(files, settings, bytes));
+    TRY(checkSize(file, side));
+    const std::uint64_t samples = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+    const bool fits8 = bytes == samples && settings.rawBits != 16;
+    const bool fits16 = bytes == 2 * samples && settings.rawBits != 8;
     if (!fits8 && !fits16) {
         const std::string expected =
             settings.rawBits ? fmt::format("{} bits would be {}", *settings.rawBits,
                                            samples * static_cast<std::uint64_t>(*settings.rawBits / 8))
                              : fmt::format("8 or 16 bits would be {} or {}", samples, 2 * samples);
-        const Result<int> fitting = rawSideByLength(files, settings, *bytes);
-        return badInput(fmt::format("{} is {} bytes; {} x {} samples of {}{}", file, *bytes, *side, *side,
+        const Result<int> fitting = rawSideByLength(files, settings, bytes);
+        return badInput(fmt::format("{} is {} bytes; {} x {} samples of {}{}", file, bytes, side, side,
                                     expected, otherSizeHint(files, settings, fitting.value_or(0))));
     }
     for (const std::filesystem::path& path : files.paths) {
-        const Result<std::uint64_t> other = lengthOf(path);
-        if (!other) return tl::unexpected(other.error());
-        if (*other == *bytes) continue;
+        TRY_ASSIGN(const auto other, lengthOf(path));
+        if (other == bytes) continue;
         return badInput(fmt::format("{} is {} bytes but {} is {}; all six faces must have one size and type",
-                                    path.filename().string(), *other, file, *bytes));
+                                    path.filename().string(), other, file, bytes));
     }
-    if (fits8) return FaceFormat{*side, SampleType::Uint8, "uint8"};
-    if (settings.rawSigned) return FaceFormat{*side, SampleType::Int16, "int16"};
-    return FaceFormat{*side, SampleType::Uint16, "uint16"};
+    if (fits8) return FaceFormat{side, SampleType::Uint8, "uint8"};
+    if (settings.rawSigned) return FaceFormat{side, SampleType::Int16, "int16"};
+    return FaceFormat{side, SampleType::Uint16, "uint16"};
 }
 
 using ImageFiles = std::array<std::shared_ptr<ImageFile>, faceCount>;
@@ -371,9 +359,7 @@ using ImageFiles = std::array<std::shared_ptr<ImageFile>, faceCount>;
 Result<ImageFiles> openImages(const FaceFiles& files, std::optional<int> colourChannel) {
     ImageFiles images;
     for (std::size_t i = 0; i < images.size(); ++i) {
-        Result<std::shared_ptr<ImageFile>> image = ImageFile::open(files.paths[i], colourChannel);
-        if (!image) return tl::unexpected(std::move(image.error()));
-        images[i] = std::move(*image);
+        TRY_ASSIGN(images[i], ImageFile::open(files.paths[i], colourChannel));
     }
     return images;
 }
@@ -418,11 +404,11 @@ Result<FaceFormat> imageFormat(const FaceFiles& files, const HeightSourceSetting
                                         *expected, otherSizeHint(files, settings, layout.width)));
         }
     }
-    if (Result<void> check = checkSize(firstName, first.width); !check) return tl::unexpected(check.error());
+    TRY(checkSize(firstName, first.width));
     return FaceFormat{first.width, first.type, first.typeName};
 }
 
-// Faces are rounded each by itself, so their edges may be apart by one step of their sample type.
+// Returns the rounding of a face: edges may differ by one step of the sample type.
 double roundingOf(const FaceFormat& format, const HeightSource& source) {
     if (source.stepM > 0) return source.stepM * (1 + 1e-6);
     const double largestM = std::max(std::abs(source.minM), std::abs(source.maxM));
@@ -433,9 +419,8 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
                                    const HeightConversion& conversion, FaceSet set, FaceEdges edges) {
     HeightStatistics statistics;
     for (const HeightRaster& face : set.faces) {
-        const Result<HeightStatistics> part = face.statistics();
-        if (!part) return tl::unexpected(part.error());
-        addTo(statistics, *part);
+        TRY_ASSIGN(const auto part, face.statistics());
+        addTo(statistics, part);
     }
     set.size = format.size;
     set.minM = statistics.minM;
@@ -449,13 +434,11 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
     describeHeights(source, conversion, statistics);
     const FaceLines lines{format.size, statistics.missingCount > 0, conversion.fillM};
     if (edges == FaceEdges::MustAgree) {
-        const Result<void> agree = checkHeightEdges(set.faces, lines, files.stem, roundingOf(format, source));
-        if (!agree) return tl::unexpected(agree.error());
+        TRY(checkHeightEdges(set.faces, lines, files.stem, roundingOf(format, source)));
     } else {
-        Result<ColourSeams> seams = findColourSeams(set.faces, lines, files.stem);
-        if (!seams) return tl::unexpected(std::move(seams.error()));
-        source.seamEdges = seams->edges;
-        source.notice = std::move(seams->notice);
+        TRY_ASSIGN(auto seams, findColourSeams(set.faces, lines, files.stem));
+        source.seamEdges = seams.edges;
+        source.notice = std::move(seams.notice);
     }
     source.sample = [shared = std::move(set)](const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);
@@ -467,7 +450,7 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
 
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
                                     FaceEdges edges) {
-    if (Result<void> check = checkNoneMissing(files); !check) return tl::unexpected(check.error());
+    TRY(checkNoneMissing(files));
     const bool raw = files.extension == ".raw" || files.extension == ".RAW";
     if (raw && settings.colourChannel) {
         return badInput(fmt::format("{}: raw faces hold heights; name an image, or six, for colours",
@@ -475,16 +458,11 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     }
     ImageFiles images;
     if (!raw) {
-        Result<ImageFiles> opened = openImages(files, settings.colourChannel);
-        if (!opened) return tl::unexpected(opened.error());
-        images = std::move(*opened);
+        TRY_ASSIGN(images, openImages(files, settings.colourChannel));
     }
-    const Result<FaceFormat> format = raw ? rawFormat(files, settings) : imageFormat(files, settings, images);
-    if (!format) return tl::unexpected(format.error());
+    TRY_ASSIGN(const auto format, raw ? rawFormat(files, settings) : imageFormat(files, settings, images));
     const GeoTags tags = raw ? GeoTags() : images[0]->layout().geoTags;
-    Result<HeightConversion> converted = conversionFor(files.paths[0].string(), settings, format->type, tags);
-    if (!converted) return tl::unexpected(std::move(converted.error()));
-    HeightConversion& conversion = *converted;
+    TRY_ASSIGN(auto conversion, conversionFor(files.paths[0].string(), settings, format.type, tags));
     conversion.swapBytes = raw && settings.rawBigEndian != (std::endian::native == std::endian::big);
 
     const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);
@@ -492,13 +470,11 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     for (int i = 0; i < faceCount; ++i) {
         const auto face = static_cast<std::size_t>(i);
         const RasterMemory memory{cache, i, settings.cacheBytes / faceCount};
-        Result<HeightRaster> raster =
-            raw ? openRawRaster(files.paths[face], format->size, conversion, memory, settings.fileCalls)
-                : openImageRaster(images[face], conversion, memory, settings.fileCalls);
-        if (!raster) return tl::unexpected(raster.error());
-        set.faces[face] = std::move(*raster);
+        TRY_ASSIGN(set.faces[face],
+                   raw ? openRawRaster(files.paths[face], format.size, conversion, memory, settings.fileCalls)
+                       : openImageRaster(images[face], conversion, memory, settings.fileCalls));
     }
-    return describeFaces(files, *format, conversion, std::move(set), edges);
+    return describeFaces(files, format, conversion, std::move(set), edges);
 }
 
 }  // namespace planet

@@ -1,13 +1,13 @@
-// Fault formation: soft steps across random planes.
+// Makes terrain by fault formation: soft steps across random planes.
 //
-// Heights are summed in whole 2^-16 m, so that what lies far from all faults of a piece can be added up
-// before, and the sum does not depend on what was.
+// Heights are summed in whole 2^-16 m, so that faults far from a piece can be summed once, and the sum does
+// not depend on which they are.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "planet/source/terrain_sources.h"
@@ -31,8 +31,9 @@ double latitudeOf(const glm::dvec3& normal, const glm::dvec3& direction) {
     return std::asin(std::clamp(glm::dot(normal, direction), -1.0, 1.0));
 }
 
-// Evenly over the sphere, and of planes that are evenly far from its centre: so every place is as likely to
-// be cut as any other. Planes through the centre alone would make each half the other's negative.
+// Returns random planes whose normals are even over the sphere and whose distances from the centre are even,
+// so every place is equally likely to be cut. Planes through the centre would make each half the negative of
+// the other.
 std::vector<Fault> faultsOf(const FaultTerrain& terrain) {
     std::vector<Fault> faults;
     std::uint64_t state = scrambled64(terrain.seed);
@@ -49,7 +50,7 @@ std::vector<Fault> faultsOf(const FaultTerrain& terrain) {
     return faults;
 }
 
-// The share of a fault's step that is reached at an arc past it, in units of w.
+// Returns the share of a fault's step that is reached at an arc past it, in units of w.
 double softStep(double widths) {
     return widths < 0 ? 0.5 * std::exp(widths) : 1 - 0.5 * std::exp(-widths);
 }
@@ -98,13 +99,12 @@ std::int64_t unitsAt(const NearFaults& faults, const glm::dvec3& direction, doub
 
 Result<void> samplePiece(const Faults& faults, const SampleTile& piece, float* out, std::size_t stride) {
     const auto directionAt = [&](int column, int row) {
-        return sphereFromCube(cubePoint(piece.face, 2.0 * (piece.firstColumn + column) / piece.faceCells - 1,
-                                        2.0 * (piece.firstRow + row) / piece.faceCells - 1));
+        return directionOf(piece.face, piece.faceCells, piece.firstColumn + column, piece.firstRow + row);
     };
     const int lastColumn = piece.columns - 1, lastRow = piece.rows - 1;
     const glm::dvec3 middle = glm::normalize(directionAt(0, 0) + directionAt(lastColumn, lastRow) +
                                              directionAt(lastColumn, 0) + directionAt(0, lastRow));
-    // A grid step covers at most 2 / faceCells along each side.
+    // A grid step covers at most 2 / faceCells radians along each side.
     const double radiusRad =
         std::min(std::numbers::pi, 2.0 * (std::max(lastColumn, 1) + std::max(lastRow, 1)) / piece.faceCells);
     const double widthRad = faults.widthRad(piece.faceCells);
@@ -122,34 +122,23 @@ Result<void> samplePiece(const Faults& faults, const SampleTile& piece, float* o
 }  // namespace
 
 HeightSource faultSource(const FaultTerrain& terrain) {
-    auto faults = std::make_shared<Faults>();
-    faults->all = faultsOf(terrain);
-    faults->smoothRad = radFromDeg(terrain.smoothDeg);
+    Faults faults;
+    faults.all = faultsOf(terrain);
+    faults.smoothRad = radFromDeg(terrain.smoothDeg);
     double sumM = 0, squares = 0;
     for (int i = 0; i < terrain.count; ++i) {
         const double deltaM = faultDeltaM(terrain, i);
         sumM += deltaM;
         squares += deltaM * deltaM;
     }
-    // A place is up or down by half of each fault: the root mean square of the sum is at most this half.
+    // Each fault raises or lowers a place by half its step, so the root mean square of the sum is at most
+    // this half.
     const double reachM = std::min(sumM / 2, rangeRms * std::sqrt(squares) / 2);
-    faults->baseM = terrain.offsetM - sumM / 2;
-    faults->minM = terrain.offsetM - reachM;
-    faults->maxM = terrain.offsetM + reachM;
-
-    HeightSource source;
-    source.description = terrainText({terrain, {}});
-    source.naturalFaceSize = naturalCells(faults->smoothRad) + 1;
-    source.minM = faults->minM;
-    source.maxM = faults->maxM;
-    source.sample = [shared = std::shared_ptr<const Faults>(faults)](const SampleTile& tile,
-                                                                     std::span<float> out) {
-        return sampleInPieces(tile, faultPieceSide, out,
-                              [&](const SampleTile& piece, float* to, std::size_t stride) {
-                                  return samplePiece(*shared, piece, to, stride);
-                              });
-    };
-    return source;
+    faults.baseM = terrain.offsetM - sumM / 2;
+    faults.minM = terrain.offsetM - reachM;
+    faults.maxM = terrain.offsetM + reachM;
+    const TerrainExtent extent{naturalCells(faults.smoothRad), faults.minM, faults.maxM};
+    return pieceSource(terrain, extent, faultPieceSide, std::move(faults), samplePiece);
 }
 
 }  // namespace planet

@@ -1,4 +1,4 @@
-// Terrain of octaves of gradient noise: Perlin's fBm and Musgrave's ridged multifractal.
+// Makes terrain of octaves of gradient noise: Perlin's fBm and Musgrave's ridged multifractal.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -10,7 +10,7 @@ namespace planet {
 
 namespace {
 
-// The cells of the grid that holds all octaves.
+// Returns the cells of the grid that holds all octaves.
 int cellsFor(std::span<const Octave> octaves) {
     return naturalCells(octaves.back().cellRad / 2);
 }
@@ -35,11 +35,12 @@ HeightSource fractalSource(const FractalTerrain& terrain) {
     const std::vector<Octave> octaves = octavesOf(
         terrain.seed, terrain.octaves, radFromDeg(terrain.featureDeg), terrain.lacunarity, terrain.gain);
     const double scaleM = terrain.amplitudeM / (noiseReach * fractalRms(octaves));
-    return fieldSource(terrain, cellsFor(octaves), terrain.offsetM - terrain.amplitudeM,
-                       terrain.offsetM + terrain.amplitudeM,
-                       [=](const glm::dvec3& direction, double stepRad) {
-                           return terrain.offsetM + scaleM * fractalNoise(octaves, direction, stepRad);
-                       });
+    return fieldSource(
+        terrain,
+        {cellsFor(octaves), terrain.offsetM - terrain.amplitudeM, terrain.offsetM + terrain.amplitudeM},
+        [=](const glm::dvec3& direction, double stepRad) {
+            return terrain.offsetM + scaleM * fractalNoise(octaves, direction, stepRad);
+        });
 }
 
 HeightSource ridgedSource(const RidgedTerrain& terrain) {
@@ -59,8 +60,10 @@ HeightSource ridgedSource(const RidgedTerrain& terrain) {
         }
         return terrain.offsetM + scaleM * sum;
     };
-    return fieldSource(terrain, cellsFor(octaves), terrain.offsetM - scaleM * weights * meanRidge,
-                       terrain.offsetM + terrain.amplitudeM, height);
+    return fieldSource(terrain,
+                       {cellsFor(octaves), terrain.offsetM - scaleM * weights * meanRidge,
+                        terrain.offsetM + terrain.amplitudeM},
+                       height);
 }
 
 }  // namespace planet

@@ -5,19 +5,21 @@
 #include <cmath>
 #include <utility>
 
+#include "planet/base/try.h"
 #include "planet/sphere/planet_shape.h"
 
 namespace planet {
 
 namespace {
 
-// A text such as -3.40282346638529e+38 is a float's value only once it is rounded to one.
+// Rounds a no-data value to a float if the samples are floats: a text such as -3.40282346638529e+38 matches
+// only then.
 double asStored(double value, SampleType type) {
     const bool fits = std::abs(value) <= 3.4028235e38;
     return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
 }
 
-// Takes what the file says of its scale, offset and unit, except what the settings override.
+// Takes the file's scale, offset and unit, unless the settings override them.
 Result<void> takeUnits(const std::string& file, const HeightSourceSettings& settings, const GeoTags& tags,
                        HeightConversion& conversion) {
     if (settings.metresPerUnit) return {};
@@ -43,8 +45,7 @@ Result<HeightConversion> conversionFor(const std::string& file, const HeightSour
     conversion.metresPerUnit = settings.metresPerUnit.value_or(1);
     conversion.offsetM = settings.offsetM.value_or(0);
     if (!settings.colourChannel) {
-        if (Result<void> taken = takeUnits(file, settings, tags, conversion); !taken)
-            return tl::unexpected(std::move(taken.error()));
+        TRY(takeUnits(file, settings, tags, conversion));
     }
     conversion.noDataValue = settings.noDataValue ? settings.noDataValue : tags.noDataValue;
     if (conversion.noDataValue) conversion.noDataValue = asStored(*conversion.noDataValue, type);

@@ -1,13 +1,10 @@
-// The kinds of height source behind openHeightSource, and what they share. Internal to the library.
+// The kinds of height source behind openHeightSource, and their common parts. Internal to the library.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "planet/base/result.h"
@@ -30,7 +27,7 @@ struct FaceFiles {
     std::array<std::filesystem::path, faceCount> paths;
 };
 
-// The six faces that a path names one of, or names the common stem of; none where it does neither.
+// Finds the six faces if a path names one of them or their common stem; returns nothing otherwise.
 std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path);
 
 // MustAgree, for heights: faces that differ along their shared edges by more than rounding are an Error.
@@ -39,9 +36,8 @@ enum class FaceEdges : std::uint8_t { MustAgree, MayDiffer };
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
                                     FaceEdges edges);
 
-// What the kinds share.
-// tags: what the file says of its no-data value, scale, offset and unit, where the settings say nothing. The
-// Error names a unit that is not known.
+// Returns the conversion by the settings and, where they are not set, by the file's tags. The Error names an
+// unknown unit.
 Result<HeightConversion> conversionFor(const std::string& file, const HeightSourceSettings& settings,
                                        SampleType type, const GeoTags& tags);
 
@@ -49,28 +45,7 @@ Result<HeightConversion> conversionFor(const std::string& file, const HeightSour
 void describeHeights(HeightSource& source, const HeightConversion& conversion,
                      const HeightStatistics& statistics);
 
-// A tile in square pieces of side samples at most, so that each needs little memory. samplePiece(piece, to,
-// stride) fills the piece's samples from to on, its rows stride floats apart; its first Error ends it.
-template <class SamplePiece>
-Result<void> sampleInPieces(const SampleTile& tile, int side, std::span<float> out,
-                            const SamplePiece& samplePiece) {
-    const auto stride = static_cast<std::size_t>(tile.columns);
-    for (int row = 0; row < tile.rows; row += side) {
-        for (int column = 0; column < tile.columns; column += side) {
-            SampleTile piece = tile;
-            piece.firstColumn += column;
-            piece.firstRow += row;
-            piece.columns = std::min(side, tile.columns - column);
-            piece.rows = std::min(side, tile.rows - row);
-            float* const to =
-                out.data() + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column);
-            if (Result<void> done = samplePiece(piece, to, stride); !done) return done;
-        }
-    }
-    return {};
-}
-
-// The smallest 2^n with 2^n >= count, up to 2^maxFaceCellsLog2.
+// Returns the smallest 2^n with 2^n >= count, up to 2^maxFaceCellsLog2.
 int powerOfTwoCells(double count);
 
 }  // namespace planet

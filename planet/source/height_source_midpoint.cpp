@@ -1,10 +1,8 @@
-// Midpoint displacement on the cube, from its eight corners down to any grid, for the rectangle that is asked
-// for alone.
+// Midpoint displacement on the cube, from its eight corners down to any grid, for one rectangle at a time.
 //
-// What a rectangle takes is found from the finest grid up: each level needs its parent's samples around it,
-// and where it touches an edge of the cube, those of the next face's first cells. There is a rectangle for
-// each face then; they are filled from the cube's corners down. Heights are integers: their sums are exact,
-// in whichever order a face adds them up.
+// The needed samples are found from the finest grid up: each level needs its parent's samples around it and,
+// at an edge of the cube, those of the next face's first cells. So each level has a rectangle per face; these
+// are filled from the cube's corners down. Heights are integers, whose sums are exact in any order.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -51,7 +49,7 @@ struct Rect {
     }
 };
 
-// A level's rectangles of the faces that are needed.
+// The rectangles of the faces that a level needs.
 using Needs = std::array<std::optional<Rect>, faceCount>;
 
 std::optional<Rect>& of(Needs& needs, Face face) {
@@ -64,7 +62,7 @@ void addTo(Needs& needs, Face face, int column, int row) {
     rect->add(column, row);
 }
 
-// Cells beyond an edge of a face, on the next one: the corner far from the edge and the one on it.
+// Adds cells beyond an edge of a face, on the next one: the corner far from the edge and the one on it.
 void addBeyond(Needs& needs, Face face, int farColumn, int farRow, int edgeColumn, int edgeRow, int cells) {
     const FaceGridPoint farPlace = foldedOver({face, farColumn, farRow}, cells);
     const FaceGridPoint edgePlace = placeOnFace(farPlace.face, {face, edgeColumn, edgeRow}, cells);
@@ -72,7 +70,7 @@ void addBeyond(Needs& needs, Face face, int farColumn, int farRow, int edgeColum
     addTo(needs, farPlace.face, edgePlace.column, edgePlace.row);
 }
 
-// What the next coarser level must know.
+// Returns the samples that the next coarser level needs.
 Needs parentsOf(const Needs& needs, int level) {
     const int half = 1 << (level - 1);
     Needs parents;
@@ -116,8 +114,8 @@ const Patch& of(const Patches& patches, Face face) {
     return *patches[static_cast<std::size_t>(face)];
 }
 
-// A random offset within +-most, that of a point of the cube. Each point gets one, on the level that makes
-// it.
+// Returns the random offset of a point of the cube, within +-most. Each point gets one, on the level that
+// makes it.
 std::int64_t offsetAt(const Midpoint& terrain, Face face, int column, int row, int level, std::int64_t most) {
     const int cells = 1 << level;
     const glm::dvec3 point = cubePoint(face, 2 * column - cells, 2 * row - cells);
@@ -133,7 +131,7 @@ std::int64_t offsetAt(const Midpoint& terrain, Face face, int column, int row, i
     return ((static_cast<std::int64_t>(hash >> 32) - (std::int64_t{1} << 31)) * most) >> 31;
 }
 
-// A level's heights out of its parent's.
+// Computes the heights of a level from those of its parent.
 class Halving {
 public:
     Halving(const Midpoint& terrain, const Patches& parents, int level)
@@ -169,7 +167,7 @@ private:
                offsetAt(terrain_, face, column, row, level_, levelOf(terrain_.edge));
     }
 
-    // Over an edge of the cube too.
+    // Returns the middle near an edge, also over an edge of the cube.
     std::int64_t middleNear(Face face, int column, int row) const {
         if (column > 0 && column < cells_ && row > 0 && row < cells_) return middleAt(face, column, row);
         const FaceGridPoint place = foldedOver({face, column, row}, cells_);
@@ -203,7 +201,7 @@ Patches filled(const Needs& needs, const HeightAt& heightAt) {
     return patches;
 }
 
-// The heights of what is needed of the grid of 2^level cells a side.
+// Returns the heights of the needed parts of the grid of 2^level cells a side.
 Patches heightsOf(const Midpoint& terrain, const Needs& finest, int level) {
     std::vector<Needs> needs(static_cast<std::size_t>(level) + 1);
     needs.back() = finest;
@@ -221,8 +219,8 @@ Patches heightsOf(const Midpoint& terrain, const Needs& finest, int level) {
     return patches;
 }
 
-// How far the heights of finer grids reach beyond a grid's own: five times their root mean square at most. A
-// mean halves the variance, more or less, and an even offset adds a third of its square.
+// Returns how far the heights of finer grids reach beyond a grid's own: five times their root mean square. A
+// mean roughly halves the variance, and an even offset adds a third of its square.
 double reachBelow(const Midpoint& terrain, int level) {
     double variance = 0, most = 0;
     for (std::size_t l = static_cast<std::size_t>(level) + 1; l < terrain.middle.size(); ++l) {
@@ -250,7 +248,7 @@ Result<void> samplePiece(const Midpoint& terrain, const SampleTile& piece, float
     return {};
 }
 
-// Offsets by level; seeds that differ by one differ everywhere.
+// Returns the offsets by level. Seeds that differ by one give different offsets everywhere.
 Midpoint scaledBy(const MidpointTerrain& settings) {
     Midpoint terrain;
     terrain.seed = scrambled64(settings.seed);
@@ -265,7 +263,7 @@ Midpoint scaledBy(const MidpointTerrain& settings) {
     return terrain;
 }
 
-// The whole of a coarse grid.
+// Returns the rectangles of the whole of a coarse grid.
 Needs wholeCube(int cells) {
     Needs needs;
     for (const Face face : allFaces) needs[static_cast<std::size_t>(face)] = Rect{0, 0, cells, cells};
@@ -289,18 +287,8 @@ HeightSource midpointSource(const MidpointTerrain& settings) {
     terrain.minM = terrain.offsetM + terrain.metres * (static_cast<double>(lowest) - below);
     terrain.maxM = terrain.offsetM + terrain.metres * (static_cast<double>(highest) + below);
 
-    HeightSource source;
-    source.description = terrainText({settings, {}});
-    source.naturalFaceSize = mostNaturalCells + 1;
-    source.minM = terrain.minM;
-    source.maxM = terrain.maxM;
-    source.sample = [terrain](const SampleTile& tile, std::span<float> out) {
-        return sampleInPieces(tile, midpointPieceSide, out,
-                              [&](const SampleTile& piece, float* to, std::size_t stride) {
-                                  return samplePiece(terrain, piece, to, stride);
-                              });
-    };
-    return source;
+    const TerrainExtent extent{mostNaturalCells, terrain.minM, terrain.maxM};
+    return pieceSource(settings, extent, midpointPieceSide, terrain, samplePiece);
 }
 
 }  // namespace planet

@@ -1,4 +1,5 @@
-// A source of heights behind one sampling function, and how its file is read (height_source.h opens one).
+// A source of heights behind one sampling function, and the settings for reading its file (height_source.h
+// opens one).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ struct SampleTile {
     int rows = 0;
 };
 
-// A value; copies share what is open. sample may be called by several threads at once.
+// Copies share the open files. sample may be called by several threads at once.
 struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
     // The smallest 2^n + 1 that loses no source resolution. Procedural terrain, which may have finer detail,
@@ -46,8 +47,8 @@ struct HeightSource {
     // Fills out, row-major, columns x rows heights in metres. A sample's value depends only on its point of
     // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
     // bit-identical. Filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
-    // one is interpolated smoothly; faces on a grid of their own size are copied exactly. Where faces
-    // differ by rounding along an edge of the cube, the first in enum order is taken. A call needs some 16 MB
+    // one is interpolated smoothly; faces on a grid of their own size are copied exactly. Where faces differ
+    // by rounding along an edge of the cube, the first in enum order is taken. A call needs about 16 MB
     // besides the cache. The Error names the file.
     std::function<Result<void>(const SampleTile& tile, std::span<float> out)> sample;
 };

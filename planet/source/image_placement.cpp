@@ -1,4 +1,5 @@
 #include "planet/source/image_placement.h"
+#include "planet/base/try.h"
 
 #include <fmt/format.h>
 
@@ -13,13 +14,13 @@ namespace {
 
 constexpr double fullTurnDeg = 360;
 constexpr double poleToPoleDeg = 180;
-// Steps in tags are often rounded, to 0.0083333 say.
+// Steps in tags are often rounded, for example to 0.0083333.
 constexpr double stepTolerance = 1e-4;
 
 constexpr const char* regionHint =
     "an image of a region cannot be placed on a planet yet, so merge it into one of the whole planet first";
 
-// In degrees.
+// The extent of an image, degrees.
 struct ImageExtent {
     double firstLongitude = 0;  // of the first column's samples
     double firstLatitude = 0;   // of the first row's samples
@@ -55,7 +56,8 @@ Error regionError(const std::string& file, int width, int height, const ImageExt
                         from, regionHint)};
 }
 
-// A half or a whole where it is one but for rounding, so that tags give the very places that a size gives.
+// Rounds to a half or a whole column if it differs only by rounding, so that tags give the same placement as
+// a size.
 double withoutRounding(double column) {
     const double nearest = std::round(2 * column) / 2;
     return std::abs(column - nearest) < 0.01 ? nearest : column;
@@ -68,28 +70,27 @@ double wrappedColumn(double column, int period) {
 
 Result<ImagePlacement> placementByTags(const std::string& file, int width, int height,
                                        const GeoPlacement& tags) {
-    const Result<ImageExtent> extent = extentOf(file, tags);
-    if (!extent) return tl::unexpected(extent.error());
+    TRY_ASSIGN(const auto extent, extentOf(file, tags));
     ImagePlacement placement;
-    const double columns = fullTurnDeg / extent->columnStep;
+    const double columns = fullTurnDeg / extent.columnStep;
     const bool repeats = width > 2 && std::abs(columns - (width - 1)) < std::abs(columns - width);
     placement.period = repeats ? width - 1 : width;
     const double mostColumnsOff = std::max(0.25, stepTolerance * width);
-    const double halfStep = extent->rowStep / 2;
-    const double lastLatitude = extent->firstLatitude - (height - 1) * extent->rowStep;
+    const double halfStep = extent.rowStep / 2;
+    const double lastLatitude = extent.firstLatitude - (height - 1) * extent.rowStep;
     const auto offBy = [&](double firstLatitude) {
-        return std::max(std::abs(extent->firstLatitude - firstLatitude),
+        return std::max(std::abs(extent.firstLatitude - firstLatitude),
                         std::abs(lastLatitude + firstLatitude));
     };
     const double pole = poleToPoleDeg / 2;
     placement.hasPoleRows = height > 1 && offBy(pole) < offBy(pole - halfStep);
-    const double mostOff = extent->rowStep * std::max(0.25, stepTolerance * height);
+    const double mostOff = extent.rowStep * std::max(0.25, stepTolerance * height);
     if (std::abs(columns - placement.period) > mostColumnsOff ||
         offBy(placement.hasPoleRows ? pole : pole - halfStep) > mostOff)
-        return tl::unexpected(regionError(file, width, height, *extent, tags.from));
-    const double zero = -extent->firstLongitude * placement.period / fullTurnDeg;
-    if (std::abs(extent->firstLongitude) > 2 * fullTurnDeg)
-        return tl::unexpected(regionError(file, width, height, *extent, tags.from));
+        return tl::unexpected(regionError(file, width, height, extent, tags.from));
+    const double zero = -extent.firstLongitude * placement.period / fullTurnDeg;
+    if (std::abs(extent.firstLongitude) > 2 * fullTurnDeg)
+        return tl::unexpected(regionError(file, width, height, extent, tags.from));
     placement.zeroColumn = wrappedColumn(withoutRounding(zero), placement.period);
     return placement;
 }

@@ -1,5 +1,5 @@
-// Where the samples of an equirectangular image of the whole planet lie, by its GeoTIFF tags or, without any,
-// by its size. Internal to the library. Pure functions, any thread.
+// The placement of an equirectangular image of the whole planet, by its GeoTIFF tags or, without any, by its
+// size. Internal to the library. Pure functions, any thread.
 #pragma once
 
 #include <string>
@@ -18,15 +18,17 @@ struct ImagePlacement {
     bool operator==(const ImagePlacement&) const = default;
 };
 
-// Samples at pixel centres, from longitude -180 to 180.
+// Returns the placement of samples at pixel centres, from longitude -180 to 180.
 ImagePlacement centredPlacement(int width);
 
-// Without placement in the tags: 2 n + 1 by n + 1 samples, or 2 n by n + 1, are points of a grid that begins
-// at longitude -180 on the north pole; an image about twice as wide as high has its samples at pixel centres.
-// The Error names the file, what it covers and what would be right: an image of the whole planet, north up.
+// Returns the placement by the tags. Without a placement in the tags, 2 n + 1 by n + 1 samples, or 2 n by n +
+// 1, are points of a grid that begins at longitude -180 on the north pole; an image about twice as wide as
+// high has its samples at pixel centres. The Error names the file and the area that it covers; expected is an
+// image of the whole planet, north up.
 Result<ImagePlacement> placementOf(const std::string& file, int width, int height, const GeoTags& tags);
 
-// "equirectangular", and where the samples lie unless they are at pixel centres from longitude -180 to 180.
+// Returns "equirectangular", and the placement unless samples are at pixel centres from longitude -180 to
+// 180.
 std::string placementText(const ImagePlacement& placement, int width);
 
 }  // namespace planet

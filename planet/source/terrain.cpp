@@ -1,4 +1,4 @@
-// The settings of all kinds as one table, and their checks.
+// The table of the settings of all kinds, and their checks.
 #include "planet/source/terrain.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ constexpr TerrainField field(std::string_view name, std::string_view label, std:
         [](TerrainSettings& s, double value) { std::get<Settings>(s).*member = static_cast<Value>(value); }};
 }
 
-// The same with a slider that spans less.
+// Limits the range of the field's slider.
 constexpr TerrainField usually(double least, double most, TerrainField field) {
     field.usualLeast = least;
     field.usualMost = most;

@@ -1,9 +1,9 @@
-// Terrain made from nothing, and detail made up below the resolution of any source: height sources like those
-// that are read from files.
+// Procedural terrain, and procedural detail below the resolution of any source: height sources like those
+// from files.
 //
 // Sizes are degrees of arc seen from the planet's centre, so that a terrain has no radius of its own: on
-// Earth a degree is 111 km. All kinds are functions of the direction or of the point of the cube alone, hence
-// seamless over faces, edges and corners; made by one thread or many, they are the same to the last bit.
+// Earth a degree is 111 km. All kinds are functions of the direction or of the point of the cube alone, so
+// they are seamless over faces, edges and corners, and bit-identical with any number of threads.
 //
 // The defaults are part of how files name their source (terrainText), so they stay as they are.
 #pragma once
@@ -33,9 +33,9 @@ struct FractalTerrain {
     double offsetM = 0;        // added to every height
 };
 
-// Ridged multifractal (Musgrave in Ebert et al., "Texturing and Modeling", 3rd ed., 2003): octaves of
-// (1 - |noise|)^2, each weighed by sharpness times the one before, so that ridges are rough and valleys
-// smooth. Less its mean, so that a coarse grid, which leaves octaves out, lies no lower than a fine one.
+// Ridged multifractal (Musgrave in Ebert et al., "Texturing and Modeling", 3rd ed., 2003): octaves of (1 -
+// |noise|)^2, each weighed by sharpness times the one before, so that ridges are rough and valleys smooth.
+// The mean is subtracted, so that a coarse grid, which leaves octaves out, lies no lower than a fine one.
 struct RidgedTerrain {
     std::uint32_t seed = 1;
     int octaves = 13;          // [1, 24]
@@ -55,8 +55,8 @@ struct RidgedTerrain {
 // sphere has no rows, and a filter that runs over all samples before it depends on where a face begins. But
 // across a straight fault, there and back, it makes of a step exactly
 //     e^(x/w) / 2 left of the fault, 1 - e^(-x/w) / 2 right of it,  w = -spacing / ln k
-// at the distance x: here each fault is that soft step, with x the arc to it. So it is the same whatever the
-// grid, has no direction and no seam. On a grid coarser than 2 w it is made half a grid step.
+// at the distance x: here each fault is that soft step, with x the arc to it. So it does not depend on the
+// grid and has no direction and no seam. On a grid coarser than 2 w, w is half a grid step.
 struct FaultTerrain {
     std::uint32_t seed = 1;
     int count = 600;          // n, [1, 20000]
@@ -73,8 +73,8 @@ double faultDeltaM(const FaultTerrain& terrain, int i);
 // corners, and an edge's of its two ends and the middles of the cells on both sides, over an edge of the cube
 // too; each plus a random offset that is a hash of its point on the cube. With each halving the offsets
 // shrink by 2^-(1 - roughness) (Saupe in "The Science of Fractal Images", 1988), so the surface's fractal
-// dimension is 2 + roughness. Reckoned in integers, whose sums do not depend on their order: that is why
-// faces agree to the last bit. A finer grid keeps every height of a coarser one.
+// dimension is 2 + roughness. It uses integers, whose sums do not depend on their order, so faces agree to
+// the last bit. A finer grid keeps every height of a coarser one.
 struct MidpointTerrain {
     std::uint32_t seed = 1;
     double roughness = 0.25;   // [0, 1]
@@ -121,7 +121,7 @@ struct DetailTerrain {
 using TerrainSettings =
     std::variant<FractalTerrain, RidgedTerrain, FaultTerrain, MidpointTerrain, CraterTerrain, DetailTerrain>;
 
-// A setting, for what goes over all of them: text, checks, panels.
+// A setting, for texts, checks and panels.
 struct TerrainField {
     std::string_view name;   // "amplitude_m"
     std::string_view label;  // "Amplitude"
@@ -144,34 +144,34 @@ struct TerrainKind {
     TerrainSettings defaults;
     std::span<const TerrainField> fields;
 };
-// In the order of the variant.
+// Returns the kinds in the order of the variant.
 std::span<const TerrainKind> terrainKinds();
 const TerrainKind& kindOf(const TerrainSettings& settings);
 
 // The Error names the setting, its value and its range.
 Result<void> checkTerrain(const TerrainSettings& settings);
 
-// What a terrain's text says.
+// The content of a terrain's text.
 struct TerrainSource {
     TerrainSettings settings;
     std::filesystem::path of;  // of detail: the source that it is added to, a path or another terrain's text
 };
 
 // "noise:ridged,seed=7,amplitude_m=6000" or "detail:strength=0.8,of=PATH": the kind, then settings that are
-// not the defaults, in any order, each once; of comes last and takes the rest. A text stands wherever a path
-// does. Whether it is meant as one; it may yet be wrong.
+// not the defaults, in any order, each once; of comes last and takes the rest. A text may replace any path.
+// Returns whether a path is meant as a text, valid or not.
 bool isTerrainText(const std::filesystem::path& path);
-// The Error says what is wrong and what would be right: the nearest name, the range.
+// The Error names the wrong part, and the nearest name or the range.
 Result<TerrainSource> terrainFromText(const std::filesystem::path& text);
-// The shortest text: terrainFromText gives the same back.
+// Returns the shortest text from which terrainFromText gives the same source.
 std::string terrainText(const TerrainSource& source);
 
-// The same text as whoever has nothing but it needs it: the shortest, and the path of a file absolute.
+// Returns the shortest text with an absolute path, which is enough to open the source again.
 Result<std::string> wholeTerrainText(const std::filesystem::path& text);
 
-// Heights made by the settings, which must not be detail; described by their text.
+// Makes the heights of the settings, which must not be detail; their text describes the source.
 Result<HeightSource> makeTerrain(const TerrainSettings& settings);
-// The source with detail added.
+// Adds detail to a source.
 Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail);
 
 }  // namespace planet

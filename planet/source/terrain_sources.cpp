@@ -1,4 +1,5 @@
 #include "planet/source/terrain_sources.h"
+#include "planet/base/try.h"
 
 namespace planet {
 
@@ -29,13 +30,13 @@ std::vector<Octave> octavesOf(std::uint32_t seed, int count, double firstCellRad
 
 std::size_t heldBy(std::span<const Octave> octaves, double stepRad) {
     std::size_t count = 0;
-    // Lattices are often made for a grid, two of its steps wide but for rounding.
+    // Lattice cells are often two steps of a grid wide, except for rounding.
     while (count < octaves.size() && octaves[count].cellRad * (1 + 1e-9) >= 2 * stepRad) ++count;
     return count;
 }
 
 Result<HeightSource> makeTerrain(const TerrainSettings& settings) {
-    if (Result<void> good = checkTerrain(settings); !good) return tl::unexpected(good.error());
+    TRY(checkTerrain(settings));
     struct Make {
         Result<HeightSource> operator()(const FractalTerrain& t) const { return fractalSource(t); }
         Result<HeightSource> operator()(const RidgedTerrain& t) const { return ridgedSource(t); }

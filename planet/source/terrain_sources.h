@@ -1,4 +1,4 @@
-// The kinds of made terrain behind makeTerrain, and what they share. Internal to the library.
+// The kinds of procedural terrain behind makeTerrain, and their common parts. Internal to the library.
 #pragma once
 
 #include <algorithm>
@@ -6,25 +6,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "planet/source/gradient_noise.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/height_source_types.h"
+#include "planet/source/sample_tiles.h"
 #include "planet/source/terrain.h"
 #include "planet/sphere/cube_sphere.h"
-#include "planet/sphere/face_fold.h"
 
 namespace planet {
 
-// A made source names a face that bakes in some minutes as its natural one, though it may go on below.
+// The natural face size of procedural terrain bakes in some minutes, although finer detail exists.
 inline constexpr int mostNaturalCells = 2048;
 inline constexpr int leastNaturalCells = 128;
 
-// From 0 to 1 without a bend.
+// Rises from 0 to 1 between `from` and `to`, with a continuous derivative.
 inline double smoothly(double from, double to, double value) {
     if (to <= from) return value > from ? 1 : 0;
     const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
@@ -34,14 +36,14 @@ inline double smoothly(double from, double to, double value) {
 constexpr double radFromDeg(double deg) {
     return deg * std::numbers::pi / 180;
 }
-// A grid step of a face, on the average over it.
+// Returns the average grid step of a face.
 constexpr double gridStepRad(int faceCells) {
     return std::numbers::pi / 2 / faceCells;
 }
-// The cells of the grid whose step is at most that, within what a made source names.
+// Returns the cells of the grid whose step is at most stepRad, within the limits above.
 int naturalCells(double stepRad);
 
-// Octaves of noise, each moved to a place of its own so that their lattices' zeros do not meet.
+// An octave of noise, shifted so that the zeros of the octaves' lattices do not meet.
 struct Octave {
     double frequency = 0;  // lattice cells along the sphere's radius
     double cellRad = 0;    // a lattice cell
@@ -51,42 +53,71 @@ struct Octave {
 };
 std::vector<Octave> octavesOf(std::uint32_t seed, int count, double firstCellRad, double lacunarity,
                               double gain);
-// How many of them a grid can hold: those with a lattice cell of two steps at least.
+// Returns how many octaves a grid can hold: those with a lattice cell of at least two steps.
 std::size_t heldBy(std::span<const Octave> octaves, double stepRad);
 
-// The octave's noise in a direction.
+// Returns the octave's noise in a direction.
 inline double noiseOf(const Octave& octave, const glm::dvec3& direction) {
     return gradientNoise(direction * octave.frequency + octave.shift, octave.seed);
 }
 
-// The octaves that the grid holds, summed, and the root mean square of all of them. Heights are scaled so
-// that noiseReach times that is their amplitude: noise thins out faster than a normal distribution, of which
-// less than one in a million lies beyond.
+// Return the sum of the octaves that the grid holds, and the root mean square of all octaves. Heights are
+// scaled so that their amplitude is noiseReach times that: noise has thinner tails than a normal
+// distribution, of which less than one in a million lies beyond.
 double fractalNoise(std::span<const Octave> octaves, const glm::dvec3& direction, double stepRad);
 double fractalRms(std::span<const Octave> octaves);
 inline constexpr double noiseReach = 5;
 
-// A source of terrain without files: height(direction, stepRad) in metres, held to [minM, maxM].
-template <class Height>
-HeightSource fieldSource(const TerrainSettings& settings, int cells, double minM, double maxM,
-                         Height height) {
+// The numbers of a source of terrain; naturalCells: along a face.
+struct TerrainExtent {
+    int naturalCells = 0;
+    double minM = 0;
+    double maxM = 0;
+};
+
+// Describes a source of terrain without files; it lacks its sample function.
+inline HeightSource describedTerrain(const TerrainSettings& settings, const TerrainExtent& extent) {
     HeightSource source;
     source.description = terrainText({settings, {}});
-    source.naturalFaceSize = cells + 1;
-    source.minM = minM;
-    source.maxM = maxM;
-    source.sample = [height = std::move(height), minM, maxM](const SampleTile& tile,
-                                                             std::span<float> out) -> Result<void> {
+    source.naturalFaceSize = extent.naturalCells + 1;
+    source.minM = extent.minM;
+    source.maxM = extent.maxM;
+    return source;
+}
+
+// Returns the source of height(direction, stepRad), metres, clamped to the extent.
+template <class Height>
+HeightSource fieldSource(const TerrainSettings& settings, const TerrainExtent& extent, Height height) {
+    HeightSource source = describedTerrain(settings, extent);
+    source.sample = [height = std::move(height), minM = extent.minM, maxM = extent.maxM](
+                        const SampleTile& tile, std::span<float> out) -> Result<void> {
         const double stepRad = gridStepRad(tile.faceCells);
         std::size_t at = 0;
         for (int row = tile.firstRow; row < tile.firstRow + tile.rows; ++row) {
             for (int column = tile.firstColumn; column < tile.firstColumn + tile.columns; ++column) {
-                const glm::dvec3 direction = sphereFromCube(
-                    cubePoint(tile.face, 2.0 * column / tile.faceCells - 1, 2.0 * row / tile.faceCells - 1));
+                const glm::dvec3 direction = directionOf(tile.face, tile.faceCells, column, row);
                 out[at++] = static_cast<float>(std::clamp(height(direction, stepRad), minM, maxM));
             }
         }
         return {};
+    };
+    return source;
+}
+
+// Returns the source that samples pieces of at most side samples a side by samplePiece(terrain, piece, to,
+// stride), as sampleInPieces does.
+template <class Terrain>
+using SamplePiece = Result<void> (*)(const Terrain& terrain, const SampleTile& piece, float* to,
+                                     std::size_t stride);
+template <class Terrain>
+HeightSource pieceSource(const TerrainSettings& settings, const TerrainExtent& extent, int side,
+                         Terrain terrain, std::type_identity_t<SamplePiece<Terrain>> samplePiece) {
+    HeightSource source = describedTerrain(settings, extent);
+    source.sample = [side, shared = std::make_shared<const Terrain>(std::move(terrain)), samplePiece](
+                        const SampleTile& tile, std::span<float> out) {
+        return sampleInPieces(tile, side, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
+            return samplePiece(*shared, piece, to, stride);
+        });
     };
     return source;
 }

@@ -1,4 +1,4 @@
-// Terrain as text, so that one string names it wherever a path names a file.
+// Converts terrain to and from text, so that one string names it like a path names a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "planet/base/try.h"
 #include "planet/source/terrain.h"
 
 namespace planet {
@@ -18,7 +19,7 @@ constexpr std::string_view noisePrefix = "noise:";
 constexpr std::string_view detailPrefix = "detail:";
 constexpr std::string_view ofKey = "of";
 
-// Levenshtein's distance: how many letters differ.
+// Returns Levenshtein's distance.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -39,7 +40,7 @@ std::string_view nearestTo(std::string_view name, std::span<const std::string_vi
     });
 }
 
-// Cuts what comes before the separator off the text; all of it where there is none.
+// Cuts the part before the separator off the text; the whole text if there is no separator.
 std::string_view cutAt(char separator, std::string_view& text) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view first = text.substr(0, end);
@@ -95,7 +96,7 @@ Result<void> setFields(const TerrainKind& kind, std::string_view rest, TerrainSo
         if (std::find(seen.begin(), seen.end(), key) != seen.end())
             return badInput(fmt::format("{}: {} is given twice; expected once", kind.name, key));
         seen.push_back(key);
-        if (Result<void> set = setField(kind, key, value, source); !set) return set;
+        TRY(setField(kind, key, value, source));
     }
     return {};
 }
@@ -112,28 +113,26 @@ Result<TerrainSource> terrainFromText(const std::filesystem::path& path) {
     std::string_view rest = text;
     const bool isDetail = text.starts_with(detailPrefix);
     const std::string_view name = cutAt(isDetail ? ':' : ',', rest);
-    const Result<const TerrainKind*> kind = kindNamed(name);
-    if (!kind) return tl::unexpected(kind.error());
-    TerrainSource source{(*kind)->defaults, {}};
-    if (Result<void> set = setFields(**kind, rest, source); !set) return tl::unexpected(set.error());
-    if (Result<void> good = checkTerrain(source.settings); !good) return tl::unexpected(good.error());
+    TRY_ASSIGN(const auto kind, kindNamed(name));
+    TerrainSource source{(kind)->defaults, {}};
+    TRY(setFields(*kind, rest, source));
+    TRY(checkTerrain(source.settings));
     if (isDetail && source.of.empty())
         return badInput("detail: has no source; expected detail:strength=1,of=PATH");
     return source;
 }
 
 Result<std::string> wholeTerrainText(const std::filesystem::path& text) {
-    Result<TerrainSource> source = terrainFromText(text);
-    if (!source) return tl::unexpected(source.error());
-    if (isTerrainText(source->of)) {
-        Result<std::string> of = wholeTerrainText(source->of);
+    TRY_ASSIGN(auto source, terrainFromText(text));
+    if (isTerrainText(source.of)) {
+        Result<std::string> of = wholeTerrainText(source.of);
         if (!of) return of;
-        source->of = *std::move(of);
-    } else if (!source->of.empty()) {
+        source.of = *std::move(of);
+    } else if (!source.of.empty()) {
         std::error_code problem;
-        source->of = std::filesystem::absolute(source->of, problem).lexically_normal();
+        source.of = std::filesystem::absolute(source.of, problem).lexically_normal();
     }
-    return terrainText(*source);
+    return terrainText(source);
 }
 
 std::string terrainText(const TerrainSource& source) {

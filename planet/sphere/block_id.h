@@ -1,4 +1,5 @@
-// Names a block of the chunk file that is paged in and out as one: what lies under one node of a quadtree.
+// Names a block of the chunk file, which is paged in and out as a whole: the four children of a node of a
+// quadtree.
 #pragma once
 
 #include <compare>
@@ -19,14 +20,14 @@ struct BlockId {
     BlockKind kind = BlockKind::Heights;
 
     BlockId() = default;
-    // A chunk's block, unless said otherwise.
+    // The block is one of heights by default.
     BlockId(const ChunkId& parentId, BlockKind blockKind = BlockKind::Heights)
         : parent(parentId), kind(blockKind) {}
 
     auto operator<=>(const BlockId&) const = default;
 };
 
-// "z_pos/3/5/2", and of colours "z_pos/3/5/2 (colours)".
+// Returns "z_pos/3/5/2" for heights, and "z_pos/3/5/2 (colours)" for colours.
 inline std::string toString(const BlockId& id) {
     const char* kind = id.kind == BlockKind::Heights   ? ""
                        : id.kind == BlockKind::Colours ? " (colours)"

@@ -10,11 +10,11 @@ namespace planet {
 
 namespace {
 
-// Between samples. The square is sampled on a grid of g = side / sampleCells. Within a cell, a smooth f
-// differs from the bilinear interpolation of its corners by at most g^2/8 (max |f_uu| + max |f_vv|):
+// The margin between samples: the square is sampled on a grid of g = side / sampleCells. Within a cell, a
+// smooth f differs from the bilinear interpolation of its corners by at most g^2/8 (max |f_uu| + max |f_vv|):
 // interpolating along u costs the first term, interpolating that along v the second. Bilinear interpolation
-// stays within the convex hull of the corners. So whatever holds all samples holds the whole square once it
-// is grown by that much.
+// stays within the convex hull of the corners. So a volume that holds all samples holds the whole square once
+// it is grown by that much.
 //
 // On a face Nowell's map is d = (w, u sqrt(1/2 - v^2/6), v sqrt(1/2 - u^2/6)) with
 // w = sqrt(1 - u^2/2 - v^2/2 + u^2 v^2/3). Differentiating twice by u:
@@ -26,7 +26,7 @@ constexpr int sampleCells = 8;
 constexpr int samplesPerSide = sampleCells + 1;
 constexpr double maxSecondDerivative = 1.5;
 
-// For unit vectors and what is computed from them in a few operations.
+// Bounds the rounding of unit vectors, and of results of a few operations on them.
 constexpr double boxRounding = 1e-14;
 
 struct Range {
@@ -59,7 +59,7 @@ Samples sampleDirections(Face face, const FaceSquare& square) {
     return samples;
 }
 
-// Up in the square's middle, and east along its middle row.
+// Returns east along the middle row of the square, north, and up in its middle.
 std::array<glm::dvec3, 3> localAxes(const Samples& samples) {
     const std::size_t middle = samples.size() / 2;
     const glm::dvec3 up = glm::normalize(samples[middle]);
@@ -87,12 +87,12 @@ DirectionCone coneOf(const Samples& samples, double margin) {
     cone.axis = glm::normalize(samples[samples.size() / 2]);
     double chord = 0;
     for (const glm::dvec3& direction : samples) chord = std::max(chord, glm::length(direction - cone.axis));
-    // From the chord rather than the cosine, which has no digits left for a small angle.
+    // Uses the chord, because the cosine of a small angle has no digits left.
     cone.halfAngleRad = 2 * std::asin(std::min(1.0, (chord + margin) / 2));
     return cone;
 }
 
-// acos(adjacent / hypotenuse), exact for small angles too.
+// Returns acos(adjacent / hypotenuse), exact for small angles too.
 double angleOf(double adjacent, double hypotenuse) {
     const double opposite = std::sqrt((hypotenuse - adjacent) * (hypotenuse + adjacent));
     return std::atan2(opposite, adjacent);
@@ -176,10 +176,6 @@ Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
     const double topM = std::max(bounds.maxRadiusM, horizon.occluderRadiusM);
     const double reach = horizon.angleRad + angleOf(horizon.occluderRadiusM, topM) + boxRounding;
     return toAxis - cone.halfAngleRad > reach ? Containment::Outside : Containment::Crossing;
-}
-
-bool isBelowHorizon(const ChunkBounds& bounds, const glm::dvec3& eyeM, double occluderRadiusM) {
-    return classify(bounds, horizonOf(eyeM, occluderRadiusM)) == Containment::Outside;
 }
 
 // A triangle whose corners lie within an angle a of a direction m, none nearer than r, has

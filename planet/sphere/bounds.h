@@ -1,6 +1,6 @@
-// Volumes that hold everything a chunk and the chunks under it can draw: the vertices of its square of the
-// sphere between its lowest and highest finest height, and every triangle between those vertices.
-// Pure functions, any thread.
+// Bounding volumes of everything that a chunk and the chunks under it can draw: the vertices of its square of
+// the sphere between its lowest and highest finest height, and every triangle between those vertices. Pure
+// functions, any thread.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace planet {
 
-// A box along the local east/north/up-like frame of the chunk's middle. Convex and holding every vertex,
-// so it holds every triangle, chord sag included.
+// A box along the local frame of the chunk's middle, roughly east, north and up. It is convex and holds every
+// vertex, so it holds every triangle, chord sag included.
 struct OrientedBox {
     glm::dvec3 centreM{0, 0, 0};
     std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
@@ -31,8 +31,8 @@ struct ChunkBounds {
     double maxRadiusM = 0;  // no vertex lies farther from the planet's centre
 };
 
-// The part of the bounds that no height changes, and that takes most of the time to find: how far the chunk's
-// directions reach along the box's axes, which is [-1, 1] at most.
+// The part of the bounds that does not depend on heights and takes most of the time to compute: the range of
+// the chunk's directions along the axes of the box, at most [-1, 1].
 struct ChunkDirections {
     std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
     glm::dvec3 low{0, 0, 0};           // along each axis
@@ -46,13 +46,13 @@ ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, doubl
                         double maxHeightM);
 ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM);
 
-// 0 inside the box.
+// Returns the distance from a point to the box; 0 inside it.
 double distanceM(const OrientedBox& box, const glm::dvec3& pointM);
 
 enum class Containment { Outside, Crossing, Inside };
 Containment classify(const OrientedBox& box, const Plane& plane);
 
-// How far round the planet an eye sees, worked out once a frame.
+// The part of the planet that an eye sees, computed once per frame.
 struct Horizon {
     glm::dvec3 eyeDirection{0, 0, 1};  // unit
     double occluderRadiusM = 0;
@@ -62,16 +62,12 @@ struct Horizon {
 };
 Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM);
 
-// Outside: the occluder hides every point within the cone up to maxRadiusM. Inside: no point of the cone that
-// is outside the occluder is hidden, so nothing under this chunk is either. Crossing: neither is certain.
+// Outside: the occluder hides every point within the cone up to maxRadiusM. Inside: it hides no point of the
+// cone that is outside it, and so nothing under this chunk. Crossing: neither is certain.
 Containment classify(const ChunkBounds& bounds, const Horizon& horizon);
 
-// True only when the sphere of the occluder radius, about the planet's centre, hides every point within
-// the cone up to maxRadiusM from the eye. An eye inside the occluder sees everything.
-bool isBelowHorizon(const ChunkBounds& bounds, const glm::dvec3& eyeM, double occluderRadiusM);
-
-// The radius of a sphere about the planet's centre that lies inside every triangle between vertices of any
-// level, none of which lies nearer to the centre than lowestRadiusM. rootCells: cells along the side of a
+// Returns the radius of a sphere about the planet's centre that lies inside every triangle between vertices
+// of any level. No vertex lies nearer to the centre than lowestRadiusM. rootCells: cells along the side of a
 // face's root chunk, whose triangles sag most.
 double radiusInsideTriangles(double lowestRadiusM, int rootCells);
 

@@ -24,7 +24,7 @@ struct ChunkId {
     auto operator<=>(const ChunkId&) const = default;
 };
 
-// Unique over all valid ids: 3 bits of face, 5 of level, 28 each of y and x.
+// Returns a key that is unique over all valid ids: 3 bits of face, 5 of level, 28 each of y and x.
 std::uint64_t keyOf(const ChunkId& id);
 
 // A quadrant is (x & 1) + 2 (y & 1).
@@ -32,19 +32,20 @@ inline constexpr int quadrantCount = 4;
 ChunkId childOf(const ChunkId& parent, int quadrant);
 ChunkId parentOf(const ChunkId& child);  // the child's level must be over 0
 int quadrantOf(const ChunkId& child);
-// The chunk of a level that holds this one: itself where it is of that level or coarser.
+// Returns the chunk of a level that holds this one; the chunk itself if it is of that level or coarser.
 ChunkId ancestorOf(ChunkId id, int level);
 
 enum class Edge : std::uint8_t { West, East, South, North };  // u = min, u = max, v = min, v = max
 inline constexpr int edgeCount = 4;
 inline constexpr std::array allEdges = {Edge::West, Edge::East, Edge::South, Edge::North};
 
-// The chunk of the same level beyond an edge, on the next face where the edge is the face's own.
+// Returns the chunk of the same level beyond an edge; on the next face if the edge lies on an edge of the
+// face.
 ChunkId neighbourOf(const ChunkId& id, Edge edge);
-// The edge beyond which another chunk of the same level lies; none if it is no neighbour.
+// Returns the edge beyond which another chunk of the same level lies; nothing if it is not a neighbour.
 std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other);
 
-// Where a chunk lies on its face.
+// The square of a chunk on its face.
 struct FaceSquare {
     double u = -1;    // west edge, [-1, 1]
     double v = -1;    // south edge, [-1, 1]
@@ -52,11 +53,11 @@ struct FaceSquare {
 };
 FaceSquare faceSquareOf(const ChunkId& id);
 
-// The chunk of a level that holds a point of its face; the last row or column where u or v is 1.
+// Returns the chunk of a level that holds a point of its face; one of the last row or column if u or v is 1.
 ChunkId chunkAt(const FacePoint& point, int level);
 
-// The chunks of a level in quadtree order: face by face, each quarter whole before the next. The four
-// children of a level's chunk i are 4 i to 4 i + 3 of the next level.
+// Quadtree order lists the chunks of a level face by face, each quarter whole before the next. The children
+// of chunk i of a level are chunks 4 i to 4 i + 3 of the next level.
 ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level);
 std::uint64_t indexInQuadtreeOrder(const ChunkId& id);
 

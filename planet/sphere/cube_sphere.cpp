@@ -21,7 +21,7 @@ const std::array<FaceAxes, faceCount> axesOfFaces = {{
     {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}},
 }};
 
-// The face whose normal the vector is most along; the first in enum order where there is a tie.
+// Returns the face whose normal is nearest to the vector; the first in enum order of equals.
 Face dominantFace(const glm::dvec3& p) {
     Face best = Face::PosX;
     double most = -1;
@@ -39,7 +39,7 @@ struct SquarePoint {
     double u, v;
 };
 
-// One Newton step towards u sqrt(1/2 - v^2/6) = s, v sqrt(1/2 - u^2/6) = t, Nowell's map on a face.
+// Takes one Newton step towards u sqrt(1/2 - v^2/6) = s, v sqrt(1/2 - u^2/6) = t, Nowell's map on a face.
 SquarePoint refineInverse(SquarePoint p, double s, double t) {
     const double rootV = std::sqrt(0.5 - p.v * p.v / 6);
     const double rootU = std::sqrt(0.5 - p.u * p.u / 6);

@@ -25,7 +25,7 @@ inline constexpr std::array<Face, faceCount> allFaces = {Face::PosX, Face::NegX,
 std::string_view faceName(Face face);
 std::optional<Face> faceFromName(std::string_view name);
 
-// Each axis is a unit vector along a world axis.
+// The axes of a face: unit vectors along world axes.
 struct FaceAxes {
     glm::dvec3 normal;
     glm::dvec3 u;
@@ -33,15 +33,16 @@ struct FaceAxes {
 };
 const FaceAxes& faceAxes(Face face);
 
-// The point of the cube [-1,1]^3 at (u, v) of a face. Exact: each component is +-1, +-u or +-v, so that
-// points on an edge or a corner are bit-identical whichever face they are computed from.
+// Returns the point of the cube [-1,1]^3 at (u, v) of a face. Exact: each component is +-1, +-u or +-v, so
+// that points on an edge or a corner are bit-identical whichever face they are computed from.
 glm::dvec3 cubePoint(Face face, double u, double v);
 
 // Nowell's map from the cube [-1,1]^3 to the unit sphere. Symmetric in the axes, so that the same cube
 // point gives the same bits.
 glm::dvec3 sphereFromCube(const glm::dvec3& cube);
 
-// Its inverse: the cube point of a direction, of any length but zero. Accurate to 1e-14.
+// Returns the cube point of a direction of any length but zero: the inverse of sphereFromCube, accurate to
+// 1e-14.
 glm::dvec3 cubeFromSphere(const glm::dvec3& direction);
 
 struct FacePoint {
@@ -50,7 +51,8 @@ struct FacePoint {
     double v = 0;  // [-1, 1]
 };
 
-// The face on which a point of the cube's surface lies; on an edge or corner, the first in enum order.
+// Returns the place of a point of the cube's surface on its face; on an edge or corner, the first face in
+// enum order.
 FacePoint facePointFromCube(const glm::dvec3& cube);
 FacePoint facePointFromDirection(const glm::dvec3& direction);
 

@@ -1,5 +1,5 @@
-// What a view cannot see of a quadtree: nodes outside its frustum or below the horizon. Internal to the
-// library. Pure functions, any thread.
+// Culls the nodes of a quadtree that lie outside a frustum or below the horizon. Internal to the library.
+// Pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct Culling {
     Horizon horizon;
 };
 
-// The tests a node still has to take: one that holds its parent wholly holds it too.
+// The tests that a node still needs: a plane that has its parent wholly inside has the node inside too.
 struct OpenTests {
     std::array<bool, std::tuple_size_v<Frustum>> planes{};
     bool horizon = false;
@@ -25,7 +25,7 @@ OpenTests openTests(bool frustumCulling, bool horizonCulling);
 
 enum class Culled : std::uint8_t { No, ByFrustum, ByHorizon };
 
-// Closes the tests that nothing under the bounds need take.
+// Closes the tests that nothing under the bounds needs.
 Culled cull(const Culling& culling, const ChunkBounds& bounds, OpenTests& open);
 
 }  // namespace planet

@@ -1,5 +1,5 @@
-// What lies over the edges of a cube face, on the next one. Internal to the library. Pure functions, any
-// thread.
+// Continues the grid of a cube face over its edges, on the next faces. Internal to the library. Pure
+// functions, any thread.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,14 +15,14 @@ struct FaceGridPoint {
     int row = 0;
 };
 
-// The face whose outward normal, a unit vector along a world axis, this is.
+// Returns the face of an outward normal, a unit vector along a world axis.
 Face faceAlong(const glm::dvec3& normal);
 
-// A point over one edge of its face, by up to its width: folded down onto the next face. One on the face,
-// edges included, is itself.
+// Returns a point that lies over one edge of its face, by up to its width, folded down onto the next face. A
+// point on the face, edges included, is returned as it is.
 FaceGridPoint foldedOver(const FaceGridPoint& point, int cells);
 
-// The same point of the cube on another face that it lies on, for a point on an edge.
+// Returns the place of a point on an edge on another face that has the edge.
 FaceGridPoint placeOnFace(Face face, const FaceGridPoint& point, int cells);
 
 }  // namespace planet

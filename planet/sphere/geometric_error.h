@@ -25,7 +25,7 @@
 
 namespace planet {
 
-// Kept between calls so that nothing is allocated; one a thread.
+// Memory that is reused between calls; one per thread.
 struct GeometricErrorScratch {
     std::vector<double> x, y, z;   // positions in the face's own axes, metres
     std::vector<double> u, uRoot;  // a column's coordinate and sqrt(1/2 - u^2/6)
@@ -36,11 +36,12 @@ struct GeometricErrorScratch {
 void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side,
                    std::span<const std::int16_t> heights, GeometricErrorScratch& scratch);
 
-// The refined grid of a chunk holds (2 c + 1)^2 steps, row-major, c = chunkCells. Metres.
+// Returns delta_g of a chunk, metres. refined: its grid with its children's samples, (2 c + 1)^2 steps,
+// row-major, c = chunkCells.
 double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, std::span<const std::int16_t> refined,
                        GeometricErrorScratch& scratch);
 
-// As delta is stored: the float that is not below it.
+// Returns the nearest float that is not below the value, for stored errors.
 float roundedUp(double value);
 
 }  // namespace planet

@@ -1,4 +1,4 @@
-// The numbers that turn a chunk's stored steps into points in space. Pure functions, any thread.
+// The shape of a planet, which turns a chunk's stored steps into points in space. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ constexpr int faceCells(const PlanetShape& shape) {
 constexpr int chunkCells(const PlanetShape& shape) {
     return 1 << shape.chunkCellsLog2;
 }
-// Vertices along a chunk's side, and in the whole chunk.
+// The numbers of vertices along a chunk's side, and in the whole chunk.
 constexpr int chunkSize(const PlanetShape& shape) {
     return chunkCells(shape) + 1;
 }
@@ -37,7 +37,7 @@ constexpr int chunkVertexCount(const PlanetShape& shape) {
 constexpr int leafLevel(const PlanetShape& shape) {
     return shape.faceCellsLog2 - shape.chunkCellsLog2;
 }
-// Of the whole planet: distinct finest samples, and chunks of all levels.
+// The numbers of distinct finest samples, and of chunks of all levels, of the whole planet.
 constexpr std::uint64_t sampleCountOf(const PlanetShape& shape) {
     const auto cells = static_cast<std::uint64_t>(faceCells(shape));
     return faceCount * cells * cells + 2;
@@ -48,7 +48,7 @@ constexpr std::uint64_t chunkCountOf(const PlanetShape& shape) {
 constexpr double heightM(const PlanetShape& shape, std::int16_t step) {
     return shape.baseHeightM + step * shape.quantumM;
 }
-// The double-precision position of a vertex, metres from the planet's centre.
+// Returns the double-precision position of a vertex, metres from the planet's centre.
 inline glm::dvec3 positionM(const PlanetShape& shape, const glm::dvec3& direction, double height) {
     return (shape.radiusM + height) * direction;
 }

@@ -1,4 +1,4 @@
-// Where the sun stands over the Earth. Pure functions, any thread.
+// The position of the sun over the Earth. Pure functions, any thread.
 #pragma once
 
 #include "planet/sphere/cube_sphere.h"
@@ -15,12 +15,12 @@ struct SunDate {
     bool operator==(const SunDate&) const = default;
 };
 
-// Days in a month of a year.
+// Returns the number of days in a month of a year.
 int daysInMonth(int year, int month);
 
-// The place where the sun stands in the zenith, to 0.01 degrees: the Astronomical Almanac's low-precision
-// formulae, as in Michalsky, "The Astronomical Almanac's algorithm for approximate solar position
-// (1950-2050)", Solar Energy 40 (1988).
+// Returns the subsolar point, to 0.01 degrees, by the Astronomical Almanac's low-precision formulae, as in
+// Michalsky, "The Astronomical Almanac's algorithm for approximate solar position (1950-2050)", Solar Energy
+// 40 (1988).
 Geographic sunOverhead(const SunDate& date);
 
 }  // namespace planet

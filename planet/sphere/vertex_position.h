@@ -1,14 +1,14 @@
-// Where a vertex is, in floats, relative to the eye: the maths of the vertex shader, mirrored on the CPU.
+// The position of a vertex relative to the eye, in floats: mirrors the maths of the vertex shader on the CPU.
 //
-// A float holds seven digits and a planet needs ten, so nothing here is computed from the planet's centre.
-// Each face has a reference point near the eye, worked out in doubles once a frame: a grid point (u0, v0) and
-// a height step h0. A vertex's grid distance to it is a small whole number, exact in a float, and the
+// A float holds seven digits and a planet needs ten, so nothing here is relative to the planet's centre. Each
+// face has a reference point near the eye, computed in doubles once per frame: a grid point (u0, v0) and a
+// height step h0. A vertex's grid distance to it is a small whole number, exact in a float, and the
 // difference of the two directions d(u, v) - d(u0, v0) on Nowell's map is formed without cancellation. So
 //
 //   position - eye = (P0 - eye) + (R + h) (d - d0) + (h - h0) d0,     P0 = (R + h0) d0
 //
 // is wrong by about 1e-7 of the vertex's distance to the eye. Vertices that chunks of any level share are the
-// same to the last bit: on the cube's edges and corners all faces reckon with the point's owning face.
+// same to the last bit: on the cube's edges and corners, all faces use the point's owning face.
 //
 // Pure functions, any thread.
 #pragma once
@@ -53,15 +53,15 @@ struct FineGridPoint {
     bool operator==(const FineGridPoint&) const = default;
 };
 
-// On an edge or a corner of the cube the same point on the face of the lowest index that has it; elsewhere
-// the point itself.
+// Returns a point on an edge or a corner of the cube on the face of the lowest index that has it; any other
+// point as it is.
 FineGridPoint onOwningFace(const FineGridPoint& point);
 
-// Metres from the eye, world axes. The skirt drop is towards the planet's centre.
+// Returns the position in metres from the eye, world axes. The skirt drop is towards the planet's centre.
 glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face face, std::int32_t gridU, std::int32_t gridV,
                          std::int16_t step, float skirtDropM = 0);
 
-// Cells of the fine grid between two neighbouring vertices of a chunk.
+// Returns the cells of the fine grid between two neighbouring vertices of a chunk.
 constexpr std::int32_t fineCellsPerVertex(const PlanetShape& shape, int level) {
     return std::int32_t{1} << (fineGridLog2 - shape.chunkCellsLog2 - level);
 }

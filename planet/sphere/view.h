@@ -1,5 +1,5 @@
-// A perspective view of the planet in double precision, and what selection needs to know of it.
-// Pure functions, any thread.
+// A perspective view of the planet in double precision, with its scale and frustum. Pure functions, any
+// thread.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace planet {
 
-// Where a camera is and looks, in the words people use.
+// The place and direction of a camera, for people.
 struct CameraPose {
     double latitudeDeg = 20;   // [-90, 90]
     double longitudeDeg = 10;  // any; east positive
@@ -33,10 +33,10 @@ struct View {
 View viewFromPose(const CameraPose& pose, double radiusM, double horizontalFovRad, int widthPx, int heightPx);
 CameraPose poseFromView(const View& view, double radiusM);
 
-// K' = W / (2 tan(Hfov / 2)): pixels a metre of error covers at a metre's distance.
+// Returns K' = W / (2 tan(Hfov / 2)): the pixels that 1 m of error covers at a distance of 1 m.
 double screenScalePx(const View& view);
 
-// World to camera, without the translation: doubles on the CPU, camera-relative floats on the GPU.
+// Returns the rotation from world to camera, without the translation.
 glm::dmat3 cameraFromWorldRotation(const View& view);
 
 // Points p with dot(normal, p) + offsetM >= 0 are inside.

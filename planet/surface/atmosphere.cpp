@@ -127,7 +127,7 @@ template <class Value>
 AirTable filled(int width, int height, int depth, const Value& value) {
     AirTable table{width, height, depth, {}};
     table.texels.resize(indexOf(table, 0, 0, depth));
-    forEachInParallel(static_cast<std::size_t>(height * depth), [&](std::size_t index) {
+    parallelFor(static_cast<std::size_t>(height * depth), [&](std::size_t index) {
         const auto line = static_cast<int>(index);
         for (int x = 0; x < width; ++x) {
             const glm::dvec3 texel = value(x, line % height, line / height);

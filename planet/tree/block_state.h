@@ -1,5 +1,5 @@
-// The life of a block: of the four children of a chunk, or of a tile of colours or normals, whose node keeps
-// the state. It begins when that node becomes resident and ends when the node is dropped.
+// The states of a block: the four children of a chunk, or of a tile of colours or normals. The parent's node
+// keeps the state, from when it becomes resident until it is dropped.
 //
 //                .-------- withdrawn --------.
 //                v                           |
@@ -14,8 +14,8 @@
 //       '----> None, where the file has nothing finer
 //
 // A block that had failed before its node was dropped goes from Absent back to AwaitingRetry or Failed as
-// soon as the node is there again. Requested is queued, being read, or read and waiting to be made drawable;
-// which one the queue and the pager know. A block of colours that has failed for good is Resident as a
+// soon as the node is there again. A Requested block is queued, being read, or read and waiting for its
+// upload; the queue and the pager know which. A block of colours that has failed for good is Resident as a
 // checker pattern (tile_tree.h).
 #pragma once
 
@@ -33,7 +33,7 @@ enum class ChildrenState : std::uint8_t {
     Failed,         // could not be read; not asked for again until told to
 };
 
-// Whether the diagram has such a step.
+// Returns whether the diagram has such a step.
 constexpr bool isStep(ChildrenState from, ChildrenState to) {
     using enum ChildrenState;
     switch (from) {
@@ -51,7 +51,7 @@ constexpr bool isStep(ChildrenState from, ChildrenState to) {
     return false;
 }
 
-// The one way in which a node's state changes.
+// Changes the state of a node; nothing else does.
 inline void changeState(ChildrenState& state, ChildrenState to) {
     assert(isStep(state, to));
     state = to;

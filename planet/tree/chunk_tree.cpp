@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "planet/base/try.h"
 #include "planet/sphere/geometric_error.h"
 #include "planet/tree/node_groups.h"
 
@@ -25,43 +26,46 @@ struct Limits {
 Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const ChunkId& id,
                         const Limits& limits) {
     const std::string name = toString(id);
-    if (data.id != id) return badInput(fmt::format("chunk {}: got chunk {}", name, toString(data.id)));
+    if (data.id != id)
+        return badInput(fmt::format("chunk {}: id: {} is wrong; expected {}", name, toString(data.id), name));
     if (data.heights.size() != static_cast<std::size_t>(chunkVertexCount(shape))) {
-        return badInput(
-            fmt::format("chunk {}: {} heights, not {}", name, data.heights.size(), chunkVertexCount(shape)));
+        return badInput(fmt::format("chunk {}: {} heights; expected {}", name, data.heights.size(),
+                                    chunkVertexCount(shape)));
     }
     if (!(data.deltaCM >= 0 && data.deltaCM <= limits.deltaCM)) {
-        return badInput(
-            fmt::format("chunk {}: delta_c {} m is not within [0, {}]", name, data.deltaCM, limits.deltaCM));
+        return badInput(fmt::format("chunk {}: delta_c: {} m is out of range; expected [0, {}] m", name,
+                                    data.deltaCM, limits.deltaCM));
     }
     const float mostTightM = std::min(data.deltaCM, limits.deltaTightM);
     if (!(data.deltaTightM >= 0 && data.deltaTightM <= mostTightM)) {
-        return badInput(fmt::format("chunk {}: a tight metric of {} m is not within [0, {}]", name,
+        return badInput(fmt::format("chunk {}: tight metric: {} m is out of range; expected [0, {}] m", name,
                                     data.deltaTightM, mostTightM));
     }
     if (data.minStep > data.maxStep || data.minStep < limits.minStep || data.maxStep > limits.maxStep) {
-        return badInput(fmt::format("chunk {}: steps from {} to {} are not within [{}, {}]", name,
-                                    data.minStep, data.maxStep, limits.minStep, limits.maxStep));
+        return badInput(fmt::format("chunk {}: extremes: steps {} to {} are out of range; expected [{}, {}]",
+                                    name, data.minStep, data.maxStep, limits.minStep, limits.maxStep));
     }
     const auto [lowest, highest] = std::minmax_element(data.heights.begin(), data.heights.end());
     if (*lowest < data.minStep || *highest > data.maxStep) {
-        return badInput(fmt::format("chunk {}: heights from step {} to {} are not within its [{}, {}]", name,
-                                    *lowest, *highest, data.minStep, data.maxStep));
+        return badInput(
+            fmt::format("chunk {}: heights: steps {} to {} are out of range; expected its extremes, [{}, {}]",
+                        name, *lowest, *highest, data.minStep, data.maxStep));
     }
     if (id.level >= leafLevel(shape) && data.children.exists()) {
-        return badInput(fmt::format("chunk {}: children below the finest level", name));
+        return badInput(fmt::format("chunk {}: has children below the finest level; expected none", name));
     }
     return {};
 }
 
-// A_l + A_l+1 + ... down to the leaves' parents: 0 at a leaf.
+// Returns A_l + A_l+1 + ... down to the leaves' parents; 0 at a leaf.
 double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
     double sum = 0;
     for (int level = fromLevel; level < leafLevel(shape); ++level) sum += curvatureErrorM(shape, level);
     return sum;
 }
 
-// What follows from the node's directions, its stored steps and metrics, and the tree's exaggeration.
+// Sets the values that follow from the node's directions, its stored steps and metrics, and the tree's
+// exaggeration.
 void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     const PlanetShape& shape = tree.shape;
     const double lowM = heightM(shape, node.minStep);
@@ -106,8 +110,8 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     return node;
 }
 
-// Where a ray from the planet's centre meets a triangle's plane, and how far inside the triangle: the least
-// of the three barycentric coordinates there, negative outside.
+// The point where a ray from the planet's centre meets the plane of a triangle. inside: the least of its
+// three barycentric coordinates, negative outside the triangle.
 struct TriangleHit {
     double radiusM = 0;
     double inside = -std::numeric_limits<double>::infinity();
@@ -127,7 +131,8 @@ TriangleHit hitTriangle(const glm::dvec3& direction, const glm::dvec3& a, const 
     return {radiusM, std::min({alongAb, alongAc, 1 - alongAb - alongAc})};
 }
 
-// The better of a cell's two triangles; the diagonal runs from (west, south) to (east, north).
+// Returns the hit that lies further inside its triangle, of the two triangles of a cell. The diagonal runs
+// from (west, south) to (east, north).
 TriangleHit hitCell(const PlanetShape& shape, const ChunkNode& node, int column, int row,
                     const glm::dvec3& direction) {
     const FaceSquare square = faceSquareOf(node.id);
@@ -175,9 +180,7 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
         const ChunkId id{face, 0, 0, 0};
         constexpr float anyM = std::numeric_limits<float>::max();
         const Limits limits{minStep, maxStep, anyM, anyM};
-        if (auto checked = checkChunk(shape, roots[index], id, limits); !checked) {
-            return tl::unexpected(std::move(checked.error()));
-        }
+        TRY(checkChunk(shape, roots[index], id, limits));
         tree.nodes.push_back(makeNode(tree, std::move(roots[index]), noNode, index));
     }
     tree.residentChunks = faceCount;
@@ -218,8 +221,7 @@ Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
     const Limits limits{above.minStep, above.maxStep, above.storedDeltaCM, above.storedDeltaTightM};
     for (int q = 0; q < quadrantCount; ++q) {
         const ChunkData& data = children[static_cast<std::size_t>(q)];
-        if (auto checked = checkChunk(tree.shape, data, childOf(above.id, q), limits); !checked)
-            return checked;
+        TRY(checkChunk(tree.shape, data, childOf(above.id, q), limits));
     }
     return {};
 }
@@ -240,28 +242,12 @@ NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, q
 }
 
 void removeChildren(ChunkTree& tree, NodeIndex parent) {
-    ChunkNode& above = tree.nodes[parent];
-    assert(above.childrenState == ChildrenState::Resident);
-    const NodeIndex first = above.firstChild;
-    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
-        assert(tree.nodes[child].childrenState != ChildrenState::Resident);
-        tree.nodes[child] = ChunkNode{};
-    }
-    tree.freeGroups.push_back(first);
-    above.firstChild = noNode;
-    changeState(above.childrenState, ChildrenState::Absent);
+    freeGroup(tree, parent);
     tree.residentChunks -= quadrantCount;
 }
 
 NodeIndex findNode(const ChunkTree& tree, const ChunkId& id) {
-    auto index = static_cast<NodeIndex>(id.face);
-    for (int level = 1; level <= id.level; ++level) {
-        const ChunkNode& node = tree.nodes[index];
-        if (node.childrenState != ChildrenState::Resident) return noNode;
-        const int below = id.level - level;
-        index = node.firstChild + ((id.x >> below) & 1) + 2 * ((id.y >> below) & 1);
-    }
-    return index;
+    return findResident(tree, id);
 }
 
 void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, const ChunkNode&)>& visit) {
@@ -319,7 +305,7 @@ double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
 }
 
 std::size_t chunkBytesCpu(const PlanetShape& shape) {
-    // The heights' vector and the counts of those who share it lie in one allocation beside them.
+    // The vector of heights and its reference counts lie in another allocation.
     constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
     return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
            sharing;

@@ -48,26 +48,13 @@ NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, 
 }
 
 void removeTiles(TileTree& tree, NodeIndex parent) {
-    const NodeIndex first = tree.nodes[parent].firstChild;
-    assert(tree.nodes[parent].childrenState == ChildrenState::Resident);
-    for (NodeIndex child = first; child < first + quadrantCount; ++child) {
-        assert(tree.nodes[child].firstChild == noNode);
-        tree.nodes[child] = {};
-    }
-    tree.freeGroups.push_back(first);
-    tree.nodes[parent].firstChild = noNode;
-    changeState(tree.nodes[parent].childrenState, ChildrenState::Absent);
+    freeGroup(tree, parent);
     tree.nodes[parent].hasFailed = false;
     tree.residentTiles -= quadrantCount;
 }
 
 NodeIndex findTile(const TileTree& tree, const ChunkId& id) {
-    auto index = static_cast<NodeIndex>(id.face);
-    for (int level = 1; level <= id.level; ++level) {
-        if (tree.nodes[index].childrenState != ChildrenState::Resident) return noNode;
-        index = tree.nodes[index].firstChild + static_cast<NodeIndex>(quadrantOf(ancestorOf(id, level)));
-    }
-    return index;
+    return findResident(tree, id);
 }
 
 }  // namespace planet

@@ -1,6 +1,6 @@
 // The resident part of the six quadtrees of tiles, of colours or of normals: plain data that selection reads
-// and paging grows and prunes. What the texels are is the renderer's; a tile is a slot in its pool. One
-// thread at a time.
+// and paging grows and prunes. The renderer holds the texels; a tile is a slot in its pool. One thread at a
+// time.
 #pragma once
 
 #include <array>
@@ -35,19 +35,19 @@ struct TileTree {
     std::size_t residentTiles = 0;
 };
 
-// The tree with its six roots, given in face order; they stay resident and take slots 0 to 5. leafLevel: [0,
+// Makes the tree of six roots, given in face order; they stay resident and take slots 0 to 5. leafLevel: [0,
 // maxTileLevel].
 TileTree makeTileTree(int leafLevel, bool isDerived, const std::array<TileData, faceCount>& roots);
 
-// Adds the four tiles under one whose children are Requested, in slots from the first on; returns the
-// first. They must be that node's children.
+// Adds the four children of a node whose children are Requested, in slots from the first on; returns the
+// first.
 NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, quadrantCount>& children,
                    std::uint32_t firstSlot);
 
 // Removes a node's four resident children, none of which may have resident children of its own.
 void removeTiles(TileTree& tree, NodeIndex parent);
 
-// The node of an id, or noNode if it is not resident.
+// Returns the node of an id, or noNode if it is not resident.
 NodeIndex findTile(const TileTree& tree, const ChunkId& id);
 
 }  // namespace planet

@@ -1,5 +1,5 @@
-// Draws a baked planet with its colours, fine normals and shadows in a window of its own: all that a program
-// needs to embed planet and planet_gl.
+// Draws a baked planet with its colours, fine normals and shadows in its own window: a complete program that
+// embeds planet and planet_gl.
 // Usage: embed FILE.chk [FRAMES]
 #include <GLFW/glfw3.h>
 #include <planet/gl/draw/planet_renderer.h>

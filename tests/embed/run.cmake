@@ -21,21 +21,21 @@ run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${BUILD_FOLDER}/embed/build -G ${GEN
     -DCMAKE_PREFIX_PATH=${BUILD_FOLDER}/embed/installed -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags})
 run(${CMAKE_COMMAND} --build ${BUILD_FOLDER}/embed/build)
 run(${WORLDY} bake ${DATA} --colour ${COLOUR} --face-size 513 -o ${BUILD_FOLDER}/embed/earth.chk)
-# Under the address sanitizer what the window system's drivers never free is not ours to mend.
+# The address sanitizer ignores leaks in the window system's drivers.
 run(${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0
     ${BUILD_FOLDER}/embed/build/embed ${BUILD_FOLDER}/embed/earth.chk 60)
 message("${output}")
 if(NOT output MATCHES "[1-9][0-9]* chunks, [1-9][0-9]* triangles")
   message(FATAL_ERROR "the embedding program drew nothing")
 endif()
-# More than the six whole faces, so they were streamed.
+# More tiles than the six whole faces prove that they were streamed.
 foreach(kind IN ITEMS chunks "colour tiles" "normal tiles")
   if(NOT output MATCHES "([7-9]|[1-9][0-9]+) resident ${kind}")
     message(FATAL_ERROR "the embedding program streamed no ${kind}")
   endif()
 endforeach()
 
-# The runtime needs no display, and no library of images, of tasks or of drawing.
+# The runtime needs no display and no image, task or graphics library.
 run(${BUILD_FOLDER}/embed/build/runtime ${BUILD_FOLDER}/embed/earth.chk)
 message("${output}")
 if(NOT output MATCHES "([1-9][0-9]*) chunks, ([1-9][0-9]*) resident")

@@ -1,5 +1,5 @@
-// The chunk file's reader: a file is refused, or what it says of its tree can be relied on. Most inputs have
-// their checksums made right, so that nonsense gets past them.
+// Fuzzes the chunk file's reader: it refuses a file, or its tree is valid. Most inputs get correct checksums, so
+// that corrupt content passes them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ void checkNode(const ChunkNode& node) {
         require(std::isfinite(node.bounds.box.centreM[axis]), "bounds are finite");
 }
 
-// As a planet does it: what checkChildren lets pass becomes part of the tree. False where there is none.
+// Grows a tree as a planet does, from the chunks that checkChildren accepts. Returns false if there is no tree.
 bool growTree(const ChunkFile& file) {
     std::array<ChunkData, faceCount> roots;
     for (const Face face : allFaces) {
@@ -71,7 +71,7 @@ bool growTree(const ChunkFile& file) {
     return true;
 }
 
-// Where there is no tree, the blocks that can be read all the same.
+// Reads the readable blocks of a file without a valid tree.
 void readHeights(const ChunkFile& file) {
     std::vector<ChunkData> open;
     for (const Face face : allFaces) {
@@ -108,7 +108,7 @@ void readColours(const ChunkFile& file) {
     }
 }
 
-// One block's bytes, or the header's, are changed in their place; else any of all, and more or fewer.
+// Changes the bytes of one block or of the header in place; else any bytes, and their number.
 std::size_t mutatedPart(std::span<std::uint8_t> file, std::size_t maxSize, std::minstd_rand& random) {
     const auto bytes = std::as_writable_bytes(file);
     const Result<ChunkFileInfo> info = test::infoOf(bytes);

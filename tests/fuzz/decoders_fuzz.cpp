@@ -1,5 +1,5 @@
-// What lies in a chunk file's blocks: coded heights and packed colours, without the file around them. The
-// first byte says which, the second how large a grid.
+// Fuzzes the decoders of a chunk file's blocks: coded heights and packed colours. The first byte of an input
+// chooses the decoder, the second the size of the grid.
 #include <algorithm>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Flights as TOML: one that is read can be flown, and keeps to its keys.
+// Fuzzes flights as TOML: a flight that is read can be flown, and passes its keys.
 #include "app/flight/flight_path_file.h"
 
 #include <algorithm>

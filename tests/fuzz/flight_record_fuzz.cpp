@@ -1,5 +1,5 @@
-// Recorded flights. An input is a file, or, where it does not begin as one, the content of one: compressing
-// and checking it would keep all but the first from being reached.
+// Fuzzes recorded flights. An input is a file or, if it does not begin as one, the content of a file, because
+// compression and the checksum would stop most inputs.
 #include "app/flight/flight_record.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What the fuzzers share: facts that must hold whatever the input.
+// The common parts of the fuzzers: facts that must hold for any input.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 #include "planet/base/result.h"
 
-// Given by libFuzzer: changes bytes in place, and returns how many there are now.
+// libFuzzer defines it: changes bytes in place, and returns their new number.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t maxSize);
 
 namespace fuzz {
@@ -21,7 +21,7 @@ inline void require(bool holds, const char* fact) {
     std::abort();
 }
 
-// Whether something was read; what was refused says so in words.
+// Returns whether a value was read; a refusal must have a message.
 template <class T>
 bool isRead(const planet::Result<T>& result) {
     require(result || !result.error().message.empty(), "an Error has a message");
@@ -36,7 +36,7 @@ inline std::span<const std::byte> bytesOf(const std::uint8_t* data, std::size_t 
     return std::as_bytes(std::span(data, size));
 }
 
-// Takes settings off the front of an input, zeros where it has ended.
+// Takes settings from the front of an input; gives zeros after its end.
 class Input {
 public:
     Input(const std::uint8_t* data, std::size_t size) : left_(data, size) {}

@@ -1,4 +1,4 @@
-// Layer sets: what is read is written again as the same set, and its weights are weights.
+// Fuzzes layer sets: a set that is read is written as the same set, and its weights are valid.
 #include "app/settings/layer_file.h"
 #include "planet/surface/layer_place.h"
 #include "planet/surface/layer_set.h"

@@ -1,5 +1,5 @@
-// Raw cube faces and how they are said to be read: they are refused, or every sample lies within what the
-// source promises. An input is the options, then the six files' bytes.
+// Fuzzes raw cube faces and their settings: they are refused, or every sample lies in the source's range. An
+// input is the options, then the bytes of the six files.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -40,7 +40,7 @@ HeightSourceSettings settingsFrom(fuzz::Input& input) {
     return settings;
 }
 
-// Six files in memory: on a disk they would take most of the time.
+// Six files in memory, because files on a disk would take most of the time.
 class FacesInMemory {
 public:
     FacesInMemory() {

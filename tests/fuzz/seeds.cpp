@@ -1,5 +1,5 @@
-// Writes what the fuzzers begin with, out of the data that comes with Worldy: fuzz_seeds FOLDER makes
-// FOLDER/chunk_file/..., FOLDER/settings/..., one folder a fuzzer.
+// Writes the seeds of the fuzzers from the data that comes with Worldy: fuzz_seeds FOLDER makes
+// FOLDER/chunk_file/..., FOLDER/settings/..., one folder per fuzzer.
 #include <zstd.h>
 
 #include <cstdio>
@@ -29,7 +29,7 @@ using namespace planet;
 using Bytes = std::vector<std::byte>;
 const fs::path data = fs::path(WORLDY_SOURCE_DIR) / "data";
 
-// Seeds are made by those who work on Worldy: what goes wrong ends it.
+// Returns the value of a result; ends the program on an Error.
 template <class T>
 T must(Result<T>&& result) {
     if (!result) {
@@ -58,7 +58,7 @@ void write(const fs::path& file, const std::string& text) {
 
 // ---- chunk files ----
 
-// Of few colours, so that files stay small, and fuzzers quick.
+// Returns a source of few colours, so that files stay small and fuzzers fast.
 ColourSource evenColours() {
     ColourSource source{.description = "even", .naturalFaceSize = 257, .sample = {}};
     source.sample = [](const SampleTile& tile, std::span<glm::vec3> out) -> Result<void> {
@@ -92,12 +92,12 @@ void chunkFiles(const fs::path& folder) {
     baked("two_levels_of_colours.chk", 17, ColourFormat::Bc1, 513);
     Bytes old = read(folder / "heights.chk");
     constexpr std::size_t versionAt = 8;
-    test::putAt(std::span(old), versionAt, oldestChunkFileVersion);
+    test::putAt(std::span(old), versionAt, chunkFileVersion - 1);
     test::resealHeader(old);
     write(folder / "version_2.chk", old);
 }
 
-// ---- what lies in their blocks ----
+// ---- blocks of chunk files ----
 
 Bytes decoderInput(int kind, int size, std::span<const std::byte> coded) {
     Bytes input;
@@ -114,7 +114,7 @@ void codedBlocks(const fs::path& folder) {
         encodeGrid(test::pieceOf(earth, 0, 0, size).samples, size, coded);
         write(folder / ("grid_" + std::to_string(size)), decoderInput(0, log2, coded));
     }
-    // Of a coarse grid of zeros, as the decoder's pattern 0 is.
+    // The coarse grid is zeros, like the decoder's pattern 0.
     for (const int cells : {1, 2, 8, 16, 32}) {
         test::Square fine = test::pieceOf(earth, 0, 0, 2 * cells + 1);
         for (int y = 0; y < fine.side; y += 2)
@@ -188,7 +188,7 @@ void recordedFlights(const fs::path& folder) {
     must(encoder.write(file, "made",
                        {.chunkFile = "earth.chk", .shape = {}, .fileBytes = 1, .headerHash = 2}));
     must(worldy::loadFlightRecord(file));
-    // Its content alone, which is easier to change.
+    // The content alone is easier to mutate.
     const Bytes bytes = read(file);
     constexpr std::size_t packedAt = 28;
     const auto packed = std::span(bytes).subspan(packedAt);

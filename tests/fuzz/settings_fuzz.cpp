@@ -1,4 +1,4 @@
-// Settings files and presets: what is read is written again as the same settings.
+// Fuzzes settings files and presets: settings that are read are written as the same settings.
 #include "app/settings/settings_text.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -25,7 +25,7 @@ void readPreset(std::string_view text) {
     require(isRead(viewPartFromText(viewSettingsText(view), "written.toml")), "what is written can be read");
 }
 
-// A line as an assignment on the command line.
+// Reads a line as an assignment on the command line.
 void setOne(std::string_view text) {
     Settings settings;
     const auto line = text.substr(0, text.find('\n'));

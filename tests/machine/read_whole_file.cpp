@@ -1,7 +1,6 @@
-// What a machine reads in a chunk file, and whether it would write the same: read_whole_file FILE.chk prints
-// one hash over every height, error and texel as numbers, which is to be the same on machines of either byte
-// order, and ends with 1 where the header or a block's heights, written again here, are other bytes than the
-// file's.
+// Reads a whole chunk file: read_whole_file FILE.chk prints one hash over every height, error and texel as
+// numbers, which must be the same on machines of either byte order. Exits with 1 if this machine would encode
+// the header or a block's heights as other bytes than the file's.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -56,7 +55,7 @@ bool areAt(const Reading& reading, std::uint64_t offset, const std::vector<std::
                       reading.bytes.begin() + static_cast<std::ptrdiff_t>(offset));
 }
 
-// The four quarters side by side.
+// Joins the four quarters.
 std::vector<std::int16_t> joined(const std::array<ChunkData, quadrantCount>& children, int cells) {
     const auto side = static_cast<std::size_t>(cells) + 1;
     const std::size_t fineSide = 2 * static_cast<std::size_t>(cells) + 1;

@@ -456,7 +456,7 @@ TEST(Planet, ABlockThatIsNotWhatItShouldBeIsAFailure) {
     ASSERT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, timeoutS));
     EXPECT_GT(planet->paging()[BlockKind::Heights].failed, 0u);
     EXPECT_EQ(planet->tree().residentChunks, 6u);
-    EXPECT_THAT(planet->takeProblems()[0], HasSubstr("3 heights, not 289"));
+    EXPECT_THAT(planet->takeProblems()[0], HasSubstr("3 heights; expected 289"));
 }
 
 TEST(Planet, ABadRootIsAnError) {

@@ -430,9 +430,10 @@ TEST(HeightSource, MoreThanOneChannelIsRefused) {
     const Image<std::uint8_t> grey(8, 4, [](int, int) { return 1; });
     writeImage(folder / "rgb.png", grey, {.channels = 3});
     writeImage(folder / "alpha.tif", grey, {.channels = 2});
-    EXPECT_THAT(errorOf(folder / "rgb.png"),
-                AllOf(HasSubstr("rgb.png"), HasSubstr("expected one grey channel, found 3")));
-    EXPECT_THAT(errorOf(folder / "alpha.tif"), HasSubstr("expected one grey channel, found 2 (Y, A)"));
+    EXPECT_THAT(
+        errorOf(folder / "rgb.png"),
+        AllOf(HasSubstr("rgb.png"), HasSubstr("has 3 channels (R, G, B); expected one grey channel")));
+    EXPECT_THAT(errorOf(folder / "alpha.tif"), HasSubstr("has 2 channels (Y, A); expected one grey channel"));
 }
 
 TEST(HeightSource, WrongShapesAreRefused) {

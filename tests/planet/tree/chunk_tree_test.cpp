@@ -91,22 +91,22 @@ struct TreeDamage {
 };
 
 const TreeDamage damages[] = {
-    {"got chunk",
+    {"is wrong; expected",
      [](ChunkData& chunk) {
          chunk.id = {Face::NegY, 1, 0, 0};
      }},
-    {"heights, not 289", [](ChunkData& chunk) { chunk.heights.pop_back(); }},
+    {"heights; expected 289", [](ChunkData& chunk) { chunk.heights.pop_back(); }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = -1; }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = std::numeric_limits<float>::quiet_NaN(); }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = std::numeric_limits<float>::infinity(); }},
     {"tight metric", [](ChunkData& chunk) { chunk.deltaTightM = -1; }},
     {"tight metric", [](ChunkData& chunk) { chunk.deltaTightM = std::numeric_limits<float>::quiet_NaN(); }},
     {"tight metric", [](ChunkData& chunk) { chunk.deltaTightM = std::nextafter(chunk.deltaCM, 1e9f); }},
-    {"are not within", [](ChunkData& chunk) { std::swap(chunk.minStep, chunk.maxStep); }},
-    {"are not within", [](ChunkData& chunk) { chunk.maxStep = 32767; }},
-    {"are not within", [](ChunkData& chunk) { chunk.minStep = -32768; }},
-    {"are not within its", [](ChunkData& chunk) { chunk.heights[5] = 32767; }},
-    {"are not within its", [](ChunkData& chunk) { chunk.heights[6] = -32768; }},
+    {"are out of range; expected [", [](ChunkData& chunk) { std::swap(chunk.minStep, chunk.maxStep); }},
+    {"are out of range; expected [", [](ChunkData& chunk) { chunk.maxStep = 32767; }},
+    {"are out of range; expected [", [](ChunkData& chunk) { chunk.minStep = -32768; }},
+    {"expected its extremes", [](ChunkData& chunk) { chunk.heights[5] = 32767; }},
+    {"expected its extremes", [](ChunkData& chunk) { chunk.heights[6] = -32768; }},
 };
 
 TEST(ChunkTree, ChildrenThatWouldBreakItsPromisesAreRefused) {
