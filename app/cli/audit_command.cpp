@@ -77,12 +77,6 @@ AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const plane
     return audited;
 }
 
-planet::LodSettings auditedLod(const AuditOptions& options) {
-    planet::LodSettings lod = lodSettingsOf(options.view);
-    lod.metric = options.metric.value_or(lod.metric);
-    return lod;
-}
-
 // A chunk of one of the views.
 struct Listed {
     std::size_t view = 0;
@@ -240,7 +234,7 @@ Result<Audit> audit(const AuditOptions& options) {
     const auto poses = posesOf(options, planet);
     if (!poses) return tl::unexpected(poses.error());
 
-    const planet::LodSettings lod = auditedLod(options);
+    const planet::LodSettings lod = lodSettingsOf(options.view);
     planet::FinestHeights heights(std::make_shared<const planet::ChunkFile>(planet.file()));
     const InterruptWatch watch;
     const auto goOn = [&](std::uint64_t, std::uint64_t) { return !watch.interrupted(); };
@@ -265,7 +259,7 @@ Result<Audit> audit(const AuditOptions& options) {
 
 void printAudit(const AuditOptions& options, const Audit& audit) {
     fmt::print("{}: tau {} px, {} metric, {} x {} px\n", options.file.string(), options.view.lod.tauPx,
-               auditedLod(options).metric == planet::ErrorMetric::Tight ? "tight" : "additive",
+               options.view.lod.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
                options.size.widthPx, options.size.heightPx);
     fmt::print(
         "eps: predicted error of the chunk's own surface; bound: bound of the error of what is drawn, "
@@ -297,7 +291,7 @@ void printAudit(const AuditOptions& options, const Audit& audit) {
 Json auditJson(const AuditOptions& options, const Audit& audit) {
     Json json = {{"file", options.file.string()},
                  {"tau_px", options.view.lod.tauPx},
-                 {"metric", auditedLod(options).metric == planet::ErrorMetric::Tight ? "tight" : "additive"},
+                 {"metric", options.view.lod.metric == planet::ErrorMetric::Tight ? "tight" : "additive"},
                  {"width_px", options.size.widthPx},
                  {"height_px", options.size.heightPx},
                  {"measuring_s", audit.measuringS},

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "app/base/report.h"
@@ -21,9 +20,8 @@ struct AuditOptions {
     std::vector<planet::CameraPose> cameras;  // none, and no flight: auditPoses
     std::filesystem::path flight;             // of keys; empty: none
     FlightSampling sampling;
-    std::optional<planet::ErrorMetric> metric;  // instead of the settings'
-    ReportTo report;                            // every chunk of every view
-    int worst = 20;                             // chunks that are listed, the worst over all views; >= 0
+    ReportTo report;  // every chunk of every view
+    int worst = 20;   // chunks that are listed, the worst over all views; >= 0
     PictureSize size;
     ViewSettings view;
 };

@@ -101,8 +101,8 @@ planet::Result<NamedSource> sourceFrom(const BakeOptions& options) {
     if (!named) return named;
     if (options.radiusM) named->settings.radiusM = *options.radiusM;
     if (!options.detail) return named;
-    const std::string knobs = options.detail->empty() ? "" : *options.detail + ",";
-    const std::string text = fmt::format("detail:{}of={}", knobs, named->source.string());
+    const std::string parameters = options.detail->empty() ? "" : *options.detail + ",";
+    const std::string text = fmt::format("detail:{}of={}", parameters, named->source.string());
     const planet::Result<planet::TerrainSource> good = planet::terrainFromText(text);
     if (!good) return tl::unexpected(good.error());
     named->source = text;

@@ -12,7 +12,7 @@ namespace worldy {
 
 struct BakeOptions {
     std::filesystem::path source;       // a path, a terrain's text or a world's name
-    std::optional<std::string> detail;  // knobs of the detail that is added: "strength=0.8,octaves=4"
+    std::optional<std::string> detail;  // parameters of the detail that is added: "strength=0.8,octaves=4"
     std::filesystem::path output;
     planet::HeightSourceSettings sourceSettings;
     planet::BakeSettings settings;  // all but the radius

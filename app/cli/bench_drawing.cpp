@@ -33,7 +33,7 @@ ViewSettings benchSettings(double tauPx, int budgetMB) {
     settings.lod.hysteresis = 0;
     settings.paging.budgetMB = budgetMB;
     settings.paging.loaderThreads = 2;
-    settings.seams.mode = planet::SeamMode::None;
+    settings.lod.seams = planet::SeamMode::None;
     settings.surface.lighting = false;
     settings.surface.atmosphere = false;
     settings.surface.detail = false;

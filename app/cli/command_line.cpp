@@ -31,6 +31,7 @@
 #include "app/cli/fly_command.h"
 #include "app/cli/pops_command.h"
 #include "app/cli/replay_command.h"
+#include "app/cli/settings_command.h"
 #include "app/cli/shot_command.h"
 #include "app/cli/sweep_command.h"
 #include "app/cli/write_plan.h"
@@ -126,15 +127,11 @@ void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
     command.add_option("--samples", options.samples, "Multisampling, samples per pixel (4)")
         ->check(CLI::Range(1, 16));
-    command.add_flag("--wireframe", view.wireframe, "Draw triangle edges");
-    command.add_flag("--no-skirts", view.noSkirts, "Draw no skirts, short for --set seams.mode=none");
-    command.add_flag("--cube", view.cube, "Draw the unprojected cube");
-    command
-        .add_option("--colour-by", view.colourBy,
-                    fmt::format("Quantity that tints chunks: {} (none)", fmt::join(colourByNames, ", ")))
-        ->check(oneOf(colourByNames));
-    command.add_option("--surface", view.surface, "Ground colour: image or ramp (image)")
-        ->check(oneOf(surfaceNames));
+    addSettingFlag(command, "--wireframe", {"overlay.wireframe=true"}, "Draw triangle edges", view);
+    addSettingFlag(command, "--no-skirts", {"seams.mode=none"}, "Draw no skirts", view);
+    addSettingFlag(command, "--cube", {"overlay.cube=true"}, "Draw the unprojected cube", view);
+    addSettingOption(command, "--colour-by", defaultField("overlay.colour_by"), view);
+    addSettingOption(command, "--surface", defaultField("surface.colour"), view);
     command.add_option("--colour-image", options.colourImage,
                        "Colour image of the planet (colour.jpg beside FILE)");
     command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
@@ -185,8 +182,7 @@ void addSweep(CLI::App& command, SweepOptions& options, SweepTexts& texts) {
 
 void addCracks(CLI::App& command, CracksOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--seams", view.seams, "Crack treatment: none, skirts or stitched (skirts)")
-        ->check(CLI::IsMember({"none", "skirts", "stitched"}));
+    addSettingOption(command, "--seams", defaultField("seams.mode"), view);
     command.add_flag(
         "--find-depth", options.findDepth,
         "Also find the smallest skirt depth and the smallest automatic factor that leave no uncovered pixel");
@@ -236,10 +232,9 @@ void addCompare(CLI::App& command, CompareOptions& options, CompareTexts& texts)
         "Folder for pictures of the frame that differs most: side_by_side.png, difference.png");
 }
 
-void addAudit(CLI::App& command, AuditOptions& options, std::string& metric) {
+void addAudit(CLI::App& command, AuditOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
-    command.add_option("--metric", metric, "Error metric for selection and prediction: additive or tight")
-        ->check(oneOf(errorMetricNames));
+    addSettingOption(command, "--metric", defaultField("lod.metric"), view);
 }
 
 void addReplay(CLI::App& command, ReplayOptions& options) {
@@ -255,6 +250,10 @@ void addReplay(CLI::App& command, ReplayOptions& options) {
         .add_flag_function("--as-recorded", set(ReplayPaging::AsRecorded),
                            "Blocks arrive in their recorded frames (default)")
         ->excludes(simulated);
+}
+
+void addSettings(CLI::App& command, SettingsCommandOptions& options) {
+    command.add_flag("--table", options.table, "Print a Markdown table")->excludes("--json");
 }
 
 void addFile(CLI::App& command, FileCommandOptions& options) {
@@ -380,15 +379,9 @@ Result<void> finish(CompareOptions& options, const SharedTexts& shared, const Co
     return {};
 }
 
-Result<void> finish(AuditOptions& options, const std::string& metric) {
-    if (!metric.empty()) options.metric = metricOf(metric);
-    return {};
-}
-
 Result<void> finish(ReplayOptions& options, const SharedTexts& texts) {
-    if (texts.view.tauPx) options.assignments.push_back(fmt::format("lod.tau_px={}", *texts.view.tauPx));
-    options.assignments.insert(options.assignments.end(), texts.view.assignments.begin(),
-                               texts.view.assignments.end());
+    for (const auto* given : {&texts.view.options, &texts.view.assignments})
+        options.assignments.insert(options.assignments.end(), given->begin(), given->end());
     return {};
 }
 
@@ -420,11 +413,11 @@ struct CommandLine {
     CostsOptions costs;
     PopsOptions pops;
     AuditOptions audit;
-    std::string auditMetric;
     ReplayOptions replay;
     CompareOptions compare;
     CompareTexts compareTexts;
     MakeLayersOptions makeLayers;
+    SettingsCommandOptions settings;
     std::map<std::string_view, SharedTexts> shared;  // by command; nodes of a map stay where they are
     std::vector<std::filesystem::path> moreInputs;   // that the command reads besides what its options name
 
@@ -454,10 +447,11 @@ struct CommandLine {
         addCracks(at("cracks"), cracks, shared["cracks"].view);
         addCosts(at("costs"), costs);
         addPops(at("pops"), pops);
-        addAudit(at("audit"), audit, auditMetric);
+        addAudit(at("audit"), audit, shared["audit"].view);
         addReplay(at("replay"), replay);
         addCompare(at("compare"), compare, compareTexts);
         addMakeLayers(at("make-layers"), makeLayers);
+        addSettings(at("settings"), settings);
         app.require_subcommand(0, 1);
     }
     // The shared options of a command go into its own, which come back with the settings.
@@ -554,8 +548,8 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"cracks", command("cracks", line.cracks, runCracks, ready)},
         {"costs", command("costs", line.costs, runCosts, ready)},
         {"pops", command("pops", line.pops, runPops, ready)},
-        {"audit", command("audit", line.audit, runAudit,
-                          [&](const Settings&) { return finish(line.audit, line.auditMetric); })},
+        {"audit", command("audit", line.audit, runAudit, ready)},
+        {"settings", command("settings", line.settings, runSettings, ready)},
         {"compare", command("compare", line.compare, runCompare,
                             [&](const Settings&) {
                                 for (const SideTexts& side : line.compareTexts)

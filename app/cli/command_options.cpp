@@ -6,7 +6,9 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <functional>
 
+#include "app/settings/setting_value.h"
 #include "app/settings/view_options.h"
 
 namespace worldy {
@@ -24,7 +26,7 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 15> commandTable = {{
+constexpr std::array<CommandSpec, 16> commandTable = {{
     {.name = "bake",
      .about = "Bake an elevation image, six cube faces or procedural terrain into a chunk file",
      .takes = takes::json | takes::output | takes::source,
@@ -89,6 +91,9 @@ constexpr std::array<CommandSpec, 15> commandTable = {{
      .takes = pictureOptions | takes::output | takes::mustFlight,
      .output = reportHelp,
      .sampling = byFrames(12)},
+    {.name = "settings",
+     .about = "Print all settings with their defaults as a settings file, as a Markdown table, or as JSON",
+     .takes = takes::json},
     {.name = "make-layers",
      .about = "Generate the six materials of the texture layers and the sets that use them",
      .takes = takes::json | takes::mustOutput,
@@ -161,10 +166,10 @@ void addViewOptions(CLI::App& command, ViewTexts& view) {
     command.add_option(
         "--layers", view.layerSet,
         "Texture layer set, .toml; with software rendering also give --set surface.layer_use=on");
-    command.add_option("--budget", view.budgetMB, "Memory budget for resident chunks, MiB (256)")
-        ->check(CLI::Range(16, 65536));
-    command.add_flag("--no-culling", view.noCulling, "Turn off frustum and horizon culling");
-    command.add_option("--fov", view.fovDeg, "Horizontal field of view, degrees (60)")->check(number(5, 150));
+    addSettingOption(command, "--budget", defaultField("paging.budget_mb"), view);
+    addSettingFlag(command, "--no-culling", {"lod.frustum_culling=false", "lod.horizon_culling=false"},
+                   "Turn off frustum and horizon culling", view);
+    addSettingOption(command, "--fov", defaultField("view.fov_deg"), view);
 }
 
 void addCamera(CLI::App& command, const CommandSpec& spec, SharedTexts& texts) {
@@ -180,6 +185,37 @@ void addCamera(CLI::App& command, const CommandSpec& spec, SharedTexts& texts) {
 }
 
 }  // namespace
+
+CLI::Validator valueOf(const Field& field) {
+    const auto check = [field](const std::string& text) {
+        Settings settings;
+        const planet::Result<void> set = setField("", movedTo(field, settings), text);
+        // The parser puts the option's name before it.
+        return set ? std::string() : set.error().message.substr(std::string_view(": ").size());
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Option& addSettingOption(CLI::App& command, const char* option, const Field& field, ViewTexts& view) {
+    const std::function<void(const std::string&)> take = [&view,
+                                                          name = field.name()](const std::string& text) {
+        view.options.push_back(fmt::format("{}={}", name, text));
+    };
+    return *command
+                .add_option_function(
+                    option, take,
+                    fmt::format("{} Sets {}: {}", firstSentence(field), field.name(), summaryOf(field)))
+                ->check(valueOf(field));
+}
+
+CLI::Option& addSettingFlag(CLI::App& command, const char* flag, std::vector<std::string> assignments,
+                            const char* help, ViewTexts& view) {
+    const std::function<void(std::int64_t)> take = [&view, assignments](std::int64_t) {
+        view.options.insert(view.options.end(), assignments.begin(), assignments.end());
+    };
+    return *command.add_flag_function(
+        flag, take, fmt::format("{}; short for --set {}", help, fmt::join(assignments, " --set ")));
+}
 
 CLI::Validator number(double min, double max, bool zeroToo) {
     const std::string wanted = fmt::format("a number in [{}, {}]{}", min, max, zeroToo ? "" : ", not 0");
@@ -240,18 +276,15 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
     if (takesAny(takes::flight | takes::mustFlight)) addFlightOptions(command, spec, texts);
     if (takesAny(takes::size))
         command.add_option("--size", texts.view.size, "Picture size, WIDTHxHEIGHT (1280x720)");
-    if (takesAny(takes::tau)) {
-        command
-            .add_option("--tau", texts.view.tauPx,
-                        "Screen-space error threshold tau, pixels (from the settings)")
-            ->check(number(smallestTauPx, largestTauPx));
-    }
+    if (takesAny(takes::tau)) addSettingOption(command, "--tau", defaultField("lod.tau_px"), texts.view);
     if (takesAny(takes::taus)) {
+        const Field& tau = defaultField("lod.tau_px");
         command
-            .add_option("--tau", texts.tausPx,
-                        fmt::format("Screen-space error thresholds tau, pixels ({})", spec.defaultTaus))
+            .add_option(
+                "--tau", texts.tausPx,
+                fmt::format("{} Each is a {} ({})", firstSentence(tau), allowedText(tau), spec.defaultTaus))
             ->delimiter(',')
-            ->check(number(smallestTauPx, largestTauPx));
+            ->check(valueOf(tau));
     }
     if (takesAny(takes::set)) {
         command

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/flight/flight_path.h"
+#include "app/settings/settings_schema.h"
 #include "app/settings/view_options.h"
 #include "planet/source/height_source.h"
 
@@ -67,6 +68,14 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
 // An Error for a spelling that is no longer taken, which says the one that is, and for a list with an empty
 // entry. The program's name comes first.
 planet::Result<void> checkSpellings(std::span<const char* const> arguments);
+
+// Add an option or a flag that sets a setting. The help, the range and the errors of an option are those of the schema.
+// A flag sets the assignments.
+CLI::Option& addSettingOption(CLI::App& command, const char* option, const Field& field, ViewTexts& view);
+CLI::Option& addSettingFlag(CLI::App& command, const char* flag, std::vector<std::string> assignments,
+                            const char* help, ViewTexts& view);
+// Returns a validator that accepts the values of a setting.
+CLI::Validator valueOf(const Field& field);
 
 // A number in a closed range; CLI11's own lets "nan" through.
 CLI::Validator number(double min, double max, bool zeroToo = true);

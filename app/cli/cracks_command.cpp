@@ -142,10 +142,10 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
 Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const Measured& all,
                       planet::SkirtDepth kind) {
     ViewSettings settings = options.view;
-    settings.seams.mode = planet::SeamMode::Skirts;
-    settings.seams.depth = kind;
-    settings.seams.skirtDepthM = all.smallest.depthM;
-    settings.seams.skirtFactor = all.smallest.factor;
+    settings.lod.seams = planet::SeamMode::Skirts;
+    settings.lod.skirtDepth = kind;
+    settings.lod.skirtDepthM = all.smallest.depthM;
+    settings.lod.skirtFactor = all.smallest.factor;
     int leaking = 0;
     for (const MeasuredView& view : all.views) {
         offscreen.scene.planet->tools().startAnew();
@@ -197,7 +197,7 @@ Json reportOf(const CracksOptions& options, const Measured& all, const std::opti
                    {"height_px", options.size.heightPx},
                    {"tau_px", options.view.lod.tauPx},
                    {"morph", options.view.lod.morph},
-                   {"seams", seamNames[static_cast<std::size_t>(options.view.seams.mode)]},
+                   {"seams", seamNames[static_cast<std::size_t>(options.view.lod.seams)]},
                    {"views", all.views.size()},
                    {"crack_px", totals.cracks},
                    {"leaking_px", totals.leaking},
@@ -337,7 +337,7 @@ Result<void> measureAll(Offscreen& offscreen, const CracksOptions& options, Meas
 }  // namespace
 
 Result<bool> runCracks(const CracksOptions& options) {
-    if (options.findDepth && options.view.seams.mode == planet::SeamMode::Stitched) {
+    if (options.findDepth && options.view.lod.seams == planet::SeamMode::Stitched) {
         return planet::badInput("--find-depth: stitched seams have no skirts; expected --seams skirts");
     }
     const SceneConfig config{.chunkFile = options.file, .shaderFolder = options.shaderFolder};

@@ -78,16 +78,16 @@ void keepPops(const Scene& scene, const CompareFrame& now, planet::PopMeter& pop
              {.cameraJumped = now.cameraJumped, .seaM = scene.seaSurfaceM});
 }
 
-planet::gl::PictureMix mixOf(const CompareKnobs& knobs, int widthPx) {
-    switch (knobs.mode) {
+planet::gl::PictureMix mixOf(const CompareSettings& shown, int widthPx) {
+    switch (shown.mode) {
         case CompareMode::SideBySide:
             return planet::gl::sideBySideMix(widthPx);
         case CompareMode::Wipe:
-            return planet::gl::wipeMix(widthPx, knobs.wipe);
+            return planet::gl::wipeMix(widthPx, shown.wipe);
         case CompareMode::Difference:
-            return planet::gl::differenceMix(knobs.gain);
+            return planet::gl::differenceMix(shown.gain);
         case CompareMode::Flip:
-            return planet::gl::onlyMix(widthPx, knobs.showB);
+            return planet::gl::onlyMix(widthPx, shown.showB);
     }
     return {};
 }

@@ -19,7 +19,7 @@ namespace {
 
 // wiped: null, or what its divider changes.
 void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
-                   CompareKnobs* wiped = nullptr) {
+                   CompareSettings* wiped = nullptr) {
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
@@ -42,7 +42,7 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
 void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewport& viewport,
                      ui::Commands& commands) {
     const float pixelRatio = viewport.pixelRatio;
-    CompareKnobs& compare = settings.compare;
+    CompareSettings& compare = settings.compare;
     const bool wiping = view.compare.on && compare.mode == CompareMode::Wipe;
     pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
     if (viewport.main.shown()) {

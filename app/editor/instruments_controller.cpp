@@ -78,7 +78,7 @@ void probe(const DrawnFrame& drawn, ui::ProbeView& probe) {
     const planet::Planet& planet = *drawn.scene.planet;
     const ProbeInput input{planet.tree(), planet.selection(), picture.view,
                            drawn.scene.renderer.chunks().projection(),
-                           drawn.settings.view.seams.mode == planet::SeamMode::Stitched};
+                           drawn.settings.view.lod.seams == planet::SeamMode::Stitched};
     probe.overGround = false;
     if (picture.shown() && picture.pointer.over) {
         const std::optional<planet::SurfaceHit> hit =
@@ -120,7 +120,7 @@ void forgetPlanet(InstrumentsController& instruments) {
 
 void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& drawn, const Log& log,
                         ui::Commands& commands) {
-    const CrackKnobs& cracks = drawn.settings.view.cracks;
+    const CrackSettings& cracks = drawn.settings.view.cracks;
     if (cracks.live && drawn.frame % static_cast<std::uint64_t>(cracks.everyFrames) == 0)
         commands.emplace_back(ui::MeasureCracks{});
     measureCosts(drawn.scene, instruments.costs);

@@ -389,7 +389,6 @@ void RecordingHandler::operator()(const ui::StartReplay& command) const {
 // Settings that choose and load come from the recording alone; the others may be changed meanwhile.
 void holdRecordedSettings(const ViewSettings& recorded, ViewSettings& settings) {
     settings.lod = recorded.lod;
-    settings.seams = recorded.seams;
     settings.paging = recorded.paging;
     settings.overlay.cube = recorded.overlay.cube;
     settings.surface.exaggeration = recorded.surface.exaggeration;
@@ -437,7 +436,7 @@ void replayFrame(RecordingController& controller, Scene& scene, const ReplayCont
         },
         [&](const ViewSettings& recorded, bool pagingPaused) {
             const CameraSettings cameraSettings = settings.camera;
-            const CompareKnobs compare = settings.compare;
+            const CompareSettings compare = settings.compare;
             settings = recorded;
             settings.camera = cameraSettings;
             settings.compare = compare;

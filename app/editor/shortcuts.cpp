@@ -57,7 +57,7 @@ void leave(const Targets& targets) {
 // From A's picture to B's and back, whatever the two were shown as.
 void flipCompared(const Targets& targets) {
     if (!targets.view.compare.on) return;
-    CompareKnobs& compare = targets.settings.compare;
+    CompareSettings& compare = targets.settings.compare;
     compare.showB = compare.mode != CompareMode::Flip || !compare.showB;
     compare.mode = CompareMode::Flip;
 }

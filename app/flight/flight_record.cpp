@@ -15,7 +15,8 @@
 #include <set>
 
 #include "app/base/toml_file.h"
-#include "app/settings/settings_table.h"
+#include "app/settings/setting_value.h"
+#include "app/settings/settings_schema.h"
 #include "app/settings/settings_text.h"
 #include "planet/base/atomic_file.h"
 #include "planet/base/little_endian.h"
@@ -523,17 +524,15 @@ Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, c
 namespace {
 
 bool isFlightField(const Field& field) {
-    const std::string name = field.name();
-    return isViewTable(field.table) && name != "view.flight" && name != "view.mode";
+    return field.table != "view" || (field.key != "flight" && field.key != "mode");
 }
 
 }  // namespace
 
 std::vector<std::string> flightSettings(const ViewSettings& now) {
-    Settings settings;
-    settings.view = now;
+    ViewSettings copy = now;
     std::vector<std::string> assignments;
-    for (const Field& field : fieldsOf(settings)) {
+    for (const Field& field : fieldsOf(copy)) {
         if (isFlightField(field)) assignments.push_back(fmt::format("{}={}", field.name(), plainText(field)));
     }
     return assignments;

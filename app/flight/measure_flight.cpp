@@ -35,7 +35,7 @@ Result<void> addError(const Offscreen& offscreen, const planet::View& view, cons
     const planet::Planet& planet = *offscreen.scene.planet;
     const Result<planet::TrueErrorReport> report =
         planet::measureTrueError(planet::snapshotOf(planet.tree(), planet.selection().draw, view,
-                                                    settings.seams.mode == planet::SeamMode::Stitched),
+                                                    settings.lod.seams == planet::SeamMode::Stitched),
                                  heights, [&](std::uint64_t, std::uint64_t) { return goOn(); });
     if (!report) return tl::unexpected(report.error());
     figures.worstEpsPx = std::max(figures.worstEpsPx, report->worstEpsPx);

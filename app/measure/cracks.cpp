@@ -83,7 +83,7 @@ Result<CrackMeasurement> measureCracks(Scene& scene, const planet::View& view, c
     CrackMeasurement made;
     made.view = view;
     made.lodView = scene.planet->views()[0].input.lodView;
-    made.seams = settings.seams.mode;
+    made.seams = settings.lod.seams;
     made.pairs = planet::drawnPairs(selection.draw);
     for (const planet::DrawItem& item : selection.draw) made.items.push_back(item.id);
     made.levelPairs = selection.seams.size();
@@ -145,7 +145,7 @@ bool isCurrent(const CrackInstrument& instrument, const Scene& scene, const plan
         return a.id == b.id && a.skirtDepthM == b.skirtDepthM && a.morph == b.morph;
     };
     const std::vector<planet::DrawItem>& drawn = scene.planet->selection().draw;
-    return instrument.measured->seams == settings.seams.mode &&
+    return instrument.measured->seams == settings.lod.seams &&
            std::equal(instrument.drawn.begin(), instrument.drawn.end(), drawn.begin(), drawn.end(), sameItem);
 }
 

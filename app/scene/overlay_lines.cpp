@@ -88,7 +88,7 @@ planet::Lines overlayLines(const planet::ChunkTree& tree, const planet::Selectio
         for (const planet::DrawItem& item : selection.draw)
             appendFailed(tree, tree.nodes[item.node], renderView, lines);
     }
-    if (settings.seams.showPairs) {
+    if (settings.overlay.lodSeams) {
         for (const planet::LevelSeam& seam : selection.seams) appendSeam(tree, seam, renderView, lines);
     }
     return lines;

@@ -149,7 +149,7 @@ void drawScene(Scene& scene, const planet::View& renderView, const ViewSettings&
                std::size_t selection, std::span<const planet::gl::ChunkTint> tints,
                planet::gl::ShaderWait wait) {
     drawItems(scene, renderView, settings, scene.planet->selection(selection).draw,
-              settings.seams.mode == planet::SeamMode::Stitched, tints, wait);
+              settings.lod.seams == planet::SeamMode::Stitched, tints, wait);
 }
 
 void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings& asked,

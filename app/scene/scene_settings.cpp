@@ -43,21 +43,9 @@ planet::gl::LayerDrawing layerDrawingOf(const LayerSettings& layers) {
 }  // namespace
 
 planet::LodSettings lodSettingsOf(const ViewSettings& settings) {
-    planet::LodSettings lod;
-    lod.metric = settings.lod.metric;
-    lod.tauPx = settings.lod.tauPx;
-    lod.hysteresis = settings.lod.hysteresis;
-    lod.maxLevel = settings.lod.maxLevel;
-    // Bounds are those of the sphere; on the cube they would cut away what is in view.
-    lod.frustumCulling = settings.lod.frustumCulling && !settings.overlay.cube;
-    lod.horizonCulling = settings.lod.horizonCulling && !settings.overlay.cube;
-    lod.morph = settings.lod.morph;
-    lod.morphRange = settings.lod.morphRange;
-    lod.fadeS = settings.lod.fadeS;
-    lod.seams = settings.seams.mode;
-    lod.skirtDepth = settings.seams.depth;
-    lod.skirtDepthM = settings.seams.skirtDepthM;
-    lod.skirtFactor = settings.seams.skirtFactor;
+    planet::LodSettings lod = settings.lod;
+    // Bounds are those of the sphere, so culling would remove visible parts of the cube.
+    if (settings.overlay.cube) lod.frustumCulling = lod.horizonCulling = false;
     return lod;
 }
 
@@ -111,7 +99,7 @@ planet::gl::RenderSettings renderSettingsOf(const ViewSettings& settings, const 
     render.wireframe = overlay.wireframe;
     render.outlines = overlay.outlines;
     render.skirtPaint = overlay.skirtPaint;
-    render.stitched = settings.seams.mode == planet::SeamMode::Stitched;
+    render.stitched = settings.lod.seams == planet::SeamMode::Stitched;
     render.cube = overlay.cube;
     render.atmosphere = surface.atmosphere && !overlay.cube;
     render.lighting = surface.lighting;

@@ -9,7 +9,7 @@ struct SettingDifference {
     std::string setting;  // "lod.tau_px"
     std::string here;
     std::string there;
-    std::string label{};  // as the panel's control: "Tolerance τ"
+    std::string label{};  // the title of its control: "Tolerance τ"
 };
 
 }  // namespace worldy

@@ -1,6 +1,5 @@
-// The settings that Worldy keeps between sessions, and the names of their enumerators. The table of all
-// settings, with their ranges, is in app/settings/settings_table.cpp; reading and writing them as text is in
-// app/settings/settings_text.h.
+// The settings that Worldy keeps between sessions, and the names of their enumerators. app/settings/settings_schema.cpp
+// describes each setting; app/settings/settings_text.h reads and writes them as text.
 #pragma once
 
 #include <array>
@@ -34,13 +33,12 @@ inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
 inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};
 
 struct Settings {
-    std::string dataSet;      // chunk file, elevation image or faces to open; empty: the Earth
-    std::string colourImage;  // picture laid over it; empty: colour.jpg or colour.png beside the data set
+    std::string dataSet;
+    std::string colourImage;
     ViewSettings view;
-    planet::CameraPose camera{.altitudeM =
-                                  0};  // where a session starts; altitude 0: the whole planet in view
-    int windowWidthPx = 1600;          // [640, 16384]
-    int windowHeightPx = 1000;         // [400, 16384]
+    planet::CameraPose camera{.altitudeM = 0};  // the start of a session
+    int windowWidthPx = 1600;
+    int windowHeightPx = 1000;
     Workspace workspace;
 };
 

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "app/base/output_file.h"
 #include "app/base/toml_file.h"
-#include "app/settings/setting_labels.h"
-#include "app/settings/settings_table.h"
+#include "app/settings/setting_value.h"
+#include "app/settings/settings_schema.h"
 
 namespace worldy {
 
@@ -17,38 +18,34 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// The names of the settings that a table holds go to read. Former names in one pass and the present ones in
-// another, so that where a file has both the present one counts.
+// Reads the settings that a table holds and appends their names.
 Result<void> readTable(const fs::path& file, std::string_view tableName, const toml::table& table,
-                       const std::vector<Field>& fields, bool formerNames, std::vector<std::string>& read) {
+                       const std::vector<Field>& fields, std::vector<std::string>& names) {
     for (const auto& [key, node] : table) {
-        const std::string name = fmt::format("{}.{}", tableName, key.str());
+        std::string name = fmt::format("{}.{}", tableName, key.str());
         const Field* field = findField(fields, name);
         if (!field) return unknownSetting(placeOf(file, node), name, fields);
-        if (isFormerName(name) != formerNames) continue;
-        if (Result<void> good = readField(file, *field, name, node); !good) return good;
-        read.push_back(field->name());
+        if (Result<void> good = readField(file, *field, node); !good) return good;
+        names.push_back(std::move(name));
     }
     return {};
 }
 
-// Into the settings; returns the names of those that the document holds.
+// Reads a document into the settings. Returns the names of those that it holds.
 Result<std::vector<std::string>> readDocument(const fs::path& file, const toml::table& document,
                                               Settings& settings) {
     const std::vector<Field> fields = fieldsOf(settings);
-    std::vector<std::string> read;
-    for (const bool formerNames : {true, false}) {
-        for (const auto& [key, node] : document) {
-            const std::string_view name = key.str();
-            const bool known =
-                std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.table == name; });
-            const toml::table* table = node.as_table();
-            if (!known || !table) return unknownSetting(placeOf(file, node), name, fields);
-            if (Result<void> good = readTable(file, name, *table, fields, formerNames, read); !good)
-                return tl::unexpected(good.error());
-        }
+    std::vector<std::string> names;
+    for (const auto& [key, node] : document) {
+        const std::string_view name = key.str();
+        const bool known =
+            std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.table == name; });
+        const toml::table* table = node.as_table();
+        if (!known || !table) return unknownSetting(placeOf(file, node), name, fields);
+        if (Result<void> good = readTable(file, name, *table, fields, names); !good)
+            return tl::unexpected(good.error());
     }
-    return read;
+    return names;
 }
 
 Result<Settings> settingsOf(const fs::path& file, const toml::table& document, const Settings& base) {
@@ -67,21 +64,6 @@ Result<ViewPart> viewPartOf(const fs::path& file, const toml::table& document) {
 }
 
 template <class Wanted>
-std::string textOf(const Settings& settings, const Wanted& wanted) {
-    Settings copy = settings;
-    std::string text;
-    std::string_view table;
-    for (const Field& field : fieldsOf(copy)) {
-        if (!wanted(field)) continue;
-        if (field.table != table) text += fmt::format("\n[{}]\n", field.table);
-        table = field.table;
-        if (!field.meaning.empty()) text += fmt::format("# {}\n", field.meaning);
-        text += fmt::format("{} = {}\n", field.key, tomlText(field));
-    }
-    return text;
-}
-
-template <class Wanted>
 std::vector<SettingDifference> differencesIn(Settings here, Settings there, const Wanted& wanted) {
     const std::vector<Field> hereFields = fieldsOf(here), thereFields = fieldsOf(there);
     std::vector<SettingDifference> found;
@@ -89,8 +71,8 @@ std::vector<SettingDifference> differencesIn(Settings here, Settings there, cons
         if (!wanted(hereFields[i])) continue;
         std::string hereText = plainText(hereFields[i]), thereText = plainText(thereFields[i]);
         if (hereText == thereText) continue;
-        const std::string name = hereFields[i].name();
-        found.push_back({name, std::move(hereText), std::move(thereText), std::string(settingLabel(name))});
+        found.push_back({hereFields[i].name(), std::move(hereText), std::move(thereText),
+                         std::string(titleOf(hereFields[i]))});
     }
     return found;
 }
@@ -103,26 +85,6 @@ Settings settingsWith(const ViewSettings& view) {
     Settings settings;
     settings.view = view;
     return settings;
-}
-
-std::string_view withoutSpaces(std::string_view text) {
-    const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
-    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
-// The value of an assignment. Words and texts may do without quotes; what is not TOML at all is taken for a
-// text, and the field says what would be right.
-toml::table valueFrom(const Field& field, std::string_view text) {
-    const bool bare =
-        std::holds_alternative<Choice>(field.value) || std::holds_alternative<Text>(field.value);
-    if (!std::holds_alternative<Text>(field.value)) text = withoutSpaces(text);
-    const bool quoted = text.starts_with('"') || text.starts_with('\'');
-    if (!bare || quoted) {
-        const Result<toml::table> parsed = parseTomlText(fmt::format("value = {}", text), {});
-        // A copy has forgotten its line, which the user never saw.
-        if (parsed && parsed->size() == 1) return toml::table(*parsed);
-    }
-    return toml::table{{"value", std::string(text)}};
 }
 
 }  // namespace
@@ -142,9 +104,23 @@ Result<Settings> settingsFromText(std::string_view text, const fs::path& place, 
     });
 }
 
+std::string fieldsText(std::span<const Field> fields) {
+    std::string text;
+    std::string_view table;
+    for (const Field& field : fields) {
+        if (field.table != table) text += fmt::format("\n[{}]\n", field.table);
+        table = field.table;
+        std::string summary = summaryOf(field);
+        summary.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(summary.front())));
+        text += fmt::format("# {} {}.\n{} = {}\n", firstSentence(field), summary, field.key, tomlText(field));
+    }
+    return text;
+}
+
 std::string settingsText(const Settings& settings) {
+    Settings copy = settings;
     return "# Worldy's settings, written on exit. Delete a line to restore its default.\n" +
-           textOf(settings, [](const Field&) { return true; });
+           fieldsText(fieldsOf(copy));
 }
 
 Result<void> saveSettings(const Settings& settings, const fs::path& file) {
@@ -154,18 +130,22 @@ Result<void> saveSettings(const Settings& settings, const fs::path& file) {
 }
 
 Result<void> setSetting(Settings& settings, std::string_view assignment) {
+    return setSetting(fieldsOf(settings), assignment);
+}
+
+Result<void> setSetting(std::span<const Field> fields, std::string_view assignment) {
     const std::string place = fmt::format("{:.60}", assignment);
     const std::size_t equals = assignment.find('=');
-    const std::string_view name = withoutSpaces(assignment.substr(0, equals));
-    const std::vector<Field> fields = fieldsOf(settings);
+    std::string_view name = assignment.substr(0, equals);
+    while (name.starts_with(' ')) name.remove_prefix(1);
+    while (name.ends_with(' ')) name.remove_suffix(1);
     const Field* field = findField(fields, name);
     if (!field) return unknownSetting(place, name, fields);
     if (equals == std::string_view::npos) {
         return planet::badInput(
             fmt::format("{}: has no value; expected {}={}", place, name, plainText(*field)));
     }
-    const toml::table value = valueFrom(*field, assignment.substr(equals + 1));
-    return readField(place, *field, name, *value.get("value"));
+    return setField(place, *field, assignment.substr(equals + 1));
 }
 
 std::vector<SettingDifference> differences(const Settings& here, const Settings& there) {
@@ -180,8 +160,9 @@ std::vector<std::string> assignmentsFor(const ViewSettings& view) {
 }
 
 std::string viewSettingsText(const ViewSettings& view) {
+    ViewSettings copy = view;
     return "# Partial view settings of Worldy; keys not listed keep their values.\n" +
-           textOf(settingsWith(view), isViewField);
+           fieldsText(fieldsOf(copy));
 }
 
 Result<ViewPart> loadViewPart(const fs::path& file) {
@@ -196,11 +177,11 @@ Result<ViewPart> viewPartFromText(std::string_view text, const fs::path& place) 
 }
 
 ViewSettings applied(const ViewPart& part, const ViewSettings& now) {
-    Settings from = settingsWith(part.values), to = settingsWith(now);
+    ViewSettings from = part.values, to = now;
     const std::vector<Field> fromFields = fieldsOf(from), toFields = fieldsOf(to);
     for (const std::string& name : part.names)
         copyValue(*findField(fromFields, name), *findField(toFields, name));
-    return to.view;
+    return to;
 }
 
 std::vector<SettingDifference> differences(const ViewSettings& here, const ViewPart& there) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,25 +15,30 @@
 
 namespace worldy {
 
+struct Field;
+
 // Returns true if every setting is the same.
 bool operator==(const Settings& a, const Settings& b);
 
-// Reads a settings file. Missing keys keep the values of base; keys of older versions are understood. The
-// Error names the file, the line, the key and the expected value.
+// Reads a settings file. Missing keys keep the values of base. The Error names the file, the line, the key and the
+// expected value.
 planet::Result<Settings> loadSettings(const std::filesystem::path& file, const Settings& base = {});
 // Does the same for text; place stands for the file's name in errors.
 planet::Result<Settings> settingsFromText(std::string_view text, const std::filesystem::path& place,
                                           const Settings& base = {});
 
-// Returns the file's text: every setting with a sentence that explains it. Equal settings give equal text.
-// Colours are kept in steps of 1 / 255.
+// Returns the file's text: every setting, below a comment with its help, allowed values and default. Equal settings
+// give equal text. Colours are kept in steps of 1 / 255.
 std::string settingsText(const Settings& settings);
+// Returns the text of some fields.
+std::string fieldsText(std::span<const Field> fields);
 
 planet::Result<void> saveSettings(const Settings& settings, const std::filesystem::path& file);
 
 // Sets one setting: "lod.tau_px=3", "surface.colour=ramp", texts with or without quotes. On failure nothing
 // changes, and the Error names the setting or the nearest one, and the expected value.
 planet::Result<void> setSetting(Settings& settings, std::string_view assignment);
+planet::Result<void> setSetting(std::span<const Field> fields, std::string_view assignment);
 
 // Returns the view settings that differ, as text: "lod.tau_px", "2", "3".
 std::vector<SettingDifference> differences(const Settings& here, const Settings& there);

@@ -17,13 +17,10 @@ planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
         settings = std::move(*loaded);
     }
     ViewSettings& view = settings.view;
-    view.lod.tauPx = texts.tauPx.value_or(view.lod.tauPx);
-    view.camera.fovDeg = texts.fovDeg.value_or(view.camera.fovDeg);
-    view.paging.budgetMB = texts.budgetMB.value_or(view.paging.budgetMB);
-    if (texts.noCulling) view.lod.frustumCulling = view.lod.horizonCulling = false;
-    if (texts.noSkirts) view.seams.mode = planet::SeamMode::None;
-    if (texts.wireframe) view.overlay.wireframe = true;
-    if (texts.cube) view.overlay.cube = true;
+    for (const std::string& option : texts.options) {
+        if (const planet::Result<void> set = setSetting(settings, option); !set)
+            return tl::unexpected(set.error());
+    }
     if (!texts.layerSet.empty()) {
         planet::Result<planet::LayerSet> set = loadLayerSet(texts.layerSet);
         if (!set) return tl::unexpected(set.error());
@@ -32,12 +29,7 @@ planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
         std::error_code status;
         view.surface.layers.file = std::filesystem::absolute(texts.layerSet, status).string();
     }
-    std::vector<std::string> assignments;
-    if (!texts.colourBy.empty()) assignments.push_back("overlay.colour_by=" + texts.colourBy);
-    if (!texts.surface.empty()) assignments.push_back("surface.colour=" + texts.surface);
-    if (!texts.seams.empty()) assignments.push_back("seams.mode=" + texts.seams);
-    assignments.insert(assignments.end(), texts.assignments.begin(), texts.assignments.end());
-    for (const std::string& assignment : assignments) {
+    for (const std::string& assignment : texts.assignments) {
         if (const planet::Result<void> set = setSetting(settings, assignment); !set)
             return planet::badInput("--set " + set.error().message);
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,25 +10,17 @@
 
 namespace worldy {
 
-// What a command line says of the view, each part where it was given.
+// The options of a command line that describe the view, as they are written.
 struct ViewTexts {
-    std::filesystem::path settingsFile;    // settings, a preset or a screenshot
-    std::vector<std::string> assignments;  // "lod.tau_px=3"
+    std::filesystem::path settingsFile;  // settings, a preset or a screenshot
+    std::vector<std::string>
+        options;  // assignments of options with names of their own: --tau 3, "lod.tau_px=3"
+    std::vector<std::string> assignments;  // --set lod.tau_px=3, "lod.tau_px=3"
     std::string size = "1280x720";
-    std::string colourBy;            // one of colourByNames
-    std::string surface;             // one of surfaceNames
     std::filesystem::path layerSet;  // a set of texture layers
-    std::string seams;               // none, skirts or stitched
-    std::optional<double> tauPx;
-    std::optional<double> fovDeg;
-    std::optional<int> budgetMB;
-    bool noCulling = false;
-    bool noSkirts = false;
-    bool wireframe = false;
-    bool cube = false;
 };
 
-// The defaults, changed by the settings file, then by the options with names of their own, then by the
+// Returns the defaults, changed by the settings file, then by the options with names of their own, then by the
 // assignments in their order.
 planet::Result<Settings> settingsFrom(const ViewTexts& texts);
 

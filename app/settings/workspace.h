@@ -27,14 +27,14 @@ enum class Theme : std::uint8_t { Dark, Light };
 // Holds the arrangement of the window. It is kept between runs. Sizes are in units of a 13 px font, so that
 // they fit any monitor.
 struct Workspace {
-    double leftWidth = 300;     // [160, 1000]
-    double rightWidth = 310;    // [160, 1000]
-    double bottomHeight = 210;  // [60, 1000]
+    double leftWidth = 300;
+    double rightWidth = 310;
+    double bottomHeight = 210;
     std::array<PanelPlace, panelCount> panels = firstPlaces();
     // The panel that each dock shows; ignored if that panel is not docked there.
     std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging};
     Theme theme = Theme::Dark;
-    double scale = 1;  // of the monitor's own, [0.5, 3]; Ctrl + and Ctrl -
+    double scale = 1;  // relative to the monitor's scale; Ctrl + and Ctrl -
 
     bool operator==(const Workspace&) const = default;
 };

@@ -54,7 +54,7 @@ TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
     }
     ASSERT_GE(takers.size(), 15u);
     for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks",
-                                "costs", "pops", "audit", "replay", "compare", "make-layers"}) {
+                                "costs", "pops", "audit", "replay", "compare", "settings", "make-layers"}) {
         const std::set<std::string> options =
             optionsOf(runWorldy(folder, std::string(command) + " --help").output);
         EXPECT_TRUE(options.contains("--json")) << command;
@@ -109,7 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"shot junk.chk -o o.png --camera 1,2", "--camera"},
         BadCommand{"shot junk.chk -o o.png --size 5x5", "--size"},
         BadCommand{"shot junk.chk -o o.png --tau 0", "--tau"},
-        BadCommand{"shot junk.chk -o o.png --colour-by mood", "--colour-by"},
+        BadCommand{"shot junk.chk -o o.png --colour-by mood",
+                   "--colour-by: overlay.colour_by is 'mood'; expected one of \"none\""},
         BadCommand{"shot junk.chk -o o.png --set lod.tua_px=3",
                    "--set lod.tua_px=3: lod.tua_px is not a setting; did you mean lod.tau_px?"},
         BadCommand{"shot junk.chk -o o.png --layers none.toml", "none.toml: no such file"},
@@ -149,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"info junk.chk extra", "extra"}, BadCommand{"audit", "FILE is required"},
         BadCommand{"audit junk.chk", "junk.chk"}, BadCommand{"audit none.chk", "none.chk"},
         BadCommand{"audit junk.chk --camera 1,2", "--camera"},
-        BadCommand{"audit junk.chk --metric best", "--metric"},
-        BadCommand{"audit junk.chk --tau 100", "--tau: 100 is not a number in [0.1, 64]"},
+        BadCommand{"audit junk.chk --metric best", "--metric: lod.metric is 'best'; expected one of"},
+        BadCommand{"audit junk.chk --tau 100", "--tau: lod.tau_px is 100; expected a number in [0.1, 64] px"},
         BadCommand{"audit junk.chk --tau 0.05", "see worldy audit --help"},
         BadCommand{"bake a.tif -o o.chk --face-size 100", "--face-size: 100 is not valid; expected 2^n + 1"},
         BadCommand{"bake a.tif -o o.chk --colour-face-size x",

@@ -75,7 +75,7 @@ key F11; expect shown tab/LOD
 )sh");
 }
 
-TEST_F(PanelsWindowTest, LodKnobsChangeWhatIsDrawnAndUndoTakesThemBack) {
+TEST_F(PanelsWindowTest, LodControlsChangeWhatIsDrawnAndUndoTakesThemBack) {
     drive(R"sh(
 tau="lod/Tolerance τ"
 slide "$tau" 0; expect counts triangles -gt 20000; settle

@@ -18,6 +18,10 @@ void collectItems(std::vector<ItemPlace>* into) {
     collected = into;
 }
 
+bool collectsItems() {
+    return collected != nullptr;
+}
+
 void setItemScope(std::string_view scope) {
     currentScope = scope;
 }

@@ -17,6 +17,7 @@ struct ItemPlace {
 
 // What follows is noted there, until told otherwise; null: nowhere. It must outlive the frame.
 void collectItems(std::vector<ItemPlace>* into);
+bool collectsItems();
 
 // What comes before the slash in the names of the items that follow: a panel's key.
 void setItemScope(std::string_view scope);

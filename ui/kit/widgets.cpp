@@ -48,15 +48,15 @@ std::string formatted(const char* format, T value) {
 }
 
 template <class T>
-bool sliderOf(const char* label, T& value, T defaultValue, T min, T max, const char* format,
-              const char* explanation, ImGuiSliderFlags flags) {
+bool sliderOf(const char* label, T& value, T defaultValue, T min, T max, const char* format, Tip tip,
+              ImGuiSliderFlags flags) {
     ImGui::PushID(label);
-    litLabel(label, value != defaultValue, explanation);
+    litLabel(label, value != defaultValue, tip);
     bool changed =
         ImGui::SliderScalar("##value", std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32,
                             &value, &min, &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
     noteItem(label);
-    tooltip(explanation);
+    tooltip(tip);
     if (offerDefault("default", value == defaultValue, formatted(format, defaultValue))) {
         value = defaultValue;
         changed = true;
@@ -87,7 +87,7 @@ bool section(const char* title) {
     return open;
 }
 
-void tooltip(const char* text) {
+void tooltip(Tip tip) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     // The tooltip of what is grey is not grey itself.
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);
@@ -100,6 +100,7 @@ void tooltip(const char* text) {
         ImGui::TextColored(palette().warning, "%s", why->c_str());
         noteItem("Why grey");
     }
+    const std::string text = tip.text();
     if (!grey || *why != text) ImGui::TextUnformatted(inFont(text).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -169,43 +170,43 @@ ImVec2 dragDelta(ImGuiMouseButton button) {
     return ImGui::GetIO().MouseDelta;
 }
 
-void labelledControl(const char* label, const char* explanation) {
+void labelledControl(const char* label, Tip tip) {
     const float start = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
     const std::string text = inFont(label);
     const float labelWidth = ImGui::CalcTextSize(text.c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(text.c_str());
-    tooltip(explanation);
+    tooltip(tip);
     // A label that does not fit takes room from its control, or stands over it.
     if (labelWidth < 0.6f * width)
         ImGui::SameLine(start + std::round(std::max(width * labelShare, labelWidth)));
     ImGui::SetNextItemWidth(-1);
 }
 
-void litLabel(const char* label, bool changed, const char* explanation) {
+void litLabel(const char* label, bool changed, Tip tip) {
     if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
-    labelledControl(label, explanation);
+    labelledControl(label, tip);
     if (changed) ImGui::PopStyleColor();
 }
 
 bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
-            const char* explanation, ImGuiSliderFlags flags) {
-    return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
+            Tip tip, ImGuiSliderFlags flags) {
+    return sliderOf(label, value, defaultValue, min, max, format, tip, flags);
 }
 
-bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format,
-            const char* explanation, ImGuiSliderFlags flags) {
-    return sliderOf(label, value, defaultValue, min, max, format, explanation, flags);
+bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format, Tip tip,
+            ImGuiSliderFlags flags) {
+    return sliderOf(label, value, defaultValue, min, max, format, tip, flags);
 }
 
-bool checkbox(const char* label, bool& value, bool defaultValue, const char* explanation) {
+bool checkbox(const char* label, bool& value, bool defaultValue, Tip tip) {
     const bool isDefault = value == defaultValue;
     if (!isDefault) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
     bool changed = ImGui::Checkbox(label, &value);
     noteItem(label);
     if (!isDefault) ImGui::PopStyleColor();
-    tooltip(explanation);
+    tooltip(tip);
     if (offerDefault(label, value == defaultValue, defaultValue ? "on" : "off")) {
         value = defaultValue;
         changed = true;
@@ -247,12 +248,11 @@ bool combo(const char* name, int& index, const char* items) {
     return changed;
 }
 
-bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items,
-                 const char* explanation) {
+bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items, Tip tip) {
     ImGui::PushID(label);
-    litLabel(label, index != defaultIndex, explanation);
+    litLabel(label, index != defaultIndex, tip);
     bool changed = combo(label, index, items);
-    tooltip(explanation);
+    tooltip(tip);
     const char* defaultItem = items;
     for (int i = 0; i < defaultIndex; ++i) defaultItem += std::char_traits<char>::length(defaultItem) + 1;
     if (offerDefault("default", index == defaultIndex, defaultItem)) {

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "ui/model/layout.h"
 
@@ -16,8 +17,27 @@ void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags
 // A heading that opens and closes what follows.
 bool section(const char* title);
 
+// The text of a tooltip, or a function that makes it. The function is called only while the tooltip is shown; it must
+// live as long as the call that takes the Tip.
+class Tip {
+public:
+    Tip(const char* text)
+        : context_(text),
+          make_([](const void* context) { return std::string(static_cast<const char*>(context)); }) {}
+    template <class Make>
+    requires std::is_invocable_r_v<std::string, const Make&> Tip(const Make& make)
+        : context_(&make),
+          make_([](const void* context) { return (*static_cast<const Make*>(context))(); }) {}
+
+    std::string text() const { return make_(context_); }
+
+private:
+    const void* context_;
+    std::string (*make_)(const void*);
+};
+
 // Explains the last item when the pointer rests on it.
-void tooltip(const char* text);
+void tooltip(Tip tip);
 
 // Greys what is drawn until endGrey() and takes no input for it, if grey; its tooltips then begin with why, a
 // sentence. May be nested: the outermost that greys says why.
@@ -42,29 +62,29 @@ float valuesWidth(std::span<const ValueRow> rows, const char* widestValue);
 // the button goes down, because that motion came before the press.
 ImVec2 dragDelta(ImGuiMouseButton button);
 
-// A label in the left column and room for a control in the right one; call the control right after.
-void labelledControl(const char* label, const char* explanation);
-// Lit where the value is changed: not the default, or not that of the open file.
-void litLabel(const char* label, bool changed, const char* explanation);
+// Draws a label in the left column and makes room for a control in the right one; draw the control right after.
+void labelledControl(const char* label, Tip tip);
+// Does the same; the label is lit if the value is not its default, or not that of the open file.
+void litLabel(const char* label, bool changed, Tip tip);
 
-// Knobs: a label, a control, and a tooltip that says unit, meaning, formula, and what gets worse. A value
-// that is not its default has a lit label; a right click on the label or the control offers the default.
-// Ctrl+click types a number. All return whether the value has changed this frame.
+// Draw a label, a control and a tooltip. The label of a value that is not its default is lit; a right click on the
+// control offers the default. Ctrl+click types a number. They return true if the value has changed. Settings have
+// controls of their own (ui/kit/setting_controls.h).
 bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
-            const char* explanation, ImGuiSliderFlags flags = 0);
-bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format,
-            const char* explanation, ImGuiSliderFlags flags = 0);
-bool checkbox(const char* label, bool& value, bool defaultValue, const char* explanation);
+            Tip tip, ImGuiSliderFlags flags = 0);
+bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format, Tip tip,
+            ImGuiSliderFlags flags = 0);
+bool checkbox(const char* label, bool& value, bool defaultValue, Tip tip);
 // A field for a number; its text is selected whole by a click that enters it and by a double click.
 bool numberField(const char* id, double& value, const char* format);
 // As ImGui::Combo, items: "one\0two\0". The item map has the items too while it is open: "name: one".
 bool combo(const char* name, int& index, const char* items);
-// items as for combo.
-bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items, const char* explanation);
+// Draws a list of choices; items as for combo.
+bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items, Tip tip);
 template <class Enum>
-bool choice(const char* label, Enum& value, Enum defaultValue, const char* items, const char* explanation) {
+bool choice(const char* label, Enum& value, Enum defaultValue, const char* items, Tip tip) {
     int index = static_cast<int>(value);
-    const bool changed = choiceIndex(label, index, static_cast<int>(defaultValue), items, explanation);
+    const bool changed = choiceIndex(label, index, static_cast<int>(defaultValue), items, tip);
     value = static_cast<Enum>(index);
     return changed;
 }

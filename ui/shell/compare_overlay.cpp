@@ -16,8 +16,8 @@ namespace worldy::ui {
 
 namespace {
 
-float dividerX(const CompareKnobs& knobs, const Rect& viewport) {
-    const float share = knobs.mode == CompareMode::Wipe ? static_cast<float>(knobs.wipe) : 0.5f;
+float dividerX(const CompareSettings& shown, const Rect& viewport) {
+    const float share = shown.mode == CompareMode::Wipe ? static_cast<float>(shown.wipe) : 0.5f;
     return viewport.x + std::round(viewport.width * share);
 }
 
@@ -56,10 +56,10 @@ float labelY(const Rect& viewport) {
     return viewport.y + viewport.height - 4.5f * ImGui::GetFontSize();
 }
 
-void drawSideLabels(ImDrawList& drawList, const CompareView& compare, const CompareKnobs& knobs,
+void drawSideLabels(ImDrawList& drawList, const CompareView& compare, const CompareSettings& shown,
                     const Rect& viewport) {
     std::array<std::string, 2> names = sideNames(compare);
-    const float x = dividerX(knobs, viewport);
+    const float x = dividerX(shown, viewport);
     const float gap = std::round(ImGui::GetFontSize() * 0.9f);
     const float y = labelY(viewport);
     // Where the long one has no room, the letter has more.
@@ -73,8 +73,8 @@ void drawSideLabels(ImDrawList& drawList, const CompareView& compare, const Comp
 }
 
 // The longest that fits.
-std::string differenceText(const CompareView& compare, const CompareKnobs& knobs, float widthPx) {
-    const std::string what = fmt::format("|A - B| x {:.3g}", knobs.gain);
+std::string differenceText(const CompareView& compare, const CompareSettings& shown, float widthPx) {
+    const std::string what = fmt::format("|A - B| x {:.3g}", shown.gain);
     std::vector<std::string> texts = {what};
     if (compare.difference) {
         const PictureDifferenceNow& now = *compare.difference;
@@ -136,13 +136,13 @@ std::array<std::string, 2> sideNames(const CompareView& compare) {
     return names;
 }
 
-std::vector<ShownPart> shownParts(const CompareView& compare, const CompareKnobs& knobs,
+std::vector<ShownPart> shownParts(const CompareView& compare, const CompareSettings& shown,
                                   const Rect& viewport) {
     if (!compare.on) return {{false, viewport, viewport}};
-    const float x = dividerX(knobs, viewport);
+    const float x = dividerX(shown, viewport);
     const Rect left{viewport.x, viewport.y, x - viewport.x, viewport.height};
     const Rect right{x, viewport.y, viewport.x + viewport.width - x, viewport.height};
-    switch (knobs.mode) {
+    switch (shown.mode) {
         case CompareMode::Wipe:
             return {{false, left, viewport}, {true, right, viewport}};
         case CompareMode::SideBySide: {
@@ -152,16 +152,16 @@ std::vector<ShownPart> shownParts(const CompareView& compare, const CompareKnobs
             return {{false, left, wholeA}, {true, right, wholeB}};
         }
         case CompareMode::Flip:
-            return {{knobs.showB, viewport, viewport}};
+            return {{shown.showB, viewport, viewport}};
         case CompareMode::Difference:
             break;
     }
     return {{false, viewport, viewport}};
 }
 
-void wipeHandle(CompareKnobs& knobs, const Rect& viewport) {
+void wipeHandle(CompareSettings& shown, const Rect& viewport) {
     const float half = std::round(ImGui::GetFontSize() * 0.5f);
-    const float x = dividerX(knobs, viewport);
+    const float x = dividerX(shown, viewport);
     const ImVec2 before = ImGui::GetCursorScreenPos();
     const float from = std::clamp(x - half, viewport.x, viewport.x + viewport.width - 2 * half);
     ImGui::SetCursorScreenPos({from, viewport.y});
@@ -170,29 +170,29 @@ void wipeHandle(CompareKnobs& knobs, const Rect& viewport) {
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive()) {
         const float share = (ImGui::GetIO().MousePos.x - viewport.x) / std::max(viewport.width, 1.0f);
-        knobs.wipe = static_cast<double>(std::clamp(share, 0.0f, 1.0f));
+        shown.wipe = static_cast<double>(std::clamp(share, 0.0f, 1.0f));
     }
     ImGui::SetCursorScreenPos(before);
 }
 
-void compareOverlay(const CompareView& compare, const CompareKnobs& knobs, const Rect& viewport) {
+void compareOverlay(const CompareView& compare, const CompareSettings& shown, const Rect& viewport) {
     if (!compare.on) return;
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
-    if (isDivided(knobs.mode)) {
-        const float x = dividerX(knobs, viewport);
+    if (isDivided(shown.mode)) {
+        const float x = dividerX(shown, viewport);
         drawDivider(drawList, x, viewport);
-        if (knobs.mode == CompareMode::Wipe)
+        if (shown.mode == CompareMode::Wipe)
             drawGrip(drawList, x, labelY(viewport) + 0.75f * ImGui::GetFontSize());
         else
             drawTwinPointer(drawList, viewport);
-        return drawSideLabels(drawList, compare, knobs, viewport);
+        return drawSideLabels(drawList, compare, shown, viewport);
     }
-    if (knobs.mode == CompareMode::Difference)
-        return drawMiddleLabel(drawList, differenceText(compare, knobs, viewport.width), palette().text,
+    if (shown.mode == CompareMode::Difference)
+        return drawMiddleLabel(drawList, differenceText(compare, shown, viewport.width), palette().text,
                                viewport);
-    std::string name = sideNames(compare)[knobs.showB ? 1 : 0] + "   F9 flips";
-    if (badgeSize(name).x > viewport.width) name = knobs.showB ? "B" : "A";
-    drawMiddleLabel(drawList, name, knobs.showB ? palette().warning : palette().accent, viewport);
+    std::string name = sideNames(compare)[shown.showB ? 1 : 0] + "   F9 flips";
+    if (badgeSize(name).x > viewport.width) name = shown.showB ? "B" : "A";
+    drawMiddleLabel(drawList, name, shown.showB ? palette().warning : palette().accent, viewport);
 }
 
 }  // namespace worldy::ui

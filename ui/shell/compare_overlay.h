@@ -16,12 +16,12 @@ struct ShownPart {
     Rect whole;
 };
 // One of A alone while nothing is compared. What stands in a difference stands at A's place.
-std::vector<ShownPart> shownParts(const CompareView& compare, const CompareKnobs& knobs,
+std::vector<ShownPart> shownParts(const CompareView& compare, const CompareSettings& shown,
                                   const Rect& viewport);
 
 // What is dragged: over the divider of a wipe. Call before the picture's own item, which lies under it.
-void wipeHandle(CompareKnobs& knobs, const Rect& viewport);
+void wipeHandle(CompareSettings& shown, const Rect& viewport);
 
-void compareOverlay(const CompareView& compare, const CompareKnobs& knobs, const Rect& viewport);
+void compareOverlay(const CompareView& compare, const CompareSettings& shown, const Rect& viewport);
 
 }  // namespace worldy::ui

@@ -224,10 +224,10 @@ TEST_F(CompareControllerTest, aFlightIsMeasuredBesideItAndCanBeCancelled) {
 TEST(CompareOverlay, theShownPartsMeetAtTheDividerAndLieWhereTheirPixelsDo) {
     const ui::Rect viewport{100, 50, 400, 300};
     ui::CompareView compare;
-    CompareKnobs knobs;
-    ASSERT_EQ(ui::shownParts(compare, knobs, viewport).size(), 1u);
+    CompareSettings shown;
+    ASSERT_EQ(ui::shownParts(compare, shown, viewport).size(), 1u);
     compare.on = true;
-    std::vector<ui::ShownPart> parts = ui::shownParts(compare, knobs, viewport);
+    std::vector<ui::ShownPart> parts = ui::shownParts(compare, shown, viewport);
     ASSERT_EQ(parts.size(), 2u);
     EXPECT_FALSE(parts[0].isB);
     EXPECT_TRUE(parts[1].isB);
@@ -236,15 +236,15 @@ TEST(CompareOverlay, theShownPartsMeetAtTheDividerAndLieWhereTheirPixelsDo) {
     const planet::gl::PictureMix mix = planet::gl::sideBySideMix(400);
     EXPECT_EQ(parts[0].whole.x, viewport.x - static_cast<float>(planet::gl::pictureColumn(mix, 0)));
     EXPECT_EQ(parts[1].whole.x, viewport.x + 200 - static_cast<float>(planet::gl::pictureColumn(mix, 200)));
-    knobs.mode = CompareMode::Wipe;
-    knobs.wipe = 0.25;
-    parts = ui::shownParts(compare, knobs, viewport);
+    shown.mode = CompareMode::Wipe;
+    shown.wipe = 0.25;
+    parts = ui::shownParts(compare, shown, viewport);
     EXPECT_EQ(parts[1].part.x, 200);
     EXPECT_EQ(parts[1].part.width, 300);
     EXPECT_EQ(parts[1].whole.x, viewport.x);
-    knobs.mode = CompareMode::Flip;
-    knobs.showB = true;
-    parts = ui::shownParts(compare, knobs, viewport);
+    shown.mode = CompareMode::Flip;
+    shown.showB = true;
+    parts = ui::shownParts(compare, shown, viewport);
     ASSERT_EQ(parts.size(), 1u);
     EXPECT_TRUE(parts[0].isB);
 }

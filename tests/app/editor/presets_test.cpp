@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "app/settings/settings_table.h"
+#include "app/settings/settings_schema.h"
 #include "app/settings/settings_text.h"
 #include "tests/support/temporary_folder.h"
 

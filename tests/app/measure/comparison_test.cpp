@@ -88,8 +88,8 @@ TEST_F(ComparisonTest, stitchedSeamsHaveNoCrackPixelsWhereNoneHaveSome) {
         side.settings.lod.tauPx = 2;
         side.settings.lod.morph = false;
     }
-    plan.sides[0].settings.seams.mode = planet::SeamMode::None;
-    plan.sides[1].settings.seams.mode = planet::SeamMode::Stitched;
+    plan.sides[0].settings.lod.seams = planet::SeamMode::None;
+    plan.sides[1].settings.lod.seams = planet::SeamMode::Stitched;
     const ComparedPair pair = compare(plan);
     EXPECT_GT(*pair[0].crackPx, 0);
     EXPECT_EQ(pair[0].leakingPx, pair[0].crackPx);

@@ -43,39 +43,20 @@ TEST_F(SceneTest, TheLibrarysDefaultsAreTheEditors) {
     EXPECT_EQ(lodSettingsOf(ViewSettings()), planet::LodSettings());
 }
 
-TEST_F(SceneTest, everyKnobOfSelectionReachesTheLibrary) {
-    settings_.lod = {.tauPx = 3,
-                     .hysteresis = 0.2,
-                     .maxLevel = 4,
-                     .morph = false,
-                     .morphRange = 0.7,
-                     .frustumCulling = false,
-                     .horizonCulling = false};
-    settings_.seams = {.mode = planet::SeamMode::Stitched,
-                       .depth = planet::SkirtDepth::Fixed,
-                       .skirtFactor = 2,
-                       .skirtDepthM = 77,
-                       .showPairs = false};
-    const planet::LodSettings lod = lodSettingsOf(settings_);
-    EXPECT_EQ(lod.tauPx, 3);
-    EXPECT_EQ(lod.hysteresis, 0.2);
-    EXPECT_EQ(lod.maxLevel, 4);
-    EXPECT_FALSE(lod.morph);
-    EXPECT_EQ(lod.morphRange, 0.7);
-    EXPECT_FALSE(lod.frustumCulling);
-    EXPECT_FALSE(lod.horizonCulling);
-    EXPECT_EQ(lod.seams, planet::SeamMode::Stitched);
-    EXPECT_EQ(lod.skirtDepth, planet::SkirtDepth::Fixed);
-    EXPECT_EQ(lod.skirtFactor, 2);
-    EXPECT_EQ(lod.skirtDepthM, 77);
-    settings_.lod = {};
+TEST_F(SceneTest, selectionUsesTheSettingsAsTheyAre) {
+    settings_.lod.tauPx = 3;
+    settings_.lod.seams = planet::SeamMode::Stitched;
+    EXPECT_EQ(lodSettingsOf(settings_), settings_.lod);
+}
+
+TEST_F(SceneTest, theCubeIsNotCulled) {
     EXPECT_TRUE(lodSettingsOf(settings_).frustumCulling);
     settings_.overlay.cube = true;
     EXPECT_FALSE(lodSettingsOf(settings_).frustumCulling);
     EXPECT_FALSE(lodSettingsOf(settings_).horizonCulling);
 }
 
-TEST_F(SceneTest, everyKnobOfPagingReachesTheLibrary) {
+TEST_F(SceneTest, everySettingOfPagingReachesTheLibrary) {
     settings_.paging = {.budgetMB = 64,
                         .loaderThreads = 3,
                         .uploadLimitMs = 1.5,
@@ -93,7 +74,7 @@ TEST_F(SceneTest, everyKnobOfPagingReachesTheLibrary) {
               planet::PagingTime::Recorded);
 }
 
-TEST_F(SceneTest, everyKnobOfDrawingReachesTheLibraryAndHeightsAreExaggerated) {
+TEST_F(SceneTest, everySettingOfDrawingReachesTheLibraryAndHeightsAreExaggerated) {
     Scene scene = openSlope();
     settings_.surface.exaggeration = 3;
     ASSERT_TRUE(applyLiveSettings(scene, settings_));
@@ -125,7 +106,7 @@ TEST_F(SceneTest, everyKnobOfDrawingReachesTheLibraryAndHeightsAreExaggerated) {
     EXPECT_TRUE(render.outlines);
     EXPECT_EQ(render.skirtPaint, planet::gl::SkirtPaint::LoudAlone);
     EXPECT_FALSE(render.stitched);
-    settings_.seams.mode = planet::SeamMode::Stitched;
+    settings_.lod.seams = planet::SeamMode::Stitched;
     EXPECT_TRUE(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).stitched);
     settings_.overlay.cube = true;
     EXPECT_FALSE(renderSettingsOf(settings_, viewAt(1e6), scene.planet->tree()).atmosphere);
@@ -220,7 +201,7 @@ TEST_F(SceneTest, anObserversPictureAddsNoTrianglesToThoseOfTheLodView) {
 
 TEST_F(SceneTest, skirtsThatAreNotDrawnHaveNoTriangles) {
     Scene scene = openSlope();
-    settings_.seams.mode = planet::SeamMode::Stitched;
+    settings_.lod.seams = planet::SeamMode::Stitched;
     const planet::View view = viewAt(1e6);
     ASSERT_TRUE(settleScene(scene, view, settings_, 60));
     picture(scene, view);

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-#include "app/settings/settings_table.h"
+#include "app/settings/settings_schema.h"
 #include "tests/support/temporary_folder.h"
 
 namespace worldy {
@@ -140,41 +140,6 @@ TEST(Settings, WhatAFileDoesNotHoldStaysAsItWas) {
     Settings wanted = base;
     wanted.view.lod.tauPx = 4;
     EXPECT_EQ(*loaded, wanted);
-}
-
-TEST(Settings, NamesOfFormerVersionsAreUnderstood) {
-    const planet::Result<Settings> loaded = settingsFromText(
-        "[lod]\nskirt_factor = 3\n[view]\nskirts = false\ncolour_by = \"error\"\nsurface = \"ramp\"\n"
-        "atmosphere = false\ndetail = false\nlighting = false\nsun_follows = false\nsun_latitude_deg = 1\n"
-        "sun_longitude_deg = 2\nfov_deg = 33\n[window]\nlod_panel_width = 250\nlog_panel_height = 100\n");
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    Settings wanted;
-    wanted.view.seams.skirtFactor = 3;
-    wanted.view.seams.mode = planet::SeamMode::None;
-    wanted.view.overlay.colourBy = ColourBy::Error;
-    SurfaceSettings& surface = wanted.view.surface;
-    surface.surface = planet::gl::SurfaceColour::HeightRamp;
-    surface.atmosphere = surface.detail = surface.lighting = surface.sunFollows = false;
-    surface.sunLatitudeDeg = 1;
-    surface.sunLongitudeDeg = 2;
-    wanted.view.camera.fovDeg = 33;
-    wanted.workspace.rightWidth = 250;
-    wanted.workspace.bottomHeight = 100;
-    EXPECT_EQ(*loaded, wanted);
-    EXPECT_EQ(settingsFromText("[view]\nskirts = true\n")->view.seams.mode, planet::SeamMode::Skirts);
-    EXPECT_THAT(settingsErrorOf("[view]\nskirts = 1\n"),
-                HasSubstr("line 2: view.skirts is 1; expected true or false"));
-    EXPECT_THAT(settingsErrorOf("[view]\ncolour_by = \"mood\"\n"), HasSubstr("view.colour_by is 'mood'"));
-}
-
-TEST(Settings, WhereAFileHasBothNamesThePresentOneCounts) {
-    for (const char* text : {"[seams]\nskirt_factor = 2\n[lod]\nskirt_factor = 3\n",
-                             "[lod]\nskirt_factor = 3\n[seams]\nskirt_factor = 2\n"}) {
-        EXPECT_EQ(settingsFromText(text)->view.seams.skirtFactor, 2) << text;
-    }
-    EXPECT_EQ(
-        settingsFromText("[view]\nsurface = \"image\"\n[surface]\ncolour = \"ramp\"\n")->view.surface.surface,
-        planet::gl::SurfaceColour::HeightRamp);
 }
 
 TEST(Settings, ErrorsNameFileLineKeyAndWhatWouldBeRight) {
@@ -331,10 +296,10 @@ TEST(ViewPart, ChangesWhatItHoldsAndNothingElse) {
     EXPECT_THAT(part->names, ElementsAre("lod.morph", "seams.skirt_factor"));
     ViewSettings now;
     now.lod.tauPx = 9;
-    now.seams.skirtFactor = 5;
+    now.lod.skirtFactor = 5;
     ViewSettings wanted = now;
     wanted.lod.morph = false;
-    wanted.seams.skirtFactor = 1;
+    wanted.lod.skirtFactor = 1;
     EXPECT_EQ(applied(*part, now), wanted);
     EXPECT_EQ(differences(now, *part).size(), 2u);
     EXPECT_THAT(differences(wanted, *part), IsEmpty());

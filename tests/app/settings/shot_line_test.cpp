@@ -9,7 +9,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/settings/camera_text.h"
-#include "app/settings/settings_table.h"
+#include "app/settings/settings_schema.h"
 #include "app/settings/settings_text.h"
 
 namespace worldy {
@@ -54,7 +54,7 @@ TEST(ShotLine, TypedAgainGivesTheSameViewAndSettings) {
     Settings settings;
     ViewSettings& view = settings.view;
     view.lod = {.tauPx = 0.1 + 0.2, .hysteresis = 1.0 / 3, .maxLevel = 7, .morph = false};
-    view.seams.mode = planet::SeamMode::Stitched;
+    view.lod.seams = planet::SeamMode::Stitched;
     view.paging.badDisk = {.latencyMs = 3, .shuffledOrder = true, .seed = 4294967295u};
     view.overlay.colourBy = ColourBy::DeltaC;
     view.overlay.skirtPaint = planet::gl::SkirtPaint::LoudAlone;
@@ -184,7 +184,7 @@ TEST(ShotOptions, TheOldOptionsStillWork) {
     EXPECT_EQ(view.paging.budgetMB, 64);
     EXPECT_EQ(view.overlay.colourBy, ColourBy::LoadOrder);
     EXPECT_EQ(view.surface.surface, planet::gl::SurfaceColour::HeightRamp);
-    EXPECT_EQ(view.seams.mode, planet::SeamMode::None);
+    EXPECT_EQ(view.lod.seams, planet::SeamMode::None);
     EXPECT_TRUE(view.overlay.cube && view.overlay.wireframe);
     EXPECT_EQ(view.camera.fovDeg, 33);
     EXPECT_FALSE(options->camera);

@@ -424,7 +424,7 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
     followOpenFile(view, state);
     sourcePreviewBox(view, state.edited.value_or(view.bake.current), state.source.problem.empty(),
                      state.preview, commands);
-    // The picture stays in sight while knobs far below are turned.
+    // The picture stays in sight while controls far below are used.
     const bool pinned = ImGui::GetContentRegionAvail().y > ImGui::GetFontSize() * 12;
     if (pinned) ImGui::BeginChild("below the preview");
     previousSection(view.data, commands);

@@ -1,4 +1,4 @@
-// What is baked: a file or made terrain with all its knobs, and detail added to either.
+// What is baked: a file or made terrain with all its parameters, and detail added to either.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ void setSource(const std::filesystem::path& source, SourceEdit& edit);
 // Puts it together; empty while there is nothing.
 std::filesystem::path sourceOf(const SourceEdit& edit);
 
-// Worlds, kind, knobs. True where the request's source has changed, or with a world its radius, face size and
+// Worlds, kind, parameters. True where the request's source has changed, or with a world its radius, face size and
 // colours.
 // Another kind or world takes the automatic quantum. Lit where it is not the open file's.
 bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& request);

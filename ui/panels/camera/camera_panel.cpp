@@ -8,6 +8,7 @@
 
 #include "app/base/text.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/camera_heights.h"
@@ -15,8 +16,6 @@
 namespace worldy::ui {
 
 namespace {
-
-const CameraSettings defaultCamera;
 
 struct PoseField {
     const char* label;
@@ -37,27 +36,20 @@ constexpr std::array<PoseField, 5> poseFields = {{
     {"Pitch", &Pose::pitchDeg, -90, 90, "%.2f°", "Degrees above the horizontal; -90 looks straight down."},
 }};
 
-void modeControl(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    CameraMode mode = settings.camera.mode;
-    if (!choice("Mode", mode, defaultCamera.mode, "fly\0orbit\0follow a flight\0",
-                "Fly: drag moves the ground, the keys W A S D E Q move the camera. Orbit: drag turns the "
-                "camera around the ground point in the centre of the view, the wheel changes the distance, "
-                "the right button moves the point. Follow a flight: plays a recorded camera path; using the "
-                "controls ends it."))
-        return;
-    const bool follows = mode == CameraMode::FollowFlight;
-    if (follows && settings.camera.flight.empty()) {
-        if (!view.camera.flights.empty()) commands.push_back(StartFlight{view.camera.flights.front()});
-        return;
-    }
-    settings.camera.mode = mode;
+void modeControl(const EditorView& view, const SettingControls& control, ViewSettings& settings,
+                 Commands& commands) {
+    const CameraMode before = settings.camera.mode;
+    if (!control(settings.camera.mode)) return;
+    // Without a flight to follow, the mode changes only when one is started.
+    if (settings.camera.mode != CameraMode::FollowFlight || !settings.camera.flight.empty()) return;
+    settings.camera.mode = before;
+    if (!view.camera.flights.empty()) commands.push_back(StartFlight{view.camera.flights.front()});
 }
 
-void motionSection(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    modeControl(view, settings, commands);
-    slider("Field of view", settings.camera.fovDeg, defaultCamera.fovDeg, 5.0, 150.0, "%.0f°",
-           "Horizontal field of view in degrees. Smaller: errors are magnified, so more detail is selected; "
-           "K' = W / (2 tan(fov / 2)).");
+void motionSection(const EditorView& view, const SettingControls& control, ViewSettings& settings,
+                   Commands& commands) {
+    modeControl(view, control, settings, commands);
+    control(settings.camera.fovDeg);
     double factor = view.camera.speedFactor;
     if (slider("Speed", factor, 1.0, 1.0 / 64, 64.0, "%.2f x",
                "Speed of the movement keys; + and - change it. At 1 x the camera moves 0.6 of its height "
@@ -180,24 +172,14 @@ void flightsSection(const EditorView& view, const ViewSettings& settings, Comman
     if (view.camera.flight) followedFlight(*view.camera.flight, commands);
 }
 
-void observerSection(CameraSettings& camera) {
+void observerSection(const SettingControls& control, CameraSettings& camera) {
     if (!section("Observer")) return;
-    choice("View", camera.observer, defaultCamera.observer, "off\0split\0alone\0",
-           "A second camera that shows the LOD view's selection and culling from outside. Split: both views "
-           "side by side. The planet is drawn twice.");
+    control(camera.observer);
     beginGrey(camera.observer == ObserverMode::Off, "The observer is off: choose a view above.");
-    checkbox("Frustum", camera.showFrustum, defaultCamera.showFrustum,
-             "Draws the edges of the LOD view's frustum, up to the farthest visible ground.");
-    secondColumn("Horizon");
-    checkbox("Horizon", camera.showHorizon, defaultCamera.showHorizon,
-             "Draws the LOD view's horizon circle, beyond which the planet occludes itself.");
-    checkbox("Switch distance", camera.showSwitchDistances, defaultCamera.showSwitchDistances,
-             "Draws the switch distance d_m = δc K around the selected chunk, K = W / (2 τ tan(fov / 2)). A "
-             "camera within this distance requires the chunk to be split. Leaves have none.");
-    secondColumn("Own LOD");
-    checkbox("Own LOD", camera.observerOwnLod, defaultCamera.observerOwnLod,
-             "The observer uses its own LOD selection and requests instead of the LOD view's. This loads "
-             "more chunks.");
+    control(camera.showFrustum);
+    control.beside(camera.showHorizon);
+    control(camera.showSwitchDistances);
+    control.beside(camera.observerOwnLod);
     endGrey();
 }
 
@@ -206,11 +188,12 @@ void observerSection(CameraSettings& camera) {
 void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& settings,
                  Commands& commands) {
     if (!view.planet) return emptyState("No planet is open.");
-    motionSection(view, settings, commands);
+    const SettingControls control(settings);
+    motionSection(view, control, settings, commands);
     poseSection(view, settings, state, commands);
     bookmarksSection(view, state, commands);
     flightsSection(view, settings, commands);
-    observerSection(settings.camera);
+    observerSection(control, settings.camera);
 }
 
 }  // namespace worldy::ui

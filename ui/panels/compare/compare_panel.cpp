@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/base/text.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -115,24 +116,14 @@ void sides(const CompareView& compare, Commands& commands) {
     if (button("End comparison", "Closes B and frees its memory.")) commands.push_back(StopCompare{});
 }
 
-void pictureControls(const CompareView& compare, CompareKnobs& knobs) {
-    const CompareKnobs defaults;
-    choice("Show", knobs.mode, defaults.mode, "side by side\0wipe\0difference\0flip\0",
-           "Side by side: the middle half of each picture at the same pixel size. Wipe: a movable divider. "
-           "Difference: colour difference. Flip: one picture, F9 switches.");
-    if (knobs.mode == CompareMode::Difference) {
-        slider("Gain", knobs.gain, defaults.gain, 1.0, 255.0, "%.0f x",
-               "Factor applied to the difference of each channel. 255: any difference is full brightness.",
-               ImGuiSliderFlags_Logarithmic);
-    }
-    if (knobs.mode == CompareMode::Wipe) {
-        slider("Divider", knobs.wipe, defaults.wipe, 0.0, 1.0, "%.2f",
-               "Position of the divider as a fraction of the width, with A on the left and B on the right. "
-               "You can also drag it in the viewport.");
-    }
-    if (knobs.mode == CompareMode::Flip)
-        checkbox("Show B (F9)", knobs.showB, defaults.showB, "Off: shows A.");
-    // The rows stay where nothing is counted, so that what lies below them does not move.
+void pictureControls(const CompareView& compare, ViewSettings& settings) {
+    const SettingControls control(settings);
+    CompareSettings& shown = settings.compare;
+    control(shown.mode);
+    if (shown.mode == CompareMode::Difference) control(shown.gain);
+    if (shown.mode == CompareMode::Wipe) control(shown.wipe);
+    if (shown.mode == CompareMode::Flip) control(shown.showB);
+    // The rows stay if nothing is counted, so that the controls below do not move.
     if (!compare.on || !beginValues("difference")) return;
     std::string pixels = "not counted";
     std::string largest = pixels;
@@ -266,7 +257,7 @@ void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings
         return;
     }
     sides(compare, commands);
-    pictureControls(compare, settings.compare);
+    pictureControls(compare, settings);
     nowSection(compare, commands);
     flightSection(view, state, commands);
     if (section("Another B")) chooseB(view, commands);

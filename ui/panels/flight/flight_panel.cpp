@@ -9,6 +9,7 @@
 
 #include "app/base/text.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -217,7 +218,7 @@ void eventButtons(const ReplayNow& replay, Commands& commands) {
     endGrey();
 }
 
-void replayKnobs(const ReplayNow& replay, Commands& commands) {
+void replayControls(const ReplayNow& replay, Commands& commands) {
     ReplayControls controls = replay.controls;
     const ReplayControls defaults;
     bool changed = slider(
@@ -247,7 +248,7 @@ void runningReplay(const ReplayNow& replay, Commands& commands) {
     timeline(replay, commands);
     transport(replay, commands);
     eventButtons(replay, commands);
-    replayKnobs(replay, commands);
+    replayControls(replay, commands);
 }
 
 }  // namespace
@@ -287,9 +288,7 @@ void flightPanel(const EditorView& view, FlightPanelState& state, ViewSettings& 
     } else {
         recordControl(state, commands);
     }
-    checkbox("Simulated paging", settings.paging.simulated, PagingKnobs().simulated,
-             "Read times follow the fault-injection settings and seed in frame time instead of real time, so "
-             "a recorded flight is the same on any machine. Without fault injection a read takes no time.");
+    SettingControls{settings}(settings.paging.simulated);
     if (section("Recorded flights")) flightList(view, state, commands);
 }
 

@@ -14,6 +14,7 @@
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
@@ -26,45 +27,18 @@ namespace {
 // Length of the list of thrashing chunks.
 constexpr std::size_t thrashingShown = 6;
 
-void toleranceKnobs(LodKnobs& lod) {
-    const LodKnobs defaults;
-    slider(fmt::format("Tolerance {}", tauSymbol()).c_str(), lod.tauPx, defaults.tauPx, 0.1, 64, "%.2f px",
-           fmt::format("Screen-space error (SSE) threshold in pixels. A chunk is replaced by its children "
-                       "while {} = δc K' / D > {}. Larger: fewer triangles and less memory, but more visible "
-                       "error and larger pops. Smaller: more triangles and memory.",
-                       epsSymbol(), tauSymbol())
-               .c_str(),
-           ImGuiSliderFlags_Logarithmic);
-    slider("Hysteresis", lod.hysteresis, defaults.hysteresis, 0, 0.9, "%.2f",
-           fmt::format(
-               "Fraction of {0} by which a merge is delayed: a split chunk stays split until {1} <= "
-               "{0} (1 - hysteresis). Larger: fewer chunks change level back and forth, but more triangles "
-               "are drawn. 0: chunks near {0} may change level with every camera movement.",
-               tauSymbol(), epsSymbol())
-               .c_str());
-    slider("Max LOD level", lod.maxLevel, defaults.maxLevel, 0, planet::maxLevel, "%d",
-           "Deepest level drawn; chunks of this level are not split. Level 0 is a whole cube face. Smaller: "
-           "coarse ground near the camera, regardless of the tolerance.");
-    checkbox("Morph", lod.morph, defaults.morph,
-             "Moves a chunk's vertices gradually onto its parent's surface before the parent replaces it. "
-             "Off: chunks pop when their level changes.");
+void toleranceControls(const SettingControls& control, planet::LodSettings& lod) {
+    control(lod.tauPx);
+    control(lod.hysteresis);
+    control(lod.maxLevel);
+    control(lod.morph);
     beginGrey(!lod.morph, "Turn on Morph first.");
-    slider("Morph range", lod.morphRange, defaults.morphRange, 0.01, 4, "%.2f",
-           fmt::format("Fraction of {0} over which a chunk morphs: its morph is 0 where its parent's {1} is "
-                       "{0} (1 + range), and 1 where it is {0}. Larger: slower morphs, but more chunks are "
-                       "drawn coarser than necessary. Small: almost a pop.",
-                       tauSymbol(), epsSymbol())
-               .c_str(),
-           ImGuiSliderFlags_Logarithmic);
-    slider("Fade", lod.fadeS, defaults.fadeS, 0, 10, "%.2f s",
-           "Minimum duration of a complete morph, in seconds, for each level. It covers changes the morph "
-           "range cannot anticipate: late children, a new tolerance, a fast camera. Larger: smoother, but "
-           "chunks stay too coarse or too fine for longer. 0: such changes pop.",
-           ImGuiSliderFlags_Logarithmic);
+    control(lod.morphRange);
+    control(lod.fadeS);
     endGrey();
 }
 
-// Of a file that was baked before there was one.
+// Returns true for a file whose bake did not measure tight errors.
 bool lacksTightErrors(const planet::ChunkTree& tree) {
     return std::all_of(tree.nodes.begin(), tree.nodes.begin() + planet::faceCount,
                        [](const planet::ChunkNode& root) {
@@ -72,28 +46,18 @@ bool lacksTightErrors(const planet::ChunkTree& tree) {
                        });
 }
 
-void metricKnob(const EditorView& view, LodKnobs& lod) {
-    const LodKnobs defaults;
-    choice("Error metric", lod.metric, defaults.metric, "additive\0tight\0",
-           "Which geometric error bound, in metres, is projected and compared with the tolerance. Additive: "
-           "δc, the sum of the largest errors of each level; safe but loose. Tight: the largest distance the "
-           "bake measured between the chunk's surface, or a descendant's, and the finest data; never larger "
-           "than δc, so it needs fewer triangles for the same tolerance.");
+void metricControl(const EditorView& view, const SettingControls& control, planet::LodSettings& lod) {
+    control(lod.metric);
     if (view.planet && lod.metric == planet::ErrorMetric::Tight && lacksTightErrors(view.planet->tree())) {
         wrappedText("This file contains no tight errors, so no chunk is split. Bake it again.",
                     palette().warning);
     }
 }
 
-void cullingKnobs(const EditorView& view, LodKnobs& lod, Commands& commands) {
-    const LodKnobs defaults;
-    checkbox("Frustum culling", lod.frustumCulling, defaults.frustumCulling,
-             "Skips chunks outside the view frustum. Off: they are loaded and drawn too, several times as "
-             "many chunks; turning the camera then shows no coarse ground.");
-    secondColumn("Horizon culling");
-    checkbox("Horizon culling", lod.horizonCulling, defaults.horizonCulling,
-             "Skips chunks below the horizon. Off: the far side of the planet is loaded and drawn too, "
-             "without visible benefit.");
+void cullingControls(const EditorView& view, const SettingControls& control, planet::LodSettings& lod,
+                     Commands& commands) {
+    control(lod.frustumCulling);
+    control.beside(lod.horizonCulling);
     bool frozen = view.lodFrozen;
     if (frozen) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
     if (ImGui::Checkbox("Freeze (F2)", &frozen)) commands.push_back(FreezeLod{frozen});
@@ -135,7 +99,7 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
     endGrey();
 }
 
-void chunkSizeKnob(const EditorView& view, Commands& commands) {
+void chunkSizeControl(const EditorView& view, Commands& commands) {
     const int fileSize = planet::chunkSize(view.planet->tree().shape);
     // What the user would like to have; 0 while that is what the file has.
     int* wanted = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wantedChunkSize"), 0);
@@ -283,12 +247,13 @@ void changes(const EditorView& view, Commands& commands) {
 }  // namespace
 
 void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    LodKnobs& lod = settings.lod;
+    const SettingControls control(settings);
+    planet::LodSettings& lod = settings.lod;
     if (section("Level of detail")) {
-        toleranceKnobs(lod);
-        metricKnob(view, lod);
-        cullingKnobs(view, lod, commands);
-        if (view.planet) chunkSizeKnob(view, commands);
+        toleranceControls(control, lod);
+        metricControl(view, control, lod);
+        cullingControls(view, control, lod, commands);
+        if (view.planet) chunkSizeControl(view, commands);
         formulas(view, lod.tauPx);
     }
     if (!view.planet) return emptyState("No planet is open. Open one to see its level-of-detail statistics.");

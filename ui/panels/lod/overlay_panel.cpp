@@ -9,6 +9,7 @@
 #include "app/base/glossary.h"
 #include "app/base/text.h"
 #include "ui/kit/plots.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
@@ -17,63 +18,25 @@ namespace worldy::ui {
 
 namespace {
 
-void colourKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
-    const std::string colours = std::string("none") + '\0' + "level" + '\0' + epsSymbol() + " / " +
-                                tauSymbol() + '\0' + "δc" + '\0' + "morph" + '\0' + "age" + '\0' +
-                                "load order" + '\0' + "measured" + '\0';
-    choice("Colour by", overlay.colourBy, defaults.colourBy, colours.c_str(),
-           "Quantity that tints the chunks in the viewport: level, screen-space error relative to the "
-           "tolerance, geometric error δc in metres, morph, time since loading, load order, or the last "
-           "measured error (True error panel) relative to the tolerance. F8 cycles through them.");
+void colourControls(const SettingControls& control, OverlaySettings& overlay) {
+    control(overlay.colourBy);
     beginGrey(overlay.colourBy == ColourBy::None, "Choose a tint first.");
-    slider("Opacity", overlay.opacity, defaults.opacity, 0, 1, "%.2f",
-           "Opacity of the tint, [0, 1]. Smaller: more of the ground shows, but colours are harder to tell "
-           "apart. At 1, the colours are exactly those of the legend: neither light nor the atmosphere "
-           "changes them.");
+    control(overlay.opacity);
     endGrey();
     if (overlay.colourBy == ColourBy::Error || overlay.colourBy == ColourBy::Measured)
-        slider("Midpoint", overlay.errorScale, defaults.errorScale, 0.01, 100,
-               (std::string("%.2f x ") + tauSymbol()).c_str(),
-               "Ratio ε / τ drawn in yellow; 0 is green, and twice this value or more is red.",
-               ImGuiSliderFlags_Logarithmic);
-    if (overlay.colourBy == ColourBy::DeltaC)
-        slider("Max δc", overlay.deltaTopM, defaults.deltaTopM, 0.01, 100'000, "%.4g m",
-               "Geometric error in metres that is drawn lightest. The scale is logarithmic over the four "
-               "decades below it.",
-               ImGuiSliderFlags_Logarithmic);
-    if (overlay.colourBy == ColourBy::Age)
-        slider("Max age", overlay.ageTopS, defaults.ageTopS, 0.1, 3600, "%.3g s",
-               "Time since loading, in seconds, that is drawn darkest; chunks just loaded are lightest.",
-               ImGuiSliderFlags_Logarithmic);
+        control(overlay.errorScale);
+    if (overlay.colourBy == ColourBy::DeltaC) control(overlay.deltaTopM);
+    if (overlay.colourBy == ColourBy::Age) control(overlay.ageTopS);
 }
 
-void drawnKnobs(OverlaySettings& overlay, const OverlaySettings& defaults) {
-    checkbox(
-        "Outlines", overlay.outlines, defaults.outlines,
-        "Draws chunk borders: red where finer chunks could not be read, amber where they will be retried.");
-    secondColumn("Bounds");
-    checkbox("Bounds", overlay.bounds, defaults.bounds,
-             "Draws the bounding boxes used for distance and culling, which contain a chunk and its "
-             "descendants. Slow with thousands of chunks.");
-    checkbox("Wireframe", overlay.wireframe, defaults.wireframe,
-             "Draws the mesh edges over a dimmed surface (F1). Triangles smaller than about three pixels "
-             "appear as uniform grey.");
-    secondColumn("Unprojected cube");
-    checkbox("Unprojected cube", overlay.cube, defaults.cube,
-             "Draws the cube before it is projected onto the sphere (F4). LOD selection still uses the "
-             "sphere, so screen-space errors do not apply to this picture.");
-    checkbox("Clipmap", overlay.clipmap, defaults.clipmap,
-             "If streamed colours use the clipmap (Surface panel): tints each clipmap level by its colour. "
-             "Texels filled in the last two seconds are magenta if the window moved, cyan if tiles were "
-             "loaded or evicted. Freeze LOD or use an observer to see it from outside.");
-    choice("Skirts", overlay.skirtPaint, defaults.skirtPaint, "as ground\0highlighted\0only skirts\0",
-           "How skirts are drawn: with the colour of the ground; in one bright colour, so that every crack "
-           "they fill is visible; or only the skirts in that colour, without the ground.");
-    const std::string labels =
-        std::string("none") + '\0' + "level" + '\0' + epsSymbol() + '\0' + "level and " + epsSymbol() + '\0';
-    choice("Labels", overlay.labels, defaults.labels, labels.c_str(),
-           "Text at the centre of drawn chunks, nearest first, as far as there is room; ε in pixels. Costs a "
-           "few tenths of a millisecond per frame.");
+void drawnControls(const SettingControls& control, OverlaySettings& overlay) {
+    control(overlay.outlines);
+    control.beside(overlay.bounds);
+    control(overlay.wireframe);
+    control.beside(overlay.cube);
+    control(overlay.clipmap);
+    control(overlay.skirtPaint);
+    control(overlay.labels);
 }
 
 struct ErrorCounts {
@@ -123,9 +86,9 @@ void errorHistogram(const planet::Planet& planet) {
 }  // namespace
 
 void overlayPanel(const EditorView& view, ViewSettings& settings, Commands&) {
-    const OverlaySettings defaults;
-    colourKnobs(settings.overlay, defaults);
-    drawnKnobs(settings.overlay, defaults);
+    const SettingControls control(settings);
+    colourControls(control, settings.overlay);
+    drawnControls(control, settings.overlay);
     if (!section("Error of drawn chunks")) return;
     if (view.planet)
         errorHistogram(*view.planet);

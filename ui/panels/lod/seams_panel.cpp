@@ -12,6 +12,7 @@
 #include "planet/base/percentile.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/plots.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -20,34 +21,18 @@ namespace worldy::ui {
 
 namespace {
 
-void depthKnobs(SeamKnobs& seams) {
-    const SeamKnobs defaults;
-    choice("Skirt depth", seams.depth, defaults.depth, "automatic\0fixed\0",
-           "Automatic: each skirt is as deep as the errors it must hide. Fixed: one depth for all chunks.");
-    if (seams.depth == planet::SkirtDepth::Automatic) {
-        slider(
-            "Factor", seams.skirtFactor, defaults.skirtFactor, 0, 10, "%.3f",
-            "Skirt depth = factor (δc of the chunk + the largest δc of its drawn neighbours). At 1 no crack "
-            "shows, because each surface is within its δc of the finest data. Smaller: cracks may show; 0: "
-            "no skirts. Larger: more overdraw, and longer walls where a skirt is seen from the side.");
-    } else {
-        slider("Depth", seams.skirtDepthM, defaults.skirtDepthM, 0, 100000, "%.1f m",
-               "Skirt depth in metres, towards the planet's centre. Smaller than a gap: a crack shows. "
-               "Larger: more overdraw.",
-               ImGuiSliderFlags_Logarithmic);
+void seamControls(ViewSettings& settings) {
+    const SettingControls control(settings);
+    planet::LodSettings& lod = settings.lod;
+    control(lod.seams);
+    if (lod.seams == planet::SeamMode::Skirts) {
+        control(lod.skirtDepth);
+        if (lod.skirtDepth == planet::SkirtDepth::Automatic)
+            control(lod.skirtFactor);
+        else
+            control(lod.skirtDepthM);
     }
-}
-
-void knobs(SeamKnobs& seams) {
-    const SeamKnobs defaults;
-    choice("Seams", seams.mode, defaults.mode, "none\0skirts\0stitched\0",
-           "None: cracks show where levels differ. Skirts: vertical strips along chunk edges hide cracks at "
-           "the cost of more triangles. Stitched: edge vertices move onto the coarser neighbour's edge, so "
-           "no cracks exist; this limits the level difference of neighbours, so some chunks are drawn "
-           "coarser than the tolerance asks for.");
-    if (seams.mode == planet::SeamMode::Skirts) depthKnobs(seams);
-    checkbox("Highlight LOD seams", seams.showPairs, defaults.showPairs,
-             "Highlights edges between chunks of different levels in the viewport.");
+    control(settings.overlay.lodSeams);
 }
 
 // Largest and median of what is drawn, metres.
@@ -140,7 +125,7 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
 }  // namespace
 
 void seamsPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    if (section("Seams")) knobs(settings.seams);
+    if (section("Seams")) seamControls(settings);
     if (!view.planet) return emptyState("No planet is open. Open one to see its LOD seams.");
     const planet::Selection& selection = view.planet->selection();
     if (section("Drawn now")) {

@@ -11,6 +11,7 @@
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -25,8 +26,7 @@ const char* whyNoSkirts(const CracksView& cracks) {
     return "Stitched seams have no skirts.";
 }
 
-void knobs(const EditorView& view, CrackKnobs& cracks, Commands& commands) {
-    const CrackKnobs defaults;
+void measureControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
     beginGrey(!view.planet, "Open a planet first.");
     if (button("Measure",
                "Renders the depth of the chunks three times (with full-depth skirts, without skirts, with "
@@ -42,16 +42,10 @@ void knobs(const EditorView& view, CrackKnobs& cracks, Commands& commands) {
         commands.emplace_back(FindSmallestSkirts{});
     endGrey();
     endGrey();
-    checkbox("Measure while flying", cracks.live, defaults.live,
-             "Measures every few frames. Each measurement takes at least as long as drawing three frames, so "
-             "the picture stutters.");
-    if (cracks.live) {
-        slider("Every", cracks.everyFrames, defaults.everyFrames, 1, 1000, "%d frames",
-               "Number of frames between measurements. Fewer: lower frame rate. More: less current values.");
-    }
-    checkbox("Highlight in viewport", cracks.mark, defaults.mark,
-             "Highlights crack pixels in the viewport, each several pixels wide, while the view is the "
-             "measured one.");
+    const SettingControls control(settings);
+    control(settings.cracks.live);
+    if (settings.cracks.live) control(settings.cracks.everyFrames);
+    control(settings.cracks.mark);
 }
 
 // A value that was found, with a button that sets it. whyNot: empty where it can be set. True if it is to be
@@ -82,30 +76,32 @@ bool foundRow(const char* name, const std::string& value, const char* explanatio
     return pressed;
 }
 
-void depthRow(const char* name, double depthM, const char* explanation, bool replayed, SeamKnobs& seams) {
+void depthRow(const char* name, double depthM, const char* explanation, bool replayed,
+              planet::LodSettings& lod) {
     const std::string whyNot = replayed      ? "Settings are locked during a replay; end it first."
                                : depthM <= 0 ? "No cracks found."
                                              : "";
     if (!foundRow(name, distanceText(depthM), explanation, whyNot)) return;
-    seams.mode = planet::SeamMode::Skirts;
-    seams.depth = planet::SkirtDepth::Fixed;
-    seams.skirtDepthM = std::clamp(depthM, 0.0, 100000.0);
+    lod.seams = planet::SeamMode::Skirts;
+    lod.skirtDepth = planet::SkirtDepth::Fixed;
+    lod.skirtDepthM = std::min(depthM, rangeOf("seams.skirt_depth_m").max);
 }
 
-void factorRow(const char* name, double factor, const char* explanation, bool replayed, SeamKnobs& seams) {
-    constexpr double mostFactor = 10;
+void factorRow(const char* name, double factor, const char* explanation, bool replayed,
+               planet::LodSettings& lod) {
+    const double mostFactor = rangeOf("seams.skirt_factor").max;
     const std::string whyNot = replayed              ? "Settings are locked during a replay; end it first."
                                : factor <= 0         ? "No cracks found."
                                : factor > mostFactor ? "The factor exceeds 10; apply the depth instead."
                                                      : "";
     const std::string text = std::isfinite(factor) ? fmt::format("{:.3f}", factor) : std::string("none");
     if (!foundRow(name, text, explanation, whyNot)) return;
-    seams.mode = planet::SeamMode::Skirts;
-    seams.depth = planet::SkirtDepth::Automatic;
-    seams.skirtFactor = factor;
+    lod.seams = planet::SeamMode::Skirts;
+    lod.skirtDepth = planet::SkirtDepth::Automatic;
+    lod.skirtFactor = factor;
 }
 
-void values(const CracksView& cracks, bool replayed, SeamKnobs& seams) {
+void values(const CracksView& cracks, bool replayed, planet::LodSettings& lod) {
     const CrackMeasurement& measured = *cracks.measured;
     const double worstGapM = measured.gaps.empty() ? 0 : measured.gaps.front().gapM;
     const char* const note = roundingNote(measured.map.pixels.size(), worstGapM);
@@ -123,18 +119,18 @@ void values(const CracksView& cracks, bool replayed, SeamKnobs& seams) {
     valueRow("LOD seams", fmt::format("{}", measured.levelPairs),
              "Pairs of adjacent drawn chunks with different levels.");
     depthRow("Required depth (max gap)", measured.required.depthM,
-             "Largest height difference between two adjacent edges, in metres.", replayed, seams);
+             "Largest height difference between two adjacent edges, in metres.", replayed, lod);
     factorRow("Required factor (max gap)", measured.required.factor,
-              "Smallest automatic factor whose skirts reach every adjacent edge.", replayed, seams);
+              "Smallest automatic factor whose skirts reach every adjacent edge.", replayed, lod);
     if (cracks.smallest) {
         depthRow("Smallest depth", cracks.smallest->depthM,
                  "Smallest fixed skirt depth that leaves no uncovered pixel in this view; within 0.5 %.",
-                 replayed, seams);
+                 replayed, lod);
         factorRow("Smallest factor", cracks.smallest->factor,
                   "Smallest automatic factor that leaves no uncovered pixel in this view; within 0.5 %. "
                   "None: a factor "
                   "of 1000 is not enough.",
-                  replayed, seams);
+                  replayed, lod);
     }
     valueRow("Picture", fmt::format("{} x {}", measured.map.widthPx, measured.map.heightPx),
              "Size of the measured picture, in pixels.");
@@ -229,7 +225,7 @@ void gapTable(const EditorView& view, Commands& commands) {
 }  // namespace
 
 void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settings, Commands& commands) {
-    if (section("Cracks")) knobs(view, settings.cracks, commands);
+    if (section("Cracks")) measureControls(view, settings, commands);
     if (!view.planet) return emptyState("No planet is open. Open one to measure cracks.");
     if (!view.cracks.measured)
         return emptyState("Not measured yet. Press Measure to count the crack pixels of the current view.");
@@ -238,7 +234,7 @@ void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settin
                     palette().warning);
     }
     beginGrey(!view.cracks.current, "Out of date: measure again.");
-    if (section("Results")) values(view.cracks, view.recording.replay.has_value(), settings.seams);
+    if (section("Results")) values(view.cracks, view.recording.replay.has_value(), settings.lod);
     if (section("Crack clusters")) spotTable(view, commands);
     if (section("Edge gaps")) gapTable(view, commands);
     endGrey();

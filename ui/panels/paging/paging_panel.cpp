@@ -18,6 +18,7 @@
 #include "ui/kit/columns.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -38,34 +39,13 @@ constexpr std::size_t latencyBuckets = 36;
 
 // Controls.
 
-void knobs(PagingKnobs& paging, bool hasColours) {
-    const PagingKnobs defaults;
-    slider("Budget", paging.budgetMB, defaults.budgetMB, 16, 65536, "%d MiB",
-           "Memory budget for resident chunks and colour tiles, CPU and GPU together, in MiB. Smaller: once "
-           "the budget is full, some chunks stay coarse and evicted chunks must be loaded again. Larger: "
-           "less memory for everything else.",
-           ImGuiSliderFlags_Logarithmic);
-    if (hasColours) {
-        slider("Colour share", paging.colourShare, defaults.colourShare, 0.01, 0.9, "%.2f",
-               "Fraction of the budget for streamed colour tiles. Larger: sharper colours, but coarser "
-               "ground once the budget is full.");
-    }
-    slider("Loaders", paging.loaderThreads, defaults.loaderThreads, 1, 64, "%d",
-           "Number of threads that read and decode chunks. More: more reads in flight on a slow disk, but "
-           "less CPU time for drawing.",
-           ImGuiSliderFlags_Logarithmic);
-    slider("Upload limit", paging.uploadLimitMs, defaults.uploadLimitMs, 0.1, 100, "%.1f ms",
-           "Time per frame for uploading loaded chunks, in milliseconds; at least one block is uploaded per "
-           "frame. Larger: detail arrives sooner, but frames may stutter.",
-           ImGuiSliderFlags_Logarithmic);
-    slider("Retries", paging.retries, defaults.retries, 0, 10, "%d",
-           "How often a failed read is retried before it counts as permanently failed. Fewer: an unreliable "
-           "disk leaves chunks coarse. More: a broken disk is retried for longer. Corrupt blocks are never "
-           "retried.");
-    slider("Retry delay", paging.retryDelayS, defaults.retryDelayS, 0, 60, "%.2f s",
-           "Delay before the first retry of a failed read, in seconds; it doubles with each further retry. "
-           "Smaller: detail arrives sooner, but a failing disk is read more often.",
-           ImGuiSliderFlags_Logarithmic);
+void settingControls(const SettingControls& control, PagingOptions& paging, bool hasColours) {
+    control(paging.budgetMB);
+    if (hasColours) control(paging.colourShare);
+    control(paging.loaderThreads);
+    control(paging.uploadLimitMs);
+    control(paging.retries);
+    control(paging.retryDelayS);
 }
 
 void buttons(const EditorView& view, Commands& commands) {
@@ -241,17 +221,8 @@ void totals(const EditorView& view) {
     totalsByKind(view.stats);
 }
 
-void seedKnob(std::uint32_t& seed) {
-    constexpr const char* explanation = "Seed of the injected faults; the same seed gives the same faults.";
-    labelledControl("Seed", explanation);
-    const std::uint32_t step = 1;
-    ImGui::InputScalar("##seed", ImGuiDataType_U32, &seed, &step);
-    tooltip(explanation);
-}
-
-void badDisk(PagingKnobs& paging) {
+void badDisk(const SettingControls& control, PagingOptions& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
-    const planet::BadDiskSettings defaults;
     if (isBad(disk)) {
         wrappedText(fmt::format("Injecting I/O faults: {}.", badDiskText(disk)), palette().warning);
         if (button("Off", "Turns all fault injection off. The seed is kept.")) {
@@ -260,32 +231,19 @@ void badDisk(PagingKnobs& paging) {
             disk.seed = seed;
         }
     }
-    slider("Latency", disk.latencyMs, defaults.latencyMs, 0, 10000, "%.1f ms",
-           "Latency added to each read, in milliseconds, varied randomly by ±50 %. Larger: detail arrives "
-           "later; more loaders hide part of it.",
-           ImGuiSliderFlags_Logarithmic);
-    slider("Bandwidth", disk.bandwidthMBs, defaults.bandwidthMBs, 0, 100000,
-           disk.bandwidthMBs > 0 ? "%.2f MB/s" : "unlimited",
-           "Bandwidth per loader thread, in MB/s (10^6 bytes); 0 is unlimited. Smaller: large blocks take "
-           "longer.",
-           ImGuiSliderFlags_Logarithmic);
-    slider(
-        "Failure rate", disk.failureRate, defaults.failureRate, 0, 1, "%.3f",
-        "Fraction of reads that fail, [0, 1]. The parent of a failed block is drawn until a retry succeeds.");
-    checkbox("Shuffled order", disk.shuffledOrder, defaults.shuffledOrder,
-             "Serves reads in a random order given by the seed instead of by priority, to show the benefit "
-             "of priorities.");
-    seedKnob(disk.seed);
+    control(disk.latencyMs);
+    control(disk.bandwidthMBs, {.format = disk.bandwidthMBs > 0 ? "" : "unlimited"});
+    control(disk.failureRate);
+    control(disk.shuffledOrder);
+    control(disk.seed);
+    const Field& field = control.of(paging.simulated);
+    const auto tip = [&] { return settingTip(field); };
     int time = paging.simulated ? 1 : 0;
-    if (choiceIndex("Read timing", time, 0, "real time\0simulated\0",
-                    "Real time: loader threads read as fast as they can. Simulated: a read takes exactly the "
-                    "time given by the settings above and the seed, counted in frame time, so that a flight "
-                    "loads the same blocks in the same frames on any machine. Without latency and bandwidth "
-                    "a read takes no time. Changing this restarts reads in progress."))
-        paging.simulated = time == 1;
+    if (choiceIndex("Read timing", time, 0, "real time\0simulated\0", tip)) paging.simulated = time == 1;
+    noteSetting(field);
 }
 
-// What is read from the planet now and then.
+// Samples of the planet, taken a few times a second.
 
 void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::Sample& sample) {
     std::vector<PagingRow>& queue = sample.queue;
@@ -713,9 +671,10 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     latencyHistogram(state, lines);
 }
 
-void pagingControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
+void pagingControls(const EditorView& view, const SettingControls& control, ViewSettings& settings,
+                    Commands& commands) {
     residentMemory(view);
-    knobs(settings.paging, view.planet->colour().has_value());
+    settingControls(control, settings.paging, view.planet->colour().has_value());
     buttons(view, commands);
 }
 
@@ -764,9 +723,10 @@ void tables(const EditorView& view, PagingPanelState& state, Commands& commands)
 
 void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& settings,
                  Commands& commands) {
+    const SettingControls control(settings);
     if (!view.planet) {
-        knobs(settings.paging, false);
-        badDisk(settings.paging);
+        settingControls(control, settings.paging, false);
+        badDisk(control, settings.paging);
         return emptyState("No planet is open. Open one to see its paging requests.");
     }
     refresh(view, state);
@@ -774,14 +734,14 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     constexpr float tableLines = 13;
     const std::array columns = {Column{"Paging", 1.2f, 0,
                                        [&] {
-                                           pagingControls(view, settings, commands);
+                                           pagingControls(view, control, settings, commands);
                                            if (wide && section("I/O fault injection"))
-                                               badDisk(settings.paging);
+                                               badDisk(control, settings.paging);
                                        }},
                                 Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
                                 Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
     drawColumns("paging", columns);
-    if (!wide && section("I/O fault injection")) badDisk(settings.paging);
+    if (!wide && section("I/O fault injection")) badDisk(control, settings.paging);
 }
 
 }  // namespace worldy::ui

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "ui/kit/feature_knob.h"
+#include "ui/kit/feature_control.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/panels/surface/layer_controls.h"
 #include "ui/panels/surface/layer_edit.h"
-#include "ui/panels/surface/layer_knobs.h"
 
 namespace worldy::ui {
 
@@ -22,43 +22,26 @@ using planet::gl::LayerPreview;
 
 constexpr const char* dragKind = "texture layer";
 
-void useKnobs(const EditorView& view, SurfaceSettings& surface, Commands& commands) {
+void useControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface,
+                 Commands& commands) {
     LayerSettings& layers = surface.layers;
-    const LayerSettings defaults;
-    featureKnob("Layers", CostlyPart::Layers, view, surface, commands,
-                "Draws material textures on near ground.");
-    slider("Opacity", layers.opacity, defaults.opacity, 0, 1, "%.2f",
-           "Opacity of all layers over the image or the ramp, [0, 1].");
-    slider("Fade start", layers.beginM, defaults.beginM, 0, 1e6, "%.0f m",
-           "Distance from the camera, in metres, where layers begin to fade into the image or ramp.",
-           ImGuiSliderFlags_Logarithmic);
-    slider("Fade end", layers.endM, defaults.endM, 1, 1e7, "%.0f m",
-           "Distance from the camera, in metres, where layers have faded out. Larger: layers cost time on "
-           "more pixels and hide more of the image.",
-           ImGuiSliderFlags_Logarithmic);
+    featureControl(control, CostlyPart::Layers, view, surface, commands);
+    control(layers.opacity);
+    control(layers.beginM);
+    control(layers.endM);
     layers.beginM = std::min(layers.beginM, layers.endM);
-    slider("Base-colour blend", layers.colourBelow, defaults.colourBelow, 0, 1, "%.2f",
-           "How much of the image or ramp colour tints the layers: 0 uses the layers' own colours, 1 only "
-           "their pattern. Larger: a less visible transition from far to near.");
+    control(layers.colourBelow);
 }
 
-void blendKnobs(LayerSettings& layers) {
-    const planet::LayerSet defaults;
-    choice("Blend by", layers.set.blend, defaults.blend, "weight\0height\0",
-           "How overlapping layers are blended. Weight: by their weights. Height: the layer with the higher "
-           "relief wins, so sand lies between stones.");
+void blendControls(const SettingControls& control, LayerSettings& layers) {
+    control(layers.set.blend);
     beginGrey(layers.set.blend == planet::LayerBlend::Weight, "Blend by height first.");
-    slider("Blend depth", layers.set.blendDepth, defaults.blendDepth, 0.05, 2, "%.2f",
-           "For blending by height: a layer lower by this depth keeps 2 % of its weight; relief and weight "
-           "are in [0, 1]. Smaller: sharper borders.");
+    control(layers.set.blendDepth);
     endGrey();
 }
 
-void previewKnob(const LayersPanelState& state, LayerSettings& layers) {
-    const LayerSettings defaults;
-    choice("Preview", layers.preview, defaults.preview, "off\0heat\0mask\0",
-           "Shows the weight of the selected layer over the whole planet. Heat: violet 0, green 0.5, yellow "
-           "1. Mask: black 0, white 1, without the ground.");
+void previewControl(const LayersPanelState& state, const SettingControls& control, LayerSettings& layers) {
+    control(layers.preview);
     if (layers.preview != LayerPreview::Off) layers.previewed = static_cast<int>(state.chosen) + 1;
 }
 
@@ -249,24 +232,25 @@ void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettin
 
 }  // namespace
 
-void layersSections(const EditorView& view, LayersPanelState& state, SurfaceSettings& surface,
-                    Commands& commands) {
+void layersSections(const EditorView& view, LayersPanelState& state, const SettingControls& control,
+                    SurfaceSettings& surface, Commands& commands) {
     LayerSettings& layers = surface.layers;
     LayerList& list = layers.set.layers;
     ImGui::PushID("layers");
     if (section("Texture layers")) {
-        useKnobs(view, surface, commands);
+        useControls(view, control, surface, commands);
         layerList(view, state, layers);
         state.chosen = std::min(state.chosen, list.empty() ? 0 : list.size() - 1);
         listButtons(state, list);
-        blendKnobs(layers);
-        previewKnob(state, layers);
+        blendControls(control, layers);
+        previewControl(state, control, layers);
         setFiles(view, state, layers, commands);
     }
     state.chosen = std::min(state.chosen, list.empty() ? 0 : list.size() - 1);
     if (!list.empty() && section(fmt::format("Layer: {}###layer", list[state.chosen].name).c_str())) {
         const bool wrong = state.chosen < view.layers.problems.size();
-        layerKnobs(list[state.chosen], wrong ? view.layers.problems[state.chosen] : std::string(), commands);
+        layerControls(list[state.chosen], wrong ? view.layers.problems[state.chosen] : std::string(),
+                      commands);
     }
     if (section(view.layers.overGround || !view.layers.under ? "Weights under the pointer###weights"
                                                              : "Weights last under the pointer###weights"))

@@ -1,10 +1,10 @@
-// The Surface panel's part on texture layers: the list, how they are mixed, their weights under the pointer,
-// sets.
+// The part of the Surface panel on texture layers: their list, blending, weights under the pointer, and sets.
 #pragma once
 
 #include <array>
 #include <string>
 
+#include "ui/kit/setting_controls.h"
 #include "ui/model/editor_view.h"
 
 namespace worldy::ui {
@@ -16,8 +16,8 @@ struct LayersPanelState {
     bool saving = false;             // under that name, in the frame before
 };
 
-// Sections of the current window.
-void layersSections(const EditorView& view, LayersPanelState& state, SurfaceSettings& surface,
-                    Commands& commands);
+// Fills sections of the current window.
+void layersSections(const EditorView& view, LayersPanelState& state, const SettingControls& control,
+                    SurfaceSettings& surface, Commands& commands);
 
 }  // namespace worldy::ui

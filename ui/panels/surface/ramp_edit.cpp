@@ -32,7 +32,7 @@ glm::vec3 rampColourAt(std::span<const RampStop> ramp, double heightM) {
 }
 
 std::size_t addStop(Ramp& ramp, double heightM) {
-    assert(ramp.size() < maxRampStops);
+    assert(ramp.size() < planet::gl::maxRampStops);
     const std::size_t at = stopAbove(ramp, heightM);
     const glm::vec3 colour = rampColourAt(ramp, heightM);
     ramp.insert(ramp.begin() + static_cast<std::ptrdiff_t>(at), RampStop{heightM, colour});

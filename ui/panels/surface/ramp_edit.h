@@ -13,8 +13,6 @@ namespace worldy::ui {
 
 using Ramp = std::vector<planet::gl::RampStop>;
 
-inline constexpr std::size_t maxRampStops = 32;  // that the renderer takes
-
 // The colour that a height is drawn in, as planet::gl::RampStop says; black for an empty ramp.
 glm::vec3 rampColourAt(std::span<const planet::gl::RampStop> ramp, double heightM);
 

@@ -12,6 +12,7 @@
 
 #include "app/base/text.h"
 #include "planet/surface/colour_clipmap.h"
+#include "ui/kit/setting_controls.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/panels/surface/ramp_edit.h"
@@ -20,6 +21,7 @@ namespace worldy::ui {
 
 namespace {
 
+using planet::gl::maxRampStops;
 using planet::gl::RampStop;
 
 // Heights in metres that presets and the first stop of a ramp span.
@@ -36,38 +38,34 @@ HeightRange heightsOf(const EditorView& view, double seaLevelM) {
             planet::heightM(tree.storedShape, tree.maxStep) - seaLevelM};
 }
 
-// Sizes that a clipmap's windows can have: powers of two.
-void windowSizeKnob(SurfaceSettings& surface, int defaultPx) {
+// A list of the powers of two that the size of a clipmap's windows may be.
+void windowSizeControl(const SettingControls& control, SurfaceSettings& surface) {
     const auto indexOf = [](int sizePx) {
         const auto size = static_cast<unsigned>(planet::clipmapLayout(sizePx, 0).sizePx);
         return std::countr_zero(size) - std::countr_zero(static_cast<unsigned>(planet::smallestClipmapPx));
     };
+    const Field& field = control.of(surface.clipmapSizePx);
+    const auto tip = [&] { return settingTip(field); };
     int index = indexOf(surface.clipmapSizePx);
-    if (choiceIndex(
-            "Window", index, indexOf(defaultPx),
-            "256 px\0"
-            "512 px\0"
-            "1024 px\0"
-            "2048 px\0"
-            "4096 px\0",
-            "Texels along a side of each clipmap level, N. Beyond a level's window the next coarser level is "
-            "used: towards the horizon about N / (2 K') texels per pixel, K' = viewport width / (2 tan(field "
-            "of view / 2)). Smaller: blurred. Larger: memory grows with the square of the size."))
+    if (choiceIndex(std::string(field.label).c_str(), index, indexOf(SurfaceSettings().clipmapSizePx),
+                    "256 px\0"
+                    "512 px\0"
+                    "1024 px\0"
+                    "2048 px\0"
+                    "4096 px\0",
+                    tip))
         surface.clipmapSizePx = planet::smallestClipmapPx << index;
+    noteSetting(field);
 }
 
-void clipmapKnobs(SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
-    choice("Sampling", surface.colourMode, defaults.colourMode, "tiles\0clipmap\0",
-           "Tiles: each pixel looks up its tile in a page table; as sharp everywhere as the loaded tiles. "
-           "Clipmap: a stack of textures centred on the camera, filled from the same tiles; no page table "
-           "lookup, but sharp only near the point under the camera, and it needs additional memory.");
+void clipmapControls(const SettingControls& control, SurfaceSettings& surface) {
+    control(surface.colourMode);
     beginGrey(surface.colourMode != ColourMode::Clipmap, "Only the clipmap has windows.");
-    windowSizeKnob(surface, defaults.clipmapSizePx);
+    windowSizeControl(control, surface);
     endGrey();
 }
 
-// Of both ways side by side.
+// Shows the memory of tiles and of the clipmap, whichever is used.
 void colourMemory(const EditorView& view, const SurfaceSettings& surface) {
     const planet::gl::GpuMemory& gpu = view.stats.gpuMemory;
     const ClipmapStats& clipmap = view.stats.clipmap;
@@ -94,18 +92,12 @@ void colourMemory(const EditorView& view, const SurfaceSettings& surface) {
              "areas of newly loaded tiles. After a jump of the camera, all of them.");
 }
 
-// Of colours that the file itself holds.
-void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
-    checkbox("Streamed", surface.streamed, defaults.streamed,
-             "Draws the colours baked into the file, streamed as tiles. Off: the image beside the source, if "
-             "there is one, otherwise the ramp.");
+// Draws the controls of colours that the file holds.
+void streamedControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface) {
+    control(surface.streamed);
     beginGrey(!surface.streamed, "Turn on Streamed first.");
-    slider("Texels per pixel", surface.texelsPerPixel, defaults.texelsPerPixel, 0.1, 4, "%.2f",
-           "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
-           "doubling it needs up to four times the tiles, and it may shimmer. Smaller: softer.",
-           ImGuiSliderFlags_Logarithmic);
-    clipmapKnobs(surface);
+    control(surface.texelsPerPixel);
+    clipmapControls(control, surface);
     endGrey();
     const std::string& problem = view.stats.clipmap.problem;
     if (!problem.empty()) wrappedText(problem, palette().warning);
@@ -121,19 +113,15 @@ void streamedKnobs(const EditorView& view, SurfaceSettings& surface) {
     endValues();
 }
 
-void colourKnobs(const EditorView& view, SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
+void colourControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface) {
     const bool hasOwn = view.planet && view.planet->colour();
     const bool hasAny = hasOwn || view.data.hasColourImage;
-    choice("Colour", surface.surface, defaults.surface, "image\0height ramp\0",
-           hasAny ? "Source of the ground colour: the colour image or a ramp of colours by height."
-                  : "No colour image is loaded; the ramp is used for both.");
+    control(surface.surface, {.help = hasAny ? "" : "No colour image is loaded; the ramp is used for both."});
     const bool image = surface.surface == planet::gl::SurfaceColour::Image && hasAny;
     beginGrey(!image,
               hasAny ? "The height ramp is drawn: choose the image above." : "No colour image is loaded.");
-    slider("Image opacity", surface.imageOpacity, defaults.imageOpacity, 0, 1, "%.2f",
-           hasAny ? "Opacity of the colour image over the ramp, [0, 1]." : "No colour image is loaded.");
-    if (hasOwn) streamedKnobs(view, surface);
+    control(surface.imageOpacity);
+    if (hasOwn) streamedControls(view, control, surface);
     endGrey();
 }
 
@@ -249,31 +237,20 @@ void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSetting
     state.selectedStop = static_cast<int>(addStop(ramp, *addedM));
 }
 
-void seaKnobs(SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
-    checkbox("Sea", surface.sea, defaults.sea,
-             "Draws ground below the sea level as sea. Off: dry land, as on the Moon.");
-    slider("Sea level", surface.seaLevelM, defaults.seaLevelM, -20000, 20000, "%.0f m",
-           "Sea level in metres above the planet's radius; ramp heights are relative to it. Affects only "
-           "colour and light, not geometry.");
-}
-
 }  // namespace
 
 void surfacePanel(const EditorView& view, SurfacePanelState& state, ViewSettings& settings,
                   Commands& commands) {
+    const SettingControls control(settings);
     SurfaceSettings& surface = settings.surface;
-    const SurfaceSettings defaults;
-    if (section("Colour")) colourKnobs(view, surface);
+    if (section("Colour")) colourControls(view, control, surface);
     if (section("Height ramp")) rampEditor(view, state, surface);
-    if (section("Sea")) seaKnobs(surface);
-    if (section("Relief")) {
-        slider("Exaggeration", surface.exaggeration, defaults.exaggeration, 0.1, 100, "%.2f x",
-               "Factor applied to heights; errors, bounds and skirts scale with it. Larger: more chunks for "
-               "the same tolerance.",
-               ImGuiSliderFlags_Logarithmic);
+    if (section("Sea")) {
+        control(surface.sea);
+        control(surface.seaLevelM);
     }
-    layersSections(view, state.layers, surface, commands);
+    if (section("Relief")) control(surface.exaggeration);
+    layersSections(view, state.layers, control, surface, commands);
 }
 
 }  // namespace worldy::ui

@@ -50,26 +50,26 @@ protected:
 };
 
 TEST_F(CracksPanel, appliesTheSmallestDepthAsAFixedOne) {
-    settings_.seams.mode = planet::SeamMode::None;
+    settings_.lod.seams = planet::SeamMode::None;
     click("Apply Smallest depth");
-    EXPECT_EQ(settings_.seams.mode, planet::SeamMode::Skirts);
-    EXPECT_EQ(settings_.seams.depth, planet::SkirtDepth::Fixed);
-    EXPECT_EQ(settings_.seams.skirtDepthM, 30);
+    EXPECT_EQ(settings_.lod.seams, planet::SeamMode::Skirts);
+    EXPECT_EQ(settings_.lod.skirtDepth, planet::SkirtDepth::Fixed);
+    EXPECT_EQ(settings_.lod.skirtDepthM, 30);
 }
 
 TEST_F(CracksPanel, appliesTheSmallestFactorAsAnAutomaticOne) {
-    settings_.seams.depth = planet::SkirtDepth::Fixed;
+    settings_.lod.skirtDepth = planet::SkirtDepth::Fixed;
     click("Apply Smallest factor");
-    EXPECT_EQ(settings_.seams.depth, planet::SkirtDepth::Automatic);
-    EXPECT_EQ(settings_.seams.skirtFactor, 0.021);
+    EXPECT_EQ(settings_.lod.skirtDepth, planet::SkirtDepth::Automatic);
+    EXPECT_EQ(settings_.lod.skirtFactor, 0.021);
 }
 
 TEST_F(CracksPanel, appliesWhatTheGapsAskFor) {
     click("Apply Required depth (max gap)");
-    EXPECT_EQ(settings_.seams.skirtDepthM, 42.5);
+    EXPECT_EQ(settings_.lod.skirtDepthM, 42.5);
     click("Apply Required factor (max gap)");
-    EXPECT_EQ(settings_.seams.depth, planet::SkirtDepth::Automatic);
-    EXPECT_EQ(settings_.seams.skirtFactor, 0.75);
+    EXPECT_EQ(settings_.lod.skirtDepth, planet::SkirtDepth::Automatic);
+    EXPECT_EQ(settings_.lod.skirtFactor, 0.75);
 }
 
 TEST_F(CracksPanel, withoutCracksThereIsNothingToApply) {

@@ -75,7 +75,7 @@ TEST(RampEdit, presetsSpanThePlanetInOrder) {
         for (const Ramp& ramp :
              {greyRamp(range.lowestM, range.highestM), hypsometricRamp(range.lowestM, range.highestM)}) {
             ASSERT_FALSE(ramp.empty());
-            EXPECT_LE(ramp.size(), maxRampStops);
+            EXPECT_LE(ramp.size(), planet::gl::maxRampStops);
             EXPECT_TRUE(isSorted(ramp));
             EXPECT_DOUBLE_EQ(ramp.front().heightM, range.lowestM);
             EXPECT_GE(ramp.back().heightM, range.highestM);

@@ -1,4 +1,4 @@
-#include "ui/panels/surface/layer_knobs.h"
+#include "ui/panels/surface/layer_controls.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -31,7 +31,7 @@ void textField(const char* label, std::string& text, const char* hint, const cha
     ImGui::PopID();
 }
 
-struct RangeKnob {
+struct RangeControl {
     const char* label;
     const char* edgeLabel;
     const SoftRange& all;
@@ -42,51 +42,53 @@ struct RangeKnob {
     const char* edgeExplanation;
 };
 
-void endPoint(const char* id, double& value, double least, double most, const RangeKnob& knob, float width) {
+void endPoint(const char* id, double& value, double least, double most, const RangeControl& control,
+              float width) {
     ImGui::SetNextItemWidth(width);
-    ImGui::DragScalar(id, ImGuiDataType_Double, &value, knob.speed, &least, &most, knob.format,
+    ImGui::DragScalar(id, ImGuiDataType_Double, &value, control.speed, &least, &most, control.format,
                       ImGuiSliderFlags_AlwaysClamp);
-    tooltip(knob.explanation);
+    tooltip(control.explanation);
 }
 
 // Both ends, neither past the other, and the edge below them.
-void rangeKnob(const RangeKnob& knob, SoftRange& range) {
-    ImGui::PushID(knob.label);
-    const bool isDefault = range == knob.all;
+void rangeControl(const RangeControl& control, SoftRange& range) {
+    ImGui::PushID(control.label);
+    const bool isDefault = range == control.all;
     if (!isDefault) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
-    labelledControl(knob.label, knob.explanation);
+    labelledControl(control.label, control.explanation);
     if (!isDefault) ImGui::PopStyleColor();
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float width = std::max((ImGui::GetContentRegionAvail().x - gap) / 2, 1.0f);
-    endPoint("##lowest", range.lowest, knob.all.lowest, std::max(range.highest, knob.all.lowest), knob,
-             width);
-    noteItem(fmt::format("{} from", knob.label));
+    endPoint("##lowest", range.lowest, control.all.lowest, std::max(range.highest, control.all.lowest),
+             control, width);
+    noteItem(fmt::format("{} from", control.label));
     ImGui::SameLine(0, gap);
-    endPoint("##highest", range.highest, std::min(range.lowest, knob.all.highest), knob.all.highest, knob,
-             width);
-    noteItem(fmt::format("{} to", knob.label));
+    endPoint("##highest", range.highest, std::min(range.lowest, control.all.highest), control.all.highest,
+             control, width);
+    noteItem(fmt::format("{} to", control.label));
     ImGui::PopID();
-    slider(knob.edgeLabel, range.softEdge, 0, 0, knob.widestEdge, knob.format, knob.edgeExplanation,
-           ImGuiSliderFlags_Logarithmic);
+    slider(control.edgeLabel, range.softEdge, 0, 0, control.widestEdge, control.format,
+           control.edgeExplanation, ImGuiSliderFlags_Logarithmic);
 }
 
 void ranges(TextureLayer& layer) {
     const float heightSpeed =
         static_cast<float>(std::max(0.01 * std::max(std::abs(layer.heightM.lowest), 0.0), 5.0));
-    rangeKnob({"Height", "Height falloff", planet::allHeightsM, 5000, "%.0f m", std::min(heightSpeed, 50.0f),
-               "Height range of the layer in metres above sea level; its weight is 0.5 at each end. With "
-               "both ends at their limits it covers all heights. Drag, or Ctrl+click to type.",
-               "Width of the transition at each end, in metres. 0: a sharp border."},
-              layer.heightM);
-    rangeKnob({"Slope", "Slope falloff", planet::allSlopesDeg, 60, "%.0f°", 0.2f,
-               "Slope range of the layer in degrees; 0 is level, 90 vertical. Computed from the drawn "
-               "heights, so coarse data has no cliffs.",
-               "Width of the transition at each end, in degrees. 0: a sharp border."},
-              layer.slopeDeg);
-    rangeKnob({"Latitude", "Latitude falloff", planet::allLatitudesDeg, 60, "%.0f°", 0.3f,
-               "Latitude range of the layer in degrees, north positive.",
-               "Width of the transition at each end, in degrees. 0: a sharp border."},
-              layer.latitudeDeg);
+    rangeControl(
+        {"Height", "Height falloff", planet::allHeightsM, 5000, "%.0f m", std::min(heightSpeed, 50.0f),
+         "Height range of the layer in metres above sea level; its weight is 0.5 at each end. With "
+         "both ends at their limits it covers all heights. Drag, or Ctrl+click to type.",
+         "Width of the transition at each end, in metres. 0: a sharp border."},
+        layer.heightM);
+    rangeControl({"Slope", "Slope falloff", planet::allSlopesDeg, 60, "%.0f°", 0.2f,
+                  "Slope range of the layer in degrees; 0 is level, 90 vertical. Computed from the drawn "
+                  "heights, so coarse data has no cliffs.",
+                  "Width of the transition at each end, in degrees. 0: a sharp border."},
+                 layer.slopeDeg);
+    rangeControl({"Latitude", "Latitude falloff", planet::allLatitudesDeg, 60, "%.0f°", 0.3f,
+                  "Latitude range of the layer in degrees, north positive.",
+                  "Width of the transition at each end, in degrees. 0: a sharp border."},
+                 layer.latitudeDeg);
 }
 
 void textures(TextureLayer& layer, Commands& commands) {
@@ -106,7 +108,7 @@ void textures(TextureLayer& layer, Commands& commands) {
 
 }  // namespace
 
-void layerKnobs(TextureLayer& layer, const std::string& problem, Commands& commands) {
+void layerControls(TextureLayer& layer, const std::string& problem, Commands& commands) {
     const TextureLayer defaults;
     if (!problem.empty())
         wrappedText(fmt::format("{}; a checkerboard is drawn instead.", problem), palette().bad);

@@ -1,4 +1,4 @@
-#include "ui/kit/feature_knob.h"
+#include "ui/kit/feature_control.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 
 namespace worldy::ui {
 
-void featureKnob(const char* label, CostlyPart part, const EditorView& view, SurfaceSettings& surface,
-                 Commands& commands, const char* explanation) {
+void featureControl(const SettingControls& control, CostlyPart part, const EditorView& view,
+                    SurfaceSettings& surface, Commands& commands) {
     using planet::gl::FeatureUse;
     FeatureUse& use = useOf(part, surface);
-    choice(label, use, FeatureUse::Automatic, "automatic\0on\0off\0", explanation);
+    control(use);
     if (use != FeatureUse::Automatic) return;
     if (view.light.software) {
         wrappedText("Off: software rendering; exceeds the 50 ms budget.", palette().warning);
@@ -19,7 +19,7 @@ void featureKnob(const char* label, CostlyPart part, const EditorView& view, Sur
         wrappedText(fmt::format("Off: GPU frame time {:.0f} ms exceeds the {:.0f} ms budget.",
                                 view.light.turnedDown.tookMs[static_cast<std::size_t>(part)], affordedMs),
                     palette().warning);
-        ImGui::PushID(label);
+        ImGui::PushID(static_cast<int>(part));
         if (button("Try again", "Turns all reduced features back on until a frame exceeds the budget again."))
             commands.emplace_back(TryCostlyParts{});
         ImGui::PopID();

@@ -1,4 +1,4 @@
-#include "ui/panels/light/sun_knobs.h"
+#include "ui/panels/light/sun_controls.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -83,34 +83,26 @@ double sunHeightDeg(const EditorView& view, const SurfaceSettings& surface) {
     return glm::degrees(std::asin(std::clamp(sine, -1.0, 1.0)));
 }
 
-void dateKnobs(planet::SunDate& date) {
-    const planet::SunDate defaults;
+void dateControls(const SettingControls& control, planet::SunDate& date) {
     constexpr std::array monthNames = {"%d: January",   "%d: February", "%d: March",    "%d: April",
                                        "%d: May",       "%d: June",     "%d: July",     "%d: August",
                                        "%d: September", "%d: October",  "%d: November", "%d: December"};
-    slider("Year", date.year, defaults.year, 1950, 2050, "%d",
-           "Year in the Gregorian calendar; it has little effect.");
-    slider("Month", date.month, defaults.month, 1, 12,
-           monthNames[static_cast<std::size_t>(std::clamp(date.month, 1, 12) - 1)],
-           "Month. The subsolar latitude varies from 23.4° N in June to 23.4° S in December.");
-    slider("Day", date.day, defaults.day, 1, planet::daysInMonth(date.year, date.month), "%d",
-           "Day of the month.");
-    date.day = std::min(date.day, planet::daysInMonth(date.year, date.month));
-    slider("Hour", date.hour, defaults.hour, 0, 24, clockText(date.hour).c_str(),
-           "Universal time in hours; noon in Greenwich is 12. The subsolar point moves 15° west per hour.");
+    control(date.year);
+    control(date.month, {.format = monthNames[static_cast<std::size_t>(std::clamp(date.month, 1, 12) - 1)]});
+    const int days = planet::daysInMonth(date.year, date.month);
+    control(date.day, {.range = NumberRange{1, static_cast<double>(days), ""}});
+    date.day = std::min(date.day, days);
+    control(date.hour, {.format = clockText(date.hour)});
 }
 
 }  // namespace
 
-void sunKnobs(const EditorView& view, SurfaceSettings& surface) {
-    const SurfaceSettings defaults;
+void sunControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface) {
     chooseSun(surface);
-    if (!surface.sunFollows && surface.sunByDate) dateKnobs(surface.sunDate);
+    if (!surface.sunFollows && surface.sunByDate) dateControls(control, surface.sunDate);
     if (!surface.sunFollows && !surface.sunByDate) {
-        slider("Sun latitude", surface.sunLatitudeDeg, defaults.sunLatitudeDeg, -90, 90, "%.0f°",
-               "Latitude of the subsolar point, in degrees north.");
-        slider("Sun longitude", surface.sunLongitudeDeg, defaults.sunLongitudeDeg, -180, 180, "%.0f°",
-               "Longitude of the subsolar point, in degrees east.");
+        control(surface.sunLatitudeDeg);
+        control(surface.sunLongitudeDeg);
     }
     if (sunMap(view, surface)) surface.sunFollows = surface.sunByDate = false;
     if (surface.sunFollows || !beginValues("sun")) return;

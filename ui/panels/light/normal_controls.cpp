@@ -1,4 +1,4 @@
-#include "ui/panels/light/normal_knobs.h"
+#include "ui/panels/light/normal_controls.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -6,7 +6,7 @@
 #include "app/base/text.h"
 #include "planet/paging/normal_tile.h"
 #include "planet/planet_tools.h"
-#include "ui/kit/feature_knob.h"
+#include "ui/kit/feature_control.h"
 #include "ui/kit/widgets.h"
 
 namespace worldy::ui {
@@ -63,23 +63,14 @@ void whyNone(const EditorView& view) {
 
 }  // namespace
 
-void normalKnobs(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    const ViewSettings defaults;
+void normalControls(const EditorView& view, const SettingControls& control, ViewSettings& settings,
+                    Commands& commands) {
     planet::gl::NormalDrawing& normals = settings.surface.light.normals;
     beginGrey(!settings.surface.lighting, "Turn on Lighting first.");
-    featureKnob("Fine normals", CostlyPart::Normals, view, settings.surface, commands,
-                "Lights coarse chunks by slopes of the finest heights, up to the screen resolution, using "
-                "tiles derived from the file's heights. Off: lights by vertex normals, which are smooth "
-                "where the mesh is coarse; no memory is needed.");
+    featureControl(control, CostlyPart::Normals, view, settings.surface, commands);
     beginGrey(normals.use == planet::gl::FeatureUse::Off, "Fine normals are off.");
-    slider("Texels per pixel", normals.texelsPerPixel, defaults.surface.light.normals.texelsPerPixel, 0.1, 4,
-           "%.2f",
-           "A tile is refined while it has fewer texels per screen pixel than this. Larger: sharper, but "
-           "doubling it needs up to four times the tiles, and it may shimmer. Smaller: softer.",
-           ImGuiSliderFlags_Logarithmic);
-    slider("Share", settings.paging.normalShare, defaults.paging.normalShare, 0.01, 0.9, "%.2f",
-           "Fraction of the paging budget that colours leave. Larger: finer shading of coarse chunks. "
-           "Smaller: finer ground when the budget is full.");
+    control(normals.texelsPerPixel);
+    control(settings.paging.normalShare);
     endGrey();
     endGrey();
     if (!view.planet) return;

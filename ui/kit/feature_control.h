@@ -1,0 +1,14 @@
+// The control of a part of the picture that costs time.
+#pragma once
+
+#include "app/scene/costly_parts.h"
+#include "ui/kit/setting_controls.h"
+#include "ui/model/editor_view.h"
+
+namespace worldy::ui {
+
+// Draws the list "automatic, on, off". If Automatic has turned the part off, the reason is shown below.
+void featureControl(const SettingControls& control, CostlyPart part, const EditorView& view,
+                    SurfaceSettings& surface, Commands& commands);
+
+}  // namespace worldy::ui
