@@ -91,24 +91,6 @@ TEST(ColourBake, HeightsAreTheSameWithColoursAsWithout) {
     EXPECT_EQ(contentOf(folder / "with.chk").substr(512, bytes.size() - 512), bytes.substr(512));
 }
 
-TEST(ColourBake, AFileOfTheVersionBeforeIsReadAsWithoutColours) {
-    const TemporaryFolder folder;
-    const auto path = folder / "old.chk";
-    ASSERT_TRUE(bake(test::hillsSource(), BakeSettings{.faceSize = 33, .chunkSize = 17}, path));
-    std::string bytes = contentOf(path);
-    bytes[8] = 2;  // the version, after the magic
-    const auto header = std::as_bytes(std::span(bytes)).first(chunkFileHeaderBytes);
-    // The header's checksum is an unseeded one over all but itself.
-    const std::uint64_t sum = headerChecksum(header.first(chunkFileHeaderBytes - checksumBytes));
-    for (std::size_t i = 0; i < 8; ++i)
-        bytes[chunkFileHeaderBytes - 8 + i] = static_cast<char>(sum >> (8 * i) & 0xFF);
-    std::ofstream(path, std::ios::binary) << bytes;
-    const auto file = ChunkFile::open(path);
-    ASSERT_TRUE(file) << file.error().message;
-    EXPECT_FALSE(file->info().colour);
-    EXPECT_TRUE(file->readRoot(Face::PosX));
-}
-
 TEST(ColourBake, CancelledAmongColoursItLeavesNothing) {
     const TemporaryFolder folder;
     const auto path = folder / "a.chk";

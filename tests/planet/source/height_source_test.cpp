@@ -470,8 +470,7 @@ TEST(HeightSource, UnreadableFilesAreRefused) {
     EXPECT_EQ(openHeightSource(folder / "none.tif", {}).error().kind, ErrorKind::Io);
     EXPECT_THAT(errorOf(folder / "empty.tif"), HasSubstr("empty.tif: is empty"));
     const std::string noise = errorOf(folder / "noise.tif");
-    EXPECT_THAT(noise,
-                HasSubstr("noise.tif: not an image that can be read; expected GeoTIFF, TIFF, PNG, JPEG"));
+    EXPECT_THAT(noise, HasSubstr("noise.tif: is not a readable image; expected GeoTIFF, TIFF, PNG, JPEG"));
     EXPECT_THAT(noise, Not(HasSubstr("format reader")));
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("is not a file"));
 }
