@@ -47,7 +47,7 @@ clang-tidy-22           mistakes and needless includes, in a fourth of the time 
 qemu-user               a machine of the other byte order
 g++-s390x-linux-gnu     programs for it"
 
-# For that machine.
+# For the emulated machine of the other byte order.
 machine_packages="\
 libfmt-dev:s390x        messages
 libsquish-dev:s390x     colour tiles from BC1

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Gives hostile files to all that reads files: tests/fuzz.sh MINUTES
-# The minutes are shared out over the fuzzers in tests/fuzz/, on all cores. What is learnt is kept in
-# build-fuzz/corpus/ for the next time. Ends with 1 where something was found, and says where it lies.
+# Feeds hostile files to every reader of files: tests/fuzz.sh MINUTES
+# The minutes are divided among the fuzzers in tests/fuzz/, on all cores. The corpus is kept in build-fuzz/corpus/ for
+# the next run. Exits with 1 if a fuzzer found a failure, and prints where its input lies.
 # tests/fuzz.sh --short tries the same few thousand inputs each time; it is one of the tests.
 set -eu
 cd "$(dirname "$0")/.."
@@ -16,7 +16,7 @@ flight_path    12000 8000
 flight_record  2000  20000
 raw_faces      8000  1200"
 
-# run_one NAME SHORT_RUNS LONGEST SECONDS: one fuzzer, 0 seconds for the short run; its words go to a log.
+# run_one NAME SHORT_RUNS LONGEST SECONDS: one fuzzer, 0 seconds for the short run; its output goes to a log.
 run_one() {
     name=$1
     corpus=$root/corpus/$name
@@ -40,7 +40,7 @@ run_one() {
     echo $status >"$root/logs/$name.status"
 }
 
-# A line of figures of each fuzzer, out of its log.
+# Prints one line of figures per fuzzer, taken from its log.
 figures() {
     printf '%-14s %12s %10s %10s %8s  %s\n' fuzzer inputs features corpus seconds found
     echo "$fuzzers" | while read -r name _; do
@@ -79,6 +79,6 @@ echo "$fuzzers" | sed "s/\$/ $seconds/" | xargs -P "$(nproc)" -L 1 "$0" --one
 figures | tee "$root/figures"
 [ -n "$(ls "$root/found")" ] || { ! grep -qv '^0$' "$root"/logs/*.status; exit; }
 echo
-echo "What was found lies in $root/found; to see it again: $root/NAME_fuzz $root/found/NAME-..."
-echo "Mend it, and make a named test of it in tests/planet/format/hostile_file_test.cpp or tests/app/settings/hostile_text_test.cpp."
+echo "Inputs that failed lie in $root/found; to reproduce: $root/NAME_fuzz $root/found/NAME-..."
+echo "Fix the failure, and add a named test of it in tests/planet/format/hostile_file_test.cpp or tests/app/settings/hostile_text_test.cpp."
 exit 1

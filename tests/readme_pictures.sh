@@ -1,6 +1,6 @@
 #!/bin/bash
-# Takes the pictures of the README and the manual: opens Worldy on the Earth in windows under an X server of its own,
-# drives it to states worth showing, and crops the program's own screenshots.
+# Takes the pictures of the README and the manual: opens Worldy's windows on the Earth under an X server of its own,
+# drives them with xdotool, and crops the program's own screenshots.
 #     tests/readme_pictures.sh [NAME...]          all of them, or those named, into data/pictures/
 # WORLDY is the program, build/worldy by default; OUT another folder for the pictures. Needs Xvfb, xdotool and
 # ImageMagick.
@@ -22,7 +22,7 @@ cd "$work" || exit 2
 # The shell functions that the window tests use too: click, slide, shown, settled and the like.
 sed -n '/windowFunctions = R/,/)sh";/p' "$here/tests/program/editor_window.h" | sed '1d;$d' >functions.sh
 . ./functions.sh
-# By a short name, since the pictures show it.
+# A short path, because the pictures show it.
 cp -r "$here/data/earth" earth
 
 Xvfb -displayfd 3 -screen 0 1920x1200x24 -nolisten tcp 3>display.txt 2>/dev/null &
@@ -31,7 +31,7 @@ for i in $(seq 100); do [ -s display.txt ] && break; sleep 0.1; done
 DISPLAY=:$(cat display.txt)
 export DISPLAY
 
-# Where the camera starts, as a setting.
+# Prints the setting of the camera's initial pose.
 pose() { printf 'camera = {latitude_deg = %s, longitude_deg = %s, altitude_m = %s, heading_deg = %s, pitch_deg = %s}\n' "$@"; }
 # From the Bay of Bengal to Tibet: chunks of several levels.
 above_india() { pose 14 84 1500000 8 -58; }
@@ -39,7 +39,7 @@ above_india() { pose 14 84 1500000 8 -58; }
 himalaya() { pose 24.5 83 600000 20 -40; }
 window() { printf 'window.width_px = %s\nwindow.height_px = %s\n' "$1" "$2"; }
 slow_disk() { printf 'bad_disk.latency_ms = %s\nbad_disk.failure_rate = %s\n' "$1" "$2"; }
-# A panel alone in a dock of this width.
+# Shows one panel alone in a dock of the given width.
 only() {
     echo "window.left_width = $2"
     for panel in lod seams overlay surface camera presets quadtree chunk paging frame bake log \
@@ -80,7 +80,7 @@ dock() {
     take
     set -- "$1" $(place viewport/picture)
     convert taken.png -crop "$(($2 - 6))x$5+0+$3" +repage panel.png
-    # Empty rows at the bottom are trimmed away, the width is kept.
+    # Trims empty rows at the bottom and keeps the width.
     rows=$(convert panel.png -gravity south -background "$(convert panel.png -format '%[pixel:p{3,3}]' info:)" \
         -splice 0x1 -format '%@' -fuzz 2% info: | sed 's/.*x\([0-9]*\)+.*+\([0-9]*\)$/\1 \2/' |
         awk '{print $1 + $2 + 8}')
@@ -88,12 +88,12 @@ dock() {
     small panel.png "$out/$1.png" -dither None -colors 128
 }
 
-# One function a picture, named after it.
+# One function per picture, with the picture's name.
 
 picture_lod() {
     start < <(above_india; window 1400 1080; only lod 300; echo 'lod.tau_px = 0.4')
     settle
-    # Something to see in the plots: change the tolerance, and fly on.
+    # Changes the tolerance and flies on, so that the plots show something.
     slide "lod/Tolerance τ" 0.5; settle; slide "lod/Tolerance τ" 0.2; settle
     point viewport/picture; xdotool keydown w; sleep 0.7; xdotool keyup w; frames 8
     dock lod
@@ -114,7 +114,7 @@ picture_surface() {
     settle; click surface/Hypsometric; aside
     dock surface
 }
-# Grass, rock and snow below Everest, and what the layers are there.
+# Grass, rock and snow below Everest, with the layers' weights there.
 picture_layers() {
     start < <(pose 27.5 86.5 20000 10 -22; window 1400 960; only surface 320; echo 'surface.layer_use = "on"')
     settle; reach surface/Colour "surface/Noise size"; click "surface/layer snow"
@@ -161,7 +161,7 @@ picture_frame() {
 picture_bake() {
     start < <(himalaya; window 1400 900; only bake 330)
     settle; choose "bake/Chunk size" "65 vertices"; aside
-    # The estimate is made a moment after the last change.
+    # The estimate appears a moment after the last change.
     sleep 6
     dock bake
 }

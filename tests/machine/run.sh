@@ -1,7 +1,7 @@
 #!/bin/sh
-# Checks the chunk file on a machine of the other byte order: tests/machine/run.sh WORLDY
-# Bakes a small Earth with both colour formats, and compares the reading and encoding of this machine and of an IBM
-# S/390, emulated by qemu. It needs Debian's foreign packages: see machine_packages in .ci/packages.sh.
+# Checks the chunk file on a big-endian machine: tests/machine/run.sh WORLDY
+# Bakes a small Earth with both colour formats, and compares what this machine and an IBM S/390, emulated by qemu, read
+# and encode. It needs Debian's foreign packages: see machine_packages in .ci/packages.sh.
 set -eu
 worldy=$(realpath "$1")
 cd "$(dirname "$0")/../.."
