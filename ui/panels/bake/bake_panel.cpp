@@ -33,7 +33,7 @@ bool sameFile(const BakeRequest& a, const BakeRequest& b) {
            (a.colour.empty() || a.settings.colour == b.settings.colour);
 }
 
-// Another file is open than the one that was edited: what was chosen for that one is over.
+// Resets the edited settings when another file is open than the one they were made for.
 void followOpenFile(const EditorView& view, BakePanelState& state) {
     if (state.editedOf == view.data.chunkFile) return;
     state.editedOf = view.data.chunkFile;
@@ -51,7 +51,7 @@ void edited(const BakeRequest& request, double timeS, BakePanelState& state) {
 struct Parameter {
     const char* name;
     std::string value;
-    bool live;  // set in another panel, else stored in the file
+    bool live;  // set in another panel; otherwise stored in the file
     std::string explanation;
 };
 using Parameters = std::vector<Parameter>;
@@ -130,7 +130,7 @@ void openFileSection(const EditorView& view, const ViewSettings& settings) {
     ImGui::EndTable();
 }
 
-// A label that is lit where the value is not that of the open file.
+// Draws a label, lit if the value differs from the open file's.
 void bakeControl(const char* label, bool changed, const char* explanation) {
     if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
     labelledControl(label, explanation);
@@ -232,7 +232,7 @@ bool effortControls(const EditorView& view, BakeRequest& request) {
     return packed || threads;
 }
 
-// Also another source's colours.
+// Draws the controls of the source. A new source may bring other colours, which follow it.
 bool sourceSection(const EditorView& view, BakePanelState& state, BakeRequest& request) {
     const std::filesystem::path colour = request.colour;
     if (!sourceControls(view, state.source, request)) return false;
@@ -259,7 +259,8 @@ void requestSection(const EditorView& view, BakePanelState& state, Commands& com
     if (changed) edited(request, view.timeS, state);
 }
 
-// Without the source's own image it is baked without; one that was named must be there.
+// Returns true unless a chosen image is missing. If the source's own image is missing, the bake has no
+// colours.
 bool mayBake(const ColourEdit& colour) {
     return colour.problem.empty() || colour.from == ColourEdit::From::Own;
 }
@@ -271,7 +272,7 @@ void askForEstimate(const EditorView& view, BakePanelState& state, Commands& com
         commands.push_back(EstimateBake{*state.edited});
 }
 
-// What the new file's size is against the open one's: "12.3 MiB, 1.4 x the open file".
+// Returns the estimated size and its ratio to the open file's: "12.3 MiB, 1.40 x current".
 std::string sizeText(const EditorView& view, double bytes) {
     if (!view.planet) return bytesText(bytes);
     const double open = static_cast<double>(view.planet->file().sizeBytes());
@@ -424,7 +425,7 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
     followOpenFile(view, state);
     sourcePreviewBox(view, state.edited.value_or(view.bake.current), state.source.problem.empty(),
                      state.preview, commands);
-    // The picture stays in sight while controls far below are used.
+    // The picture stays in view while the controls below scroll.
     const bool pinned = ImGui::GetContentRegionAvail().y > ImGui::GetFontSize() * 12;
     if (pinned) ImGui::BeginChild("below the preview");
     previousSection(view.data, commands);
@@ -434,7 +435,7 @@ void bakePanel(const EditorView& view, BakePanelState& state, ViewSettings& sett
     if (view.bake.running) {
         progressSection(view.bake, commands);
     } else {
-        // What comes and goes stands below the button, so that it does not move under the pointer.
+        // Lines that come and go stand below the button, so that it does not move under the pointer.
         bakeButtons(view, state, commands);
         estimateValues(view, state);
     }

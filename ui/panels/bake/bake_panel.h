@@ -1,4 +1,5 @@
-// Bake: the open file's parameters, what a bake with others would cost, and the bake itself.
+// The Bake panel: the open file's parameters, the estimated cost of a bake with other settings, and the bake
+// itself.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +13,12 @@
 namespace worldy::ui {
 
 struct BakePanelState {
-    std::optional<BakeRequest> edited;  // what the user has chosen; none: as the open file
-    std::filesystem::path editedOf;     // the chunk file that was open then
-    SourceEdit source;                  // of what was chosen
+    std::optional<BakeRequest> edited;  // the user's bake settings; none: those of the open file
+    std::filesystem::path editedOf;     // the chunk file that was open when they were edited
+    SourceEdit source;                  // the source of those settings
     ColourEdit colour;
     PreviewBoxState preview;
-    std::optional<double> estimateAtS;  // when to ask; none: has been asked
+    std::optional<double> estimateAtS;  // when to request an estimate; none: already requested
 };
 
 // Fills the current window.

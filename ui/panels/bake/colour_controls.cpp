@@ -47,7 +47,7 @@ void apply(BakeRequest& request, ColourEdit& edit) {
             request.colour = edit.imageText.data();
             break;
     }
-    // The old image's size says nothing of the new one's.
+    // The old image's size does not apply to the new one.
     if (request.colour != before && !before.empty()) request.settings.colour.faceSize.reset();
     edit.problem = problemOf(edit, request.colour);
 }
@@ -127,7 +127,7 @@ bool formatControl(const BakeRequest& current, planet::ColourBakeSettings& colou
     return changed;
 }
 
-// A file that was chosen in the dialog, or dropped.
+// Takes a file from the dialog or a drop. Returns true if there was one.
 bool takeChosen(ColourEdit& edit) {
     if (edit.chosen.empty()) return false;
     edit.from = From::Image;

@@ -1,4 +1,5 @@
-// What colours are baked with the heights: none, the source's own image, or another; their size and packing.
+// The controls of the colours that are baked with the heights: none, the source's own image or another image,
+// and their size and packing.
 #pragma once
 
 #include <array>
@@ -12,22 +13,24 @@ namespace worldy::ui {
 struct ColourEdit {
     enum class From : int { None, Own, Image };
     From from = From::None;
-    std::array<char, 1024> imageText{};  // being typed
-    std::string problem;                 // why it cannot be baked; empty: it can
-    std::filesystem::path chosen;        // in the dialog, or dropped: taken over with the next frame
+    std::array<char, 1024> imageText{};  // the path being typed
+    std::string problem;                 // why the image cannot be baked; empty: it can
+    std::filesystem::path chosen;        // from the dialog or a drop; used in the next frame
     bool takesDrops = false;             // the pointer is over the controls
 };
 
-// Takes a request's image apart.
+// Sets edit from the request's image.
 void setColour(const BakeRequest& request, ColourEdit& edit);
 
-// Another source: where its own image was meant, that is now another one.
+// Call when the request's source has changed: if the source's own image is chosen, takes that of the new
+// source.
 void followSource(BakeRequest& request, ColourEdit& edit);
 
-// True where the request has changed. Lit where it is not the open file's.
+// Draws the controls and returns true if the request has changed. The labels of values that differ from the
+// open file's are lit.
 bool colourControls(const EditorView& view, ColourEdit& edit, BakeRequest& request, Commands& commands);
 
-// "1025 texels, BC1".
+// Returns for example "1025 texels, BC1".
 std::string colourText(const planet::ColourBakeSettings& colour);
 
 }  // namespace worldy::ui

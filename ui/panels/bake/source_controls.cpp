@@ -21,7 +21,7 @@ using planet::TerrainField;
 using planet::TerrainKind;
 using planet::TerrainSettings;
 
-// The kinds that need no other source.
+// Returns the kinds that need no other source.
 std::span<const TerrainKind> madeKinds() {
     return planet::terrainKinds().first(planet::terrainKinds().size() - 1);
 }
@@ -43,7 +43,8 @@ void setFile(const fs::path& file, SourceEdit& edit) {
     std::copy_n(text.begin(), std::min(text.size(), edit.fileText.size() - 1), edit.fileText.begin());
 }
 
-// A text that cannot be taken apart stands as it is where a file is typed, with what is wrong.
+// Sets kind and parameters from a source without added detail. A text that cannot be parsed is shown as a
+// file path.
 void setPlain(const fs::path& source, SourceEdit& edit) {
     const auto terrain = planet::terrainFromText(source);
     if (!planet::isTerrainText(source) || !terrain) {
@@ -58,7 +59,7 @@ void setPlain(const fs::path& source, SourceEdit& edit) {
 
 std::uint32_t newSeed() {
     static std::random_device device;
-    return device() % 1'000'000;  // short enough to be told
+    return device() % 1'000'000;  // short enough to read out and type
 }
 
 bool seedControl(const TerrainField& field, TerrainSettings& settings) {
@@ -216,7 +217,7 @@ bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& reque
     bool changed = worldControl(view, edit, request);
     const bool lit = request.source != view.bake.current.source;
     bool edited = kindControl(lit, edit);
-    if (edited) request.settings.quantumM.reset();  // the old source's range says nothing of the new one's
+    if (edited) request.settings.quantumM.reset();  // the new source has its own height range
     if (edit.kind == 0) {
         edited |= fileControl(edit);
     } else {

@@ -37,7 +37,7 @@ void ask(const EditorView& view, const PreviewRequest& wanted, PreviewBoxState& 
     commands.push_back(PreviewSource{wanted});
 }
 
-// Moves what is shown so that it lies on the face.
+// Sets centre and zoom, clamped so that the shown square lies on the face.
 void showAt(PreviewBoxState& state, double u, double v, int zoomLog2) {
     state.zoomLog2 = std::clamp(zoomLog2, 0, mostZoomLog2);
     const double room = 1 - std::ldexp(1.0, -state.zoomLog2);

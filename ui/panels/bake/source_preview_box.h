@@ -1,4 +1,4 @@
-// A picture of what is to be baked, before it is.
+// A preview of the terrain to be baked.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,18 @@
 namespace worldy::ui {
 
 struct PreviewBoxState {
-    bool open = false;  // opens by itself once a source is changed
+    bool open = false;  // set when the source is edited
     planet::Face face = planet::Face::PosX;
     int zoomLog2 = 0;
-    double u = 0;  // middle of what is shown, [-1, 1]
+    double u = 0;  // centre of the shown square, [-1, 1]
     double v = 0;
     std::optional<PreviewRequest> wanted;
     double askAtS = 0;
-    bool asked = false;  // for what is wanted
+    bool asked = false;  // wanted has been requested
 };
 
-// Asks for the picture of a request shortly after it has changed. good: the source can be opened.
+// Draws the preview and requests a new picture shortly after the request has changed. good: the source can be
+// opened.
 void sourcePreviewBox(const EditorView& view, const BakeRequest& request, bool good, PreviewBoxState& state,
                       Commands& commands);
 

@@ -58,7 +58,8 @@ void motionSection(const EditorView& view, const SettingControls& control, ViewS
         commands.push_back(SetSpeedFactor{factor});
 }
 
-// One number of the pose. While it is typed, it stands still though the camera may move.
+// Draws the control of one number of the pose. While it is being typed, the camera's motion does not change
+// it.
 bool poseControl(int index, Pose& pose, CameraPanelState& state) {
     const PoseField& field = poseFields[static_cast<std::size_t>(index)];
     ImGui::PushID(index);

@@ -1,4 +1,4 @@
-// Camera: how it moves, bookmarks, flights, and the observer.
+// The Camera panel: camera motion, bookmarks, flights and the observer.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@ namespace worldy::ui {
 
 struct CameraPanelState {
     std::array<char, 64> bookmarkName{};
-    int typedField = -1;    // of the pose, while its number is being typed
+    int typedField = -1;    // index of the pose's number being typed; -1: none
     double typedValue = 0;  // what has been typed so far
 };
 

@@ -76,7 +76,7 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
     ImGui::EndTable();
 }
 
-// Null where the name can be saved under. same: the file that has the name.
+// Returns why the name cannot be used, or null if it can. same: the preset that already has the name.
 const char* saveRefusal(const PresetsPanelState& state, const PresetView* same) {
     if (state.name[0] == 0) return "Type a name first.";
     if (same && same->shipped) return "A built-in preset has this name and cannot be replaced.";
@@ -100,7 +100,7 @@ void saveControl(const EditorView& view, PresetsPanelState& state, Commands& com
     const bool pressed =
         button(label, refused ? refused : "Saves all current view settings under this name.");
     endGrey();
-    // Enter replaces nothing: that wants the button's word for it.
+    // Enter does not replace a preset; only the button does.
     if (!pressed && !(entered && !same)) return;
     if (refused) return;
     commands.push_back(SavePreset{state.name.data()});
@@ -128,7 +128,7 @@ void deleteControl(const PresetView& preset, Commands& commands) {
 void textCell(const std::string& text) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(text.c_str());
-    // What is too long for its column.
+    // Texts that are too long for the column get a tooltip.
     if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x) tooltip(text.c_str());
 }
 

@@ -1,4 +1,4 @@
-// Presets: saved, loaded, and compared with the settings as they are.
+// The Presets panel: presets are saved, loaded, and compared with the current settings.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace worldy::ui {
 
 struct PresetsPanelState {
     std::array<char, 64> name{};
-    std::string selected;  // compared with the settings as they are
+    std::string selected;  // compared with the current settings
 };
 
 // Fills the current window.

@@ -21,7 +21,7 @@ namespace {
 
 using With = StartCompare::With;
 
-// A combo that asks: its first item is what it asks for. The item chosen, from 0, or -1.
+// Draws a combo whose first item is its question. Returns the index of the item chosen, from 0, or -1.
 int asked(const char* name, const char* question, const std::vector<std::string>& items, const char* noneText,
           const char* explanation) {
     std::string list = question + std::string(1, '\0');
@@ -79,7 +79,8 @@ void differencesTable(const CompareView& compare) {
     if (compare.fileA != compare.fileB)
         rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
                         {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
-    // Without the files: their names may be of any length, and their tooltips show the whole paths.
+    // File names are left out of the column widths: they may have any length, and their tooltips show the
+    // paths.
     std::array<std::vector<std::string>, 2> values;
     for (const SettingDifference& one : compare.different) {
         const auto [a, b] = shortNumberTexts(one.here, one.there);
@@ -147,7 +148,7 @@ bool isMeasured(const CompareRow& row) {
            row.value == &ComparedFigures::leakingPx;
 }
 
-// live: the table of the view as it is, else that of a flight.
+// live: the figures of the current view; otherwise those of a flight.
 void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures, bool live, bool stale) {
     std::vector<CompareRow> rows;
     std::copy_if(compareRows().begin(), compareRows().end(), std::back_inserter(rows),

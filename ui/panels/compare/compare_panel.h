@@ -1,4 +1,5 @@
-// Compare: A, which the window shows anyway, beside B, a second planet with settings or a bake of its own.
+// The Compare panel: compares A, the planet that the window shows, with B, a second planet with its own
+// settings or bake.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +10,8 @@
 namespace worldy::ui {
 
 struct ComparePanelState {
-    std::filesystem::path flight;  // to measure over; empty: the first there is
-    int moments = 12;              // of it
+    std::filesystem::path flight;  // the flight to measure; empty: the first available
+    int moments = 12;              // sample frames of the flight
 };
 
 void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings& settings,

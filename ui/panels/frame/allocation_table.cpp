@@ -101,7 +101,7 @@ std::string textOf(const AllocationRow& row, double value) {
     return row.bytes ? bytesText(value) : fmt::format("{:.0f}", value);
 }
 
-// Without what only tells two items of the same name apart.
+// Returns the name without the suffix that tells two rows of the same name apart.
 std::string shownName(const AllocationRow& row) {
     const std::string name = row.name;
     return name.substr(0, name.find("##"));
@@ -131,7 +131,7 @@ void drawTable(const AllocationsView& view) {
     const auto key = [&](std::size_t row, std::size_t column) {
         return allocationSortKey(row, static_cast<AllocationColumn>(column), view);
     };
-    // Groups have headings only while their rows are together.
+    // Groups have headings only in the unsorted table, where their rows are together.
     for (const std::size_t i : tableOrder(kindRows.size(), sort, key)) {
         const AllocationRow& row = kindRows[i];
         if (!sort && row.group) {

@@ -1,4 +1,4 @@
-// The Frame panel's table of what the program holds: now, and against a mark, so that a leak shows.
+// The Frame panel's table of allocations: current values and their change since a mark, so that leaks show.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,22 @@ struct AllocationRow {
     const char* name;
     const char* explanation;
     double (*value)(const Allocations&);
-    bool bytes;         // else a number
-    const char* group;  // a heading over the first of a group; null: goes on
+    bool bytes;         // bytes; otherwise a count
+    const char* group;  // heading above the first row of a group; null: same group
 };
 std::span<const AllocationRow> allocationRows();
 
-// Sorts a row by a column of the table; view.now must be set.
+// Returns the key by which a row is sorted by a column. view.now must be set.
 enum class AllocationColumn : std::uint8_t { Kind, Now, Change, Mark };
 SortKey allocationSortKey(std::size_t row, AllocationColumn column, const AllocationsView& view);
 
 std::string allocationText(const AllocationRow& row, const Allocations& held);
-// "+1.2 MiB", "-3", "=".
+// Returns for example "+1.2 MiB", "-3" or "=".
 std::string allocationChange(const AllocationRow& row, const Allocations& before, const Allocations& now);
-// All rows with tabs between, to be put beside another day's.
+// Returns all rows with tabs between the columns, for comparison with another run.
 std::string allocationsText(const AllocationsView& view);
 
-// Returns the width at which the table shows all columns but the one of the mark, pixels.
+// Returns the width at which the table shows all columns but Mark, pixels.
 float allocationTableWidth();
 // Fills the current column.
 void allocationTable(const AllocationsView& view, double timeS, Commands& commands);

@@ -89,11 +89,11 @@ std::vector<ValueRow> timeRows(const EditorView& view) {
     return rows;
 }
 
-// Of each frame, one stage on the other; times that no stage counts are left out. Timer queries answer some
-// frames late, since the CPU does not wait for them.
+// Draws the stages of each frame stacked; time that no stage counts is left out. The results of GPU timer
+// queries arrive some frames late, because the CPU does not wait for them.
 void plots(const EditorView& view, bool wide) {
     const std::vector<float> sampleTimes = historyTimes(view.history);
-    // The others: the legends.
+    // The other lines are the legends.
     const float lines = wide ? linesThatFit(2, 4, 12) : 4;
     stagePlot(view, "cpu", "ms CPU", cpuStages, sampleTimes, lines);
     stagePlot(view, "gpu", "ms GPU", gpuStages, sampleTimes, lines);
@@ -150,7 +150,8 @@ void memoryByKind(const EditorView& view) {
         "clipmap: storage of streamed colours. Pictures: render targets.");
 }
 
-// Stages that one draw call does together cannot be timed in it: they are drawn with and without.
+// Draws the button that measures features. Features within one draw call cannot be timed separately, so the
+// view is drawn with and without each.
 void partCosts(const EditorView& view, Commands& commands) {
     const bool measuring = view.light.measured < 1;
     beginGrey(measuring || !view.planet,

@@ -1,4 +1,4 @@
-// Frame: what each stage takes, what is drawn and uploaded, where memory goes; pause and single step.
+// The Frame panel: time per stage, draw and upload counts, memory by kind, pause and single step.
 #pragma once
 
 #include "ui/model/editor_view.h"

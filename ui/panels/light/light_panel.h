@@ -1,4 +1,4 @@
-// The sun, the air, the sea, shadows and normals.
+// The Light panel: sun, atmosphere, sea, shadows and normals.
 #pragma once
 
 #include "ui/model/editor_view.h"

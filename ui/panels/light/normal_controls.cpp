@@ -13,7 +13,7 @@ namespace worldy::ui {
 
 namespace {
 
-// Milliseconds a tile of the blocks that loaders derived last; 0: none lately.
+// Returns the mean load time of recent tiles, milliseconds per tile; 0 if none were loaded lately.
 double msATile(const planet::Planet& planet) {
     double seconds = 0;
     int blocks = 0;
@@ -47,7 +47,7 @@ void figures(const planet::Planet& planet) {
     endValues();
 }
 
-// In place of the figures, where there are none.
+// Says why there are no figures.
 void whyNone(const EditorView& view) {
     if (planet::normalLeafLevel(view.planet->tree().storedShape) < 0) {
         ImGui::TextDisabled("None: this planet's faces have fewer");

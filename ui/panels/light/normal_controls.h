@@ -1,4 +1,4 @@
-// The controls of normals finer than the mesh, and the state of their tiles.
+// The controls of normals finer than the mesh, and the figures of their tiles.
 #pragma once
 
 #include "ui/kit/setting_controls.h"

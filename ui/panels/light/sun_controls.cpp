@@ -17,8 +17,8 @@ namespace worldy::ui {
 
 namespace {
 
-// A map of the world, equirectangular: where the sun stands in the zenith and where the camera is. Dragging
-// moves the sun; true while it does.
+// Draws an equirectangular map of the world with the subsolar point and the camera. Dragging moves the sun.
+// Returns true while it does.
 bool sunMap(const EditorView& view, SurfaceSettings& surface) {
     const float width = std::min(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 18);
     const ImVec2 size(width, std::round(width / 2));
@@ -74,7 +74,7 @@ void chooseSun(SurfaceSettings& surface) {
     surface.sunByDate = sun == SunChoice::ByDate;
 }
 
-// Where the sun stands for whoever is under the camera: degrees above the horizon.
+// Returns the sun's elevation above the horizon at the ground below the camera, degrees.
 double sunHeightDeg(const EditorView& view, const SurfaceSettings& surface) {
     const planet::CameraPose& camera = view.camera.pose;
     const glm::dvec3 up = planet::directionFromGeographic(

@@ -15,7 +15,7 @@ namespace worldy::ui {
 
 namespace {
 
-// A chunk's steps, some of them left out, as shares of their range.
+// A subset of a chunk's heights, each as a share of the chunk's height range.
 struct Relief {
     int side = 0;
     std::vector<float> shares;  // row 0 in the south
@@ -43,7 +43,7 @@ Relief reliefOf(const planet::ChunkTree& tree, const planet::ChunkNode& node, in
     return relief;
 }
 
-// Slopes are exaggerated until the steepest of a chunk that rises once over its width looks steep.
+// Slopes are exaggerated: one that rises by the chunk's whole height range over its width looks steep.
 float lightAt(const Relief& relief, int column, int row) {
     const float steepness = 0.25f * static_cast<float>(relief.side);
     const float east = (relief.at(column + 1, row) - relief.at(column - 1, row)) * steepness;
@@ -87,7 +87,8 @@ std::vector<float> chunkProfile(const planet::ChunkTree& tree, const planet::Chu
 
 double groundSizeM(const planet::PlanetShape& shape, const planet::ChunkId& id, ProfileWay way) {
     const bool across = way == ProfileWay::WestEast;
-    // In pieces, since a root chunk spans a quarter of the planet and its side is no great circle.
+    // The side is summed in pieces: that of a root chunk spans a quarter of the planet and is no great
+    // circle.
     constexpr int pieces = 16;
     double angle = 0;
     for (int i = 0; i < pieces; ++i) {

@@ -1,4 +1,4 @@
-// A chunk's heights to look at: a shaded picture, and profiles through its middle. Pure functions.
+// A chunk's heights as a shaded picture and as profiles through its middle. Pure functions.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,27 @@
 
 namespace worldy::ui {
 
-// Square, row 0 in the north; colours as ImGui packs them, red in the lowest byte.
+// A square picture; row 0 is north. Colours are packed for ImGui, red in the lowest byte.
 struct ChunkPicture {
     int side = 0;
     std::vector<std::uint32_t> cells;
 };
-// Lit from the north-west. Colours and slopes are stretched to the chunk's own range, so that flat chunks
-// show something too. At most mostCells a side.
+// Returns a picture lit from the north-west, at most mostCells wide. Colours and slopes are scaled to the
+// chunk's own height range, so that flat chunks show relief too.
 ChunkPicture chunkPicture(const planet::ChunkTree& tree, const planet::ChunkNode& node, int mostCells);
 
 enum class ProfileWay : std::uint8_t { WestEast, SouthNorth };
-// Metres above the planet's radius, through the chunk's middle; one a vertex.
+// Returns the heights through the chunk's middle, metres above the planet's radius, one per vertex.
 std::vector<float> chunkProfile(const planet::ChunkTree& tree, const planet::ChunkNode& node, ProfileWay way);
 
-// How far the chunk reaches on the ground, through its middle, metres.
+// Returns the chunk's extent on the ground through its middle, metres.
 double groundSizeM(const planet::PlanetShape& shape, const planet::ChunkId& id, ProfileWay way);
 
-// "27.988 N  86.925 E" of a chunk's middle.
+// Returns the position of the chunk's middle: "27.988 N  86.925 E".
 std::string middlePlaceText(const planet::ChunkId& id);
 
-// What is wrong with a typed id and what would be right; empty if it names a chunk that a planet can have.
+// Returns what is wrong with a typed id and what is expected; empty if it names a chunk that a planet can
+// have.
 std::string chunkIdProblem(const std::string& text, int leafLevel);
 
 }  // namespace worldy::ui

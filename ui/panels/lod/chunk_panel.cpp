@@ -55,7 +55,7 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
     wrappedText(state.problem, palette().bad);
 }
 
-// The state in its colour, and in words why.
+// Draws the state's colour and the reason for the state.
 void whyBox(const ChunkExplanation& explanation) {
     const float pad = std::round(ImGui::GetFontSize() * 0.5f);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -91,7 +91,7 @@ void buttons(const ChunkId& id, Commands& commands) {
     if (parent) commands.emplace_back(SelectChunk{parentOf(id)});
 }
 
-// A chunk's name that selects it. True if it was pressed.
+// Draws a button with a text that selects a chunk.
 void chunkButton(const ChunkId& id, const std::string& text, const std::string& explanation,
                  Commands& commands) {
     ImGui::PushID(toString(id).c_str());
@@ -101,7 +101,7 @@ void chunkButton(const ChunkId& id, const std::string& text, const std::string& 
     tooltip(explanation.c_str());
 }
 
-// In one unit, so that several fit into a row: "130 x 160 x 5.47 km".
+// Returns the sizes in one unit, so that several fit into a row: "130 x 160 x 5.47 km".
 std::string sizesText(std::initializer_list<double> sizesM) {
     const bool inKm = std::max(sizesM) >= 10'000;
     std::string text;
@@ -320,7 +320,7 @@ void drawProfile(ImDrawList& drawList, const Profile& profile, const ImVec2& cor
                          ImGui::GetFontSize() / 10);
 }
 
-// West to east and south to north in one frame; along which the pointer shows both heights.
+// Draws the west-east and south-north profiles in one frame. Hovering shows both heights.
 void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     const planet::ChunkTree& tree = view.planet->tree();
     const Profile across{chunkProfile(tree, node, ProfileWay::WestEast), palette().accent};
@@ -349,7 +349,7 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     drawProfile(drawList, across, inner, innerSize, low, high);
     const std::string top = distanceText(static_cast<double>(high));
     const std::string bottom = distanceText(static_cast<double>(low));
-    // The ends of the scale, over the lines.
+    // The ends of the scale are drawn over the lines.
     const auto scaleEnd = [&](const std::string& text, float y) {
         const ImVec2 textSize = ImGui::CalcTextSize(text.c_str());
         drawList.AddRectFilled({corner.x, y}, {corner.x + textSize.x + 2 * pad, y + textSize.y},

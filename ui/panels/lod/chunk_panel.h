@@ -1,4 +1,4 @@
-// Chunk inspector: everything about the chunk that is selected, and why it is drawn or not.
+// The chunk inspector: all data of the selected chunk, and why it is drawn or not.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 namespace worldy::ui {
 
 struct ChunkPanelState {
-    std::array<char, 40> idText{};         // being typed
-    std::string problem;                   // of what was typed
-    std::optional<planet::ChunkId> shown;  // whose id the text is
-    // Worked out anew only when the heights are others.
+    std::array<char, 40> idText{};         // the id being typed
+    std::string problem;                   // of the typed id
+    std::optional<planet::ChunkId> shown;  // the chunk whose id is in idText
+    // The picture is rebuilt only if the chunk's heights have changed.
     planet::SharedHeights pictured;
     ChunkPicture picture;
 };

@@ -68,7 +68,7 @@ void cullingControls(const EditorView& view, const SettingControls& control, pla
         "selected until it is turned off.");
 }
 
-// The index of a chunk size, or the number of sizes where it is none of them.
+// Returns the index of a chunk size, or the number of sizes if it is not one of them.
 std::size_t sizeIndex(int chunkSize) {
     return static_cast<std::size_t>(
         std::find(planet::chunkSizes.begin(), planet::chunkSizes.end(), chunkSize) -
@@ -101,7 +101,7 @@ void bakeOffer(const EditorView& view, int wantedSize, Commands& commands) {
 
 void chunkSizeControl(const EditorView& view, Commands& commands) {
     const int fileSize = planet::chunkSize(view.planet->tree().shape);
-    // What the user would like to have; 0 while that is what the file has.
+    // The size that the user has chosen; 0 if that is the file's.
     int* wanted = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("wantedChunkSize"), 0);
     if (*wanted == fileSize) *wanted = 0;
     const auto fileIndex = static_cast<int>(sizeIndex(fileSize));
@@ -138,7 +138,7 @@ void formulas(const EditorView& view, double tauPx) {
     endValues();
 }
 
-// Two decimals, to compare with the tolerance.
+// Returns the error with two decimals, for comparison with the tolerance.
 std::string preciseErrorText(float px) {
     return px < 1000 ? fmt::format("{:.2f} px", px) : pixelsText(static_cast<double>(px));
 }
@@ -200,7 +200,7 @@ void drawnPlots(const EditorView& view, double tauPx) {
         Series{"visited", seriesColour(1),
                historyValues(view.history, [](const FrameStats& s) { return s.selection.visited; })}};
     linePlot("counts", times, counts, "");
-    // A chunk that holds the eye has any error at all; the plot is about what comes near the tolerance.
+    // A chunk that contains the eye has an unbounded error, so errors far above the tolerance are clamped.
     const auto top = static_cast<float>(16 * tauPx);
     const std::string name = fmt::format("max {} (clamped at 16 {})", epsSymbol(), tauSymbol());
     const std::array errors = {

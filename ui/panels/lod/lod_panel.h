@@ -1,4 +1,4 @@
-// Level of detail: tau and its companions, what is drawn by level, and how it changes.
+// The LOD panel: the tolerance tau and related settings, drawn chunks by level, and level changes.
 #pragma once
 
 #include "ui/model/editor_view.h"

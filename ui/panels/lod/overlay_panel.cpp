@@ -41,10 +41,10 @@ void drawnControls(const SettingControls& control, OverlaySettings& overlay) {
 
 struct ErrorCounts {
     std::array<float, 40> counts{};
-    std::size_t over = 0;  // tau
+    std::size_t over = 0;  // number of chunks over tau
 };
 
-// From 0 to twice tau; the last bucket holds all beyond.
+// Counts drawn chunks by eps in [0, 2 tau]; the last bucket holds all larger values.
 ErrorCounts errorCounts(const planet::Selection& selection, double tauPx) {
     ErrorCounts errors;
     const double perBucket = 2 * tauPx / static_cast<double>(errors.counts.size());

@@ -1,5 +1,5 @@
-// Error overlay: what the colours of chunks show, their legend and scale, outlines, volumes, labels, and the
-// histogram of eps.
+// The Overlay panel: chunk tints with their legend and scale, outlines, volumes, labels, and the histogram of
+// the screen-space error eps.
 #pragma once
 
 #include "ui/model/editor_view.h"

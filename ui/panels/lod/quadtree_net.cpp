@@ -30,7 +30,7 @@ const NetCell& cellOf(planet::Face face) {
     return netCells[static_cast<std::size_t>(face)];
 }
 
-// Room about the whole net, in faces.
+// Margin around the whole net, in faces.
 constexpr double netMargin = 0.06;
 
 double fittingScalePx(const Rect& area) {
@@ -47,9 +47,9 @@ constexpr bool isSeen(ChunkState state) {
 }
 
 constexpr std::size_t shadeCount = 256;
-constexpr float dimming = 0.62f;  // of what is not drawn, towards the ground
+constexpr float dimming = 0.62f;  // mix of the background into chunks that are not drawn
 
-// All colours a net can have, worked out once for each filling.
+// All colours of a net, computed once per fill.
 class NetPalette {
 public:
     NetPalette(const NetData& data, const NetColouring& colouring) : data_(data), colouring_(colouring) {
@@ -63,8 +63,8 @@ public:
         }
     }
 
-    // Nodes are far apart in memory: with tens of thousands of squares most of the time goes into fetching
-    // them, so that a node is not looked at for its state or level.
+    // Nodes are far apart in memory, and with tens of thousands of squares most of the time goes into
+    // fetching them. So state and level are passed in, not read from the node.
     std::uint32_t of(NodeIndex index, int level, ChunkState state) const {
         if (colouring_.by == NetColour::State) return states_[static_cast<std::size_t>(state)];
         const std::size_t shade = colouring_.by == NetColour::Level ? static_cast<std::size_t>(level)
@@ -106,7 +106,7 @@ private:
 struct ScreenSquare {
     double x, y, side;
 
-    // Of a quadrant; v runs up, the screen down.
+    // Returns the square of a quadrant; v points up, the screen's y down.
     ScreenSquare quarter(int quadrant) const {
         const double half = side / 2;
         return {x + ((quadrant & 1) != 0 ? half : 0), y + ((quadrant & 2) != 0 ? 0 : half), half};
@@ -123,7 +123,7 @@ ScreenSquare squareOf(const NetPlacement& placement, const ChunkId& id) {
             placement.originY + square.y * placement.scalePx, square.side * placement.scalePx};
 }
 
-// The frame that a drawn chunk is about its resident children, on whole pixels.
+// The frame of a drawn chunk around its resident children, on whole pixels.
 struct NetFrame {
     double x0, y0, x1, y1;  // outside
     double width;
@@ -140,12 +140,13 @@ struct NetFrame {
     }
 };
 
-// Share of a quarter that is left free about a child's mark; nobody's concern has a small one.
+// Returns the free margin around a child's mark, as a share of its quarter. Children that nobody requested
+// get a small mark.
 constexpr double markInset(ChunkState state) {
     return state == ChunkState::NotResident ? 0.4 : 0.27;
 }
-constexpr double leastMarkedSidePx = 7;   // of a quarter that has a mark
-constexpr double leastAbsentSidePx = 14;  // of one whose mark says that nobody asked for the child
+constexpr double leastMarkedSidePx = 7;   // of a quarter with a mark
+constexpr double leastAbsentSidePx = 14;  // of a quarter whose mark says that nobody requested the child
 
 bool hasMarks(ChunkState children, double quarterSidePx) {
     if (children == ChunkState::NotInFile) return false;
@@ -182,7 +183,7 @@ public:
     }
 
 private:
-    // On whole pixels, a pixel of the ground to its right and below where there is room for it.
+    // Fills the square on whole pixels, with a 1 px gap to the right and below if it is large enough.
     void fill(const ScreenSquare& square, std::uint32_t colour) {
         const double gap = square.side >= 2 * netLeastSidePx ? 1 : 0;
         add(std::round(square.x), std::round(square.y), std::round(square.x + square.side) - gap,
@@ -206,7 +207,7 @@ private:
         }
     }
 
-    // Cut off at the area, since squares far larger than it would lose their edges to a float's digits.
+    // Clips to the area, since float precision would misplace the edges of far larger squares.
     void add(double x0, double y0, double x1, double y1, std::uint32_t colour) {
         x0 = std::max(x0, left_);
         y0 = std::max(y0, top_);
@@ -227,8 +228,8 @@ double apart(const NetPoint& a, const NetPoint& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// Pieces longer than this are halved; what is still longer after many halvings jumps over an edge that the
-// net has cut open.
+// Longer segments are halved. A segment that is still longer after mostHalvings halvings crosses an edge at
+// which the net is cut open, and is left out.
 constexpr double longestPiece = 0.03;
 constexpr int mostHalvings = 12;
 
@@ -246,8 +247,8 @@ void appendLine(const glm::dvec3& from, const glm::dvec3& to, int halvings, std:
 }
 
 struct SphereRay {
-    glm::dvec3 direction;  // from the centre, unit
-    bool hits = false;     // else on the horizon
+    glm::dvec3 direction;  // from the sphere's centre, unit length
+    bool hits = false;     // false: the direction is on the horizon
 };
 
 SphereRay meetSphere(const glm::dvec3& eyeM, const glm::dvec3& ray, double radiusM) {
@@ -264,7 +265,7 @@ SphereRay meetSphere(const glm::dvec3& eyeM, const glm::dvec3& ray, double radiu
     return {cosine * up + std::sqrt(std::max(0.0, 1 - cosine * cosine)) * aside, false};
 }
 
-// Along the border of the picture, anticlockwise, both in [-1, 1].
+// Returns points along the border of the picture, anticlockwise, x and y in [-1, 1].
 std::vector<std::pair<double, double>> borderPoints(int perSide) {
     std::vector<std::pair<double, double>> points;
     for (int i = 0; i < perSide; ++i) points.emplace_back(-1 + 2.0 * i / perSide, -1);
@@ -395,7 +396,7 @@ std::vector<ChunkState> visitedStates(const planet::ChunkTree& tree, const plane
                                   ChunkState::CulledHorizon};
     std::vector<ChunkState> states(tree.nodes.size(), ChunkState::NotResident);
     for (const planet::VisitedNode& visited : selection.touched) {
-        // A selection may be older than what paging has since taken out of the tree.
+        // The selection may be older than the tree: paging may have evicted nodes since.
         if (visited.node < states.size())
             states[visited.node] = fates[static_cast<std::size_t>(visited.fate)];
     }
@@ -501,7 +502,7 @@ std::vector<glm::dvec3> footprintOf(const planet::View& view, double radiusM) {
         anyHit = anyHit || met.hits;
         outline.push_back(met.direction);
     }
-    // The border passes the sphere by: it is all within the picture, or none of it.
+    // No border ray hits the sphere: it is wholly inside the picture or outside it.
     if (!anyHit) {
         for (const planet::Plane& plane : frustumOf(view)) {
             if (plane.offsetM < 0) return {};

@@ -1,12 +1,12 @@
-// The six faces as an unfolded cube on which every chunk is a square: its layout, what each chunk's state is,
-// and which rectangles of which colours show it. Pure functions, no ImGui.
+// The six faces as an unfolded cube, the net, on which every chunk is a square: its layout, the state of each
+// chunk, and the coloured rectangles that show it. Pure functions, no ImGui.
 //
 //          z_pos
 //   y_neg  x_pos  y_pos  x_neg
 //          z_neg
 //
-// Every face stands upright, so that neighbours across the edges that the net has between two faces are
-// neighbours on the planet: the middle row is the equator from 135 degrees west, with north up.
+// Every face stands upright, so neighbours across the edges that faces share in the net are neighbours on the
+// planet: the middle row is the equator from 135 degrees west, with north up.
 #pragma once
 
 #include <cstdint>
@@ -26,61 +26,61 @@ namespace worldy::ui {
 inline constexpr int netColumns = 4;
 inline constexpr int netRows = 3;
 
-// In faces from the net's top left: x to the right, [0, 4], y down, [0, 3].
+// A point in units of faces from the net's top left: x to the right in [0, 4], y down in [0, 3].
 struct NetPoint {
     double x = 0;
     double y = 0;
 };
 NetPoint netPoint(const planet::FacePoint& point);
 NetPoint netPointOfDirection(const glm::dvec3& direction);
-// Nothing beside the faces.
+// Returns none for a point outside the faces.
 std::optional<planet::FacePoint> facePointOnNet(const NetPoint& point);
 
 struct NetSquare {
-    double x = 0;  // of its top left, in faces
+    double x = 0;  // of the top left, in faces
     double y = 0;
     double side = 1;
 };
 NetSquare netSquare(const planet::ChunkId& id);
 
-// Which part of the net is seen. zoom 1: all of it.
+// The part of the net that is in view. zoom 1: all of it.
 struct NetFocus {
     double zoom = 1;       // [1, netZoomMax]
-    double centreX = 0.5;  // share of the net's width and height that is in the middle, [0, 1]
+    double centreX = 0.5;  // share of the net's width and height in the middle of the area, [0, 1]
     double centreY = 0.5;
 };
 inline constexpr double netZoomMax = 65536;
 
-// Where the net lies on the screen.
+// The placement of the net on the screen.
 struct NetPlacement {
-    double scalePx = 1;  // a face's side
+    double scalePx = 1;  // side of a face, pixels
     double originX = 0;  // of the net's top left, pixels
     double originY = 0;
 };
 NetPlacement placementOf(const NetFocus& focus, const Rect& area);
 NetPoint onScreen(const NetPlacement& placement, const NetPoint& point);  // in pixels
 NetPoint onNet(const NetPlacement& placement, double xPx, double yPx);
-// What is under the pointer stays there.
+// Zooms; the point of the net under the pointer stays under it.
 NetFocus zoomedAbout(const NetFocus& focus, const Rect& area, double xPx, double yPx, double factor);
 NetFocus movedBy(const NetFocus& focus, const Rect& area, double xPx, double yPx);
-// A chunk in the middle, and zoomed in at least so far that it can be seen.
+// Centres a chunk, and zooms in if needed until its side is at least leastSidePx.
 NetFocus centredOn(const NetFocus& focus, const Rect& area, const planet::ChunkId& id, double leastSidePx);
 
-// What became of the nodes, by index: Drawn, Split or culled where selection visited them, else NotResident
-// for "follows from the nodes above".
+// Returns a state for each node, by index: Drawn, Split or culled for nodes that the selection visited;
+// NotResident for the others, whose state follows from the nodes above them.
 std::vector<planet::ChunkState> visitedStates(const planet::ChunkTree& tree,
                                               const planet::Selection& selection);
-// The state of a node below one of a known state, given its own entry.
+// Returns the state of a node from the state of its parent and its own entry of visitedStates().
 planet::ChunkState stateBelow(planet::ChunkState above, planet::ChunkState visited);
-// The state of a node's four children where they are not resident: Requested, Loading, NotResident, Failed
-// or NotInFile.
+// Returns the state of a node's four children if they are not resident: Requested, Loading, NotResident,
+// Failed or NotInFile.
 planet::ChunkState missingChildrenState(const planet::ChunkNode& node,
                                         std::span<const planet::ChunkId> loading);
 
-// The parents of the blocks that are being read.
+// Returns the parents of the blocks that are being read.
 std::vector<planet::ChunkId> loadingParents(const planet::Planet& planet);
 
-// What of a planet the net and the tree list show, gathered once a frame.
+// The data of a planet that the net and the tree list show, gathered once per frame.
 struct NetData {
     const planet::ChunkTree& tree;
     std::vector<planet::ChunkState> visited;
@@ -89,7 +89,7 @@ struct NetData {
     double screenScalePx = 0;  // K'
     double tauPx = 1;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
-    double nowS = 0;  // since the planet was opened
+    double nowS = 0;  // seconds since the planet was opened
 };
 NetData netDataOf(const planet::Planet& planet);
 double epsPxOf(const NetData& data, const planet::ChunkNode& node);
@@ -97,21 +97,21 @@ double epsPxOf(const NetData& data, const planet::ChunkNode& node);
 enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age, Tight };
 struct NetColouring {
     NetColour by = NetColour::State;
-    double errorScale = 1;  // as of OverlaySettings
+    double errorScale = 1;  // OverlaySettings::errorScale
     double deltaTopM = 1000;
     double ageTopS = 10;
-    glm::vec3 ground{0, 0, 0};  // behind the net: what is not drawn is mixed with it
+    glm::vec3 ground{0, 0, 0};  // background of the net; chunks that are not drawn are mixed with it
 };
 
-// Pixels; the colour as ImGui packs it, red in the lowest byte.
+// A rectangle in pixels. The colour is packed for ImGui, red in the lowest byte.
 struct NetRect {
     float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     std::uint32_t colour = 0;
 };
-// Squares smaller than this are not drawn; the chunk above them stands for them.
+// Squares smaller than this are not drawn; their parent is drawn instead.
 inline constexpr double netLeastSidePx = 3;
-// Refills rects with what shows the net within an area, in drawing order. A drawn chunk whose children are
-// resident too is a frame about them; children that are not resident are marks inside their quarters.
+// Refills rects with the rectangles that show the net within an area, in drawing order. A drawn chunk with
+// resident children is a frame around them; children that are not resident are marks inside their quarters.
 void fillNetRects(const NetData& data, const NetPlacement& placement, const Rect& area,
                   const NetColouring& colouring, std::vector<NetRect>& rects);
 
@@ -120,25 +120,26 @@ struct NetHit {
     planet::NodeIndex node = planet::noNode;  // none: not resident
     planet::ChunkState state = planet::ChunkState::Resident;
 };
-// The chunk whose square, frame or mark a point of the screen lies on.
+// Returns the chunk whose square, frame or mark is at a point of the screen.
 std::optional<NetHit> netHit(const NetData& data, const NetPlacement& placement, double xPx, double yPx);
 
-// A line over the sphere through directions, as pieces on the net: none joins what the net has apart.
+// Converts a line on the sphere through directions into segments on the net. No segment crosses an edge at
+// which the net is cut open.
 struct NetSegment {
     NetPoint from;
     NetPoint to;
 };
 std::vector<NetSegment> netLine(std::span<const glm::dvec3> directions);
 
-// The outline of what a view shows of a sphere: directions from its centre, closed; beyond the horizon the
-// horizon itself. Empty where the sphere is not in view.
+// Returns the outline of the part of a sphere that a view shows, as a closed line of directions from the
+// sphere's centre. Rays that miss the sphere give points on the horizon. Empty if the sphere is not in view.
 std::vector<glm::dvec3> footprintOf(const planet::View& view, double radiusM);
 
 struct TreeRow {
     planet::ChunkId id;
     planet::NodeIndex node = planet::noNode;  // none: not resident
     planet::ChunkState state = planet::ChunkState::Resident;
-    double epsPx = 0;      // of a resident one
+    double epsPx = 0;      // of a resident chunk
     bool canOpen = false;  // has children in the file, and is resident
     bool open = false;
 };
@@ -148,7 +149,7 @@ using OpenChunks = std::unordered_set<planet::ChunkId>;
 enum class TreeColumn : std::uint8_t { Chunk, Eps, State };
 std::vector<TreeRow> treeRows(const NetData& data, const OpenChunks& open,
                               const std::optional<TableSort>& sort = std::nullopt);
-// So that a row shows it.
+// Opens all parents of a chunk, so that it has a row.
 void openWayTo(const planet::ChunkId& id, OpenChunks& open);
 
 }  // namespace worldy::ui

@@ -50,11 +50,11 @@ Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, cons
     asked.colourBy = same[static_cast<std::size_t>(state.colourBy)];
     Legend legend = legendOf(asked, view.planet->views()[0].input.lod.tauPx,
                              static_cast<std::uint32_t>(leafLevel(view.planet->tree().shape)));
-    if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // on delta_c's scale
+    if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // uses delta_c's scale
     return legend;
 }
 
-// Swatches with their labels, as many in a row as fit.
+// Draws swatches with labels, as many per row as fit.
 void legendRows(const Legend& legend) {
     const float font = ImGui::GetFontSize();
     const float swatch = std::round(font * 0.75f);
@@ -96,7 +96,7 @@ void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
     checkbox("List", state.showTree, true, "Shows the chunks as a tree beside the net.");
 }
 
-// In bulk, in pieces that 16-bit indices can reach.
+// Draws the rectangles in batches that 16-bit indices can address.
 void drawRects(ImDrawList& drawList, const std::vector<NetRect>& rects) {
     constexpr std::size_t piece = 8192;
     for (std::size_t start = 0; start < rects.size(); start += piece) {
@@ -111,7 +111,7 @@ void drawRects(ImDrawList& drawList, const std::vector<NetRect>& rects) {
 
 ImVec2 pixel(const NetPlacement& placement, const NetPoint& point) {
     const NetPoint at = onScreen(placement, point);
-    // Far outside the window a float has no digits left for a pixel, and nothing to show.
+    // Far outside the window a float cannot resolve a pixel, and nothing is visible there.
     return {static_cast<float>(std::clamp(at.x, -1e5, 1e5)), static_cast<float>(std::clamp(at.y, -1e5, 1e5))};
 }
 
@@ -122,7 +122,7 @@ void drawNetLine(ImDrawList& drawList, const NetPlacement& placement,
     }
 }
 
-// Where a camera stands, an arrow where it looks, and the outline of what it sees.
+// Draws a camera's position, an arrow in its viewing direction, and the outline of what it sees.
 void drawCamera(ImDrawList& drawList, const NetPlacement& placement, const planet::View& view, double radiusM,
                 const ImVec4& colour) {
     const float unit = ImGui::GetFontSize() / 13;
@@ -133,7 +133,7 @@ void drawCamera(ImDrawList& drawList, const NetPlacement& placement, const plane
     glm::dvec3 look = -view.back - glm::dot(-view.back, up) * up;
     if (glm::length(look) < 0.1) look = view.up - glm::dot(view.up, up) * up;
     const NetPoint place = netPointOfDirection(up);
-    // The arrow is drawn on the face that the camera is over, even if what it points at is on the next.
+    // The point ahead is very near, so that the arrow stays on the face below the camera.
     const NetPoint ahead = netPointOfDirection(up + 1e-4 * glm::normalize(look));
     glm::dvec2 along(ahead.x - place.x, ahead.y - place.y);
     const ImVec2 at = pixel(placement, place);
@@ -151,7 +151,8 @@ void drawCamera(ImDrawList& drawList, const NetPlacement& placement, const plane
     drawList.AddCircle(at, 4.5f * unit, IM_COL32(0, 0, 0, 200), 0, unit);
 }
 
-// Black about a colour, so that it shows on any square; a chunk of a few pixels gets a box that can be seen.
+// Draws a coloured outline between black ones, visible on any square. A chunk of a few pixels gets a larger
+// box.
 void outlineChunk(ImDrawList& drawList, const NetPlacement& placement, const planet::ChunkId& id,
                   const ImVec4& colour, float width) {
     const NetSquare square = netSquare(id);
@@ -188,7 +189,7 @@ std::string hitText(const NetData& data, const NetHit& hit) {
                               distanceText(static_cast<double>(node.deltaTightM)));
 }
 
-// Wheel, drag, clicks and hovering.
+// Handles wheel, drag, clicks and hovering.
 void netMouse(const NetData& data, const Rect& area, QuadtreePanelState& state, Commands& commands) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto x = static_cast<double>(io.MousePos.x);
@@ -244,14 +245,14 @@ void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanel
     ImGui::PopClipRect();
 }
 
-// For a narrow column; the legend has the same colours with whole words.
+// Returns a short text for a narrow column; the legend explains the same colours in full.
 const char* shortStateText(planet::ChunkState state) {
     if (state == planet::ChunkState::CulledFrustum) return "frustum";
     if (state == planet::ChunkState::CulledHorizon) return "horizon";
     return stateText(state);
 }
 
-// The arrow before a chunk that has children. True where it is pressed.
+// Draws the arrow before a chunk that has children. Returns true if it is pressed.
 bool openArrow(const TreeRow& row) {
     const float side = ImGui::GetFontSize();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -267,7 +268,7 @@ bool openArrow(const TreeRow& row) {
 }
 
 void treeRow(const EditorView& view, const TreeRow& row, QuadtreePanelState& state, Commands& commands) {
-    // Below the faces' own rows the face goes without saying.
+    // Rows below the root rows omit the face.
     std::string name = toString(row.id);
     ImGui::PushID(name.c_str());
     if (row.id.level > 0) name.erase(0, name.find('/') + 1);
@@ -307,7 +308,7 @@ void treeRow(const EditorView& view, const TreeRow& row, QuadtreePanelState& sta
     ImGui::PopID();
 }
 
-// Opens the way to a selection that was made elsewhere; the row to scroll to, or -1.
+// Opens the parents of a chunk selected elsewhere. Returns the row to scroll to, or -1.
 int followSelection(const EditorView& view, const NetData& data, const std::optional<TableSort>& sort,
                     QuadtreePanelState& state, std::vector<TreeRow>& rows) {
     if (view.focus.selected == state.followed) return -1;
@@ -357,7 +358,7 @@ void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettin
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     const ImVec2 room(ImGui::GetContentRegionAvail().x,
                       std::max(ImGui::GetContentRegionAvail().y, 12 * font));
-    // The net is 4 to 3; beside it the list wants some 20 letters.
+    // The net's aspect ratio is 4:3; a list beside it needs about 20 letters.
     const bool beside = room.x > room.y && room.x > 44 * font;
     ImVec2 netSize = room;
     if (state.showTree && beside) netSize.x = std::max(room.x - 24 * font, room.x * 0.5f);

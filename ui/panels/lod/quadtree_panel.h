@@ -1,4 +1,4 @@
-// Quadtree: the six faces as an unfolded cube net, every node a square, and the same as a tree list.
+// The Quadtree panel: every node is a square on the six faces of an unfolded cube, and a row of a tree list.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@ namespace worldy::ui {
 
 struct QuadtreePanelState {
     int colourBy = 0;                         // NetColour: state, level, eps / tau, delta_c, age, tight
-    NetFocus focus;                           // what part of the net is seen
+    NetFocus focus;                           // the part of the net in view
     bool showTree = true;                     // the list beside the net
-    OpenChunks open;                          // in the list
-    bool dragging = false;                    // the net is being moved, so that letting go selects nothing
+    OpenChunks open;                          // the chunks opened in the list
+    bool dragging = false;                    // the net is being moved; releasing the button selects nothing
     std::optional<planet::ChunkId> followed;  // the selection that the list has scrolled to
     Rect area{0, 0, 300, 225};                // where the net was last drawn
-    std::vector<NetRect> rects;               // kept from frame to frame for their memory alone
+    std::vector<NetRect> rects;               // kept between frames only to reuse the memory
 };
 
 // Fills the current window.

@@ -35,7 +35,7 @@ void seamControls(ViewSettings& settings) {
     control(settings.overlay.lodSeams);
 }
 
-// Largest and median of what is drawn, metres.
+// The largest and the median depth of the drawn chunks, metres.
 struct Depths {
     float largestM = 0;
     float medianM = 0;
@@ -93,7 +93,7 @@ void seamRow(const planet::LevelSeam& seam, const EditorView& view, Commands& co
     chunkLink(seam.coarser, view, commands);
 }
 
-// Widest first, then by id. Only the rows that are seen are sorted.
+// Draws the widest level difference first, then by id. Only the visible rows are sorted.
 void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams, Commands& commands) {
     const std::string chunk = widestChunkName(view);
     const std::array columns = {TableColumn{"Levels", 0.5f, "Level difference."},

@@ -1,4 +1,4 @@
-// Skirts and seams: how cracks between chunks are hidden, and where levels differ.
+// The Seams panel: skirts and stitching, which hide cracks between chunks, and edges where levels differ.
 #pragma once
 
 #include "ui/model/editor_view.h"

@@ -8,12 +8,12 @@ bool isDigit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// What may stand in a chunk's name.
+// Returns true for characters that a chunk's name may contain.
 bool isNameCharacter(char c) {
     return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/';
 }
 
-// Where a path may end: before one of these, or at the end.
+// Returns true for characters that may follow a path; the end of the text ends one too.
 bool mayEndPath(char c) {
     constexpr std::string_view ends = " :,;)]}'\"";
     return ends.find(c) != std::string_view::npos;
@@ -24,7 +24,7 @@ bool exists(std::string_view path) {
     return std::filesystem::exists(std::filesystem::path(path), status);
 }
 
-// The first name of a square of a face that is a tile of colour, or that is none.
+// Returns the first square that the text names, of the tiles or of the chunks.
 std::optional<planet::ChunkId> squareNamedIn(std::string_view text, bool colourTile) {
     std::size_t at = 0;
     while (at < text.size()) {
@@ -55,7 +55,7 @@ std::optional<planet::ChunkId> colourTileNamedIn(std::string_view text) {
 std::optional<std::filesystem::path> fileNamedIn(std::string_view text) {
     for (std::size_t start = text.find('/'); start != std::string_view::npos;
          start = text.find('/', start + 1)) {
-        // An absolute path begins a word.
+        // An absolute path starts at the beginning of a word.
         if (start > 0 && !mayEndPath(text[start - 1]) && text[start - 1] != '(' && text[start - 1] != '[')
             continue;
         for (std::size_t end = text.size(); end > start + 1; --end) {

@@ -1,4 +1,4 @@
-// What a line of the log names that a click can lead to. Any thread.
+// Finds chunks, tiles and files in the log's text that a click can lead to. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,14 @@
 
 namespace worldy::ui {
 
-// The first chunk that a text names, "z_pos/3/1/2". Pure.
+// Returns the first chunk that a text names, such as "z_pos/3/1/2". Pure.
 std::optional<planet::ChunkId> chunkNamedIn(std::string_view text);
-// The first tile of colour, which is none: "colour tile z_pos/3/1/2". Pure.
+// Returns the first colour tile that a text names; chunkNamedIn() skips these: "colour tile z_pos/3/1/2".
+// Pure.
 std::optional<planet::ChunkId> colourTileNamedIn(std::string_view text);
 
-// The first absolute path in a text that exists, the longest there: a name may hold blanks. Asks the file
-// system.
+// Returns the first absolute path in a text that exists. At one position the longest path wins, since names
+// may contain spaces. Reads the file system.
 std::optional<std::filesystem::path> fileNamedIn(std::string_view text);
 
 }  // namespace worldy::ui

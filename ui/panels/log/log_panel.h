@@ -1,4 +1,4 @@
-// The log panel: lines are coloured by level, filtered, and lead to the chunks and files that they name.
+// The Log panel: lines are coloured by level and filtered; they link to the chunks and files that they name.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace worldy::ui {
 
 struct LogPanelState {
-    std::array<char, 128> filter{};  // shows only lines that hold this; case does not matter
+    std::array<char, 128> filter{};  // only lines that contain this are shown; case is ignored
     bool autoScroll = true;
     std::array<bool, 4> levels{true, true, true, true};  // which are shown
 
@@ -22,7 +22,7 @@ struct LogPanelState {
         std::vector<std::size_t> lines;  // indices, oldest first
         std::array<char, 128> filter{};
         std::array<bool, 4> levels{};
-        std::size_t count = 0;  // of the log, as it was
+        std::size_t count = 0;  // number of lines in the log when this was updated
         const LogLine* oldest = nullptr;
         const LogLine* newest = nullptr;
         std::string newestText;

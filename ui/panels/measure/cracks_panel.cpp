@@ -48,8 +48,8 @@ void measureControls(const EditorView& view, ViewSettings& settings, Commands& c
     control(settings.cracks.mark);
 }
 
-// A value that was found, with a button that sets it. whyNot: empty where it can be set. True if it is to be
-// set.
+// Draws a suggested value with a button that applies it. whyNot: why it cannot be applied; empty if it can.
+// Returns true if the button is pressed.
 bool foundRow(const char* name, const std::string& value, const char* explanation,
               const std::string& whyNot) {
     ImGui::TableNextRow();
@@ -58,7 +58,8 @@ bool foundRow(const char* name, const std::string& value, const char* explanatio
     tooltip(explanation);
     ImGui::TableNextColumn();
     const ImGuiStyle& style = ImGui::GetStyle();
-    // Each text by itself, as each is rounded up: a row wider than this would widen the column every frame.
+    // The texts are measured separately, because each width is rounded up: a wider row would widen the column
+    // every frame.
     const float wide = ImGui::CalcTextSize(value.c_str()).x + style.ItemSpacing.x +
                        ImGui::CalcTextSize("Apply").x + 2 * style.FramePadding.x;
     const float slack = ImGui::GetContentRegionAvail().x - wide;
@@ -183,7 +184,7 @@ void spotTable(const EditorView& view, Commands& commands) {
     ImGui::EndTable();
 }
 
-// The skirt of the higher edge, metres.
+// Returns the skirt depth of the higher edge, metres.
 float skirtOf(const planet::EdgeGap& gap) {
     return gap.finerAboveM >= gap.coarserAboveM ? gap.finerSkirtM : gap.coarserSkirtM;
 }

@@ -1,4 +1,4 @@
-// Cracks: cracks, leaks and edge gaps.
+// The Cracks panel: crack pixels, uncovered pixels and edge gaps.
 #pragma once
 
 #include "ui/model/commands.h"

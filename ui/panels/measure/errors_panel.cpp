@@ -28,7 +28,7 @@ using planet::ChunkError;
 
 constexpr double logarithmicDecades = 4;
 
-// Finer than pixelsText: what is compared here is often a tenth of a pixel.
+// Formats with more digits than pixelsText(): the errors compared here are often 0.1 px.
 std::string finePx(double px, const char* unit = " px") {
     return fmt::format("{:.3g}{}", px, unit);
 }
@@ -62,7 +62,7 @@ void errorsControls(const EditorView& view, ViewSettings& settings, Commands& co
     if (!errors.problem.empty()) wrappedText(errors.problem, palette().bad);
 }
 
-// Which frame the figures are of.
+// Shows the measured frame and its settings.
 void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
     const std::uint64_t since = view.errors.frame - std::min(view.errors.frame, last.frame);
     const std::string when =
@@ -115,7 +115,7 @@ void figures(const ErrorMeasurement& last) {
 struct ScatterScale {
     ImVec2 start;
     ImVec2 end;
-    double top = 1;  // of both axes, pixels
+    double top = 1;  // end of both axes, pixels
     bool logarithmic = true;
 
     float share(double px) const {
@@ -131,7 +131,8 @@ struct ScatterScale {
     ImVec2 at(const ChunkError& chunk) const { return at(chunk.drawnBoundPx, chunk.facingPx); }
 };
 
-// Where an eye stands in a chunk's bounds its prediction has no end, so a few times tau is enough.
+// Returns the end of the axes. The bound of a chunk that contains the eye is unbounded, so bounds are clamped
+// at 4 tau.
 double topOf(const ErrorMeasurement& last) {
     const double most = std::min(last.report.worstDrawnBoundPx, 4 * last.tauPx);
     return roundedTop(std::max({most, last.report.worstFacingPx, 1.2 * last.tauPx}));
@@ -142,7 +143,7 @@ void drawAxes(const ScatterScale& scale, double tauPx) {
     const float gap = ImGui::GetFontSize() * 0.3f;
     drawList.AddRectFilled(scale.start, scale.end, ImGui::GetColorU32(ImGuiCol_FrameBg),
                            ImGui::GetStyle().FrameRounding);
-    // Above the diagonal no chunk may lie.
+    // No chunk may lie above the diagonal.
     drawList.AddTriangleFilled({scale.start.x, scale.end.y}, scale.start, {scale.end.x, scale.start.y},
                                packed(palette().bad, 0.13f));
     drawList.AddLine({scale.start.x, scale.end.y}, {scale.end.x, scale.start.y}, packed(palette().bad, 0.7f));

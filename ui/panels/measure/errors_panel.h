@@ -1,4 +1,4 @@
-// True error: the measured error of what is drawn, beside the bound of what is drawn.
+// The True error panel: the measured error of the drawn surface beside its bound.
 #pragma once
 
 #include "ui/model/commands.h"

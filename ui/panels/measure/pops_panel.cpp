@@ -74,7 +74,7 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
                                         : "Not measuring.",
                     palette().dim);
     } else {
-        // A line of its own: else it may be broken at its decimal point.
+        // The value has a line to itself; it could otherwise be broken at the decimal point.
         ImGui::TextWrapped("P99 jump:\n< %s; %s level changes",
                            popPxText(std::max(sample.p99Px, leastPopPx)).c_str(),
                            countText(static_cast<double>(sample.seen)).c_str());
@@ -228,7 +228,7 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
     ImGui::TableNextColumn();
     const bool isSelected = state.selected == keyOf(event);
     const double agoS = std::max(view.pops.meter->lastTimeS() - event.timeS, 0.0);
-    // The same row whatever the time.
+    // The id after ### keeps the row's identity while the time changes.
     const std::string ago = fmt::format("{:.{}f} s###row", agoS, agoS < 10 ? 1 : 0);
     if (ImGui::Selectable(ago.c_str(), isSelected, ImGuiSelectableFlags_SpanAllColumns))
         state.selected = keyOf(event);

@@ -1,4 +1,4 @@
-// Pops: how far the surface jumps at changes of level, when, why, and what it looked like.
+// The Pops panel: how far the surface jumps at level changes, when, why, and what it looked like.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct PopsPanelState {
     PopTimelineState timeline;
     std::optional<PopKey> selected;
 
-    // What is worked out from all events now and then.
+    // Statistics of all events, updated at intervals.
     struct Sample {
         const planet::PopMeter* meter = nullptr;
         double takenAtS = -1;

@@ -20,11 +20,11 @@ namespace {
 
 constexpr double leastSpanS = 0.5;
 
-// The plot's room on the screen, and what times and jumps are there.
+// The plot's rectangle on the screen, with the mapping of times and jumps.
 struct Plot {
     ImVec2 start;
     ImVec2 end;
-    float top = 0;  // of the jumps; bars lie above
+    float top = 0;  // top of the jumps; the bars are above it
     double fromS = 0;
     double toS = 1;
 
@@ -52,7 +52,7 @@ void drawAxis(const Plot& plot) {
         drawList.AddText({plot.start.x + 3, y - ImGui::GetTextLineHeight()}, packed(palette().dim, 0.8f),
                          label.c_str());
     }
-    // Steps of 1, 2 or 5 seconds and so on, about eight of them.
+    // The steps are 1, 2 or 5 s times a power of ten, about eight of them.
     const double stepS = roundedTop((plot.toS - plot.fromS) / 8);
     for (int step = 0; step * stepS < planet::PopMeter::keptS; ++step) {
         const float x = plot.x(plot.toS - step * stepS);
@@ -74,7 +74,7 @@ void drawLate(const Plot& plot, const planet::PopMeter& meter) {
     }
 }
 
-// One tick a column of pixels, of the event that jumps farthest in it.
+// Returns the event with the largest jump in each column of pixels; null for a column without events.
 std::vector<const planet::PopEvent*> columnsOf(const Plot& plot, const planet::PopMeter& meter) {
     const auto columns = static_cast<std::size_t>(std::max(plot.end.x - plot.start.x, 1.0f));
     std::vector<const planet::PopEvent*> highest(columns, nullptr);
@@ -144,7 +144,7 @@ void moveInTime(const Plot& plot, PopTimelineState& state) {
         state.movedPx += std::abs(movedPx);
     }
     if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
-        // The time under the pointer stays there.
+        // The time under the pointer stays under it.
         const double right = static_cast<double>((plot.end.x - io.MousePos.x)) / width;
         const double before = state.spanS;
         state.spanS = std::clamp(before * std::pow(0.8, static_cast<double>(io.MouseWheel)), leastSpanS,

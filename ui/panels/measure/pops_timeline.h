@@ -1,5 +1,5 @@
-// The pop meter's last minutes over time: a tick for each switch of level, as high as it jumps, in the colour
-// of its cause; above them a bar for each chunk that waits for its children.
+// The pop meter's last minutes over time. Each level change is a tick in the colour of its cause, as high as
+// its jump. Above the ticks is a bar for each chunk that waits for its children.
 #pragma once
 
 #include <imgui.h>
@@ -12,7 +12,7 @@
 
 namespace worldy::ui {
 
-// Names an event; the meter keeps no two alike.
+// Identifies an event; the meter has no two events with the same key.
 struct PopKey {
     std::uint64_t frame = 0;
     planet::ChunkId chunk;
@@ -23,20 +23,21 @@ inline PopKey keyOf(const planet::PopEvent& event) {
     return {event.frame, event.chunk};
 }
 
-// The axis of jumps, pixels, logarithmic; what moves less or more stands at its end.
+// The range of the logarithmic axis of jumps, pixels; values outside are drawn at its ends.
 inline constexpr double leastPopPx = 0.001;
 inline constexpr double mostPopPx = 100;
 
 struct PopTimelineState {
-    double spanS = 60;   // shown, [minSpanS, keptS]
-    double behindS = 0;  // the right end, before now
-    double movedPx = 0;  // while it is dragged
+    double spanS = 60;   // time range shown, [0.5, planet::PopMeter::keptS]
+    double behindS = 0;  // seconds from the right end to now
+    double movedPx = 0;  // distance dragged so far
 };
 
 ImVec4 popColour(planet::PopCause cause);
-std::string popPxText(double px);  // "under 0.001 px", "0.004 px", "1.3 px"
+std::string popPxText(double px);  // "< 0.001 px", "0.004 px", "1.3 px"
 
-// Wheel: nearer in time; drag: back and forth. Returns the event that was clicked. Selected: lit.
+// Draws the timeline: the wheel zooms in time, dragging moves it. The selected event is marked. Returns the
+// event that was clicked.
 std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
                                   const std::optional<PopKey>& selected, PopTimelineState& state);
 

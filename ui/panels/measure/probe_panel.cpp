@@ -14,7 +14,7 @@ namespace worldy::ui {
 
 namespace {
 
-// Errors from micrometres to metres.
+// Formats errors from micrometres to metres.
 std::string errorText(double metres) {
     const double millimetres = 1000 * metres;
     return millimetres < 1000 ? fmt::format("{:.3f} mm", millimetres) : distanceText(metres);

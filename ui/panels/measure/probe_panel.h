@@ -1,4 +1,4 @@
-// Precision: what floats and the depth buffer make of a point.
+// The Precision panel: float and depth buffer errors at a point.
 #pragma once
 
 #include "ui/model/commands.h"

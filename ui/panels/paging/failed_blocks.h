@@ -1,4 +1,4 @@
-// The blocks that could not be read: why, how often they were tried, and when they are tried again.
+// The table of blocks that could not be read: why, after how many attempts, and when they are retried.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace worldy::ui {
 
-// Those that have failed for good first, then those that are tried again, the soonest first.
+// Sorts blocks that failed permanently first, then the others by the time of their next retry.
 void sortFailed(std::vector<planet::FailedBlock>& blocks);
 
-// "for good", "in 1.25 s", "when wanted".
+// Returns "never", "in 1.25 s" or "when needed".
 std::string retryText(const std::optional<double>& retryInS);
 
-// Fills the room there is. blocks: as sortFailed leaves them, of heights and tiles alike.
+// Draws the table in the remaining room. blocks: heights and tiles alike, sorted by sortFailed().
 void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands);
 
 }  // namespace worldy::ui

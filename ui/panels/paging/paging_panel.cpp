@@ -32,7 +32,7 @@ namespace worldy::ui {
 namespace {
 
 constexpr double pagingSampledEveryS = 0.1;
-// The latency axis, seconds, logarithmic.
+// The ends of the logarithmic latency axis, seconds.
 constexpr double fastestS = 1e-4;
 constexpr double slowestS = 100;
 constexpr std::size_t latencyBuckets = 36;
@@ -79,7 +79,7 @@ bool hasNormals(const EditorView& view) {
     return view.stats.paging[planet::BlockKind::Normals].capacity > 0;
 }
 
-// Whether there is more than heights to tell apart.
+// Returns true if the planet has other kinds of blocks than heights.
 bool hasKinds(const EditorView& view) {
     return view.planet->colour() || hasNormals(view);
 }
@@ -315,7 +315,7 @@ void refresh(const EditorView& view, PagingPanelState& state) {
 
 // Tables.
 
-// The first view that wants it, or the first of all.
+// Returns the first view that wants the block, or view 0.
 std::size_t wantingView(std::uint32_t views, std::size_t viewCount) {
     for (std::size_t v = 0; v < viewCount; ++v)
         if (views >> v & 1u) return v;
@@ -338,7 +338,7 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     return text;
 }
 
-// A link as long as the row, after its kind where there are several.
+// Draws a link that spans the row, after the block's kind if there are several kinds.
 void rowLink(const planet::ChunkId& id, planet::BlockKind kind, const EditorView& view, Commands& commands) {
     const bool tiles = kind != planet::BlockKind::Heights;
     if (hasKinds(view)) cell(kindText(kind), tiles ? palette().accent : palette().text);
@@ -347,7 +347,8 @@ void rowLink(const planet::ChunkId& id, planet::BlockKind kind, const EditorView
     colourLink(id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
 }
 
-// Columns of a table of requests, the kind before the name where there are several.
+// Returns the columns of a table of requests, with a kind column before the name column if there are several
+// kinds.
 std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableColumn> columns,
                                   std::size_t name) {
     std::vector<TableColumn> all(columns.begin(), columns.end());
@@ -361,7 +362,7 @@ std::vector<TableColumn> withKind(const EditorView& view, std::span<const TableC
     return all;
 }
 
-// The column's place in a table without kinds; none: the kind itself.
+// Returns the column's index in a table without kinds; none for the kind column.
 std::optional<std::size_t> withoutKind(const EditorView& view, std::size_t column, std::size_t name) {
     if (!hasKinds(view) || column < name) return column;
     return column == name ? std::nullopt : std::optional(column - 1);
@@ -407,7 +408,7 @@ void queueFilter(const EditorView& view, PagingPanelState& state) {
     tooltip("Shows the requests of one view; each view requests blocks with its own priorities.");
 }
 
-// The part of the queue that is shown: page-ins stand before page-outs.
+// Returns the shown part of the queue, in which page-ins stand before page-outs.
 std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
     const std::span<const PagingRow> queue = state.sample.queue;
     const auto firstOut = static_cast<std::size_t>(
@@ -642,7 +643,7 @@ void latencyHistogram(PagingPanelState& state, float lines) {
 }
 
 void plots(const EditorView& view, PagingPanelState& state, bool wide) {
-    // The others: two legends, the choice of a latency, and the histogram's axis.
+    // The other lines are two legends, the choice of a latency, and the histogram's axis.
     const float lines = wide ? linesThatFit(3, 5.6f, 8) : 2.5f;
     const std::vector<float> times = historyTimes(view.history);
     const std::array queue = {
@@ -678,7 +679,7 @@ void pagingControls(const EditorView& view, const SettingControls& control, View
     buttons(view, commands);
 }
 
-// Beside those that are read or to be read; its name says that there are any.
+// Draws the tab of failed blocks; its title shows their number.
 void failedTab(const EditorView& view, PagingPanelState& state, Commands& commands) {
     const planet::PagingCounters& p = view.stats.paging;
     const std::uint32_t failed = p.failedForGood() + p.awaitingRetry();
@@ -697,7 +698,7 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("tables")) return;
     const planet::PagingCounters& p = view.stats.paging;
-    // The rows of the table, loads and evictions; a longer title is cut in a narrow dock.
+    // The title counts the table's rows, loads and evictions. A longer title would be cut in a narrow dock.
     const std::string queue = fmt::format("Queue {}###queue", state.sample.loads + state.sample.evictions);
     if (ImGui::BeginTabItem(queue.c_str())) {
         queueTable(view, state, commands);

@@ -1,4 +1,5 @@
-// Paging: the queue, what is being read, the history, memory; budget, threads, pause, and the bad disk.
+// The Paging panel: queue, loads in progress, history, memory, budget, threads, pause and I/O fault
+// injection.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,7 @@ namespace worldy::ui {
 
 // A pending request, as the table shows it.
 struct PagingRow {
-    planet::ChunkId parent;  // whose children are meant
+    planet::ChunkId parent;  // the chunk whose children are requested
     planet::BlockKind kind = planet::BlockKind::Heights;
     planet::PagingType type = planet::PagingType::PageIn;
     double priority = 0;
@@ -21,19 +22,20 @@ struct PagingRow {
 };
 
 struct PagingPanelState {
-    int shownView = -1;                            // requests of one view, or -1 for all
-    std::optional<planet::BlockKind> shownKind{};  // rows of one kind, or of all
+    int shownView = -1;                            // shows the requests of one view; -1: of all
+    std::optional<planet::BlockKind> shownKind{};  // shows rows of one kind; none: of all
     bool showPageIns = true;
     bool showPageOuts = true;
-    bool showLoaded = true;  // in the history
+    bool showLoaded = true;  // in the history, as the next three
     bool showFailed = true;
     bool showCancelled = true;
     bool showEvicted = true;
-    bool onlyMerged = false;        // those asked for more than once
-    bool failedShown = false;       // the list of failed blocks, in the frame before
-    bool latencyOfReading = false;  // the histogram: of reading alone; else from asking to loaded
+    bool onlyMerged = false;        // shows only requests made more than once
+    bool failedShown = false;       // the list of failed blocks was shown in the last frame
+    bool latencyOfReading = false;  // the histogram shows read latency; otherwise total latency
 
-    // Read from the planet some ten times a second: copying a long queue takes longer than drawing it.
+    // Read from the planet about ten times per second, because copying a long queue takes longer than drawing
+    // it.
     struct Sample {
         double takenAtS = -1;  // EditorView::timeS
         const planet::Planet* planet = nullptr;
@@ -42,18 +44,18 @@ struct PagingPanelState {
         bool latencyOfReading = false;
         std::vector<PagingRow> queue;  // page-ins, then page-outs, each most urgent first
         std::size_t hidden = 0;        // requests of the other kinds
-        std::size_t loads = 0;         // queued, of all kinds and views
+        std::size_t loads = 0;         // queued loads, of all kinds and views
         std::size_t evictions = 0;
-        std::vector<planet::FailedBlock> failed;  // where they are shown
+        std::vector<planet::FailedBlock> failed;  // filled only while the list is shown
         bool failedShown = false;
         std::vector<float> latencyCounts;
         float medianS = 0;
-        float slowestS = 0;  // 99 of 100 are faster
+        float slowestS = 0;  // 99th percentile
         std::size_t latencies = 0;
     } sample;
 };
 
-// Fills the current window: columns side by side where it is wide, one below the other where it is narrow.
+// Fills the current window, with columns side by side if it is wide, otherwise stacked.
 void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& settings, Commands& commands);
 
 }  // namespace worldy::ui

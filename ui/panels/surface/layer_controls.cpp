@@ -19,7 +19,7 @@ namespace {
 using planet::SoftRange;
 using planet::TextureLayer;
 
-// A text of at most 200 bytes.
+// Draws a field for a text of at most 200 bytes.
 void textField(const char* label, std::string& text, const char* hint, const char* explanation) {
     std::array<char, 201> buffer{};
     text.copy(buffer.data(), buffer.size() - 1);
@@ -50,7 +50,7 @@ void endPoint(const char* id, double& value, double least, double most, const Ra
     tooltip(control.explanation);
 }
 
-// Both ends, neither past the other, and the edge below them.
+// Draws both ends of a range, neither of which can pass the other, and the soft edge below them.
 void rangeControl(const RangeControl& control, SoftRange& range) {
     ImGui::PushID(control.label);
     const bool isDefault = range == control.all;

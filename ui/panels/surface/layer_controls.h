@@ -5,7 +5,7 @@
 
 namespace worldy::ui {
 
-// Fills the inside of a section. problem: the fault of the layer; empty if it has none.
+// Fills the inside of a section. problem: what is wrong with the layer; empty if nothing is.
 void layerControls(planet::TextureLayer& layer, const std::string& problem, Commands& commands);
 
 }  // namespace worldy::ui

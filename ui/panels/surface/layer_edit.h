@@ -1,4 +1,4 @@
-// Changing the order and number of texture layers, which are kept lowest first. Pure functions.
+// Edits the list of texture layers, which is ordered lowest first. Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@ namespace worldy::ui {
 
 using LayerList = std::vector<planet::TextureLayer>;
 
-// Moves a layer to another's place; those between make room.
+// Moves a layer to another's index; the layers between shift by one.
 void moveLayer(LayerList& layers, std::size_t from, std::size_t to);
 
-// A copy of a layer above it, with a name of its own. There must be room. Returns where it is.
+// Inserts a copy of a layer above it, under a unique name, and returns its index. The list must have room.
 std::size_t duplicateLayer(LayerList& layers, std::size_t index);
 
-// A new layer above all others, which covers everything and has no textures yet. Returns where it is.
+// Adds a layer above all others that covers everything and has no textures yet. Returns its index.
 std::size_t addLayer(LayerList& layers);
 
-// Removes a layer. Returns which is chosen then, where that one was; 0 where none is left.
+// Removes a layer. Returns the index to select next: the same one, or the last layer; 0 if none is left.
 std::size_t removeLayer(LayerList& layers, std::size_t index);
 
 }  // namespace worldy::ui

@@ -45,7 +45,7 @@ void previewControl(const LayersPanelState& state, const SettingControls& contro
     if (layers.preview != LayerPreview::Off) layers.previewed = static_cast<int>(state.chosen) + 1;
 }
 
-// Drags a layer's row to another's.
+// Moves a layer by dragging its row to another's.
 void dragRow(const TextureLayer& layer, std::size_t index,
              std::optional<std::pair<std::size_t, std::size_t>>& moved) {
     if (ImGui::BeginDragDropSource()) {
@@ -59,7 +59,7 @@ void dragRow(const TextureLayer& layer, std::size_t index,
     ImGui::EndDragDropTarget();
 }
 
-// A letter that is lit while it holds.
+// Draws a one-letter button that toggles a value and is lit while it is set.
 void letterSwitch(const char* letter, const std::string& item, bool& value, const ImVec4& colour,
                   const char* explanation) {
     ImGui::PushStyleColor(ImGuiCol_Text, value ? colour : palette().dim);
@@ -106,7 +106,7 @@ void layerRow(const EditorView& view, std::size_t index, LayersPanelState& state
     ImGui::PopID();
 }
 
-// The highest layer first, as they lie.
+// Draws the list with the highest layer first.
 void layerList(const EditorView& view, LayersPanelState& state, LayerSettings& layers) {
     if (layers.set.layers.empty()) {
         wrappedText("There are no layers. Add one or load a set.", palette().dim);
@@ -160,7 +160,7 @@ void listButtons(LayersPanelState& state, LayerList& list) {
     endGrey();
 }
 
-// What is left of the planet's own colour is named too.
+// Shows the layers' weights under the pointer, and the weight of the planet's own colour.
 void readout(const EditorView& view, const LayerSettings& layers) {
     if (!view.layers.under) {
         wrappedText("Point at the ground in the viewport.", palette().dim);
@@ -210,7 +210,7 @@ void loadControl(const EditorView& view, LayersPanelState& state, const LayerSet
 void setFiles(const EditorView& view, LayersPanelState& state, const LayerSettings& layers,
               Commands& commands) {
     loadControl(view, state, layers, commands);
-    // A name that was refused stays, to be mended; the message box says why.
+    // A rejected name stays in the field for correction; the message box says why it was rejected.
     if (state.saving && view.layers.setProblem.empty()) state.newName.fill(0);
     state.saving = false;
     const float room = ImGui::CalcTextSize("Save").x + 2 * ImGui::GetStyle().FramePadding.x +

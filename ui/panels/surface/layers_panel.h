@@ -1,4 +1,4 @@
-// The part of the Surface panel on texture layers: their list, blending, weights under the pointer, and sets.
+// The texture layers in the Surface panel: their list, blending, weights under the pointer, and layer sets.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 namespace worldy::ui {
 
 struct LayersPanelState {
-    std::size_t chosen = 0;          // of the layers; the last one where there are fewer
-    std::string set;                 // chosen to be loaded, by name
-    std::array<char, 61> newName{};  // of a set to be saved
-    bool saving = false;             // under that name, in the frame before
+    std::size_t chosen = 0;          // index of the selected layer; clamped to the last one
+    std::string set;                 // name of the set to load
+    std::array<char, 61> newName{};  // name of the set to save
+    bool saving = false;             // the last frame asked to save newName
 };
 
 // Fills sections of the current window.

@@ -11,7 +11,7 @@ using planet::gl::RampStop;
 
 namespace {
 
-// The stop above a height, at which the ramp goes on rising.
+// Returns the index of the first stop above a height.
 std::size_t stopAbove(std::span<const RampStop> ramp, double heightM) {
     const auto above = std::upper_bound(ramp.begin(), ramp.end(), heightM,
                                         [](double h, const RampStop& stop) { return h < stop.heightM; });
@@ -62,7 +62,7 @@ Ramp greyRamp(double lowestM, double highestM) {
 Ramp hypsometricRamp(double lowestM, double highestM) {
     assert(lowestM <= highestM);
     struct Share {
-        double of;  // of the way from 0 to the end on its side
+        double of;  // of the way from 0 m to the lowest or highest height
         glm::vec3 colour;
     };
     static const std::array<Share, 4> sea = {{{1, {0.05f, 0.11f, 0.30f}},
@@ -77,10 +77,10 @@ Ramp hypsometricRamp(double lowestM, double highestM) {
                                                {1, {0.97f, 0.97f, 0.97f}}}};
     Ramp ramp;
     if (lowestM < 0) {
-        // Adding 0 turns the shore's -0 into 0.
+        // Adding 0 turns the shoreline's -0 into 0.
         for (const Share& share : sea) ramp.push_back({share.of * lowestM + 0.0, share.colour});
     }
-    // A planet that lies below 0 as a whole needs no land, and one that lies above it starts at its lowest.
+    // A planet wholly below 0 m needs no land colours; one wholly above it starts at its lowest height.
     const double base = std::max(lowestM, 0.0);
     if (highestM > 0) {
         for (const Share& share : land) ramp.push_back({base + share.of * (highestM - base), share.colour});

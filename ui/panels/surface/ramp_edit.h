@@ -1,4 +1,4 @@
-// Changing the height ramp, which is kept lowest stop first. Pure functions; heights are metres above the sea
+// Edits the height ramp, which is ordered lowest stop first. Pure functions; heights are metres above sea
 // level, colours sRGB in [0, 1].
 #pragma once
 
@@ -13,24 +13,24 @@ namespace worldy::ui {
 
 using Ramp = std::vector<planet::gl::RampStop>;
 
-// The colour that a height is drawn in, as planet::gl::RampStop says; black for an empty ramp.
+// Returns the colour of a height as planet::gl::RampStop defines it; black for an empty ramp.
 glm::vec3 rampColourAt(std::span<const planet::gl::RampStop> ramp, double heightM);
 
-// Adds a stop that changes nothing in the picture: it has the colour that the ramp has there. Returns where
-// it is. The ramp must have room for it.
+// Adds a stop with the ramp's own colour at that height, so that the picture does not change. Returns its
+// index. The ramp must have room for it.
 std::size_t addStop(Ramp& ramp, double heightM);
 
-// A height for a stop to be added after one: half way to the next, or beyond the last as far as that is from
-// the one before it.
+// Returns a height for a stop to be added after one: half way to the next; after the last stop, as far as
+// that is from the one before it, or 1000 m.
 double heightAfter(std::span<const planet::gl::RampStop> ramp, std::size_t index);
 
-// Moves a stop, but not past its neighbours, so that the order stays.
+// Moves a stop, but not past its neighbours, which keeps the order.
 void moveStop(Ramp& ramp, std::size_t index, double heightM);
 
-// Black at the lowest height, white at the highest.
+// Returns a ramp from black at the lowest height to white at the highest.
 Ramp greyRamp(double lowestM, double highestM);
-// As in atlases: deep blue to light blue up to 0, then green, yellow, brown and white, stretched over a
-// planet's heights. lowestM <= highestM.
+// Returns the colours of atlases: deep to light blue up to 0 m, then green, yellow, brown and white, scaled
+// to a planet's heights. lowestM <= highestM.
 Ramp hypsometricRamp(double lowestM, double highestM);
 
 }  // namespace worldy::ui

@@ -33,7 +33,7 @@ struct HeightRange {
 HeightRange heightsOf(const EditorView& view, double seaLevelM) {
     if (!view.planet) return {};
     const planet::ChunkTree& tree = view.planet->tree();
-    // Stops stand at true heights, whatever the exaggeration that they are drawn with.
+    // Stops are at true heights, independent of the exaggeration.
     return {planet::heightM(tree.storedShape, tree.minStep) - seaLevelM,
             planet::heightM(tree.storedShape, tree.maxStep) - seaLevelM};
 }
@@ -125,8 +125,8 @@ void colourControls(const EditorView& view, const SettingControls& control, Surf
     endGrey();
 }
 
-// The ramp as a picture, from its first stop to its last, each marked below it. A click gives the height
-// there.
+// Draws the ramp from its first stop to its last, with a mark below each stop. Returns the height that is
+// clicked.
 std::optional<double> previewBar(std::span<const RampStop> ramp, int selected) {
     const float line = ImGui::GetFrameHeight();
     const float tick = std::round(line * 0.35f);

@@ -1,4 +1,4 @@
-// Surface: texture layers, height ramp, sea, colour image, sun, vertical exaggeration.
+// The Surface panel: texture layers, height ramp, colour image and vertical exaggeration.
 #pragma once
 
 #include "ui/model/editor_view.h"
@@ -7,7 +7,7 @@
 namespace worldy::ui {
 
 struct SurfacePanelState {
-    int selectedStop = -1;  // of the ramp; -1: none
+    int selectedStop = -1;  // index of the ramp's stop; -1: none
     LayersPanelState layers{};
 };
 

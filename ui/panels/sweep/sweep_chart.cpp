@@ -21,7 +21,7 @@ namespace {
 
 constexpr float leastChartLines = 6;
 
-// How figures become pixels.
+// The mapping of figures to pixels.
 struct ChartScale {
     ImVec2 start;
     ImVec2 end;
@@ -57,7 +57,7 @@ ChartScale scaleOver(std::span<const SweepPoint> points, SweepCost cost, ImVec2 
     const float gap = ImGui::GetFontSize() * 0.4f;
     scale.start.x += tickWidth(scale.costs) + 2 * gap;
     scale.start.y += ImGui::GetTextLineHeight();  // for the tau of a point at the top
-    // Half of the last tick's text stands beyond the axis, and a point's tau beside it.
+    // The last tick's text reaches half its width beyond the axis; a point's tau stands right of it.
     scale.end.x -= std::max(tickWidth(scale.errors) / 2, ImGui::GetFontSize());
     scale.end.y -= ImGui::GetTextLineHeight() + gap;
     return scale;
@@ -89,13 +89,13 @@ void drawAxes(const ChartScale& scale) {
                      text.c_str());
         freeTo = y - half;
     }
-    // Lines that fall to the right leave room there.
+    // The lines fall to the right, which leaves room there.
     const char* name = "max measured error, px";
     if (ImGui::CalcTextSize(name).x + 2 * gap > scale.end.x - scale.start.x) name = "error, px";
     list.AddText({scale.end.x - ImGui::CalcTextSize(name).x - gap, scale.start.y + gap / 2}, dim, name);
 }
 
-// In the lines above the plot, from where the last item has left room.
+// Draws the legend above the plot, starting beside the last item.
 void legend(std::span<const SweepSeries> series) {
     const float line = ImGui::GetTextLineHeight();
     for (std::size_t i = 0; i < series.size(); ++i) {
@@ -122,7 +122,7 @@ void drawSeries(const ChartScale& scale, std::span<const SweepPoint> points, con
     for (std::size_t i = 0; i < way.size(); ++i) sweepMark(way[i], colour, points[series.points[i]].onFront);
 }
 
-// Of those that have room: a text over another is worse than none, and the pointer tells all.
+// Labels points with their taus, except where labels would overlap; hovering shows every value.
 void drawTaus(const ChartScale& scale, std::span<const SweepPoint> points,
               std::span<const SweepSeries> series) {
     struct Box {

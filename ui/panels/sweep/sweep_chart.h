@@ -1,4 +1,4 @@
-// A sweep as a plot: cost upwards, the worst measured error to the right, both logarithmic.
+// The plot of a sweep: cost on the vertical axis, max measured error on the horizontal, both logarithmic.
 #pragma once
 
 #include <imgui.h>
@@ -10,13 +10,13 @@
 
 namespace worldy::ui {
 
-// Of a series of seriesOf(points).
+// Returns the colour of a series of seriesOf(points).
 ImVec4 sweepColour(std::size_t series);
-// A point's mark with its middle there: a dot, ringed on the Pareto front.
+// Draws a point's mark: a dot, ringed if it is on the Pareto front.
 void sweepMark(ImVec2 middle, const ImVec4& colour, bool onFront);
 
-// Fills what room there is, but at least some lines. A line a chunk size and metric, points with their taus;
-// the pointer tells a point. Returns the point that is clicked.
+// Draws the plot in the remaining room, with a minimum height. It has one line per chunk size and metric, and
+// points labelled with tau. Hovering a point shows its figures. Returns the point that is clicked.
 std::optional<std::size_t> sweepChart(std::span<const SweepPoint> points, SweepCost cost,
                                       std::optional<std::size_t> selected);
 

@@ -23,12 +23,12 @@ namespace {
 
 constexpr float runApartFrom = 68;  // heights of the font
 
-// "1 flight", "2 flights"
+// Returns "1 flight" or "2 flights".
 std::string countOf(std::size_t count, const char* of) {
     return fmt::format("{} {}{}", count, of, count == 1 ? "" : "s");
 }
 
-// What is asked for.
+// The request.
 
 using Flights = std::vector<std::filesystem::path>;
 
@@ -53,7 +53,7 @@ void flightControl(const Flights& flights, SweepPanelState& state) {
     const char* explanation =
         "Flight to measure: a flight of keys or a recorded flight, from the folders \"flights\".";
     labelledControl("Flight", explanation);
-    // Names of flights are long: in a narrow dock the control stands below its label.
+    // In a narrow dock the control stands below its label, because flight names are long.
     if (ImGui::GetContentRegionAvail().x < 14 * ImGui::GetFontSize()) ImGui::NewLine();
     ImGui::SetNextItemWidth(-1);
     combo("Flight", index, names.c_str());
@@ -75,7 +75,7 @@ TauList tausControl(SweepPanelState& state) {
     return taus;
 }
 
-// Why a size cannot be swept; empty: it can.
+// Returns why a size cannot be swept; empty if it can.
 std::string sizeProblem(const EditorView& view, int size) {
     const planet::PlanetShape& shape = view.planet->tree().shape;
     if (size == planet::chunkSize(shape)) return {};
@@ -88,7 +88,8 @@ std::string sizeProblem(const EditorView& view, int size) {
     return {};
 }
 
-// A name and boxes after it, as close as all may fit into one line; ends with a PopStyleVar.
+// Draws a label for check boxes, spaced closely so that all may fit on one line. Pushes a style variable; end
+// with ImGui::PopStyleVar().
 void beginBoxes(const char* label, const char* explanation) {
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ImGui::GetFontSize() * 0.4f, spacing.y));
@@ -165,7 +166,7 @@ void pictureControl(const EditorView& view, SweepPanelState& state, SweepRequest
     request.heightPx = height > 0 ? height : std::max(view.renderView.heightPx, 1);
 }
 
-// What runs.
+// Running.
 
 void progressLines(const EditorView& view, Commands& commands) {
     const SweepProgress& p = view.sweep.progress;
@@ -186,7 +187,7 @@ void progressLines(const EditorView& view, Commands& commands) {
     else if (p.leftS)
         now +=
             fmt::format("; {}{} left", view.sweep.suggesting ? "at most " : "about ", durationText(*p.leftS));
-    // Over the text, whose lines come and go.
+    // The button stands above the text, whose number of lines varies.
     beginGrey(view.sweep.cancelling, "Cancelling.");
     if (button("Cancel", "Cancels the sweep. Points measured so far stay visible, but are not saved."))
         commands.push_back(CancelSweep{});
@@ -194,7 +195,7 @@ void progressLines(const EditorView& view, Commands& commands) {
     wrappedText(now, palette().dim);
 }
 
-// Why nothing can be run; empty: it can.
+// Returns why nothing can be run; empty if it can.
 std::string requestProblem(const SweepRequest& request, const TauList& taus) {
     if (!taus.problem.empty()) return "Correct the tolerances first.";
     if (request.chunkSizes.empty()) return "Choose a chunk size.";
@@ -223,7 +224,7 @@ void runControl(const EditorView& view, const SweepRequest& request, const TauLi
                 palette().dim);
 }
 
-// Suggest.
+// Suggestions.
 
 struct GoalKind {
     TauGoal goal;
@@ -302,7 +303,7 @@ struct Asked {
     SweepRequest request;
     TauList taus;
 };
-// What the controls ask for; nothing where there is no flight.
+// Draws the controls and returns the request; none if there is no flight.
 std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& state) {
     const Flights flights = flightsOf(view);
     if (flights.empty()) {
@@ -320,7 +321,7 @@ std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& st
     return Asked{std::move(request), std::move(taus)};
 }
 
-// What came of it.
+// Results.
 
 void tableCaption(const SweepTable& table, const EditorView& view) {
     const std::string state = table.whole ? "" : view.sweep.running ? ", so far" : ", incomplete";
@@ -370,7 +371,7 @@ void saveButton(const SweepTable& table, const SweepPanelState& state, Commands&
     endGrey();
 }
 
-// The name of the plot's upright axis too.
+// The combo also serves as the title of the plot's vertical axis.
 void costControl(SweepPanelState& state) {
     int cost = static_cast<int>(state.cost);
     ImGui::SetNextItemWidth(std::min(ImGui::GetContentRegionAvail().x, 11 * ImGui::GetFontSize()));
@@ -411,7 +412,8 @@ void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& se
         runControl(view, asked->request, asked->taus, commands);
         if (section("Suggest a tolerance")) suggestControls(view, state, asked->request, settings, commands);
     };
-    // In a very wide dock beside the settings, of which it takes some; else under them.
+    // A very wide dock shows the run controls in a column of their own; otherwise they are below the
+    // settings.
     const bool apart = ImGui::GetContentRegionAvail().x > runApartFrom * ImGui::GetFontSize();
     const auto controls = [&] {
         asked = requestControls(view, state);

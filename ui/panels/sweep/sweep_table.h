@@ -1,4 +1,4 @@
-// A sweep as a table: a row a setting, sorted by what column one clicks.
+// The table of a sweep: one row per setting, sorted by the clicked column.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace worldy::ui {
 
-// Fills what room there is. A click on a row selects its point.
+// Fills the remaining room. A click on a row selects its point.
 void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected);
 
 }  // namespace worldy::ui
