@@ -8,7 +8,7 @@ namespace worldy::ui {
 
 namespace {
 
-// chunk: what is selected; square: what is looked at.
+// Draws the name of square. A click selects chunk; a double click looks at square.
 void link(const planet::ChunkId& chunk, const planet::ChunkId& square, bool lit, Commands& commands,
           ImGuiSelectableFlags flags) {
     const std::string name = planet::toString(square);
@@ -33,7 +33,7 @@ void chunkLink(const planet::ChunkId& id, const EditorView& view, Commands& comm
     link(id, id, view.focus.selected == id, commands, flags);
 }
 
-// Never lit: what is selected is a chunk.
+// The link is never lit, because only chunks are selected.
 void colourLink(const planet::ChunkId& tile, const EditorView& view, Commands& commands,
                 ImGuiSelectableFlags flags) {
     link(chunkAround(view.planet->tree(), tile), tile, false, commands, flags);

@@ -1,4 +1,4 @@
-// A chunk's name that can be clicked, wherever a panel mentions one.
+// A clickable chunk name, used wherever a panel mentions a chunk.
 #pragma once
 
 #include <imgui.h>
@@ -11,20 +11,20 @@
 
 namespace worldy::ui {
 
-// Click selects the chunk, a double click looks at it, resting on it lights it up in the viewport, a right
-// click offers these and copying its name. Lit while it is selected.
+// Draws a chunk's name. A click selects the chunk, a double click looks at it, hovering highlights it in the
+// viewport, and a right click offers these and copying the name. The name is lit while the chunk is selected.
 void chunkLink(const planet::ChunkId& id, const EditorView& view, Commands& commands,
                ImGuiSelectableFlags flags = 0);
-// A tile of colour, by its name: a click selects the chunk on whose ground it lies, as small a resident one
-// as there is; a double click looks at the tile's own square.
+// Draws the name of a colour tile. A click selects the smallest resident chunk that contains the tile; a
+// double click looks at the tile's own square.
 void colourLink(const planet::ChunkId& tile, const EditorView& view, Commands& commands,
                 ImGuiSelectableFlags flags = 0);
-// Returns the widest name that a chunk of the planet can have: for the width of a column.
+// Returns the widest name that a chunk of the planet can have, for column widths.
 std::string widestChunkName(const EditorView& view);
 
-// The resident chunk that holds a square of a face, the smallest.
+// Returns the smallest resident chunk that contains a square of a face.
 planet::ChunkId chunkAround(const planet::ChunkTree& tree, planet::ChunkId square);
-// The same in the next cell of a table.
+// Draws a chunk link in the next cell of a table.
 void chunkCell(const planet::ChunkId& id, const EditorView& view, Commands& commands,
                ImGuiSelectableFlags flags = 0);
 

@@ -11,22 +11,22 @@ namespace worldy::ui {
 
 namespace {
 
-// Heights of the font from which on columns stand side by side.
+// The minimum width for columns side by side, in heights of the font.
 constexpr float wideFrom = 42;
-// Below this a column would show next to nothing, so the window scrolls instead.
+// The minimum height of a column; if less is left, the window scrolls instead.
 constexpr float leastColumnLines = 5;
 
 float gapWidth() {
     return ImGui::GetFontSize() * 0.8f;
 }
 
-// The current window's width without the gaps between the columns, pixels.
+// Returns the current window's width without the gaps between the columns, pixels.
 float roomFor(std::span<const Column> columns) {
     const float gaps = columns.empty() ? 0 : static_cast<float>(columns.size() - 1);
     return ImGui::GetContentRegionAvail().x - gaps * gapWidth();
 }
 
-// A column scrolls by itself, so that it needs room for a scrollbar too.
+// Returns the width that the column needs, pixels, with room for its own scrollbar.
 float neededWidth(const Column& column) {
     return column.needed > 0 ? std::ceil(column.needed + ImGui::GetStyle().ScrollbarSize) : 0;
 }
@@ -66,7 +66,7 @@ bool hasWideRoom(std::span<const Column> columns) {
 
 std::vector<float> sideBySideWidths(std::span<const Column> columns, float width) {
     std::vector<float> widths(columns.size(), 0);
-    // Columns whose share is less than they need take it from the others, which may make others fall short.
+    // Columns that need more than their share take it from the others, which may make others fall short.
     std::vector<bool> atNeed(columns.size(), false);
     for (bool changed = true; changed;) {
         changed = false;

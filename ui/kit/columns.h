@@ -1,4 +1,4 @@
-// Parts of a panel, side by side in a wide dock and one below the other in a narrow one.
+// Arranges the parts of a panel side by side in a wide dock and stacked in a narrow one.
 #pragma once
 
 #include <functional>
@@ -8,21 +8,21 @@
 namespace worldy::ui {
 
 struct Column {
-    const char* title = "";  // a heading where they are stacked
-    float share = 1;         // of the width where they are side by side
-    // Rows of text that it is high where they are stacked; 0: as high as what it holds.
+    const char* title = "";  // the heading if stacked
+    float share = 1;         // of the width, if side by side
+    // The height if stacked, in lines of text; 0: the height of the content.
     float stackedLines = 0;
     std::function<void()> draw;
-    // Pixels that its content needs where they are side by side, without a scrollbar; 0: any width is enough.
+    // The width that the content needs side by side, pixels, without a scrollbar; 0: any width is enough.
     float needed = 0;
 };
 
-// Returns whether the current window is wide enough for columns side by side, each as wide as it needs.
+// Returns true if the current window is wide enough for columns side by side, each as wide as it needs.
 bool hasWideRoom(std::span<const Column> columns = {});
-// Divides a width among columns by their shares, pixels; each gets at least what it needs if all of that
-// fits.
+// Divides a width among columns by their shares, pixels. Each gets at least the width it needs, if they all
+// fit.
 std::vector<float> sideBySideWidths(std::span<const Column> columns, float width);
-// Side by side each column scrolls by itself and fills the height that is left.
+// Draws the columns. Side by side, each scrolls by itself and fills the remaining height.
 void drawColumns(const char* id, std::span<const Column> columns);
 
 }  // namespace worldy::ui

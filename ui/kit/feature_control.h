@@ -1,4 +1,4 @@
-// The control of a part of the picture that costs time.
+// The control of a rendering feature that costs frame time.
 #pragma once
 
 #include "app/scene/costly_parts.h"
@@ -7,7 +7,7 @@
 
 namespace worldy::ui {
 
-// Draws the list "automatic, on, off". If Automatic has turned the part off, the reason is shown below.
+// Draws the list "automatic, on, off". If Automatic has turned the feature off, the reason is shown below.
 void featureControl(const SettingControls& control, CostlyPart part, const EditorView& view,
                     SurfaceSettings& surface, Commands& commands);
 

@@ -47,7 +47,7 @@ void inspectButton(const planet::View& lodView, const planet::View& measured, co
 
 void inspectionNotice(const EditorView& view, const Rect& viewport, Commands& commands) {
     const float line = ImGui::GetFontSize();
-    // Above the line of mouse and keys.
+    // The notice stands above the line of mouse and key hints.
     ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + viewport.height - 3.2f * line},
                             ImGuiCond_Always, {0.5f, 1});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * line, 0.5f * line});

@@ -8,7 +8,7 @@ namespace worldy::ui {
 
 namespace {
 
-// Beside ImGui's own state of the frame, and of the same lifetime.
+// Global like ImGui's own state of the frame.
 std::vector<ItemPlace>* collected = nullptr;
 std::string currentScope;
 
@@ -28,7 +28,7 @@ void setItemScope(std::string_view scope) {
 
 void noteItem(std::string_view label) {
     if (!collected || !ImGui::IsItemVisible()) return;
-    // A row of a table may be wider than the window that scrolls it.
+    // A table row may be wider than the window that scrolls it.
     const float left = std::max(ImGui::GetItemRectMin().x, ImGui::GetWindowPos().x);
     const float right =
         std::min(ImGui::GetItemRectMax().x, ImGui::GetWindowPos().x + ImGui::GetWindowWidth());

@@ -1,6 +1,5 @@
 // Maps the names of controls to their places on the screen, for scripts that drive the window: the tests and
-// the script that takes the manual's pictures. Nothing is collected unless collectItems() asks for it. One
-// thread.
+// the script that takes the manual's pictures. Items are collected only after collectItems(). One thread.
 #pragma once
 
 #include <string>
@@ -15,16 +14,17 @@ struct ItemPlace {
     Rect rect;
 };
 
-// What follows is noted there, until told otherwise; null: nowhere. It must outlive the frame.
+// Collects the following items into a list until the next call; null: stops collecting. The list must outlive
+// the frame.
 void collectItems(std::vector<ItemPlace>* into);
 bool collectsItems();
 
-// What comes before the slash in the names of the items that follow: a panel's key.
+// Sets the prefix of the names of the following items, before the slash: a panel's key.
 void setItemScope(std::string_view scope);
 
-// Notes the last ImGui item, if it is in sight.
+// Notes the last ImGui item if it is visible.
 void noteItem(std::string_view label);
-// Where ImGui does not say afterwards where an item was.
+// Notes a rectangle, for items whose place ImGui does not report afterwards.
 void noteRect(std::string_view label, const Rect& rect);
 
 }  // namespace worldy::ui

@@ -14,7 +14,7 @@ namespace worldy::ui {
 
 namespace {
 
-// Seconds that a plot shows at least.
+// The minimum time range of a plot, seconds.
 constexpr float plotSpanS = 10;
 
 // A plot's frame on the screen.
@@ -30,7 +30,7 @@ ImU32 faded(const ImVec4& colour, float alpha) {
     return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, colour.w * alpha));
 }
 
-// The room of a plot, as an item that the pointer can rest on.
+// Reserves the plot's area as an item that can be hovered.
 Area beginArea(const char* id, float lines) {
     const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
     const ImVec2 start = ImGui::GetCursorScreenPos();
@@ -46,7 +46,7 @@ void textAt(const ImVec2& position, const ImVec4& colour, const std::string& tex
     ImGui::GetWindowDrawList()->AddText(position, ImGui::GetColorU32(colour), text.c_str());
 }
 
-// A small square in a series' colour, in the line of text.
+// Draws a small square in a series' colour, in the line of text.
 void swatch(const ImVec4& colour) {
     const float side = std::round(ImGui::GetFontSize() * 0.6f);
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -61,7 +61,7 @@ std::string valueText(double value, const char* unit) {
     return *unit ? fmt::format("{} {}", axisText(value), unit) : axisText(value);
 }
 
-// Names and newest values, in as many lines as they need.
+// Draws names and newest values, in as many lines as they need.
 void legend(std::span<const Series> series, const char* unit, bool withValues) {
     const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
     const float gap = ImGui::GetFontSize() * 0.9f;
@@ -83,7 +83,7 @@ void legend(std::span<const Series> series, const char* unit, bool withValues) {
     }
 }
 
-// How times and values become pixels.
+// The mapping of times and values to pixels.
 struct Scale {
     Area area;
     float firstS = 0;
@@ -108,7 +108,7 @@ void drawLine(const Scale& scale, std::span<const float> timesS, const Series& s
                                             std::max(ImGui::GetFontSize() / 11, 1.0f));
 }
 
-// Fills between two curves over the same times: a strip of two triangles a step, without soft edges.
+// Fills the area between two curves over the same times with two triangles per step, without antialiasing.
 void fillBetween(std::span<const float> xs, std::span<const float> lower, std::span<const float> upper,
                  ImU32 colour) {
     if (xs.size() < 2) return;
@@ -130,7 +130,7 @@ void fillBetween(std::span<const float> xs, std::span<const float> lower, std::s
 void drawStack(const Scale& scale, std::span<const float> timesS, std::span<const Series> series,
                std::span<const float> sums) {
     const float columnS = scale.spanS / std::max(scale.area.width(), 1.0f);
-    // The whole of the slowest frame in each column, so that its parts still add up.
+    // Each column shows the whole slowest frame, so that its parts still add up.
     const std::vector<std::size_t> peaks = peakOfColumns(timesS, sums, columnS);
     std::vector<float> xs(peaks.size());
     for (std::size_t p = 0; p < peaks.size(); ++p) xs[p] = scale.x(timesS[peaks[p]]);
@@ -166,12 +166,12 @@ void drawMark(const Scale& scale, double mark, const char* unit) {
                                         faded(palette().warning, 0.7f));
     const std::string text = valueText(mark, unit);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    // Below the line, unless it would leave the plot.
+    // The text is below the line, unless it would leave the plot.
     const float textY = y + size.y < scale.area.end.y ? y : y - size.y;
     textAt({scale.area.end.x - size.x - ImGui::GetFontSize() * 0.3f, textY}, palette().warning, text);
 }
 
-// The sample nearest to the pointer, where it is over the plot.
+// Returns the sample nearest to the pointer, if the plot is hovered.
 std::optional<std::size_t> sampleUnderPointer(const Scale& scale, std::span<const float> timesS) {
     if (!ImGui::IsItemHovered() || timesS.empty()) return std::nullopt;
     const float share = (ImGui::GetIO().MousePos.x - scale.area.start.x) / std::max(scale.area.width(), 1.0f);
@@ -211,7 +211,7 @@ void nothingYet(const Area& area) {
 }  // namespace
 
 ImVec4 seriesColour(std::size_t index) {
-    // Of middle lightness: they stand out on dark and on light ground alike.
+    // The colours have medium lightness, so that they stand out on dark and on light backgrounds.
     static const std::array<ImVec4, 8> colours = {{{0.26f, 0.59f, 0.90f, 1},
                                                    {0.92f, 0.56f, 0.20f, 1},
                                                    {0.30f, 0.68f, 0.38f, 1},
@@ -292,7 +292,7 @@ void barList(const char* id, std::span<const Bar> bars) {
         const auto share = static_cast<float>(largest > 0 ? std::max(bar.value, 0.0) / largest : 0.0);
         const float left = start.x + labelWidth + gap;
         const float inset = std::round(line * 0.15f);
-        // What is not nothing shows at least as a line.
+        // A value above 0 shows at least as a line.
         const float length = bar.value > 0 ? std::max(room * share, 1.0f) : 0;
         if (length > 0)
             drawList.AddRectFilled({left, y + inset}, {left + length, y + line - inset},
@@ -307,7 +307,7 @@ void barList(const char* id, std::span<const Bar> bars) {
 
 namespace {
 
-// Each mark's label stands right of its line, or left of it where there is no room, in a row of its own.
+// Draws each mark's label right of its line, or left of it if there is no room, in a row of its own.
 void drawMarks(const Area& area, std::span<const HistogramMark> marks) {
     const float gap = ImGui::GetFontSize() * 0.25f;
     float row = 0;
@@ -320,7 +320,7 @@ void drawMarks(const Area& area, std::span<const HistogramMark> marks) {
         const bool right = x + gap + width < area.end.x;
         const float left = std::max(right ? x + gap : x - gap - width, area.start.x);
         const ImVec2 at(left, area.start.y + row);
-        // Bars may stand behind it.
+        // Bars may be behind the label, so it gets a background.
         const ImVec4& ground = ImGui::GetStyleColorVec4(ImGuiCol_FrameBg);
         ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + ImGui::GetTextLineHeight()},
                                                   faded(ground, 0.8f));

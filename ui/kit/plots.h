@@ -1,5 +1,5 @@
-// Small plots, drawn as ImGui items that fill the width they get. Heights are in lines of text. A tooltip()
-// after one belongs to the whole of it.
+// Small plots, drawn as ImGui items that fill the available width. Heights are in lines of text. A tooltip()
+// after a plot belongs to the whole plot.
 #pragma once
 
 #include <imgui.h>
@@ -14,44 +14,45 @@ namespace worldy::ui {
 struct Series {
     const char* name = "";
     ImVec4 colour{1, 1, 1, 1};
-    std::vector<float> values;  // oldest first; with times of the plot's own
+    std::vector<float> values;  // oldest first; one per time of the plot
 };
 
-// Colours that are told apart side by side, in both themes; after eight they begin again.
+// Returns one of eight colours that are distinct in both themes; larger indices repeat them.
 ImVec4 seriesColour(std::size_t index);
 
-// Values over time, newest at the right, the last 10 s or as long as the times reach. Above it the series'
-// names, with their newest values where they are not stacked; in it the top of the axis with its unit and a
-// line at mark, such as tau, where that is over 0; the pointer shows the values under it. top 0: as high as
-// the largest value, rounded up. Empty series say that there is nothing yet. Stacked: each series stands on
-// the ones before it.
+// Draws values over time, newest at the right, over the last 10 s or the whole range of times if that is
+// longer. The names of the series are above the plot, with their newest values if the series are not stacked.
+// The plot shows the top of its axis with the unit, and a line at mark if mark > 0, for example at tau.
+// Hovering shows the values under the pointer. top 0: the largest value, rounded up. stacked: each series
+// starts at the top of the one before it. Without samples it says that there is nothing yet.
 void linePlot(const char* id, std::span<const float> timesS, std::span<const Series> series, const char* unit,
               double top = 0, float lines = 4, bool stacked = false, double mark = 0);
 
-// Returns the width at which a plot of the default height is twice as wide as it is high, pixels.
+// Returns the width of a plot of the default height at an aspect ratio of 2:1, pixels.
 float leastPlotWidth();
 
 struct Bar {
     std::string label;
     double value = 0;
     ImVec4 colour{1, 1, 1, 1};
-    std::string text;  // right of it
+    std::string text;  // right of the bar
 };
-// One below the other, as long as their share of the largest.
+// Draws bars below each other, scaled to the largest value.
 void barList(const char* id, std::span<const Bar> bars);
 
-// Lines of text for each of so many plots that fill the height that is left under each other, when all else
-// takes up so many lines: as many as fit, but at least one and a half and no more than a limit.
+// Returns the height for each of several plots stacked in the remaining height, in lines of text, if the
+// other content needs otherLines. The result is in [1.5, most].
 float linesThatFit(std::size_t plots, float otherLines, float most);
 
-// Counts by bucket, buckets side by side; marks draws a line at a value, as tau. bucketOf(v) gives positions
-// on the axis in [0, 1].
+// A labelled line in a histogram, for example at tau.
 struct HistogramMark {
-    double position = 0;  // [0, 1]
+    double position = 0;  // on the axis, [0, 1]
     std::string label;
 };
-// Says what a position on the axis means, as "1.5 px"; the pointer then shows the bucket's range.
+// Returns the value at a position of the axis as text, for example "1.5 px". With it, hovering shows the
+// range of a bucket.
 using PositionText = std::function<std::string(double position)>;
+// Draws one bar per bucket and the marks. The labels stand below the ends of the axis.
 void histogram(const char* id, std::span<const float> counts, const std::string& leftLabel,
                const std::string& rightLabel, std::span<const HistogramMark> marks, float lines = 4,
                const PositionText& positionText = {});

@@ -16,7 +16,7 @@ namespace worldy::ui {
 
 namespace {
 
-// Returns the format of a slider: that of the digits, then the unit.
+// Returns the slider's format: the digits' format, then the unit.
 std::string sliderFormat(const char* digits, const NumberRange& range, const std::string& changed) {
     if (!changed.empty()) return changed;
     const char* const gap = range.unit.empty() || range.unit == "°" ? "" : " ";
@@ -69,7 +69,7 @@ struct Draw {
         ImGui::PopID();
         return changed;
     }
-    // Files, ramps and layers have editors of their own.
+    // Files, ramps and layers have their own editors.
     bool operator()(const Text&) const { return noControl(); }
     bool operator()(const Ramp&) const { return noControl(); }
     bool operator()(const LayerStack&) const { return noControl(); }

@@ -1,4 +1,4 @@
-// The controls of settings, made from the schema (app/settings/settings_schema.h).
+// Controls of settings, built from the schema (app/settings/settings_schema.h).
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace worldy::ui {
 
-// Replaces a part of the schema's words where a panel knows better.
+// Replaces parts of the schema's description in one panel.
 struct ControlChange {
     std::string label{};
     std::string help{};
@@ -20,15 +20,15 @@ struct ControlChange {
 // Finds settings by the address of their value and draws their controls:
 //     const SettingControls control(settings);
 //     control(settings.lod.tauPx);
-// A slider, a box, a list or a field, with the label, range, format and tooltip of the schema. Make one per panel and
-// frame.
+// A control is a slider, check box, list or field with the label, range, format and tooltip of the schema.
+// Make one SettingControls per panel and frame.
 class SettingControls {
 public:
     explicit SettingControls(ViewSettings& settings);
-    // Draws the controls of these fields, which are some of fieldsOf(ViewSettings&).
+    // Draws the controls of the given fields, a subset of fieldsOf(ViewSettings&).
     explicit SettingControls(std::vector<Field> fields);
 
-    // Draws the control. Returns true if it has changed the value.
+    // Draws the control. Returns true if the value has changed.
     template <class Value>
     bool operator()(Value& value, const ControlChange& change = {}) const {
         return draw(fieldOf(&value), change);

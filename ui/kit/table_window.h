@@ -1,4 +1,4 @@
-// Long tables that are sorted where they are seen.
+// Sorts only the visible rows of long tables.
 #pragma once
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 
 namespace worldy::ui {
 
-// Puts into [first, last) what a whole sort would put there, sorted; the rest is in any order, before or
-// after. In linear time while the window is short, so that a table of thousands can be shown sorted anew
-// every frame. first <= last <= items.size().
+// Sorts [first, last) as a full sort would; the items outside this range stay before or after it in any
+// order. Runs in linear time if the range is short, so that a table of thousands of rows can be sorted every
+// frame. first <= last <= items.size().
 template <class T, class Less>
 void sortWindow(std::vector<T>& items, std::size_t first, std::size_t last, const Less& less) {
     const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };

@@ -22,7 +22,7 @@ bool hasTitle(const TableColumn& column) {
     return column.title[0] != '#';
 }
 
-// The width at which a column holds its title with the sort arrow and its widest text, pixels.
+// Returns the width at which a column holds its title with the sort arrow and its widest text, pixels.
 float neededWidth(const TableColumn& column) {
     const float arrow = 0.65f * ImGui::GetFontSize() + ImGui::GetStyle().FramePadding.x;
     float title = hasTitle(column) ? ImGui::CalcTextSize(inFont(column.title).c_str()).x : 0;
@@ -31,13 +31,13 @@ float neededWidth(const TableColumn& column) {
     return std::ceil(std::max(title, text)) + 1;
 }
 
-// Pixels of a table beside its columns' contents: padding, borders and outer padding.
+// Returns the width of padding, borders and outer padding, pixels.
 float borderWidth(std::size_t columns) {
     const auto count = static_cast<float>(columns);
     return (2 * count + 2) * ImGui::GetStyle().CellPadding.x + count;
 }
 
-// Widths follow the table's, until the user drags one of them.
+// Column widths follow the table's width until the user drags one of them.
 void setWidths(std::span<const float> widths) {
     ImGuiTable& table = *ImGui::GetCurrentTable();
     bool* dragged = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("dragged"));

@@ -1,6 +1,5 @@
-// Tables that list many things: chunks, requests, level changes. The header stays in view, and clicking a
-// title sorts by that column: ascending, descending, then unsorted again. End a begun table with
-// ImGui::EndTable().
+// Tables of chunks, requests, level changes and the like. The header stays in view. Clicking a title sorts by
+// that column: ascending, then descending, then unsorted. End a table with ImGui::EndTable().
 #pragma once
 
 #include <imgui.h>
@@ -17,31 +16,32 @@ namespace worldy::ui {
 
 struct TableColumn {
     const char* title;  // "##go": no title, not sortable
-    float share = 1;    // of the width that is left when every column holds its widest text
+    float share = 1;    // of the width left over when every column holds its widest text
     const char* explanation = nullptr;
-    const char* widest = nullptr;  // the widest text to expect in a cell, if wider than the title
+    const char* widest = nullptr;  // the widest text expected in a cell, if wider than the title
     bool sorts = true;
 };
 
 // Returns the width at which every column holds its title and its widest text, pixels.
 float tableWidth(std::span<const TableColumn> columns);
-// Returns the text that is widest on screen; empty: there is none.
+// Returns the text that is widest on screen; empty if there are no texts.
 std::string widestText(std::span<const std::string> texts);
-// Returns the width that a list table fills without scrolling sideways, pixels.
+// Returns the width at which a list table needs no horizontal scrolling, pixels.
 float listTableWidth(std::span<const TableColumn> columns);
-// Divides a table's width among its columns, pixels: each gets what it needs and its share of the rest.
+// Divides a table's width among its columns, pixels: each gets the width it needs and its share of the rest.
 std::vector<float> columnWidths(std::span<const TableColumn> columns, float width);
 
-// Fills the available space. Scrolls sideways if it is narrower than the titles and the widest texts need.
-// The first frozenColumns do not scroll, unless they would take more than half of the width.
+// Begins a table that fills the available space and scrolls horizontally if its columns do not fit. The first
+// frozenColumns do not scroll, unless they would take more than half of the width.
 bool beginWideTable(const char* id, std::span<const TableColumn> columns, int frozenColumns = 0);
-// Is as wide as the panel and as high as its rows, within limits; scrolls sideways like a wide table.
+// Begins a table as wide as the panel and as high as its rows, with at most mostLines lines. It scrolls
+// horizontally like a wide table.
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines = 12, int frozenColumns = 0);
-// Has the given size in pixels; scrolls sideways like a wide table.
+// Begins a table of the given size in pixels. It scrolls horizontally like a wide table.
 bool beginSizedTable(const char* id, std::span<const TableColumn> columns, ImVec2 size);
 
-// Returns the column the user sorts the begun table by; none: the given order.
+// Returns the column by which the user sorts the begun table; none: unsorted.
 std::optional<TableSort> chosenSort();
 
 void cell(const std::string& text);
@@ -50,7 +50,7 @@ void rightCell(const std::string& text, const ImVec4& colour);
 
 namespace detail {
 
-// drawWindow(first, last): the rows that may be seen.
+// Calls drawWindow(first, last) for the visible rows.
 template <class DrawWindow>
 void clipRows(std::size_t count, const DrawWindow& drawWindow) {
     ImGuiListClipper clipper;
@@ -70,7 +70,7 @@ void drawRow(std::size_t row, const DrawRow& draw) {
 
 }  // namespace detail
 
-// Those rows of count that may be seen: draw(row), with the row begun and ids of its own.
+// Calls draw(row) for the visible rows; each is begun and has its own ids.
 template <class Draw>
 void tableRows(std::size_t count, const Draw& draw) {
     detail::clipRows(count, [&](std::size_t first, std::size_t last) {
@@ -78,8 +78,8 @@ void tableRows(std::size_t count, const Draw& draw) {
     });
 }
 
-// Draws the visible rows in the order the user chose: key(row, column) is a cell's SortKey, draw(row) as
-// above.
+// Draws the visible rows in the order the user chose. key(row, column) returns a cell's SortKey; draw(row) is
+// as above.
 template <class Key, class Draw>
 void tableRows(std::size_t count, const Key& key, const Draw& draw) {
     const std::optional<TableSort> sort = chosenSort();
@@ -90,7 +90,7 @@ void tableRows(std::size_t count, const Key& key, const Draw& draw) {
     });
 }
 
-// Sorts items by less, but only the visible rows: draw(item, row).
+// Sorts only the visible items by less, and calls draw(item, row) for them.
 template <class T, class Less, class Draw>
 void sortedTableRows(std::vector<T>& items, const Less& less, const Draw& draw) {
     detail::clipRows(items.size(), [&](std::size_t first, std::size_t last) {

@@ -30,13 +30,13 @@ ImFont* loadFont(float sizePx) {
     constexpr const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
     std::error_code status;
     if (!std::filesystem::exists(file, status)) return nullptr;
-    // Latin, Greek, punctuation with dashes and arrows.
+    // The ranges are Latin, Greek, punctuation with dashes, and arrows.
     static constexpr std::array<ImWchar, 9> ranges = {0x20,   0x17F,  0x370,  0x3FF, 0x2010,
                                                       0x2027, 0x2190, 0x21FF, 0};
     return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, sizePx, nullptr, ranges.data());
 }
 
-// Greys are given for the dark theme; the light one turns them round.
+// Greys are given for the dark theme; the light theme inverts them.
 void setColours(ImGuiStyle& style, Theme theme) {
     const auto grey = [theme](float level, float alpha = 1) {
         if (theme == Theme::Dark) return ImVec4(level, level * 1.04f, level * 1.10f, alpha);

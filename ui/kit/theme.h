@@ -1,4 +1,4 @@
-// Fonts, colours and spacing. Sizes follow the font, the font follows the monitor.
+// Fonts, colours and spacing. Sizes scale with the font, and the font scales with the monitor.
 #pragma once
 
 #include <imgui.h>
@@ -17,14 +17,14 @@ struct Palette {
     ImVec4 good{0.45f, 0.80f, 0.48f, 1};
     ImVec4 warning{0.96f, 0.75f, 0.30f, 1};
     ImVec4 bad{0.96f, 0.42f, 0.38f, 1};
-    ImVec4 box{0.07f, 0.08f, 0.10f, 0.78f};  // behind what is written over a picture
+    ImVec4 box{0.07f, 0.08f, 0.10f, 0.78f};  // background of text over a picture
 };
-inline constexpr float baseFontPx = 15;  // on a monitor of scale 1
+inline constexpr float baseFontPx = 15;  // for a monitor scale of 1
 
-// Of the theme applied last.
+// Returns the palette of the current theme.
 const Palette& palette();
 
-// As draw lists take it, the style's own opacity counted in.
+// Returns a colour for draw lists, multiplied by the style's opacity.
 ImU32 packed(const ImVec4& colour, float alpha);
 ImU32 packed(const ImVec4& colour);
 ImU32 packed(const glm::vec3& colour);
@@ -34,7 +34,7 @@ ImU32 packed(const glm::vec3& colour);
 // texture afterwards.
 void applyTheme(Theme theme, float contentScale);
 
-// Pixels of one unit of ui::PanelSizes.
+// Returns the size of one unit of ui::PanelSizes, pixels.
 float unitPx();
 
 }  // namespace worldy::ui

@@ -17,16 +17,15 @@ namespace worldy::ui {
 
 namespace {
 
-// Share of the panel's width that labels take.
+// The labels' share of the panel's width.
 constexpr float labelShare = 0.40f;
-// Share of a table's width that values may take.
+// The values' largest share of a table's width.
 constexpr float valueShare = 0.65f;
 
-// Of each beginGrey() that is open: why it greys; empty: it does not. Beside ImGui's own stack, and of the
-// same lifetime.
+// The reason of each open beginGrey(); empty if it does not grey. Global like ImGui's own stack.
 std::vector<std::string> greyReasons;
 
-// After the control. True where the user asks for the default.
+// Call after the control. Returns true if the user asks for the default.
 bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
     bool reset = false;
     if (ImGui::BeginPopupContextItem(label)) {
@@ -78,7 +77,7 @@ void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags
 
 bool section(const char* title) {
     ImGui::Spacing();
-    // A heading is no selected row.
+    // Headings do not use the colours of selected rows.
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
     ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgHovered));
     ImGui::PushStyleColor(ImGuiCol_HeaderActive, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgActive));
@@ -89,7 +88,7 @@ bool section(const char* title) {
 
 void tooltip(Tip tip) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    // The tooltip of what is grey is not grey itself.
+    // The tooltip of a greyed item is not greyed.
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
@@ -160,7 +159,7 @@ void valueRows(const char* id, std::span<const ValueRow> rows) {
 float valuesWidth(std::span<const ValueRow> rows, const char* widestValue) {
     float name = 0;
     for (const ValueRow& row : rows) name = std::max(name, ImGui::CalcTextSize(inFont(row.name).c_str()).x);
-    // A value that takes more than its share of the width is wrapped.
+    // Values wider than their share of the width are wrapped.
     const float value = ImGui::CalcTextSize(widestValue).x;
     return std::max(name + value + 2 * ImGui::GetStyle().CellPadding.x, value / valueShare) + 1;
 }
@@ -178,7 +177,7 @@ void labelledControl(const char* label, Tip tip) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(text.c_str());
     tooltip(tip);
-    // A label that does not fit takes room from its control, or stands over it.
+    // A label that does not fit takes room from its control, or stands above it.
     if (labelWidth < 0.6f * width)
         ImGui::SameLine(start + std::round(std::max(width * labelShare, labelWidth)));
     ImGui::SetNextItemWidth(-1);
@@ -216,7 +215,7 @@ bool checkbox(const char* label, bool& value, bool defaultValue, Tip tip) {
 
 bool numberField(const char* id, double& value, const char* format) {
     const bool changed = ImGui::InputDouble(id, &value, 0, 0, format, ImGuiInputTextFlags_AutoSelectAll);
-    // Dear ImGui would select the word under the pointer, which may be the unit alone.
+    // Dear ImGui would select only the word under the pointer, which may be the unit.
     ImGuiInputTextState* const text = ImGui::GetInputTextState(ImGui::GetItemID());
     if (text && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         text->SelectAll();
@@ -335,7 +334,7 @@ void usageBar(double share, const std::string& text) {
     if (share > 1) ImGui::PushStyleColor(ImGuiCol_PlotHistogram, palette().bad);
     ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), {-1, 0}, "");
     if (share > 1) ImGui::PopStyleColor();
-    // In the middle; a text that does not fit begins at the left edge.
+    // The text is centred; if it does not fit, it begins at the left edge.
     const ImVec2 from = ImGui::GetItemRectMin();
     const ImVec2 to = ImGui::GetItemRectMax();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());

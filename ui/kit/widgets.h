@@ -1,4 +1,4 @@
-// Small pieces that the panels are made of.
+// Small widgets that panels share.
 #pragma once
 
 #include <imgui.h>
@@ -11,10 +11,10 @@
 
 namespace worldy::ui {
 
-// A window without frame that fills a rectangle; end with ImGui::End().
+// Begins a window without frame that fills a rectangle; end it with ImGui::End().
 void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags = 0);
 
-// A heading that opens and closes what follows.
+// Draws a heading that expands and collapses. Returns true if it is expanded.
 bool section(const char* title);
 
 // The text of a tooltip, or a function that makes it. The function is called only while the tooltip is shown; it must
@@ -36,15 +36,15 @@ private:
     std::string (*make_)(const void*);
 };
 
-// Explains the last item when the pointer rests on it.
+// Shows the text while the last item is hovered.
 void tooltip(Tip tip);
 
-// Greys what is drawn until endGrey() and takes no input for it, if grey; its tooltips then begin with why, a
-// sentence. May be nested: the outermost that greys says why.
+// If grey, greys and disables the items until endGrey(). Their tooltips then begin with why, a sentence.
+// Calls may be nested: the outermost that greys shows its reason.
 void beginGrey(bool grey, const char* why);
 void endGrey();
 
-// Two columns: names on the left, numbers right-aligned. Rows between begin and end.
+// Begins two columns: names on the left, values right-aligned. Call valueRow() between begin and end.
 bool beginValues(const char* id);
 void valueRow(const char* name, const std::string& value, const char* explanation,
               const ImVec4* colour = nullptr);
@@ -55,29 +55,30 @@ struct ValueRow {
     const char* explanation = "";
 };
 void valueRows(const char* id, std::span<const ValueRow> rows);
-// Returns the width at which no row wraps while values are no wider than widestValue, pixels.
+// Returns the width at which no row wraps if no value is wider than widestValue, pixels.
 float valuesWidth(std::span<const ValueRow> rows, const char* widestValue);
 
-// Returns how far the pointer has moved this frame with the button down, pixels; {0, 0} in the frame in which
-// the button goes down, because that motion came before the press.
+// Returns the pointer's motion in this frame while the button is down, pixels. Returns {0, 0} in the frame in
+// which the button goes down, because that motion came before the press.
 ImVec2 dragDelta(ImGuiMouseButton button);
 
 // Draws a label in the left column and makes room for a control in the right one; draw the control right after.
 void labelledControl(const char* label, Tip tip);
-// Does the same; the label is lit if the value is not its default, or not that of the open file.
+// Does the same; the label is lit if changed: the value differs from its default or from the open file's.
 void litLabel(const char* label, bool changed, Tip tip);
 
-// Draw a label, a control and a tooltip. The label of a value that is not its default is lit; a right click on the
-// control offers the default. Ctrl+click types a number. They return true if the value has changed. Settings have
-// controls of their own (ui/kit/setting_controls.h).
+// Draw a label, a control and a tooltip. The label is lit if the value is not its default; a right click on
+// the control offers the default. Ctrl+click types a number. They return true if the value has changed.
+// Settings have their own controls (ui/kit/setting_controls.h).
 bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
             Tip tip, ImGuiSliderFlags flags = 0);
 bool slider(const char* label, int& value, int defaultValue, int min, int max, const char* format, Tip tip,
             ImGuiSliderFlags flags = 0);
 bool checkbox(const char* label, bool& value, bool defaultValue, Tip tip);
-// A field for a number; its text is selected whole by a click that enters it and by a double click.
+// Draws a field for a number. Entering it with a click, or double-clicking it, selects the whole text.
 bool numberField(const char* id, double& value, const char* format);
-// As ImGui::Combo, items: "one\0two\0". The item map has the items too while it is open: "name: one".
+// Draws a combo like ImGui::Combo, items: "one\0two\0". While it is open, its items are in the item map:
+// "name: one".
 bool combo(const char* name, int& index, const char* items);
 // Draws a list of choices; items as for combo.
 bool choiceIndex(const char* label, int& index, int defaultIndex, const char* items, Tip tip);
@@ -92,29 +93,28 @@ bool button(const char* label, const char* explanation);
 // Starts the right-hand column of a pair of check boxes, unless the box with this label does not fit there.
 void secondColumn(const char* label);
 
-// Goes on in the same line while there is room for an item so wide.
+// Continues on the same line if an item of this width fits.
 void sameLineIfRoom(float width);
-// The same for a button.
+// Does the same for a button.
 void sameLineForButton(const char* label);
 float checkboxWidth(const char* label);
 
-// In lines as wide as the panel.
+// Draws text wrapped at the panel's width.
 void wrappedText(const std::string& text, const ImVec4& colour);
 
-// A line in the middle of an empty panel that says why it is empty.
+// Draws a centred line that says why the panel is empty.
 void emptyState(const char* text);
 
-// A bar that a mouse drags to change a panel's size. Adds the move, in pixels, to where it is dragged.
-// True while it moves.
+// Draws a bar that resizes a panel. Adds the drag, in pixels, to movedPx. Returns true while it is dragged.
 bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx);
 
-// A share of a whole with a text in it: "120 of 256 MiB". Red when over.
+// Draws a bar filled to a share, with a text in it: "120 of 256 MiB". Red if the share is over 1.
 void usageBar(double share, const std::string& text);
 
-// The background of what is written over a picture.
+// Returns the background colour of text over a picture.
 ImU32 boxColour();
 
-// Text in a rounded box over a picture; position is its top left.
+// Draws text in a rounded box over a picture; position is the top left.
 void badge(ImDrawList& drawList, ImVec2 position, const char* text, const ImVec4& colour);
 
 }  // namespace worldy::ui
