@@ -1,4 +1,4 @@
-// How high the camera stands, above what is drawn below it and above the ground under that. Pure functions.
+// The camera's heights above the drawn surface below it and above the ground. Pure functions.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace worldy::ui {
 
-// Metres, of the point right below the camera.
+// Heights of the camera above the point right below it, metres.
 struct CameraHeights {
-    double aboveDrawnM = 0;   // above the sea's surface where that is drawn, else above the ground
-    double aboveGroundM = 0;  // above the finest samples that are resident, not the triangles between them
+    double aboveDrawnM = 0;   // above the sea surface if it is drawn, otherwise above the ground
+    double aboveGroundM = 0;  // above the finest resident samples, not the triangles between them
     double aboveSeaLevelM = 0;
 };
 CameraHeights cameraHeights(const EditorView& view, const ViewSettings& settings);
@@ -21,8 +21,8 @@ struct NamedHeight {
     double heightM = 0;
     const char* explanation = "";
 };
-// The surface below the camera, then the sea bed under a drawn sea, else the sea level. Always two, so that
-// what stands below them stays where it is.
+// Returns the height above the surface below the camera, then that above the sea bed if the sea is drawn over
+// it, otherwise that above sea level. There are always two, so that the items below them do not move.
 std::vector<NamedHeight> namedHeights(const CameraHeights& heights);
 
 }  // namespace worldy::ui

@@ -19,7 +19,7 @@ struct Candidate {
     double distanceM = 0;
 };
 
-// The middle of a chunk's surface, metres from the planet's centre.
+// Returns the middle of a chunk's surface, metres from the planet's centre.
 glm::dvec3 middleM(const planet::ChunkTree& tree, const planet::ChunkNode& node, bool cube) {
     const planet::FaceSquare square = faceSquareOf(node.id);
     const glm::dvec3 onCube = cubePoint(node.id.face, square.u + square.side / 2, square.v + square.side / 2);
@@ -28,7 +28,7 @@ glm::dvec3 middleM(const planet::ChunkTree& tree, const planet::ChunkNode& node,
     return positionM(tree.shape, planet::sphereFromCube(onCube), height);
 }
 
-// Whether a sphere about the planet's centre stands between the eye and a point.
+// Returns true if a sphere around the planet's centre hides a point from the eye.
 bool isHidden(const glm::dvec3& eyeM, const glm::dvec3& pointM, double radiusM) {
     if (glm::dot(eyeM, eyeM) <= radiusM * radiusM) return false;
     const glm::dvec3 ray = pointM - eyeM;
@@ -38,7 +38,7 @@ bool isHidden(const glm::dvec3& eyeM, const glm::dvec3& pointM, double radiusM) 
     return glm::dot(nearest, nearest) < radiusM * radiusM;
 }
 
-// The cube hides what lies on faces that the eye is not in front of.
+// Returns true if the face points away from the eye, so that the unprojected cube hides it.
 bool isHiddenByCube(const glm::dvec3& eyeM, planet::Face face, double radiusM) {
     return glm::dot(eyeM, planet::faceAxes(face).normal) < radiusM / std::sqrt(3.0);
 }
@@ -75,7 +75,7 @@ std::vector<Candidate> visibleMiddles(const planet::View& view, const planet::Ch
     const Projector projector(view, settings.areaPx);
     std::vector<Candidate> visible;
     for (const planet::DrawItem& item : items) {
-        // The selection may be older than what paging has since taken out of the tree.
+        // The selection may be older than the tree: paging may have evicted nodes since.
         if (item.node >= tree.nodes.size() || !tree.nodes[item.node].heights) continue;
         const glm::dvec3 middle = middleM(tree, tree.nodes[item.node], settings.cube);
         const std::optional<glm::vec2> at = projector.onScreen(middle);
@@ -95,7 +95,7 @@ std::string labelText(const planet::DrawItem& item, ChunkLabels show) {
     return show == ChunkLabels::Error ? error : fmt::format("{}: {}", item.id.level, error);
 }
 
-// What is taken of the picture, in cells that list the labels that touch them.
+// The occupied part of the picture, as a grid of cells that list the boxes touching them.
 class Occupancy {
 public:
     explicit Occupancy(const glm::vec2& areaPx)
@@ -155,7 +155,7 @@ std::vector<ChunkLabel> chunkLabels(const planet::View& view, const planet::Chun
                        glm::vec2(rect.x + rect.width, rect.y + rect.height) + gap);
     }
     for (const Candidate& candidate : visibleMiddles(view, tree, items, settings)) {
-        // The text is made only where at least its middle has room.
+        // The text is made only if its middle is free.
         if (!occupancy.isFree(candidate.at, candidate.at)) continue;
         std::string text = labelText(*candidate.item, settings.show);
         const glm::vec2 size = textSize(text);

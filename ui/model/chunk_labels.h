@@ -1,5 +1,4 @@
-// Where the labels of chunks stand on a picture: each over its chunk's middle, none over another. A pure
-// function.
+// Places chunk labels on a picture: each is centred on its chunk's middle, and none overlap. A pure function.
 #pragma once
 
 #include <functional>
@@ -26,17 +25,17 @@ struct ChunkLabel {
 
 struct ChunkLabelSettings {
     ChunkLabels show = ChunkLabels::Level;
-    glm::vec2 areaPx{0, 0};     // of the picture on the screen, whatever the view's own size
+    glm::vec2 areaPx{0, 0};     // size of the picture on the screen, which may differ from the view's
     float gapPx = 4;            // between labels, and to the picture's border
-    bool cube = false;          // the planet is drawn as the cube before it is blown up
-    std::vector<Rect> taken{};  // of the picture, from its top left: no label lies there
+    bool cube = false;          // the planet is drawn as the unprojected cube
+    std::vector<Rect> taken{};  // rectangles without labels, from the picture's top left
 };
 
 using TextSize = std::function<glm::vec2(std::string_view)>;
 
-// In pixels from the picture's top left, nearest first: near chunks get their labels before far ones, and
-// those that have no room have none. Chunks whose middle lies behind the planet or outside the picture have
-// none either; hills hide no label.
+// Returns the labels in pixels from the picture's top left, nearest chunk first. Nearer chunks take
+// precedence; a label without room is left out. Chunks whose middle is behind the planet or outside the
+// picture have no label. Hills do not hide labels.
 std::vector<ChunkLabel> chunkLabels(const planet::View& view, const planet::ChunkTree& tree,
                                     std::span<const planet::DrawItem> items,
                                     const ChunkLabelSettings& settings, const TextSize& textSize);

@@ -1,6 +1,7 @@
-// The commands that panels, menus and keys give the application: a struct each, a std::variant a feature, and
-// Command for any of them. The application executes them after all panels are drawn, each feature in its
-// controller (app/editor/..._controller.cpp, which does not compile without a function for each).
+// The commands that panels, menus and keys send to the application: one struct per command, one std::variant
+// per feature, and Command for any of them. The application executes them after all panels are drawn. Each
+// feature has a controller (app/editor/..._controller.cpp), which does not compile without a function for
+// each command.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +27,13 @@
 namespace worldy::ui {
 
 // Chunks.
-struct HoverChunk {  // for this frame
+struct HoverChunk {  // in this frame
     planet::ChunkId id;
 };
 struct SelectChunk {
-    std::optional<planet::ChunkId> id;  // none: nothing is selected any more
+    std::optional<planet::ChunkId> id;  // none: clears the selection
 };
-struct LookAtChunk {  // moves the camera to where the chunk is drawn, selected or not
+struct LookAtChunk {  // moves the camera to view the chunk, selected or not
     planet::ChunkId id;
 };
 using ChunkCommand = std::variant<HoverChunk, SelectChunk, LookAtChunk>;
@@ -44,16 +45,16 @@ struct FreezeLod {
 struct MoveCamera {
     planet::CameraPose pose;
 };
-// Freezes LOD at the view that something was measured in, so that what was found there is still drawn, and
-// moves the camera near it. In a replay, which chooses its chunks itself, pauses the replay instead.
+// Freezes LOD at the view of a measurement, so that the chunks measured are still drawn, and moves the camera
+// near the place. A replay chooses its own chunks, so it is paused instead.
 struct InspectPlace {
     planet::View lodView;
     planet::CameraPose pose;
 };
-struct EndInspection {};  // gives back the camera and the LOD view of before the first InspectPlace
+struct EndInspection {};  // restores the camera and LOD view from before the first InspectPlace
 struct ResetCamera {};
 struct KeepCameraAsStart {};
-struct AddBookmark {  // of the camera as it is; replaces one of the same name
+struct AddBookmark {  // of the current camera; replaces one of the same name
     std::string name;
 };
 struct RemoveBookmark {
@@ -62,7 +63,7 @@ struct RemoveBookmark {
 struct SetSpeedFactor {
     double factor = 1;
 };
-struct StartFlight {  // follows it from its beginning
+struct StartFlight {  // follows it from its start
     std::filesystem::path file;
 };
 struct MoveFlight {  // to a time, seconds
@@ -82,12 +83,12 @@ struct PausePaging {
 struct LoadOne {};
 struct DropAll {};
 struct RetryFailed {
-    std::optional<planet::BlockId> block{};  // or all
+    std::optional<planet::BlockId> block{};  // none: all
 };
 using PagingCommand = std::variant<PausePaging, LoadOne, DropAll, RetryFailed>;
 
 // Frames.
-struct PauseFrames {  // nothing moves, is chosen or loaded but by StepFrame
+struct PauseFrames {  // stops motion, selection and loading, except by StepFrame
     bool paused = false;
 };
 struct StepFrame {};
@@ -98,7 +99,7 @@ struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings 
     std::filesystem::path file;
 };
 struct AskForFile {};         // shows the dialog that asks for a file to open
-struct AskForColourImage {};  // shows the same dialog for the Bake panel's image of colours
+struct AskForColourImage {};  // shows the same dialog for the Bake panel's colour image
 using FileCommand = std::variant<OpenFile, AskForFile, AskForColourImage>;
 
 // Bakes.
@@ -108,12 +109,12 @@ struct ChooseColourImage {  // puts the image into the Bake panel
 struct StartBake {
     BakeRequest request;
 };
-struct BakeAgain {};  // the last one, of a data set that cannot be shown without it
+struct BakeAgain {};  // repeats the bake that the current data set needs to be shown
 struct EstimateBake {
     BakeRequest request;
 };
 struct CancelBake {};
-struct PreviewSource {  // in place of what was asked before
+struct PreviewSource {  // replaces the previous request
     PreviewRequest request;
 };
 struct ShowPreviousBake {
@@ -152,30 +153,30 @@ using WindowCommand = std::variant<CopyCommandLine, CopyText, TakeScreenshot, Qu
 struct LoadLayerSet {
     std::filesystem::path file;
 };
-struct SaveLayerSet {  // as one of the user's own
+struct SaveLayerSet {  // as a user set
     std::string name;
 };
 struct ReloadLayerTextures {};
 using LayerCommand = std::variant<LoadLayerSet, SaveLayerSet, ReloadLayerTextures>;
 
 // Instruments.
-struct MarkAllocations {};     // compares allocations with those of now from here on
-struct TryCostlyParts {};      // turns the features on again that were too slow
-struct MeasureCracks {};       // of the view as it is
-struct MeasureCosts {};        // of the parts of the picture
-struct FindSmallestSkirts {};  // that leave none of the cracks measured open
+struct MarkAllocations {};     // stores the current allocations as the mark
+struct TryCostlyParts {};      // turns features on again that were too slow
+struct MeasureCracks {};       // of the current view
+struct MeasureCosts {};        // of rendering features
+struct FindSmallestSkirts {};  // the smallest that cover all measured cracks
 struct MeasurePops {
     bool on = true;
 };
 struct ClearPops {};
-struct GoBackToPop {  // inspects where one of the meter's events was seen
+struct GoBackToPop {  // inspects the place of one of the meter's events
     std::uint64_t frame = 0;
     planet::ChunkId chunk;
 };
-struct ShowPopSide {  // of the event last gone back to: what was drawn then instead of what is chosen now
+struct ShowPopSide {  // draws the surface before or after the last inspected event, or the current one
     PopSide side = PopSide::Live;
 };
-struct MeasureErrors {};  // the true error of what is drawn now, in the background
+struct MeasureErrors {};  // the true error of the current view, in the background
 struct KeepMeasuringErrors {
     bool on = false;
 };
@@ -184,55 +185,55 @@ using InstrumentCommand =
                  MeasurePops, ClearPops, GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors>;
 
 // Recorded flights.
-struct StartRecording {  // the planet starts anew; no name: the next free one
+struct StartRecording {  // resets the planet; no name: the next free one
     std::string name;
 };
-struct StopRecording {};  // and keeps it
+struct StopRecording {};  // and saves it
 struct DeleteRecording {
     std::filesystem::path file;
 };
 struct StartReplay {
     std::filesystem::path file;
 };
-struct MoveReplay {  // until so many frames are made, at least one
+struct MoveReplay {  // to a number of frames made, >= 1
     std::size_t frame = 1;
 };
-struct MoveReplayTo {  // to the last frame that ends no later than this, seconds from the start
+struct MoveReplayTo {  // to the last frame that ends no later than timeS, seconds from the start
     double timeS = 0;
 };
 struct SetReplay {
     ReplayControls controls;
 };
-struct StopReplay {};  // gives back what was before
+struct StopReplay {};  // restores the camera and settings from before
 using RecordingCommand = std::variant<StartRecording, StopRecording, DeleteRecording, StartReplay, MoveReplay,
                                       MoveReplayTo, SetReplay, StopReplay>;
 
-// Sweeps over the planet that is shown.
-struct StartSweep {  // in the background; or looks for a tau, where the request has a goal
+// Sweeps over the shown planet.
+struct StartSweep {  // in the background; searches for a tau if the request has a goal
     SweepRequest request;
 };
 struct CancelSweep {};
 struct SaveSweep {  // table and plot, beside the screenshots
     SweepCost cost = SweepCost::Triangles;
 };
-struct OpenSweptChunks {  // shows the chunks of a size that the last sweep has flown
+struct OpenSweptChunks {  // shows the chunks of one size from the last sweep
     int chunkSize = 33;
 };
 using SweepCommand = std::variant<StartSweep, CancelSweep, SaveSweep, OpenSweptChunks>;
 
-// Comparing. What is shown is A; B is a second planet.
-struct StartCompare {  // or takes another B
+// Comparing. A is the shown planet, B a second one.
+struct StartCompare {  // replaces B if there is one
     enum class With : std::uint8_t { SettingsKept, Preset, PreviousBake, File };
     With with = With::SettingsKept;
-    std::string preset;          // of Preset
-    std::filesystem::path file;  // of File
+    std::string preset;          // for With::Preset
+    std::filesystem::path file;  // for With::File
 };
 struct StopCompare {};
 struct SwapCompare {};
-struct MeasureCompare {};  // true error and cracks of this view, of both
+struct MeasureCompare {};  // measures the true error and the cracks of both in this view
 struct CompareOverFlight {
     std::filesystem::path flight;
-    int moments = 12;  // of it, [1, 100000]
+    int moments = 12;  // sample frames, [1, 100000]
 };
 struct CancelCompareFlight {};
 using CompareCommand = std::variant<StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
@@ -254,8 +255,8 @@ struct FindFeature<Kind, std::variant<>> {};
 template <class Kind>
 using FeatureOf = typename FindFeature<Kind, FeatureCommand>::type;
 
-// A command of any feature. commands.cpp has what moves and destroys it, so that a file that gives commands
-// compiles only the variants of the features that it names.
+// A command of any feature. Its move and destructor are in commands.cpp, so that a file that sends commands
+// compiles only the variants of the features that it uses.
 class Command {
 public:
     template <class Kind, class Feature = FeatureOf<Kind>>

@@ -1,4 +1,5 @@
-// What the Compare panel and the viewport show: A, which is what the window shows anyway, beside B.
+// The data of the Compare panel and of the comparison in the viewport: A is the planet that the window shows,
+// B the second one.
 #pragma once
 
 #include <array>
@@ -15,9 +16,9 @@
 
 namespace worldy::ui {
 
-// Of the pictures as they are now.
+// The difference between the current pictures.
 struct PictureDifferenceNow {
-    std::uint64_t pixels = 0;  // that differ by more than one 8-bit step in some channel
+    std::uint64_t pixels = 0;  // that differ by more than one 8-bit step in any channel
     std::uint64_t of = 0;      // all pixels
     int largestSteps = 0;      // [0, 255]
 };
@@ -28,27 +29,28 @@ struct FlightComparisonView {
     double progress = 0;                                   // [0, 1]
     const std::array<ComparedFigures, 2>* last = nullptr;  // null: none yet
     std::string lastName;                                  // "andes low fast, 12 moments. A: ..., B: ..."
-    std::string problem;                                   // why the last one came to nothing
+    std::string problem;                                   // why the last measurement failed
 };
 
 struct CompareView {
     bool on = false;
-    const planet::Planet* planetB = nullptr;  // null where off, as all that is of B
+    const planet::Planet* planetB = nullptr;  // null if off, as are the other members about B
     const ViewSettings* settingsB = nullptr;
     std::filesystem::path fileA;
     std::filesystem::path fileB;
-    std::string origin;                            // of B: "settings kept", "preset popping"
-    std::span<const SettingDifference> different;  // here: A, there: B
+    std::string origin;                            // of B, for example "settings kept" or "preset popping"
+    std::span<const SettingDifference> different;  // SettingDifference::here is A, there is B
     std::array<ComparedFigures, 2> now;
     std::optional<PictureDifferenceNow> difference;
-    bool measuring = false;  // the true error of this view
-    double measured = 0;     // share of that, [0, 1]
-    bool stale = false;      // what was measured is of another view or other settings
+    bool measuring = false;  // the true error of this view is being measured
+    double measured = 0;     // progress of that, [0, 1]
+    bool stale = false;      // the measurement is of another view or other settings
     std::string problem;     // why there is no B
     FlightComparisonView flight;
 };
 
-// "A  tau_px 2" where that is the only difference, else "A" and "B, 3 settings differ".
+// Returns "A  tau_px 2" and "B  tau_px 4" if that is the only difference, otherwise for example "A" and "B  3
+// settings differ".
 std::array<std::string, 2> sideNames(const CompareView& compare);
 
 }  // namespace worldy::ui

@@ -6,9 +6,9 @@
 namespace worldy::ui {
 
 struct CracksView {
-    const CrackMeasurement* measured = nullptr;  // null: nothing yet
-    bool current = false;  // the view and what is drawn are still those that were measured
-    const SmallestSkirts* smallest = nullptr;  // of the view measured; null: not asked for
+    const CrackMeasurement* measured = nullptr;  // null: not measured yet
+    bool current = false;                        // the view and the drawn chunks are still those measured
+    const SmallestSkirts* smallest = nullptr;    // for the measured view; null: not requested
 };
 
 }  // namespace worldy::ui

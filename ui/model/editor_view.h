@@ -1,5 +1,5 @@
-// All that panels may read, gathered once a frame by the application. Pointers and references hold for the
-// frame.
+// All data that panels may read, gathered once per frame by the application. Pointers and references are
+// valid for the frame.
 #pragma once
 
 #include <deque>
@@ -33,47 +33,47 @@
 namespace worldy::ui {
 
 struct FrameSample {
-    double timeS = 0;  // since the program began
+    double timeS = 0;  // seconds since the program began
     FrameStats stats;  // as measured, not smoothed
 };
 
 struct DataView {
     std::string name;                 // "elevation.tif"
-    std::filesystem::path source;     // what was opened
-    std::filesystem::path chunkFile;  // what is drawn
+    std::filesystem::path source;     // the file that was opened
+    std::filesystem::path chunkFile;  // the file that is drawn
     bool hasColourImage = false;
     bool hasPreviousBake = false;  // kept for comparison
     bool showsPreviousBake = false;
     std::string previousName;                       // "33 vertices, 2049 samples, 5.1 MiB"
     std::string problem;                            // why there is nothing to show
-    std::span<const std::filesystem::path> recent;  // files opened, newest first
+    std::span<const std::filesystem::path> recent;  // opened files, newest first
 };
 
-// A shaded picture of a source.
+// A shaded preview of a source.
 struct SourcePreview {
     void* texture = nullptr;              // ImTextureID, top row first; null until there is one
-    std::optional<PreviewRequest> shown;  // what it is of
-    double lowM = 0;                      // of the heights in it
+    std::optional<PreviewRequest> shown;  // the request that it shows
+    double lowM = 0;                      // lowest height in the picture
     double highM = 0;
-    double seconds = 0;    // that it took
-    bool working = false;  // another one is on its way
-    std::string problem;   // why the last one could not be made
+    double seconds = 0;    // rendering time
+    bool working = false;  // another one is being made
+    std::string problem;   // why the last one failed
 };
 
 struct BakeView {
-    BakeRequest current;            // what the open file was baked with, as far as it is known
-    bool compressionKnown = false;  // of current: only what was baked in this session
-    bool canBake = false;           // the source is known and there
-    // What the open file's colours were made of, where it is not known where that lies: "colour.jpg, 2048 x
-    // 1024 uint8, equirectangular".
+    BakeRequest current;            // the open file's bake settings, as far as they are known
+    bool compressionKnown = false;  // of current; only for bakes of this session
+    bool canBake = false;           // the source is known and exists
+    // Describes the source of the open file's colours if its path is unknown: "colour.jpg, 2048 x 1024 uint8,
+    // equirectangular".
     std::string lostColours{};
     std::optional<BakeRequest> running;
-    bool stopping = false;  // cancelled, but not yet at its end
+    bool stopping = false;  // cancelled, but not finished yet
     planet::BakeProgress progress;
-    std::string lastProblem;  // why the last bake came to nothing
+    std::string lastProblem;  // why the last bake failed
     std::optional<planet::BakeReport> lastReport;
     bool estimating = false;
-    std::optional<planet::BakeEstimate> estimate;  // of the request last asked about
+    std::optional<planet::BakeEstimate> estimate;  // of the last EstimateBake
     std::string estimateProblem;
     std::span<const World> worlds{};
     SourcePreview preview{};
@@ -82,7 +82,7 @@ struct BakeView {
 struct Bookmark {
     std::string name;
     planet::CameraPose pose;
-    bool shipped = false;  // came with Worldy and cannot be removed
+    bool shipped = false;  // comes with Worldy and cannot be removed
 };
 
 struct FlightView {
@@ -94,19 +94,19 @@ struct FlightView {
 
 struct CameraView {
     planet::CameraPose pose;
-    std::optional<double> seaSurfaceM{};  // above the planet's radius, where it is drawn as water
+    std::optional<double> seaSurfaceM{};  // metres above the planet's radius, if drawn as water
     double speedFactor = 1;
     std::span<const Bookmark> bookmarks;
-    std::span<const std::filesystem::path> flights;  // that can be followed
-    std::optional<FlightView> flight;                // being followed
+    std::span<const std::filesystem::path> flights;  // the flights that can be followed
+    std::optional<FlightView> flight;                // the flight being followed
 };
 
 struct PresetView {
     std::string name;
     std::filesystem::path file{};
     std::string problem{};                         // why it cannot be read; empty: it can
-    std::vector<SettingDifference> differences{};  // from the settings as they are
-    bool shipped = false;                          // came with Worldy and cannot be deleted
+    std::vector<SettingDifference> differences{};  // from the current settings
+    bool shipped = false;                          // comes with Worldy and cannot be deleted
 };
 
 struct EditorView {
@@ -118,7 +118,7 @@ struct EditorView {
     planet::View lodView{};
     planet::View renderView{};
     bool lodFrozen = false;
-    bool inspecting = false;  // EndInspection leads back
+    bool inspecting = false;  // EndInspection goes back
     bool framesPaused = false;
     bool pagingPaused = false;
     double timeS = 0;

@@ -9,13 +9,13 @@
 namespace worldy::ui {
 
 struct ErrorsView {
-    const ErrorMeasurement* last = nullptr;  // null while there is none of this planet
-    bool current = false;                    // the view and what is drawn are still those of last
-    std::uint64_t frame = 0;                 // now
+    const ErrorMeasurement* last = nullptr;  // null: none of this planet yet
+    bool current = false;                    // the view and the drawn chunks are still those of last
+    std::uint64_t frame = 0;                 // the current frame
     bool running = false;
-    double progress = 0;  // of the one that runs, [0, 1]
+    double progress = 0;  // of the running measurement, [0, 1]
     bool keepMeasuring = false;
-    std::string problem;  // why the last one came to nothing
+    std::string problem;  // why the last measurement failed
 };
 
 }  // namespace worldy::ui

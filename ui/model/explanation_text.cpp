@@ -13,19 +13,19 @@ using planet::ChunkExplanation;
 using planet::ChunkState;
 using planet::WhyNotSplit;
 
-// "1.2 px"; four digits where fewer would hide on which side of tau it is.
+// Returns for example "1.2 px", with four digits where fewer would hide whether it is above tau.
 std::string pixels(double px, double besidePx) {
     const bool close = px != besidePx && fmt::format("{:.1f}", px) == fmt::format("{:.1f}", besidePx);
     return close ? fmt::format("{:.4g} px", px) : fmt::format("{:.1f} px", px);
 }
 
-// "eps 3.1 px > tau 2.0 px"
+// Returns for example "eps 3.1 px > tau 2.0 px".
 std::string comparison(const ChunkExplanation& chunk, const char* how) {
     return fmt::format("{} {} {} {} {}", epsSymbol(), pixels(chunk.epsPx, chunk.tauPx), how, tauSymbol(),
                        pixels(chunk.tauPx, chunk.epsPx));
 }
 
-// "14th of 60 in the queue"
+// Returns for example "14th of 60 in the queue".
 std::string gridPlaceText(const ChunkExplanation& chunk) {
     if (!chunk.queuePlace) return "in the queue";
     const std::size_t place = *chunk.queuePlace;
@@ -78,7 +78,7 @@ std::string splitText(const ChunkExplanation& chunk) {
     return fmt::format("Split: {}, but hysteresis keeps it split.", comparison(chunk, "is within"));
 }
 
-// Why the chunk above that is drawn instead is not split.
+// Returns why the ancestor that is drawn instead is not split.
 std::string insteadText(const ChunkExplanation& chunk) {
     const std::string above = toString(chunk.decidedBy) + " above it";
     switch (chunk.decidedByNotSplit) {
@@ -110,7 +110,7 @@ std::string insteadText(const ChunkExplanation& chunk) {
     return "no view requests it.";
 }
 
-// "it" or, of one above it, its name.
+// Returns "it", or the name of the ancestor that decides.
 std::string decider(const ChunkExplanation& chunk) {
     return chunk.decidedBy == chunk.id ? "it" : toString(chunk.decidedBy);
 }

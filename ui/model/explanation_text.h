@@ -1,4 +1,5 @@
-// What planet/chunk_explanation.h finds out, in words. Pure functions; the Greek letters need applyTheme.
+// Describes the results of planet/chunk_explanation.h in words. Pure functions; the Greek letters need
+// applyTheme().
 #pragma once
 
 #include <string>
@@ -7,10 +8,10 @@
 
 namespace worldy::ui {
 
-// One or two plain sentences: "Drawn: eps 1.2 px is within tau 2.0 px."
+// Returns one or two sentences: "Drawn: eps 1.2 px is within tau 2.0 px."
 std::string whyText(const planet::ChunkExplanation& chunk);
 
-// In a word or three: "drawn", "culled by frustum".
+// Returns one to three words: "drawn", "culled by frustum".
 const char* stateText(planet::ChunkState state);
 
 }  // namespace worldy::ui

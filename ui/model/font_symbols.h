@@ -1,5 +1,5 @@
-// Greek letters and arrows that the user interface's font may lack. One state per process: the thread of the
-// user interface only.
+// Greek letters and arrows that the font of the user interface may lack. The state is global; use it only on
+// the thread of the user interface.
 #pragma once
 
 #include <string>

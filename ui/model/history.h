@@ -1,4 +1,4 @@
-// The last seconds' frames as what plots want: times and values in step.
+// The frames of the last seconds as parallel vectors of times and values for plots.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace worldy::ui {
 
-// Seconds from a moment that stays the same for a thousand seconds: floats keep them apart, and plots that
-// move on keep their shape.
+// Returns times in seconds from an origin that changes every 1000 s: floats stay precise, and the shape of a
+// moving plot stays the same.
 inline std::vector<float> historyTimes(const std::deque<FrameSample>& history) {
     std::vector<float> times;
     times.reserve(history.size());
@@ -20,7 +20,7 @@ inline std::vector<float> historyTimes(const std::deque<FrameSample>& history) {
     return times;
 }
 
-// valueOf(const FrameStats&) gives a number.
+// Returns valueOf(const FrameStats&) of each frame.
 template <class Value = float, class ValueOf>
 std::vector<Value> historyValues(const std::deque<FrameSample>& history, const ValueOf& valueOf) {
     std::vector<Value> values;
@@ -29,7 +29,7 @@ std::vector<Value> historyValues(const std::deque<FrameSample>& history, const V
     return values;
 }
 
-// 0 where there are no frames.
+// Returns 0 if there are no frames.
 inline double longestFrameMs(const std::deque<FrameSample>& history) {
     double longestMs = 0;
     for (const FrameSample& sample : history) longestMs = std::max(longestMs, sample.stats.frameMs);

@@ -1,4 +1,4 @@
-// What the Surface panel shows of texture layers beside their settings.
+// The state of texture layers for the Surface panel, besides their settings.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,10 @@ namespace worldy::ui {
 struct LayerSetFile {
     std::string name;  // without the folder and ".toml"
     std::filesystem::path file;
-    bool shipped = false;  // came with Worldy and stays as it is
+    bool shipped = false;  // comes with Worldy and is read-only
 };
 
-// The layers' weights at a point of the ground, by the library's own reckoning.
+// The layers' weights at a point of the ground, as computed by the library.
 struct LayerReadout {
     planet::LayerPlace place;
     planet::LayerValues weights{};
@@ -26,11 +26,11 @@ struct LayerReadout {
 
 struct LayersView {
     std::vector<std::string> problems;  // of each layer; empty: none
-    std::vector<glm::vec3> colours;  // of each layer's textures on average, sRGB; none before they are read
+    std::vector<glm::vec3> colours;  // mean colour of each layer's textures, sRGB; none before they are read
     std::span<const LayerSetFile> sets;
     std::string setProblem;             // why the last set was not read or written
-    bool overGround = false;            // the pointer, now
-    std::optional<LayerReadout> under;  // it, or where it was last
+    bool overGround = false;            // the pointer is over the ground now
+    std::optional<LayerReadout> under;  // below the pointer, or at its last position over the ground
 };
 
 }  // namespace worldy::ui

@@ -7,7 +7,7 @@ namespace worldy::ui {
 
 namespace {
 
-constexpr float viewportShare = 0.36f;  // of the window that no dock may take, each way
+constexpr float viewportShare = 0.36f;  // of the window that docks cannot take, in each direction
 
 bool holdsPanels(const Workspace& workspace, Dock dock) {
     return std::any_of(workspace.panels.begin(), workspace.panels.end(),
@@ -22,7 +22,7 @@ float sizeOf(const Workspace& workspace, Dock dock, double units, float unitPx) 
 
 Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspace, float menuHeight,
                 float statusHeight, float unitPx) {
-    // A minimised window has no size at all.
+    // A minimised window has no size.
     const float width = std::max(windowWidth, 64.0f);
     const float height = std::max(windowHeight - menuHeight - statusHeight, 64.0f);
     const float bar = std::max(std::round(5 * unitPx), 3.0f);
@@ -52,7 +52,7 @@ Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspac
     splitter(Dock::Left) = {left, menuHeight, leftBar, upper};
     dock(Dock::Right) = {width - right, menuHeight, right, height};
     splitter(Dock::Right) = {width - right - rightBar, menuHeight, rightBar, height};
-    // Below the viewport and the left dock: what stands there is wide, and what stands right is tall.
+    // The bottom dock lies below the viewport and the left dock; the right dock has the full height.
     const float bottomWidth = viewX + viewWidth;
     splitter(Dock::Bottom) = {0, menuHeight + upper, bottomWidth, bottomBar};
     dock(Dock::Bottom) = {0, menuHeight + upper + bottomBar, bottomWidth, bottom};

@@ -1,4 +1,4 @@
-// Where the window's parts lie. Pure functions.
+// The layout of the window. Pure functions.
 #pragma once
 
 #include <array>
@@ -16,13 +16,14 @@ struct Rect {
 
 struct Layout {
     Rect viewport;
-    std::array<Rect, dockCount> docks;      // empty where no panel is shown
-    std::array<Rect, dockCount> splitters;  // towards the viewport
+    std::array<Rect, dockCount> docks;      // empty if no panel is shown
+    std::array<Rect, dockCount> splitters;  // on the side of the viewport
     Rect menuBar;
     Rect statusBar;
 };
 
-// The viewport keeps at least a third of the window each way, however large the docks are asked to be.
+// Returns the layout. The viewport keeps at least a third of the window in each direction, whatever the sizes
+// of the docks.
 Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspace, float menuHeight,
                 float statusHeight, float unitPx);
 

@@ -1,4 +1,4 @@
-// What the panels know of light and of what the parts of the picture cost.
+// Lighting and the cost of rendering features, for the panels.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace worldy::ui {
 
 struct LightView {
-    bool software = false;  // the CPU draws: what is Automatic is turned down
-    TurnedDown turnedDown;  // where the GPU draws
+    bool software = false;  // software rendering, for which Automatic turns features off
+    TurnedDown turnedDown;  // with a GPU: the features that were too slow
     planet::gl::AirFigures air;
-    std::vector<PartCost> costs;  // as last measured
-    double measured = 1;          // share of a measurement that is under way, [0, 1]; 1: none is
+    std::vector<PartCost> costs;  // of the last measurement
+    double measured = 1;          // progress of a measurement, [0, 1]; 1: none is running
 };
 
 }  // namespace worldy::ui

@@ -29,7 +29,7 @@ std::vector<LegendEntry> errorEntries(double yellowPx) {
     return entries;
 }
 
-// Two digits, since the scale's steps are decades.
+// Returns a length with two digits below 1 m, which is enough for a scale in decades.
 std::string deltaText(double metres) {
     return metres < 1 ? fmt::format("{:.2g} m", metres) : distanceText(metres);
 }

@@ -1,4 +1,4 @@
-// The legend of the tints of chunks. Pure functions.
+// The legend of the chunk tints. Pure functions.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct LegendEntry {
     glm::vec3 colour{0, 0, 0};
     std::string label;  // "3", "1.5 px", "12.5 m"
 };
-// Explains the tints, with units. It is empty if chunks are not tinted.
+// Explains the tints, with units. Empty if chunks are not tinted.
 struct Legend {
     std::string title;
     std::vector<LegendEntry> entries;

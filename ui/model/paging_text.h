@@ -1,4 +1,4 @@
-// What the paging panel says in words. Pure functions.
+// Texts of the Paging panel. Pure functions.
 #pragma once
 
 #include <string>
@@ -9,35 +9,36 @@
 
 namespace worldy::ui {
 
-// Why children are asked for: "ε 3.1 > τ 2.0". Where the chunk has meanwhile come to need them less, it says
-// so. All in pixels; hysteresis is a share of tau.
+// Returns why children are requested: "ε 3.1 > τ 2.0", or that they are needed less by now. Errors in pixels;
+// hysteresis is a share of tau.
 std::string pageInReason(double epsPx, double tauPx, double hysteresis, const char* epsSymbol,
                          const char* tauSymbol);
-// The same of a tile of colour, by its priority: how many times too few texels a pixel it has. "62 % of its
-// texels".
+// Returns the same for a colour tile. timesTooFew: its priority, the ratio of wanted to available texels per
+// pixel. "62 % of texels".
 std::string colourReason(double timesTooFew);
-// "unused for 12 s".
+// Returns for example "unused for 12 s".
 std::string pageOutReason(double ageS);
 
-// "heights", "colours", "normals".
+// Returns "heights", "colours" or "normals".
 const char* kindText(planet::BlockKind kind);
 
 // The totals of one kind of blocks since the planet was opened.
 struct KindTotals {
     const char* kind;
     std::uint64_t loaded, evicted, failed, bytesRead;
-    std::uint64_t resident;  // blocks of four: loaded - evicted
-    std::size_t tiles;       // chunks or tiles, roots included
+    std::uint64_t resident;  // blocks of four chunks or tiles: loaded - evicted
+    std::size_t tiles;       // chunks or tiles, including roots
     std::uint32_t budgetWaits;
 };
 KindTotals totalsOf(const char* kind, const planet::BlockCounters& paging);
 
-// Whether the disk is made bad at all: a seed alone does nothing.
+// Returns true if the settings inject any faults; a seed alone has no effect.
 bool isBad(const planet::BadDiskSettings& disk);
-// What is made bad: "+200 ms a read, 5 MB/s, 10 % of the reads fail, shuffled order"; empty where nothing is.
+// Returns the injected faults: "+200 ms per read, 5 MB/s, 10 % of reads fail, shuffled order"; empty if there
+// are none.
 std::string badDiskText(const planet::BadDiskSettings& disk);
 
-// A duration as short as it can be said: "3.6 µs", "0.4 ms", "12 ms", "3.25 s", "4 min 10 s".
+// Returns a short duration: "3.6 µs", "0.4 ms", "12 ms", "3.25 s", "4 min 10 s".
 std::string latencyText(double seconds);
 
 }  // namespace worldy::ui

@@ -1,4 +1,4 @@
-// What the Pops panel shows: jumps at changes of level.
+// The state of the Pops panel: jumps of the surface at level changes.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 namespace worldy::ui {
 
 struct PopsView {
-    const planet::PopMeter* meter = nullptr;  // null where there is no planet
+    const planet::PopMeter* meter = nullptr;  // null if no planet is open
     bool measuring = true;
-    const planet::PopEvent* shown = nullptr;  // last gone back to
-    PopSide side = PopSide::Live;             // that the viewport draws
-    std::string problem;                      // why it cannot
+    const planet::PopEvent* shown = nullptr;  // the event inspected last
+    PopSide side = PopSide::Live;             // the side that the viewport draws
+    std::string problem;                      // why the event cannot be shown
 };
 
 }  // namespace worldy::ui

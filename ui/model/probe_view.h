@@ -8,9 +8,9 @@
 namespace worldy::ui {
 
 struct ProbeView {
-    bool overGround = false;               // the pointer, now
-    std::optional<ProbedVertex> vertex;    // under it, or where it was last
-    std::optional<ProbedVertex> selected;  // the selected chunk's worst vertex; none where it is not drawn
+    bool overGround = false;               // the pointer is over the ground now
+    std::optional<ProbedVertex> vertex;    // below the pointer, or at its last position over the ground
+    std::optional<ProbedVertex> selected;  // the worst vertex of the selected chunk; none if it is not drawn
 };
 
 }  // namespace worldy::ui

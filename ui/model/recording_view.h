@@ -1,4 +1,4 @@
-// What the Flight panel shows: recording and replaying.
+// The state of the Flight panel: recording and replaying.
 #pragma once
 
 #include <cstddef>
@@ -37,18 +37,18 @@ struct ReplayNow {
     std::filesystem::path file;
     std::size_t frame = 0;   // frames made so far
     std::size_t frames = 0;  // in all
-    double timeS = 0;        // of the frame made last
+    double timeS = 0;        // of the last frame made
     double durationS = 0;
-    bool seeking = false;  // on its way to another frame
+    bool seeking = false;  // moving to another frame
     ReplayControls controls;
     std::size_t framesDifferent = 0;
-    std::string difference;  // the first frame that was not as recorded; empty: none so far
+    std::string difference;  // the first frame that differs from the recording; empty: none so far
     std::span<const FlightTick> ticks;
 };
 
 struct RecordingView {
-    std::span<const RecordedFlight> flights;  // by name
-    std::string saved;                        // name of the recording saved last; empty: none
+    std::span<const RecordedFlight> flights;  // sorted by name
+    std::string saved;                        // name of the last saved recording; empty: none
     std::optional<RecordingNow> recording;
     std::optional<ReplayNow> replay;
 };

@@ -1,4 +1,4 @@
-// How a recorded flight is replayed.
+// The user's choices for replaying a recorded flight.
 #pragma once
 
 namespace worldy::ui {
@@ -6,8 +6,8 @@ namespace worldy::ui {
 struct ReplayControls {
     bool playing = true;
     bool loop = false;
-    bool simulated = false;  // blocks arrive by the recorded bad disk and seed, not in their recorded frames
-    double speed = 1;        // recorded seconds a second, [0.1, 10]
+    bool simulated = false;  // block arrival is simulated from the recorded I/O faults and seed, not replayed
+    double speed = 1;        // recorded seconds per second, [0.1, 10]
 
     bool operator==(const ReplayControls&) const = default;
 };

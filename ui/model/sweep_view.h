@@ -10,12 +10,12 @@ namespace worldy::ui {
 
 struct SweepView {
     const SweepTable* table = nullptr;             // null before the first sweep
-    std::span<const SweepSuggestion> suggestions;  // to what was asked last, one a metric
+    std::span<const SweepSuggestion> suggestions;  // for the last goal, one per metric
     bool running = false;
-    bool suggesting = false;  // what runs looks for a tau
-    bool cancelling = false;  // but not yet at its end
+    bool suggesting = false;  // the running sweep searches for a tau
+    bool cancelling = false;  // not finished yet
     SweepProgress progress;
-    std::string problem;  // why what ran last came to nothing, or ended early
+    std::string problem;  // why the last sweep failed or ended early
 };
 
 }  // namespace worldy::ui

@@ -13,7 +13,7 @@
 
 namespace worldy::ui {
 
-// The value a cell is sorted by: numbers ascend by value, texts alphabetically.
+// The value by which a cell is sorted: numbers by value, texts alphabetically.
 using SortKey = std::variant<double, std::string>;
 
 struct TableSort {
@@ -21,13 +21,13 @@ struct TableSort {
     bool descending = false;
 };
 
-// Sorts texts that are numbers by value, before other texts.
+// Returns a key that sorts texts with numbers by value, before other texts.
 SortKey textSortKey(const std::string& text);
-// Sorts chunks by face, then level, x and y.
+// Returns a key that sorts chunks by face, then level, x and y.
 SortKey sortKey(const planet::ChunkId& id);
 
-// Returns the row numbers [0, rows) in display order; key(row, column) is the SortKey of a cell. Equal rows
-// keep their order, and without a sort all rows do.
+// Returns the row numbers [0, rows) in display order. key(row, column) is a cell's SortKey. The sort is
+// stable; without one, rows keep their order.
 template <class Key>
 std::vector<std::size_t> tableOrder(std::size_t rows, const std::optional<TableSort>& sort, const Key& key) {
     std::vector<std::size_t> order(rows);
