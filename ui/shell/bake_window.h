@@ -1,4 +1,4 @@
-// What the viewport shows while there is no planet to show: a bake on its way, or why it ended.
+// The window in the viewport while there is no planet: the progress of a bake, or why it ended.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace worldy::ui {
 struct BakeWindowInput {
     std::string source;  // "elevation.tif"
     planet::BakeProgress progress;
-    bool stopping = false;  // cancelled, but not yet at its end
-    std::string problem;    // why there is no planet; empty while it bakes
+    bool stopping = false;  // cancelled, but not finished yet
+    std::string problem;    // why there is no planet; empty during a bake
     bool canBake = false;   // baking again may help
 };
 
@@ -21,7 +21,7 @@ struct BakeWindowCommands {
     bool bakeAgain = false;
 };
 
-// A window of its own in the middle of a rectangle.
+// Draws a window in the middle of a rectangle.
 BakeWindowCommands bakeWindow(const BakeWindowInput& input, const Rect& within);
 
 }  // namespace worldy::ui

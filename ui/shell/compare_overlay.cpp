@@ -31,7 +31,7 @@ ImVec2 badgeSize(const std::string& text) {
     return {size.x + 2 * pad, size.y + pad};
 }
 
-// Dark between two light lines, to be seen on any ground.
+// Draws a light line between two dark ones, visible on any background.
 void drawDivider(ImDrawList& drawList, float x, const Rect& viewport) {
     const float half = std::max(1.0f, std::round(ImGui::GetFontSize() / 12));
     drawList.AddRectFilled({x - 2 * half, viewport.y}, {x + 2 * half, viewport.y + viewport.height},
@@ -51,7 +51,7 @@ void drawGrip(ImDrawList& drawList, float x, float y) {
                                IM_COL32(40, 40, 40, 255));
 }
 
-// Room for the mouse and key line below.
+// Returns the y position of labels, above the line of mouse and key hints.
 float labelY(const Rect& viewport) {
     return viewport.y + viewport.height - 4.5f * ImGui::GetFontSize();
 }
@@ -62,7 +62,7 @@ void drawSideLabels(ImDrawList& drawList, const CompareView& compare, const Comp
     const float x = dividerX(shown, viewport);
     const float gap = std::round(ImGui::GetFontSize() * 0.9f);
     const float y = labelY(viewport);
-    // Where the long one has no room, the letter has more.
+    // If a name does not fit, only its letter is drawn.
     const float roomA = x - viewport.x - gap;
     const float roomB = viewport.x + viewport.width - x - gap;
     if (badgeSize(names[0]).x > roomA) names[0] = "A";
@@ -72,7 +72,7 @@ void drawSideLabels(ImDrawList& drawList, const CompareView& compare, const Comp
     if (badgeSize(names[1]).x <= roomB) badge(drawList, {x + gap, y}, names[1].c_str(), palette().warning);
 }
 
-// The longest that fits.
+// Returns the longest text that fits.
 std::string differenceText(const CompareView& compare, const CompareSettings& shown, float widthPx) {
     const std::string what = fmt::format("|A - B| x {:.3g}", shown.gain);
     std::vector<std::string> texts = {what};
@@ -101,7 +101,7 @@ void drawMiddleLabel(ImDrawList& drawList, const std::string& text, const ImVec4
     badge(drawList, {std::round(x), labelY(viewport)}, text.c_str(), colour);
 }
 
-// The same place in the other half.
+// Draws a pointer at the same place in the other half.
 void drawTwinPointer(ImDrawList& drawList, const Rect& viewport) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;

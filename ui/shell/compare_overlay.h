@@ -1,5 +1,5 @@
-// What is written over two compared pictures: which is which, where one ends and the other begins, and a
-// second pointer at the same place of the other one.
+// The overlay of two compared pictures: their names, the divider between them, and a second pointer at the
+// same place of the other picture.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace worldy::ui {
 
-// Where the window shows a picture, or the part of one: the part, and where all of it would lie.
+// A picture, or a part of one, in the window: the part, and the rectangle of the whole picture.
 struct ShownPart {
     bool isB = false;
     Rect part;
     Rect whole;
 };
-// One of A alone while nothing is compared. What stands in a difference stands at A's place.
+// Returns the shown parts; only A's while nothing is compared. In a difference, pointing refers to A.
 std::vector<ShownPart> shownParts(const CompareView& compare, const CompareSettings& shown,
                                   const Rect& viewport);
 
-// What is dragged: over the divider of a wipe. Call before the picture's own item, which lies under it.
+// Lets the user drag the divider of a wipe. Call before the picture's own item, which lies below it.
 void wipeHandle(CompareSettings& shown, const Rect& viewport);
 
 void compareOverlay(const CompareView& compare, const CompareSettings& shown, const Rect& viewport);

@@ -52,7 +52,7 @@ void tabMenu(const PanelInfo& info, Workspace& workspace) {
     ImGui::EndPopup();
 }
 
-// One row of buttons that wraps where the dock is narrow, so that no tab is ever out of reach.
+// Draws the tabs as buttons that wrap in a narrow dock, so that every tab stays reachable.
 void tabs(const std::vector<const PanelInfo*>& panels, PanelId shown, Workspace& workspace, Dock dock) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2, 2});
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 3);
@@ -85,7 +85,7 @@ void dragSplitter(Dock dock, const Layout& layout, Workspace& workspace) {
     const bool upright = dock != Dock::Bottom;
     double movedPx = 0;
     if (!splitter(splitterNames[indexOf(dock)], layout.splitters[indexOf(dock)], upright, movedPx)) return;
-    // From the size that is shown, which may be less than what was asked for.
+    // Resizes from the current size, which may be less than the stored size.
     const Rect& rect = layout.docks[indexOf(dock)];
     const double shownPx = static_cast<double>(upright ? rect.width : rect.height);
     const double size = (shownPx + (dock == Dock::Left ? movedPx : -movedPx)) / static_cast<double>(unitPx());
@@ -116,7 +116,7 @@ void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStat
                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
     setItemScope("tab");
     tabs(shown, active, workspace, dock);
-    // A child of its own name, so that each panel keeps its place when another is looked at.
+    // Each panel has its own child window, so that it keeps its scroll position while another is shown.
     ImGui::BeginChild(panelInfos[static_cast<std::size_t>(active)].title);
     ImGui::PushID(static_cast<int>(active));
     setItemScope(panelInfos[static_cast<std::size_t>(active)].key);

@@ -1,4 +1,4 @@
-// The docks around the viewport: each shows its panels as tabs, one at a time, and can be dragged wider.
+// The docks around the viewport. Each shows one of its panels, has a tab for each, and can be resized.
 #pragma once
 
 #include "ui/model/layout.h"
@@ -6,10 +6,11 @@
 
 namespace worldy::ui {
 
-// Shows a panel, and brings it to the front of its dock.
+// Shows a panel in front of its dock.
 void showPanel(PanelId id, Workspace& workspace);
 
-// A dock with its tabs and its splitter. A right click on a tab moves the panel to another dock or hides it.
+// Draws a dock with its tabs and its splitter. A right click on a tab moves the panel to another dock or
+// hides it.
 void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStates& panels,
               Workspace& workspace, ViewSettings& settings, Commands& commands);
 

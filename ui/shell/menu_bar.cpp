@@ -18,7 +18,7 @@ namespace worldy::ui {
 
 namespace {
 
-// An open menu's own name is no longer ImGui's last item, so its place is noted before.
+// Begins a menu. Its place is noted first, because an open menu's name is no longer ImGui's last item.
 // whyNot: why it is grey; null: it is not.
 bool beginMenu(const char* label, const char* whyNot = nullptr) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -38,7 +38,7 @@ bool menuItem(const char* label, const char* shortcut = nullptr, bool selected =
     return pressed;
 }
 
-// unless: what makes an item usable.
+// Returns why an item is greyed, or null if unless, the condition that enables it, holds.
 const char* greyUnless(bool unless, const char* why) {
     return unless ? nullptr : why;
 }
@@ -228,7 +228,7 @@ bool beginHelpWindow(const char* title, bool& shown) {
     if (!shown) return false;
     const ImGuiViewport& viewport = *ImGui::GetMainViewport();
     ImGui::SetNextWindowPos(viewport.GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
-    // Scrolls where the text is too long for the window.
+    // The window scrolls if the text is too long for it.
     ImGui::SetNextWindowSizeConstraints({0, 0}, viewport.WorkSize);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));

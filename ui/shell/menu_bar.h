@@ -1,4 +1,4 @@
-// The menu bar: every command by name, with the key that does the same.
+// The menu bar: all commands, with their keys.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@ namespace worldy::ui {
 
 float menuBarHeight();
 
-// What the menus open on top of everything.
+// The windows that the menus open.
 struct MenuState {
-    bool showKeys = false;  // the window that lists keys and mouse
+    bool showKeys = false;  // the window of keys and mouse
     bool showAbout = false;
 };
 
@@ -22,10 +22,10 @@ struct KeyHelp {
     const char* keys;  // "Ctrl+Shift+Z, Ctrl+Y"
     const char* meaning;
 };
-// All that the window of keys lists.
+// Returns all rows of the window of keys.
 std::vector<KeyHelp> listedKeys();
 
-// The windows that the Help menu opens.
+// Draws the windows that the Help menu opens.
 void helpWindows(MenuState& state);
 
 }  // namespace worldy::ui

@@ -20,7 +20,7 @@ void messageBox(Message& message, Commands& commands) {
     const std::string title = message.title + popup;
     if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-        if (!ImGui::IsPopupOpen(popup)) message = {};  // Esc has closed it
+        if (!ImGui::IsPopupOpen(popup)) message = {};  // closed by Esc
         return;
     }
     setItemScope("message");
@@ -37,7 +37,7 @@ void messageBox(Message& message, Commands& commands) {
         message.offersOpen && button("Open another file...", "Shows the open dialog (Ctrl+O).");
     if (message.offersOpen) ImGui::SameLine();
     bool closed = button("Close", "The Log panel keeps the message (Esc).") || opens;
-    // Not with the Enter that has led here.
+    // An Enter that opened the box does not close it.
     if (!ImGui::IsWindowAppearing()) closed |= ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     if (opens) commands.push_back(AskForFile{});
     if (closed) {
@@ -59,7 +59,7 @@ void confirmationLine(Confirmation& confirmation, double timeS, const Rect& view
     const ImVec2 text = ImGui::CalcTextSize(confirmation.text.c_str(), nullptr, false, wrap);
     ImGui::SetNextWindowPos({viewport.x + viewport.width / 2, viewport.y + 0.7f * line}, ImGuiCond_Always,
                             {0.5f, 0});
-    // ImGui's own size lags a frame behind a text that changes.
+    // ImGui's own size lags one frame behind a changing text.
     ImGui::SetNextWindowSize({std::ceil(text.x + 2 * padding.x) + 1, std::ceil(text.y + 2 * padding.y)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});

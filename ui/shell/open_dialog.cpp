@@ -27,11 +27,12 @@ void setPath(OpenDialogState& state, const std::string& path) {
     state.path[length] = '\0';
 }
 
-// A click picks, a double click goes in or opens. True where the file is to be opened.
+// Draws the entries. A click picks one; a double click enters a folder or opens a file. Returns true if the
+// file is to be opened.
 bool entryRows(OpenDialogState& state) {
     bool chosen = false;
     fs::path entered;
-    // Folders stay before files however they are sorted.
+    // Folders stay before files in every order.
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const OpenDialogEntry& entry = state.entries[row];
         if (column == 0) return entry.path.filename().string();
@@ -83,7 +84,7 @@ bool folderList(OpenDialogState& state) {
     return chosen;
 }
 
-// A folder that was typed is gone into; a file is opened.
+// Enters the typed folder, or opens the typed file. Returns true if a file is opened.
 bool accept(OpenDialogState& state, Commands& commands) {
     const fs::path path(state.path.data());
     if (path.empty()) return false;
@@ -166,7 +167,7 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     noteItem("Path");
     accepted |= ImGui::Button(state.forColours ? "Choose" : "Open");
     ImGui::SameLine();
-    // Elsewhere Esc closes all popups by itself; a text field takes it for itself alone.
+    // Esc closes popups, but a text field consumes it, so it is handled here.
     const bool left =
         ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     const bool cancelled = ImGui::Button("Cancel") || left;

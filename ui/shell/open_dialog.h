@@ -1,4 +1,4 @@
-// The dialog that asks for a file: folders and what Worldy opens, and a line to type or paste a path.
+// The dialog that asks for a file: folders and files that Worldy opens, and a line to type or paste a path.
 #pragma once
 
 #include <array>
@@ -17,18 +17,18 @@ struct OpenDialogEntry {
 };
 
 struct OpenDialogState {
-    bool opening = false;     // shows the dialog with the next frame
-    bool forColours = false;  // asks for the Bake panel's image of colours instead of a file to open
+    bool opening = false;     // shows the dialog in the next frame
+    bool forColours = false;  // asks for the Bake panel's colour image instead of a file to open
     std::filesystem::path folder;
-    std::vector<OpenDialogEntry> entries;  // of the folder: folders first, by name
-    std::string problem;                   // why they cannot be listed
+    std::vector<OpenDialogEntry> entries;  // of the folder: folders first, sorted by name
+    std::string problem;                   // why the folder cannot be listed
     std::array<char, 1024> path{};
 };
 
-// Files that Worldy may open go by their endings: chunk files, images, raw faces, presets.
+// Returns true for the endings of files that Worldy may open: chunk files, images, raw faces, presets.
 bool mayBeOpened(const std::filesystem::path& file);
 
-// The folder's entries as the dialog lists them. Hidden ones are left out.
+// Sets the dialog's folder and its entries, without hidden files.
 void listFolder(const std::filesystem::path& folder, OpenDialogState& state);
 
 // Call every frame. Appends OpenFile or ChooseColourImage.

@@ -1,4 +1,4 @@
-// All panels, each of which has a file of its own, behind one function.
+// All panels behind one function; each has its own file.
 #pragma once
 
 #include "app/settings/panel_list.h"
@@ -26,7 +26,7 @@
 
 namespace worldy::ui {
 
-// The state that panels keep between frames and that is not a setting.
+// The panels' state between frames that is not a setting.
 struct PanelStates {
     QuadtreePanelState quadtree;
     ChunkPanelState chunk;

@@ -16,8 +16,8 @@ namespace worldy::ui {
 
 namespace {
 
-// Cells stand side by side, each as wide as its text, the most important first: once one does not fit, it and
-// all after it are left out.
+// Cells side by side, each as wide as its text, the most important first. The first that does not fit and all
+// after it are left out.
 class Cells {
 public:
     explicit Cells(const Rect& rect) : end_(rect.x + rect.width) {}
@@ -74,7 +74,7 @@ void planetCells(const EditorView& view, const ViewSettings& settings, Cells& ce
     for (std::size_t i = 1; i < heights.size(); ++i) addHeight(heights[i]);
 }
 
-// "1 error", or nothing.
+// Adds "1 error", or nothing if there are none.
 void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name, const ImVec4& colour,
                 Cells& cells) {
     const auto count =
@@ -129,7 +129,7 @@ void statusBar(const EditorView& view, const ViewSettings& settings, const Rect&
     Cells cells(rect);
     cells.add(view.data.name.empty() ? "no planet open" : shortened(view.data.name, 32),
               view.data.chunkFile.string().c_str(), palette().accent);
-    // What is wrong comes before what is merely so: a narrow window leaves out from the right.
+    // Warnings come first, because a narrow window leaves out cells on the right.
     warningCells(view, cells);
     if (view.planet) planetCells(view, settings, cells);
     ImGui::End();

@@ -1,4 +1,4 @@
-// The bar at the window's foot: what is open, where the camera is, and how it fares.
+// The status bar: the open file, warnings, the camera, and performance.
 #pragma once
 
 #include "ui/model/editor_view.h"

@@ -17,12 +17,12 @@ namespace worldy::ui {
 
 namespace {
 
-// The longest that fits is shown.
+// The longest line that fits is shown.
 constexpr std::array helpLines = {
     "Left drag: move   Right drag: look   Wheel: zoom   Click: select   W A S D E Q: fly   F10: all keys",
     "Drag: move, look   Wheel: zoom   W A S D E Q: fly   F10: keys", "F10: keys and mouse"};
 
-// As much of a text's end as fits, after an ellipsis.
+// Returns the longest end of a text that fits, after an ellipsis.
 std::string endThatFits(const std::string& text, float widthPx) {
     std::string shown = text;
     std::size_t start = 0;
@@ -51,7 +51,7 @@ struct LegendLayout {
     ImVec2 size{0, 0};
 };
 
-// As many columns as the height asks for.
+// Divides the legend into as many columns as the height requires.
 LegendLayout layoutOf(const Legend& legend, float heightPx) {
     LegendLayout layout;
     if (legend.entries.empty()) return layout;
@@ -72,7 +72,7 @@ LegendLayout layoutOf(const Legend& legend, float heightPx) {
     return layout;
 }
 
-// In the top right corner, one row a colour.
+// Draws the legend in the top right corner, one row per colour.
 void drawLegend(ImDrawList& drawList, const Legend& legend, const LegendLayout& layout, const Rect& rect) {
     if (legend.entries.empty()) return;
     const ImVec2 start(rect.x, rect.y);
@@ -100,12 +100,12 @@ std::vector<Rect> fromCorner(std::vector<Rect> rects, const Rect& viewport) {
     return rects;
 }
 
-// A picture of the planet, in which labels have to find their room.
+// A picture of the planet in which labels are placed.
 struct Picture {
     const planet::View& through;
-    std::size_t selection = 0;  // which of the planet's views chose what is drawn
+    std::size_t selection = 0;  // index of the planet view that chose the drawn chunks
     Rect rect;
-    std::vector<Rect> taken;  // in the window
+    std::vector<Rect> taken;  // rectangles without labels, in the window
 };
 
 void drawLabels(ImDrawList& drawList, const planet::Planet* planet, const OverlaySettings& overlay,
@@ -140,7 +140,7 @@ PlacedBadge placed(ViewportBadge badge, float x, float y) {
     return {std::move(badge), {x, y, size.x + ImGui::GetFontSize(), badgeStepPx()}};
 }
 
-// At the bottom; nothing where even the shortest has no room.
+// Adds the hint line at the bottom; none if even the shortest does not fit.
 void placeHelp(const Rect& viewport, std::vector<PlacedBadge>& badges) {
     const float room = viewport.width - 2 * marginPx() - ImGui::GetFontSize();
     for (const char* text : helpLines) {
@@ -151,7 +151,7 @@ void placeHelp(const Rect& viewport, std::vector<PlacedBadge>& badges) {
     }
 }
 
-// In a column on the left, as many as there is room for.
+// Places the badges in a column on the left; those that do not fit are left out.
 std::vector<PlacedBadge> placeBadges(const EditorView& view, const ViewSettings& settings,
                                      const Rect& viewport, float widthPx, float bottomPx) {
     std::vector<PlacedBadge> column;
@@ -186,7 +186,7 @@ bool showsMarks(const EditorView& view, const ViewSettings& settings) {
     return settings.cracks.mark && view.cracks.current && view.cracks.measured;
 }
 
-// Pixels side by side as one rectangle, none so small that it is overlooked.
+// Draws adjacent pixels as one rectangle, with a minimum size so that none is overlooked.
 void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const Rect& viewport) {
     const float scale = viewport.width / static_cast<float>(std::max(map.widthPx, 1));
     const float rim = std::max(0.0f, (ImGui::GetFontSize() * 0.2f - scale) / 2);
@@ -207,14 +207,14 @@ void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const
 
 Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
     if (!planet) return {};
-    // The levels of all views: an observer with its own LOD may draw finer chunks.
+    // The levels of all views count, because an observer with its own LOD may draw finer chunks.
     std::uint32_t deepest = 0;
     for (std::size_t view = 0; view < planet->views().size(); ++view)
         deepest = std::max(deepest, planet->selection(view).counters.deepestLevel);
     return legendOf(overlay, planet->views()[0].input.lod.tauPx, deepest);
 }
 
-// While comparing that of A, or of B where only its chunks are coloured.
+// Returns the legend. While comparing it is A's, or B's if only B's chunks are tinted.
 Legend shownLegend(const EditorView& view, const OverlaySettings& overlay) {
     Legend legend = legendFor(view.planet, overlay);
     if (!view.compare.on) return legend;

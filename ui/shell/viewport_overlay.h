@@ -1,5 +1,5 @@
-// What is written over the planet: badges for states that change how the picture must be read, a legend for
-// its colours, labels on chunks, and the mouse and keys.
+// The overlay of the viewport: badges for states that affect how to read the picture, a legend of its
+// colours, chunk labels, and mouse and key hints.
 #pragma once
 
 #include <imgui.h>
@@ -12,13 +12,14 @@
 
 namespace worldy::ui {
 
-// Fills the current window with a picture whose row 0 is at the bottom, as an item that takes both buttons.
+// Fills the current window with a picture whose row 0 is at the bottom, as an item that accepts both buttons.
 void viewportPicture(ImTextureID picture, const Rect& viewport);
 
-// Draws into the current window, over the picture of view.renderView in a rectangle of it.
+// Draws into the current window, over the picture of view.renderView in the viewport.
 void viewportOverlay(const EditorView& view, const ViewSettings& settings, const Rect& viewport);
 
-// The same for the observer's picture beside it or in its place: which view it is, and labels.
+// Does the same for the observer's picture, beside the main picture or in its place: the view's name, and
+// labels.
 void observerOverlay(const EditorView& view, const ViewSettings& settings, const planet::View& observer,
                      const Rect& viewport);
 
@@ -26,7 +27,7 @@ struct ViewportBadge {
     std::string text;
     ImVec4 colour{1, 1, 1, 1};
 };
-// What there is to say, most important first; the data set's name is not among them.
+// Returns the badges, most important first, without the data set's name.
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings);
 
 }  // namespace worldy::ui
