@@ -1,4 +1,4 @@
-// Carries out the Bake panel's commands; the session keeps bakes, estimates and previews.
+// Executes the Bake panel's commands; the session keeps bakes, estimates and previews.
 #pragma once
 
 #include "app/base/log.h"

@@ -28,7 +28,7 @@ std::vector<ui::Bookmark> shippedBookmarks() {
         {"Mariana Trench", {10.2, 139.6, 330'000, 65, -38}, true},
         {"North Pole", {82.5, -40, 700'000, 0, -44}, true},
         {"South Pole", {-80.5, 60, 900'000, 180, -44}, true},
-        // Where the faces +x, +y and +z meet: latitude asin(1/sqrt 3), longitude 45.
+        // The corner of the faces +x, +y and +z: latitude asin(1/sqrt 3), longitude 45 degrees.
         {"Cube corner", {33.6, 45, 220'000, 0, -50}, true},
     };
 }
@@ -137,7 +137,7 @@ auto findByName(std::vector<ui::Bookmark>& list, std::string_view name) {
                         [&](const ui::Bookmark& bookmark) { return bookmark.name == name; });
 }
 
-// Changes a copy, writes it, and keeps it once it is written.
+// Writes a changed copy, and keeps it only if writing succeeds.
 Result<void> commit(Bookmarks& bookmarks, Bookmarks&& changed) {
     if (!bookmarks.problem.empty()) {
         return planet::badInput(fmt::format("{}; fix the file or move it away", bookmarks.problem));

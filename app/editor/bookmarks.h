@@ -1,4 +1,4 @@
-// Places worth coming back to: some that come with Worldy, and the user's own in a TOML file.
+// Bookmarked views: some come with Worldy, the user's own are in a TOML file.
 //
 //     [[bookmark]]
 //     name = "Mont Blanc from the north"
@@ -19,24 +19,24 @@
 namespace worldy {
 
 struct Bookmarks {
-    std::filesystem::path file;      // of the user's own
+    std::filesystem::path file;      // the file of the user's own
     std::vector<ui::Bookmark> list;  // shipped ones first
-    // Why the file could not be read; it is then never written over. Empty: all is well.
+    // Why the file could not be read, in which case it is never overwritten. Empty: no problem.
     std::string problem;
 };
 
-// configFolder()/bookmarks.toml.
+// Returns configFolder()/bookmarks.toml.
 std::filesystem::path bookmarksFile();
 
-// The shipped ones alone where the file is bad, and then Bookmarks::problem names the file, the line and what
-// would be right. No file is no problem.
+// Reads the bookmarks. If the file is bad, returns only the shipped ones, and Bookmarks::problem names the
+// file, the line and what is expected. A missing file is no problem.
 Bookmarks loadBookmarks(const std::filesystem::path& file);
 
-// Adds one, or replaces the user's own of the same name, and writes the file. The Error says what is wrong
-// with the name, or with the file; then nothing has changed.
+// Adds a bookmark, or replaces the user's own of the same name, and writes the file. The Error says what is
+// wrong with the name or the file; then nothing has changed.
 planet::Result<void> addBookmark(Bookmarks& bookmarks, std::string_view name, const planet::CameraPose& pose);
 
-// One of the user's own; the same holds.
+// Removes one of the user's own and writes the file. On an Error nothing has changed.
 planet::Result<void> removeBookmark(Bookmarks& bookmarks, std::string_view name);
 
 }  // namespace worldy

@@ -15,7 +15,7 @@ namespace {
 
 planet::View viewOfPicture(const Camera& camera, const PlanetPicture& picture, const PlanetPicture& other,
                            float pixelRatio, const CameraSettings& settings) {
-    // A picture that is not shown has the other's size: the LOD view goes on while the observer is alone.
+    // A hidden picture has the other's size, because the LOD view continues while only the observer is shown.
     const PixelSize size = pixelSizeOf(picture.shown() ? picture.rect : other.rect, pixelRatio);
     return viewOf(camera, glm::radians(settings.fovDeg), size.width, size.height);
 }
@@ -98,7 +98,7 @@ void inspect(CameraController& camera, const Camera& place, const planet::View& 
     camera.lodFrozen = true;
     if (camera.lodView == lodView) return;
     camera.lodView = lodView;
-    context.stepOnce = true;  // paused frames choose for it too
+    context.stepOnce = true;  // also selects for it while frames are paused
 }
 
 void endInspection(CameraController& camera, const CameraContext& context) {
@@ -117,7 +117,7 @@ void endInspection(CameraController& camera, const CameraContext& context) {
 
 void freezeLod(CameraController& camera, bool frozen, PopSide& popSide) {
     camera.lodFrozen = frozen;
-    camera.beforeInspection.reset();  // the user takes over from here
+    camera.beforeInspection.reset();  // the user takes control from here
     if (!frozen) popSide = PopSide::Live;
 }
 
@@ -153,7 +153,7 @@ void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewpor
     const KeyInput keys = readKeys();
     camera.rig->speedFactor =
         std::clamp(camera.rig->speedFactor * std::pow(1.5, keys.speedSteps), minSpeedFactor, maxSpeedFactor);
-    // The keys go to the picture that the pointer is on.
+    // The keys control the picture under the pointer.
     const bool observing =
         viewport.observer.shown() && (viewport.observer.pointer.over || !viewport.main.shown());
     planet::Result<void> moved;
@@ -164,7 +164,7 @@ void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewpor
 
     if (!viewport.observer.shown()) return;
     camera.observer->speedFactor = camera.rig->speedFactor;
-    // Cannot fail: it follows no flight.
+    // It cannot fail, because the observer follows no flight.
     static_cast<void>(advanceRig(*camera.observer, around, observerView(camera, viewport, settings),
                                  viewport.observer.pointer, observing ? keys.held : HeldKeys(), seconds,
                                  camera.observerControls));

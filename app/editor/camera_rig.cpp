@@ -21,7 +21,7 @@ constexpr double joinFlightS = 1.5;
 constexpr double lowestOrbitRad = 0.02;  // above the pivot's horizon
 constexpr double nearestOrbitM = 4;
 
-// Level again, with the view's direction kept. Straight up and down any right vector is level.
+// Removes roll and keeps the view direction. For a vertical direction every right vector is level.
 Camera levelled(Camera camera) {
     camera.back = glm::normalize(camera.back);
     const glm::dvec3 up = glm::normalize(camera.eyeM);
@@ -51,14 +51,14 @@ void flyFrame(CameraRig& rig, const Surroundings& around, const planet::View& vi
     rig.camera = keepInRange(camera, around.groundBelow(camera.eyeM));
 }
 
-// Looking at the sky there is still something to turn about: the ground below.
+// Returns the point in the picture's middle; if that is sky, the ground below the camera.
 glm::dvec3 pivotFor(const Camera& camera, const Surroundings& around) {
     if (const std::optional<glm::dvec3> hit = around.hit(camera.eyeM, -camera.back)) return *hit;
     const Ground ground = around.groundBelow(camera.eyeM);
     return (ground.radiusM + ground.heightM) * glm::normalize(camera.eyeM);
 }
 
-// A share of the distance to the pivot; the view's direction stays.
+// Scales the distance to the pivot; the view direction stays.
 Camera dolly(const Camera& camera, const glm::dvec3& pivotM, double factor) {
     const glm::dvec3 offset = camera.eyeM - pivotM;
     const double distanceM = glm::length(offset);
@@ -68,7 +68,7 @@ Camera dolly(const Camera& camera, const glm::dvec3& pivotM, double factor) {
     return levelled(moved);
 }
 
-// A camera that the ground has lifted, or that is too far out, looks at the same point of it as before.
+// Keeps the camera above the ground and not too far out. A corrected camera still looks at the same point.
 Camera keepOrbitInRange(const Camera& camera, const glm::dvec3& pivotM, const Surroundings& around) {
     Camera kept = keepInRange(camera, around.groundBelow(camera.eyeM));
     const glm::dvec3 before = camera.eyeM - pivotM;
@@ -90,7 +90,7 @@ void orbitFrame(CameraRig& rig, const Surroundings& around, const planet::View& 
         rig.camera = drag(rig.camera, ground, view, pointer.lookPx);
         rig.pivotM = pivotFor(rig.camera, around);
     }
-    // The viewport's height is half a turn.
+    // Dragging over the viewport's height turns by 180 degrees.
     const double radAPx = glm::radians(180.0) / std::max(view.heightPx, 1);
     const double keyRad = glm::radians(60.0) * seconds;
     const double turnRad = -pointer.dragPx.x * radAPx + (keys.right + keys.lookRight) * keyRad;
@@ -128,7 +128,7 @@ void followFrame(CameraRig& rig, const Surroundings& around, double seconds) {
     rig.camera = keepInRange(camera, around.groundBelow(camera.eyeM));
 }
 
-// The flight that the settings name, loaded where it is not yet.
+// Starts the transition to the flight that the settings name, and loads it if needed.
 planet::Result<void> joinFlight(CameraRig& rig, CameraSettings& settings) {
     if (!rig.flight || rig.flight->file != settings.flight) {
         planet::Result<FlightPath> path = loadFlightPath(settings.flight);
@@ -175,7 +175,7 @@ Camera orbit(const Camera& camera, const glm::dvec3& pivotM, double aroundRad, d
     const double elevation = std::asin(std::clamp(glm::dot(offset, zenith) / distanceM, -1.0, 1.0));
     const double wanted = std::clamp(elevation + upRad, std::min(elevation, lowestOrbitRad),
                                      std::max(elevation, glm::radians(90.0)));
-    // Right over the pivot every level axis would do; the camera's own keeps the picture upright.
+    // Right above the pivot every level axis is valid; the camera's own keeps the picture upright.
     glm::dvec3 axis = glm::cross(zenith, offset);
     axis = glm::length(axis) > 1e-6 * distanceM ? glm::normalize(axis) : camera.right;
     const auto turned = [&](const glm::dvec3& vector) {
@@ -189,12 +189,12 @@ Camera blend(const Camera& from, const Camera& to, double share) {
     const glm::dvec3 b = glm::normalize(to.eyeM);
     glm::dvec3 axis = glm::cross(a, b);
     const double angleRad = std::atan2(glm::length(axis), glm::dot(a, b));
-    // Opposite places have no shortest way; any will do.
+    // Antipodal places have no unique shortest path, so any axis is used.
     if (glm::length(axis) < 1e-12) axis = from.right;
     axis = glm::normalize(axis);
     const glm::dvec3 up = rotated(a, axis, share * angleRad);
 
-    // Heading and pitch against frames that go along: north is where the way leads.
+    // Heading and pitch are interpolated in frames that move along the path; north points along it.
     const auto pitchRad = [](const Camera& camera, const glm::dvec3& vertical) {
         return std::asin(std::clamp(-glm::dot(camera.back, vertical), -1.0, 1.0));
     };

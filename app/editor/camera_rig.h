@@ -1,5 +1,5 @@
-// The ways a camera moves: flying, orbiting a point of the ground, following a recorded flight. Changing from
-// one to another never makes the picture jump. No GL and no clock; one thread.
+// The camera's modes: flying, orbiting a point of the ground, and following a recorded flight. Mode changes
+// never make the picture jump. No GL and no clock; one thread.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,10 @@
 
 namespace worldy {
 
-// What the camera must know of the planet.
+// The planet as the camera needs it.
 struct Surroundings {
     std::function<Ground(const glm::dvec3& eyeM)> groundBelow;
-    // Where a ray meets what is drawn; nothing where it goes into the sky.
+    // Returns where a ray hits the drawn surface; none if it hits the sky.
     std::function<std::optional<glm::dvec3>(const glm::dvec3& eyeM, const glm::dvec3& direction)> hit;
 };
 Surroundings surroundingsOf(const Scene& scene);
@@ -26,52 +26,54 @@ Surroundings surroundingsOf(const Scene& scene);
 struct FollowedFlight {
     std::filesystem::path file;
     FlightPath path;
-    double timeS = 0;  // since its start, [0, durationS]; begins anew at the end
+    double timeS = 0;  // since its start, [0, durationS]; wraps at the end
     bool paused = false;
-    // On the way from where the camera was to the flight; the flight waits meanwhile.
+    // The camera from which the transition to the flight started; none: no transition. The flight waits for
+    // it to end.
     std::optional<Camera> from;
-    double joinedShare = 0;  // [0, 1]
+    double joinedShare = 0;  // progress of the transition, [0, 1]
 };
 
 struct CameraRig {
     Camera camera;
-    double speedFactor = 1;              // [minSpeedFactor, maxSpeedFactor]
-    CameraMode mode = CameraMode::Fly;   // of the last frame
-    std::optional<glm::dvec3> pivotM{};  // of Orbit: on the ground; none: what is in the middle next frame
-    std::optional<FollowedFlight> flight{};  // also while another mode has left it
-    // Whether it was put elsewhere at once since takeJump(), or is on its way to a flight.
+    double speedFactor = 1;                  // [minSpeedFactor, maxSpeedFactor]
+    CameraMode mode = CameraMode::Fly;       // of the last frame
+    std::optional<glm::dvec3> pivotM{};      // Orbit: on the ground; none: found in the next frame
+    std::optional<FollowedFlight> flight{};  // kept while another mode is used
+    // True after a jump since takeJump(), and during the transition to a flight.
     bool jumped = false;
 };
 
-// One frame, by the mode that the settings ask for. A touch of the controls leaves a flight: then the
-// settings say Fly. The Error names a flight that cannot be read; the settings say Fly then too.
+// Runs one frame in the mode of the settings. Input from the user ends following a flight: settings.mode
+// becomes Fly. It also becomes Fly if the flight cannot be read; the Error names the flight.
 planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, const planet::View& view,
                                 const PointerInput& pointer, const HeldKeys& keys, double seconds,
                                 CameraSettings& settings);
 
-// Puts the camera somewhere at once. Leaves a flight; an orbit goes on about what is then in the middle.
+// Moves the camera without a transition. Leaves a flight; an orbit continues around the new middle of the
+// picture.
 void placeRig(CameraRig& rig, const Camera& camera, CameraSettings& settings);
 
 bool takeJump(CameraRig& rig);
 
-// Follows a flight from its beginning.
+// Follows a flight from its start.
 planet::Result<void> startFlight(CameraRig& rig, const std::filesystem::path& file, CameraSettings& settings);
-void moveFlight(CameraRig& rig, double timeS);  // kept within the flight
+void moveFlight(CameraRig& rig, double timeS);  // clamped to the flight
 void pauseFlight(CameraRig& rig, bool paused);
 
-// The flights that come with Worldy and those in the folder "flights" beside the settings, by name.
+// Returns the flights that come with Worldy and those in the folder "flights" beside the settings, by name.
 std::vector<std::filesystem::path> availableFlights();
 
-// For the camera panel. The spans must outlive it.
+// Returns the data of the Camera panel. The spans must outlive it.
 ui::CameraView cameraViewOf(const CameraRig& rig, const Ground& ground,
                             std::span<const ui::Bookmark> bookmarks,
                             std::span<const std::filesystem::path> flights);
 
-// Turns the camera about a point: around the vertical there, and up towards it, radians. It never goes under
-// the point's horizon nor over its zenith.
+// Rotates the camera around a point: around its vertical, and up towards it, radians. The camera stays
+// between the point's horizon and its zenith.
 Camera orbit(const Camera& camera, const glm::dvec3& pivotM, double aroundRad, double upRad);
 
-// Between two cameras, over the ground: share 0 is from, 1 is to.
+// Interpolates between two cameras, over the ground. share 0: from; 1: to.
 Camera blend(const Camera& from, const Camera& to, double share);
 
 }  // namespace worldy

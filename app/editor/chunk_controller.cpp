@@ -10,7 +10,7 @@ namespace worldy {
 
 namespace {
 
-// Returns a camera right above a chunk, so far that the chunk fills about half of the picture.
+// Returns a camera right above a chunk, at a distance where the chunk fills about half of the picture.
 Camera cameraAbove(const planet::ChunkId& id, const planet::ChunkTree& tree) {
     const planet::FaceSquare square = planet::faceSquareOf(id);
     const double half = square.side / 2;

@@ -1,4 +1,4 @@
-// The chunks that the user points at and has selected. Main thread.
+// The hovered and the selected chunk. Main thread.
 #pragma once
 
 #include "app/editor/camera_controller.h"
@@ -13,12 +13,12 @@ struct ChunkController {
     ChunkFocus focus;
 };
 
-// scene: null while no planet is open.
+// scene: null if no planet is open.
 void execute(ChunkController& chunks, const ui::ChunkCommand& command, const Scene* scene,
              CameraController& camera, CameraSettings& settings);
 
-// Asks for the chunk under the pointer to be lit. A click selects it, or nothing where there is only sky.
-// selection: the number of the one that the picture shows.
+// Requests highlighting of the chunk under the pointer. A click selects it; a click on the sky clears the
+// selection. selection: the index of the selection that the picture shows.
 void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selection, ui::Commands& commands);
 
 }  // namespace worldy

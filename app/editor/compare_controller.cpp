@@ -18,7 +18,7 @@ namespace {
 
 using planet::Result;
 
-// Settings that are one for both.
+// Returns the settings with those that both planets share taken from A.
 ViewSettings withSharedOf(ViewSettings settings, const ViewSettings& a) {
     settings.camera = a.camera;
     settings.cracks = a.cracks;
@@ -125,7 +125,7 @@ void drawB(CompareController& controller, Viewport& viewport, const ChunkFocus& 
     drawPicture(viewport, controller.picture, b.planet.scene, comparedSettings(b.settings), content, log);
 }
 
-// Takes what the flight's job has made.
+// Takes the result of the flight's job.
 void advanceFlight(CompareController& controller) {
     if (!controller.flight.job) return;
     std::optional<Result<ComparedPair>> result = controller.flight.job->takeResult();
@@ -405,7 +405,7 @@ struct CompareHandler {
                 notices,
                 startCompare(controller, context.session, context.settings.presets, settings(), command),
                 "B cannot be shown"))
-            context.stepOnce = true;  // B has chosen nothing yet
+            context.stepOnce = true;  // B has selected nothing yet
     }
     void operator()(const ui::StopCompare&) const { controller.ending = true; }
     void operator()(const ui::SwapCompare&) const {

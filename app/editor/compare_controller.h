@@ -1,5 +1,5 @@
-// Compares two planets in the window: A, which the window shows anyway, and B with settings of its own. Both
-// are seen by A's camera and choose for A's LOD view. Wants the window's GL context current. Main thread.
+// Compares two planets in the window: A, which the window shows, and B with its own settings. Both are seen
+// by A's camera and selected for A's LOD view. Needs the window's GL context current. Main thread.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@
 
 namespace worldy {
 
-// Measurements of either side while comparing.
+// The measurements of one planet while comparing.
 struct ComparedMeters {
     planet::PopMeter pops;  // since comparing began
     std::uint64_t bytesReadBefore = 0;
-    ErrorMeter errors;  // of the view last measured
+    ErrorMeter errors;  // of the last measured view
     std::optional<CrackMeasurement> cracks;
 };
 
@@ -44,33 +44,33 @@ struct MeasuredOf {
     ViewSettings settingsOfB;
 };
 
-// Returns the settings that a compared picture is drawn with: without the fill light.
+// Returns the settings that compared pictures are drawn with: without the fill light.
 inline ViewSettings comparedSettings(ViewSettings settings) {
     settings.surface.light.fill = 0;
     return settings;
 }
 
-// A flight that both are measured over, in the background.
+// A flight over which both planets are measured in the background.
 struct ComparedFlight {
     std::unique_ptr<ComparisonJob> job{};
     std::optional<ComparedPair> last{};
-    std::string name{};  // of the job that runs, or of the last one
+    std::string name{};  // of the running job, or of the last one
     std::string problem{};
 };
 
 struct CompareController {
     std::optional<ComparedOther> other{};
     std::array<ComparedMeters, 2> meters{};
-    std::shared_ptr<const int> lastScene{};  // of A, to see that another took its place
+    std::shared_ptr<const int> lastScene{};  // A's; to detect that another planet is shown
     std::optional<MeasuredOf> measuredOf{};
     std::string problem{};  // why there is no B
-    // Asked for, and done with the next frame: this one still shows B's picture.
+    // Comparing ends in the next frame, because this one still shows B's picture.
     bool ending = false;
 
     std::vector<SettingDifference> different{};
     std::optional<std::pair<ViewSettings, ViewSettings>> differentOf{};
 
-    PlanetPicture picture{};  // B's
+    PlanetPicture picture{};  // of B
     std::optional<planet::gl::PictureComparer> comparer{};
     std::optional<planet::gl::RenderTarget> mixed{};
     std::optional<ui::PictureDifferenceNow> difference{};
@@ -78,19 +78,21 @@ struct CompareController {
     ComparedFlight flight{};
 };
 
-// Starts comparing. On an Error, which is also the controller's problem, the comparison before goes on.
+// Starts comparing. On an Error, which is also stored as the controller's problem, the previous comparison
+// continues.
 planet::Result<void> startCompare(CompareController& controller, const Session& session,
                                   const PresetLibrary& presets, const ViewSettings& settings,
                                   const ui::StartCompare& wanted);
-// Frees B's planet, its memory and its files. A flight that is being measured goes on.
+// Frees B's planet, its memory and its files. The measurement of a flight continues.
 void stopCompare(CompareController& controller);
-// Call when A's planet was reset or went to another frame of a replay, which is no change of level.
+// Call when A's planet was reset or a replay jumped; the change of chunks is then no level change.
 void forgetPopsOfA(CompareController& controller);
-// Swaps planets and settings of A and B, except the settings of the camera and the comparison. Returns A's.
+// Swaps the planets and settings of A and B, except the settings of the camera and the comparison. Returns
+// A's.
 ViewSettings swapCompared(CompareController& controller, Session& session, const ViewSettings& settings,
                           const Log& log);
 
-// Runs one frame of B, after A has chosen its chunks. Ends comparing if A's planet has another radius by now.
+// Runs one frame of B, after A has chosen its chunks. Ends comparing if A's planet now has another radius.
 struct CompareFrame {
     const Scene& a;
     const ViewSettings& settings;
@@ -98,40 +100,40 @@ struct CompareFrame {
     const planet::View& view;
     double timeS = 0;
     std::uint64_t frame = 0;
-    bool cameraJumped = false;  // as of planet::PopConditions
+    bool cameraJumped = false;  // PopConditions::cameraJumped
     bool goesOn = true;         // false: frames are paused
     bool pagingPaused = false;
 };
 void stepCompared(CompareController& controller, const CompareFrame& now, const Log& log);
 
-// Draws B as A's picture was just drawn, and what is shown of both into the main picture. counting: also
-// counts the pixels that differ.
+// Draws B with A's view, and both pictures mixed into the main picture. counting: also counts the pixels that
+// differ.
 void drawCompared(CompareController& controller, Viewport& viewport, const ViewSettings& settings,
                   const ChunkFocus& focus, bool counting, const Log& log);
 
-// Measures the cracks of this view, and the true error in the background, of both.
+// Measures cracks and true error of both in this view, the error in the background.
 planet::Result<void> measureCompared(CompareController& controller, Scene& a, const ViewSettings& settings,
                                      const planet::View& view);
 
-// The Error names the flight's file and what is wrong with it.
+// Starts measuring both over a flight. The Error names the flight's file and what is wrong with it.
 planet::Result<void> compareFlight(CompareController& controller, const Session& session,
                                    const ViewSettings& settings, const planet::View& view,
                                    const ui::CompareOverFlight& wanted);
 
-// statsOfA: smoothed. Holds until the controller changes.
+// statsOfA: smoothed. Valid until the controller changes.
 ui::CompareView compareViewOf(CompareController& controller, const Session& session,
                               const ViewSettings& settings, const FrameStats& statsOfA,
                               const planet::View& view);
 
 std::size_t gpuBytes(const CompareController& controller);
 
-// The parts of other features that commands of comparing use and change.
+// Parts of other features that comparison commands use and change.
 struct CompareContext {
     Session& session;
     SettingsController& settings;
-    const planet::View* view;  // of the main picture; null while no planet was shown
-    bool& stepOnce;            // as of FrameController
-    bool replaying = false;    // then settings stay as they are
+    const planet::View* view;  // of the main picture; null if no planet was shown
+    bool& stepOnce;            // FrameController::stepOnce
+    bool replaying = false;    // settings then stay as they are
 };
 void execute(CompareController& controller, const ui::CompareCommand& command, const CompareContext& context,
              Notices& notices);

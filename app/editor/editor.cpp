@@ -22,8 +22,8 @@ namespace worldy {
 
 namespace {
 
-// Asks for what was dropped onto the window: the Bake panel's image of colours while that panel was drawn in
-// the frame before with its field for it, else files to open.
+// Creates commands for files dropped onto the window. They are colour images if the Bake panel accepted drops
+// in the last frame, otherwise files to open.
 void takeDrops(const Window& window, ui::BakePanelState& panel, ui::Commands& commands) {
     const bool dropsAreColours = std::exchange(panel.colour.takesDrops, false);
     for (const std::filesystem::path& file : window.droppedFiles()) {
@@ -68,8 +68,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     Workspace& workspace = settings_.settings.workspace;
     notices_.timeS = frames_.timeS += secondsSinceLast;
     window.setTheme(workspace.theme, workspace.scale);
-    // Frames wait for input while there is only a bake to be seen, which needs the cores more, and while a
-    // sweep measures frame times, which they would disturb.
+    // Frames wait for input during a bake without a planet, which needs the cores, and during a sweep, whose
+    // frame times they would disturb.
     window.beginFrame(shownScene(session) && !sweep_.job ? 0 : 0.05);
     const float pixelRatio = window.pixelRatio();
     const ui::Layout layout = ui::layoutOf(window.width(), window.height(), workspace, ui::menuBarHeight(),
@@ -94,7 +94,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
                commands);
     obeyShortcuts(window.pressedKeys(), {shown, settings_.settings.view, workspace, window_.menu, commands});
-    // A replay's settings are not the user's.
+    // A replay's settings are not the user's, so they are not recorded for undo.
     if (!replaying())
         settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);
     execute(commands, window, session);
@@ -114,11 +114,10 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     writeItemMap(window_.itemMapFile, items, countersOf(sources, stats, window.queuedInput()));
 }
 
-// Another planet has taken the place of the last one: the camera stays where it makes sense, measurements do
-// not.
+// Call when another planet is shown: the camera stays if possible, measurements are discarded.
 void Editor::meetPlanet(Scene& scene) {
     if (scene.identity == frames_.lastScene) return;
-    // Both are about the planet that they began with, which may be gone.
+    // Recording and replay refer to the previous planet, which may no longer exist.
     stopRecording(recording_, nullptr, log_);
     endReplay(recording_, nullptr, replayContext());
     scene.planet->tools().keepMoves(false);
@@ -126,15 +125,15 @@ void Editor::meetPlanet(Scene& scene) {
     forgetPlanet(instruments_);
     frames_.lastScene = scene.identity;
     frames_.history.clear();
-    frames_.stepOnce = true;  // something has to be chosen for it
+    frames_.stepOnce = true;  // the new planet needs a first selection
 }
 
-// Runs the planet's part of a frame: cameras move, chunks are chosen and loaded, pictures are drawn. Returns
-// what it counted and timed. Appends what the pointer does to chunks.
+// Runs the planet's part of a frame: moves cameras, selects and loads chunks, draws pictures. Returns its
+// counters and times. Appends commands from pointing at chunks.
 FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& commands) {
     const ViewSettings& settings = settings_.settings.view;
     meetPlanet(scene);
-    // A frame that is paused steps nothing, but draws.
+    // A paused frame does not step, but it draws.
     scene.drawCpuMs = 0;
     scene.drawn = {};
     viewport_.shaderWait =
@@ -199,7 +198,8 @@ void Editor::drawPictures(Scene& scene) {
     drawObserverPicture(viewport_, input, instruments_.errors, log_);
 }
 
-// Gathers what panels may read. Points into the session and the controllers; holds for the frame.
+// Gathers the data that panels may read. It refers to the session and the controllers and is valid for the
+// frame.
 ui::EditorView Editor::view(Session& session) {
     const ViewSettings& settings = settings_.settings.view;
     const Scene* scene = shownScene(session);
@@ -226,7 +226,7 @@ ui::EditorView Editor::view(Session& session) {
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
-    // Asked for in each frame that the pointer is on a chunk.
+    // Hovering is requested in every frame in which the pointer is over a chunk.
     chunks_.focus.hovered.reset();
     for (const ui::Command& command : commands) execute(command, window, session);
 }

@@ -1,4 +1,4 @@
-// The editor in its window: one controller a feature, and the order in which they take part in a frame. Main
+// The editor in its window: one controller per feature, and the order in which they run in a frame. Main
 // thread.
 #pragma once
 
@@ -30,12 +30,12 @@ public:
     Editor(const Settings& settings, Log& log);
 
     const Settings& settings() const { return settings_.settings; }
-    // Writes where controls are into a file after each frame.
+    // Writes the positions of controls into a file after each frame.
     void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
 
-    // Runs one frame: input, planet, panels, and the commands that they gave. secondsSinceLast: >= 0.
+    // Runs one frame: input, planet, panels, and the panels' commands. secondsSinceLast: >= 0.
     void runFrame(Window& window, Session& session, double secondsSinceLast);
-    // Saves the recording and ends the replay. To be called before the window closes.
+    // Saves the recording and ends the replay. Call before the window closes.
     void endFlights(Session& session);
 
 private:

@@ -17,7 +17,7 @@ namespace worldy {
 
 namespace {
 
-// wiped: null, or what its divider changes.
+// wiped: null, or the settings that dragging the divider changes.
 void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
                    CompareSettings* wiped = nullptr) {
     picture.pointer = {};
@@ -69,7 +69,7 @@ ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorVi
     return input;
 }
 
-// While there is no planet: the bake that it needs, or why there is none.
+// Draws the viewport without a planet: the bake that it needs, or why there is no planet.
 void emptyViewport(const Session& session, const ui::EditorView& view, const ui::Rect& rect,
                    Viewport& viewport, ui::Commands& commands) {
     viewport.main.pointer = viewport.observer.pointer = {};

@@ -30,7 +30,7 @@ void openPreset(const std::filesystem::path& file, const FileContext& context, N
             fmt::format("Settings of {} loaded", file.string()));
 }
 
-// Returns false if the picture carries no settings, so is something else.
+// Returns false if the picture contains no settings and so is no screenshot.
 bool openScreenshot(const std::filesystem::path& file, const FileContext& context, Notices& notices) {
     const Result<ScreenshotNote> note = readScreenshotNote(file);
     if (!note) return false;
@@ -58,10 +58,10 @@ void open(FileController& files, const std::filesystem::path& file, const FileCo
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;
     }
     if (!openFile(context.session, file, context.settings.settings.view, notices.log)) {
-        notices.message = openingFailed(file, *context.session.problem);  // the log has it already
+        notices.message = openingFailed(file, *context.session.problem);  // already logged
         return;
     }
-    files.opening = file;  // its bake may fail yet
+    files.opening = file;  // its bake may still fail
 }
 
 void ask(ui::OpenDialogState& dialog, bool forColours) {

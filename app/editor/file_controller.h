@@ -1,4 +1,4 @@
-// Opening of files, whatever they hold, and the list of recent ones. Main thread.
+// Opens files of all kinds and keeps the list of recent ones. Main thread.
 #pragma once
 
 #include <filesystem>
@@ -15,28 +15,28 @@
 namespace worldy {
 
 struct FileController {
-    std::optional<std::filesystem::path> opening;    // asked for, and not known to be open yet
-    std::vector<std::filesystem::path> recent;       // as kept
+    std::optional<std::filesystem::path> opening;    // requested, but not known to be open yet
+    std::vector<std::filesystem::path> recent;       // as stored
     std::vector<std::filesystem::path> recentShown;  // those that exist
     ui::OpenDialogState dialog;
 };
 
 FileController openFileController();
 
-// The parts of other features that opening a file may change.
+// Parts of other features that opening a file may change.
 struct FileContext {
     Session& session;
     SettingsController& settings;
     CameraController& camera;
-    bool replaying = false;  // then settings stay as they are
+    bool replaying = false;  // settings then stay as they are
 };
-// next: where opening a recorded flight adds the command that replays it.
+// next: receives the command that replays a recorded flight if one is opened.
 void execute(FileController& files, const ui::FileCommand& command, const FileContext& context,
              Notices& notices, ui::Commands& next);
 
-// Once a file that was asked for is open, maybe baked first: makes it the first of the recent ones and
-// returns true. If its bake has failed, reports it in a message box, unless it was cancelled or the viewport,
-// having no planet, reports it itself.
+// Call every frame. Once the requested file is open, possibly after a bake, makes it the first recent one and
+// returns true. If its bake failed, shows a message box, unless the bake was cancelled or no planet is shown,
+// in which case the viewport reports the failure.
 bool followOpening(FileController& files, const Session& session, Notices& notices);
 // Does the same and saves the list of recent files.
 void advanceFiles(FileController& files, const Session& session, Notices& notices);

@@ -1,4 +1,4 @@
-// The window's frames: their clock, pausing and single steps, and what the last ones measured. Main thread.
+// The window's frames: their clock, pausing and single steps, and their statistics. Main thread.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +14,27 @@ namespace worldy {
 
 struct FrameController {
     bool paused = false;
-    bool stepOnce = false;                // the next frame moves and chooses although frames are paused
-    std::uint64_t frame = 0;              // run so far
-    double timeS = 0;                     // since the window opened
+    bool stepOnce = false;                // the next frame moves and selects although frames are paused
+    std::uint64_t frame = 0;              // number of frames run
+    double timeS = 0;                     // seconds since the window opened
     FrameStats stats;                     // smoothed
     std::deque<ui::FrameSample> history;  // of the last 10 s
     std::shared_ptr<const int>
-        lastScene;  // identity of the frame before's, to see that another took its place
+        lastScene;  // identity of the last frame's scene, to detect that another is shown
 };
 
 void execute(FrameController& frames, const ui::FrameCommand& command);
 
-// Tells what the planet does in a frame.
+// The planet's part of a frame.
 struct FrameStep {
     bool goesOn = true;                // false: frames are paused, and the planet is only drawn
-    double seconds = 0;                // that it goes on by
-    std::optional<double> elapsedS{};  // in place of the clock's, for a single step
+    double seconds = 0;                // by which the planet advances
+    std::optional<double> elapsedS{};  // for a single step, used instead of the clock's
 };
-// Returns the frame's step; a single one is then done. secondsSinceLast: >= 0.
+// Returns the frame's step and clears a pending single step. secondsSinceLast: >= 0.
 FrameStep takeStep(FrameController& frames, double secondsSinceLast);
 
-// At a frame's end: keeps what it has measured.
+// Stores the statistics at the end of a frame.
 void finishFrame(FrameController& frames, const FrameStats& stats);
 
 }  // namespace worldy

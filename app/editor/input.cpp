@@ -13,7 +13,7 @@ double axis(int more, int less) {
     return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
 }
 
-// By the character, since + and - lie elsewhere on other keyboards.
+// Keys are read as characters, since + and - are elsewhere on other keyboards.
 int speedSteps() {
     int steps = 0;
     for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
@@ -28,7 +28,7 @@ glm::dvec2 dragOf(ImGuiMouseButton button) {
     return {static_cast<double>(delta.x), static_cast<double>(delta.y)};
 }
 
-// Let go where it went down, so that a drag selects nothing.
+// Returns true if the button was released where it was pressed, so that a drag selects nothing.
 bool clickedInPlace() {
     if (!ImGui::IsItemHovered() || !ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return false;
     const float most = ImGui::GetIO().MouseDragThreshold * ImGui::GetIO().MouseDragThreshold;

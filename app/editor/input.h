@@ -1,4 +1,4 @@
-// What the keyboard and the mouse ask of the camera in a frame.
+// The camera's input from keyboard and mouse in a frame.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -7,14 +7,14 @@
 
 namespace worldy {
 
-// Over the planet's picture; nothing while the pointer is on a panel.
+// Input over the planet's picture; none while the pointer is over a panel.
 struct PointerInput {
-    bool over = false;            // the picture is under the pointer, or held by it
+    bool over = false;            // the pointer is over the picture or dragging it
     glm::dvec2 positionPx{0, 0};  // from the picture's top left, in its pixels
     glm::dvec2 dragPx{0, 0};      // right, down; left button
     glm::dvec2 lookPx{0, 0};      // right button
     double wheelNotches = 0;      // towards the planet
-    bool clicked = false;         // pressed and let go in one place
+    bool clicked = false;         // pressed and released in one place
     bool doubleClicked = false;
 };
 
@@ -23,10 +23,10 @@ struct KeyInput {
     int speedSteps = 0;  // + and -
 };
 
-// After ImGui's frame has begun. Nothing while a text field has the keys, or Ctrl makes them shortcuts.
+// Call after ImGui's frame has begun. Returns nothing while a text field has focus or Ctrl is held.
 KeyInput readKeys();
 
-// Call where the picture was just drawn as an ImGui item that takes both buttons.
+// Call right after the picture was drawn as an ImGui item that accepts both buttons.
 PointerInput readPointer(float pixelRatio);
 
 }  // namespace worldy

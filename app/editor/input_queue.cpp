@@ -16,7 +16,7 @@ bool isButton(const InputEvent& event) {
     return event.kind == InputKind::ButtonDown || event.kind == InputKind::ButtonUp;
 }
 
-// GLFW numbers the keys that write nothing from Escape on.
+// GLFW's codes of keys that write nothing start at Escape.
 bool actsAlone(const InputEvent& event) {
     if (event.kind != InputKind::KeyDown || isModifier(event.code)) return false;
     return event.code >= GLFW_KEY_ESCAPE || (event.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0;
@@ -39,10 +39,10 @@ bool endsFrame(const std::vector<InputEvent>& frame, const InputEvent& next, boo
         const bool begins = next.kind == InputKind::KeyDown || next.kind == InputKind::Text ||
                             next.kind == InputKind::ButtonDown;
         if (actsAlone(before) && begins) return true;
-        // A key or a button acts with the modifiers that are held at the end of its frame.
+        // A key or button acts with the modifiers held at the end of its frame.
         const bool acts = isButton(before) || (before.kind == InputKind::KeyDown && !isModifier(before.code));
         if (acts && next.kind == InputKind::KeyUp && isModifier(next.code)) return true;
-        // Ctrl may be pressed with a click, but what was written belongs before it.
+        // Ctrl may be pressed in the frame of a click, but typed text must precede the click.
         return isButton(before) ? next.kind == InputKind::KeyDown || next.kind == InputKind::Text
                                 : before.kind == InputKind::Text && isButton(next);
     });

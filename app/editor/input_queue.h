@@ -1,6 +1,6 @@
-// Input events in the order in which they came, handed out frame by frame: Dear ImGui 1.86 sees only which
-// keys and buttons are down when a frame begins, so a key that is pressed and released between two frames
-// would be lost. No GLFW calls; one thread.
+// Queues input events in order and hands them out frame by frame. Dear ImGui 1.86 only sees which keys and
+// buttons are down when a frame begins, so a key pressed and released between two frames would be lost. No
+// GLFW calls; one thread.
 #pragma once
 
 #include <cstddef>
@@ -16,35 +16,35 @@ enum class InputKind : std::uint8_t { KeyDown, KeyRepeat, KeyUp, Text, ButtonDow
 
 struct InputEvent {
     InputKind kind = InputKind::KeyDown;
-    int code = 0;  // GLFW's key or mouse button; of Text the character
+    int code = 0;  // GLFW's key or mouse button; for Text the character
     int scancode = 0;
     int modifiers = 0;         // GLFW's
-    glm::dvec2 pointer{0, 0};  // of a button: where the pointer was, in the window's coordinates
-    double atS = 0;            // of a key: when it came, seconds on any clock
+    glm::dvec2 pointer{0, 0};  // for a button: the pointer's position in window coordinates
+    double atS = 0;            // for a key: time of the event, seconds on any clock
 };
 
 class InputQueue {
 public:
-    // No keyboard repeats a key as soon as this after it went down.
+    // Keyboards do not repeat a key within this time after the press.
     static constexpr double leastHoldS = 0.1;
 
-    // GLFW takes a key that goes up and down again within 20 ms for one that repeats, and leaves out its
-    // release: a repeat within leastHoldS of the press is added as a release and a press.
+    // GLFW reports a key released and pressed again within 20 ms as a repeat, without the release. So a
+    // repeat within leastHoldS of the press is added as a release and a press.
     void add(const InputEvent& event);
     bool empty() const { return waiting_.empty(); }
 
-    // Returns the events of the next frame, oldest first; the others wait. A key or a button changes once a
-    // frame. A frame ends after a key that acts rather than writes (Enter, an arrow, one held with Ctrl), so
-    // that what is typed after it comes after what it does, and likewise between keys and mouse buttons. A
-    // modifier that is released after a key was pressed is released in the next frame. While a text field is
-    // edited, keys that write a character need no frame of their own, so that typing never lags behind slow
-    // frames: the field reads the characters, not the keys.
+    // Returns the events of the next frame, oldest first; the others wait. Each key or button changes at most
+    // once per frame. A frame ends after a key that acts instead of writing (Enter, an arrow, a key held with
+    // Ctrl), so that its effect precedes what is typed after it. The same holds between keys and mouse
+    // buttons. A modifier released after a key press is released in the next frame. While a text field is
+    // edited, keys that write a character do not end a frame, so that typing does not lag in slow frames: the
+    // field reads characters, not keys.
     std::vector<InputEvent> takeFrame(bool textFieldIsEdited = false);
     std::size_t size() const { return waiting_.size(); }
 
 private:
     std::deque<InputEvent> waiting_;
-    std::unordered_map<int, double> downAtS_;  // of the keys that are held
+    std::unordered_map<int, double> downAtS_;  // of the held keys
 };
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// Makes the panels' state of the instruments. Pointers in it hold until the instrument changes.
+// Builds the panels' view of the instruments. Its pointers are valid until the instrument changes.
 #pragma once
 
 #include <cstdint>

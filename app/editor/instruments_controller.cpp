@@ -39,7 +39,7 @@ struct InstrumentHandler {
         if (!succeeded(notices,
                        measureNow(instruments.cracks, *context.scene, context.view, context.settings),
                        "The cracks were not measured"))
-            context.settings.cracks.live = false;  // it would only fail again
+            context.settings.cracks.live = false;  // it would fail again
     }
     void operator()(const ui::FindSmallestSkirts&) const {
         if (!isThere()) return;
@@ -64,14 +64,14 @@ struct InstrumentHandler {
     }
 };
 
-// Measures a little in each frame, so that the window goes on.
+// Measures part of the costs in each frame, so that the window stays responsive.
 void measureCosts(Scene& scene, CostInstrument& instrument) {
     if (!instrument.meter || instrument.meter->step(scene)) return;
     instrument.costs = instrument.meter->costs();
     instrument.meter.reset();
 }
 
-// Follows the pointer in the main picture, and stays where it was last over the ground.
+// Probes the vertex under the pointer in the main picture; keeps the last one while the pointer is elsewhere.
 void probe(const DrawnFrame& drawn, ui::ProbeView& probe) {
     if (!isShown(drawn.settings.workspace, PanelId::Probe)) return;
     const PlanetPicture& picture = drawn.picture;
@@ -91,7 +91,7 @@ void probe(const DrawnFrame& drawn, ui::ProbeView& probe) {
     if (drawn.focus.selected) probe.selected = probeWorst(input, *drawn.focus.selected);
 }
 
-// Turns features off that are too slow; not while something else is drawn for measuring.
+// Turns off features that are too slow, except while measurements draw other content.
 void watchCosts(const DrawnFrame& drawn, const CostInstrument& costs, const Log& log) {
     Scene& scene = drawn.scene;
     if (scene.renderer.chunks().capabilities().software || costs.meter) return;

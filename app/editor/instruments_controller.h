@@ -1,5 +1,5 @@
 // Measures the planet in the window: allocations, LOD changes, pops, probed vertices, cracks, costs and true
-// errors. Wants the window's GL context current. Main thread.
+// errors. Needs the window's GL context current. Main thread.
 #pragma once
 
 #include "app/editor/camera_controller.h"
@@ -19,7 +19,7 @@ namespace worldy {
 
 struct InstrumentsController {
     ui::AllocationsView allocations;
-    bool markAllocations = false;  // with the next count, at this frame's end
+    bool markAllocations = false;  // with the next count, at the end of this frame
     planet::LodChanges changes;
     Pops pops;
     ui::ProbeView probe;
@@ -28,9 +28,9 @@ struct InstrumentsController {
     ErrorMeter errors;
 };
 
-// The parts of other features that commands to instruments use and change.
+// Parts of other features that instrument commands use and change.
 struct InstrumentContext {
-    Scene* scene;  // null while no planet is open
+    Scene* scene;  // null if no planet is open
     ViewSettings& settings;
     const planet::View& view;  // of the main picture
     ChunkFocus& focus;
@@ -40,10 +40,10 @@ struct InstrumentContext {
 void execute(InstrumentsController& instruments, const ui::InstrumentCommand& command,
              const InstrumentContext& context, Notices& notices);
 
-// Another planet is shown: nothing is known of it.
+// Call when another planet is shown; discards all measurements.
 void forgetPlanet(InstrumentsController& instruments);
 
-// Call once the frame's pictures are drawn: goes on with what is measured over several frames, and turns off
+// Call after the frame's pictures are drawn. Continues measurements that take several frames, and turns off
 // features that are too slow.
 struct DrawnFrame {
     Scene& scene;
@@ -56,7 +56,7 @@ struct DrawnFrame {
 void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& drawn, const Log& log,
                         ui::Commands& commands);
 
-// scene: null while no planet is shown. view: of the main picture. Holds until the instruments change.
+// scene: null if no planet is shown. view: of the main picture. Valid until the instruments change.
 void fillView(const InstrumentsController& instruments, const Scene* scene, const ViewSettings& settings,
               std::uint64_t frame, ui::EditorView& view);
 

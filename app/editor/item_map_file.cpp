@@ -79,7 +79,7 @@ void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPla
                             item.rect.width, item.rect.height);
     }
     std::error_code status;
-    // A symbolic link stays one, and a file that is replaced keeps its mode.
+    // A symbolic link stays a link, and a replaced file keeps its mode.
     const std::filesystem::path target = planet::linkTarget(file).value_or(file);
     const std::filesystem::path unfinished = target.string() + ".part";
     std::ofstream(unfinished) << text;

@@ -1,5 +1,5 @@
-// What --item-map writes, for scripts that drive the window: where controls are, and what the editor counts.
-// Lines of fields between tabs:
+// The file written by --item-map for scripts that drive the window: the positions of controls, and the
+// editor's counters. Lines of tab-separated fields:
 //
 //     lod/Hysteresis  x  y  width  height    pixels from the window's top left
 //     counter/drawn   123
@@ -36,12 +36,12 @@ struct CounterSources {
     const CompareController& compare;
 };
 
-// After a frame: the number of frames so far, what this one counted, the selection and the camera, and the
-// events of keys and buttons that wait for the next frames.
+// Call after a frame. Returns the number of frames, this frame's counters, the selection, the camera, and the
+// number of key and button events that wait for the next frames.
 std::vector<Counter> countersOf(const CounterSources& sources, const FrameStats& stats,
                                 std::size_t queuedInput);
 
-// A script may read it at any time, so it is renamed into place.
+// Writes to a temporary file and renames it, because scripts may read the file at any time.
 void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPlace> items,
                   std::span<const Counter> counters);
 

@@ -105,7 +105,7 @@ ui::LayersView layersViewOf(const LayerController& controller, const Scene* scen
     view.setProblem = controller.setProblem;
     view.overGround = controller.overGround;
     view.under = controller.under;
-    // The place stays where the pointer was last; the layers may have changed since.
+    // The place is kept from the pointer's last position; the layers may have changed since.
     if (view.under) view.under->weights = planet::layerWeights(layers.set, view.under->place);
     const LayerPictures none;
     const LayerPictures& pictures = scene ? scene->layers : none;
@@ -134,7 +134,7 @@ void execute(LayerController& controller, const ui::LayerCommand& command, Setti
                 replaceView(settings, std::move(view), "layer set saved");
             },
             [&](const ui::ReloadLayerTextures&) {
-                if (scene) scene->layers = {};  // read again when they are next drawn
+                if (scene) scene->layers = {};  // read again when next drawn
             },
         },
         command);

@@ -1,5 +1,4 @@
-// Texture layers in the window: the layer sets that can be loaded, and the layers under the pointer. Main
-// thread.
+// Texture layers in the window: the available layer sets, and the layers under the pointer. Main thread.
 #pragma once
 
 #include <filesystem>
@@ -41,23 +40,23 @@ LayerController openLayers(const LayerFolders& folders = layerFolders());
 planet::Result<void> loadInto(LayerController& controller, const std::filesystem::path& file,
                               LayerSettings& layers);
 
-// Saves the layers as one of the user's own sets, which the settings then name. Replaces the user's set of
-// that name, but no shipped one. Names follow the rules for presets.
+// Saves the layers as a user set, which the settings then name. Replaces a user set of that name, but not a
+// shipped one. Names follow the rules for presets.
 planet::Result<void> saveAs(LayerController& controller, std::string_view name, LayerSettings& layers);
 
 // Returns the layers at the point where a ray has hit a drawn chunk.
 ui::LayerReadout layerReadout(const planet::ChunkTree& tree, const planet::SurfaceHit& hit,
                               const SurfaceSettings& surface);
 
-// scene: null while no planet is open.
+// scene: null if no planet is open.
 ui::LayersView layersViewOf(const LayerController& controller, const Scene* scene,
                             const LayerSettings& layers);
 
-// scene: null while no planet is open. Settings stay as they are while a replay runs.
+// scene: null if no planet is open. Settings stay as they are during a replay.
 void execute(LayerController& controller, const ui::LayerCommand& command, SettingsController& settings,
              Scene* scene, bool replaying, Notices& notices);
 
-// Reads what the layers make of the ground under the pointer.
+// Reads the layers at the ground under the pointer.
 void readLayers(LayerController& controller, const Scene& scene, const PlanetPicture& picture,
                 const SurfaceSettings& surface);
 

@@ -1,5 +1,5 @@
-// Reports to the user what became of a request: in the log, in a message box, and in a line over the
-// viewport. Main thread.
+// Reports the outcome of a request to the user: in the log, in a message box, or in a line over the viewport.
+// Main thread.
 #pragma once
 
 #include <filesystem>
@@ -15,27 +15,27 @@ struct Notices {
     const Log& log;
     ui::Message message{};
     ui::Confirmation confirmation{};
-    double timeS = 0;  // of this frame, since the window opened
+    double timeS = 0;  // time of this frame since the window opened
 };
 
 inline constexpr double confirmationS = 5;  // how long a confirmation is shown
 
-// Shows for some seconds in the viewport that a request is done.
+// Shows in the viewport for confirmationS that a request is done.
 void show(Notices& notices, const std::string& text);
 // Does the same and writes it to the log.
 void confirm(Notices& notices, const std::string& text);
-// Does the same with a longer text for the log: whole paths are too long for the viewport.
+// Does the same with another text for the log, because whole paths are too long for the viewport.
 void confirm(Notices& notices, const std::string& text, const std::string& logged);
-// Reports in the log and in a message box why a request failed, and what to do about it.
+// Reports in the log and in a message box why a request failed and what to do about it.
 void tellError(Notices& notices, ui::Message message);
-// Reports a result that is an Error, with what the user asked for as the title. Returns true if it is none.
+// Reports an Error with failed as the title. Returns true if the result is not an Error.
 bool succeeded(Notices& notices, const planet::Result<void>& result, const std::string& failed);
 
-// Returns the message for a file that cannot be opened, and reports it.
+// Returns the message for a file that cannot be opened; tellCannotOpen() also reports it.
 ui::Message openingFailed(const std::filesystem::path& file, const planet::Error& error);
 void tellCannotOpen(Notices& notices, const std::filesystem::path& file, const planet::Error& error);
 
-// Returns false, and warns, while a replay runs: it owns settings and paging until it ends.
+// Returns false and logs a warning during a replay, which controls settings and paging until it ends.
 bool mayChange(const char* what, bool replaying, const Log& log);
 
 }  // namespace worldy

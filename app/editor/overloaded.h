@@ -1,4 +1,4 @@
-// One function object out of several lambdas, for std::visit.
+// Combines several lambdas into one function object for std::visit.
 #pragma once
 
 namespace worldy {
@@ -8,6 +8,6 @@ struct Overloaded : Functions... {
     using Functions::operator()...;
 };
 template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;  // Clang 14 does not deduce aggregates without it
+Overloaded(Functions...) -> Overloaded<Functions...>;  // Clang 14 does not deduce aggregates without this
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// Pausing the shown planet's paging, and changing it by hand. Main thread.
+// Pauses and controls the paging of the shown planet. Main thread.
 #pragma once
 
 #include "app/editor/notices.h"
@@ -12,7 +12,7 @@ struct PagingController {
     bool paused = false;
 };
 
-// Refused while a replay runs. scene: null while no planet is open. recorder: null, or what notes the change.
+// Refused during a replay. scene: null if no planet is open. recorder: null, or records the change.
 void execute(PagingController& paging, const ui::PagingCommand& command, Scene* scene, Recorder* recorder,
              bool replaying, const Log& log);
 

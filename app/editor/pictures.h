@@ -1,4 +1,4 @@
-// Draws the planet's pictures of a frame: the main one and the observer's. Wants the window's GL context
+// Draws the planet's pictures of a frame: the main one and the observer's. Needs the window's GL context
 // current.
 #pragma once
 
@@ -14,8 +14,8 @@ struct PictureInput {
     const CameraController& camera;
     const ChunkFocus& focus;
 };
-// Draws the frame before or after a pop instead where the user has asked for it. comparing: without the fill
-// light, as B.
+// Draws the main picture, or the frame before or after a pop if the user has requested it. comparing: draws
+// without the fill light, like B.
 void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsController& instruments,
                      bool comparing, const Log& log);
 void drawObserverPicture(Viewport& viewport, const PictureInput& input, const ErrorMeter& errors,

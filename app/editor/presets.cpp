@@ -20,7 +20,7 @@ using planet::Result;
 constexpr std::size_t maxNameBytes = 60;
 constexpr std::string_view presetEnding = ".toml";
 
-// Letters of the alphabet alone: enough to keep two files apart where names do not tell case.
+// Lower-cases ASCII letters, which is enough to detect clashes on file systems that ignore case.
 std::string lowered(std::string_view text) {
     std::string lower(text);
     for (char& letter : lower) {
@@ -76,7 +76,7 @@ void PresetLibrary::readFolder(const fs::path& folder, bool shipped) {
     std::error_code status;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
         const std::string file = entry.path().filename().string();
-        // What is hidden is a file half written, or an editor's own.
+        // Hidden files are unfinished or belong to an editor.
         if (!file.ends_with(presetEnding) || file.starts_with('.') || !isUtf8(file)) continue;
         const std::string name = file.substr(0, file.size() - presetEnding.size());
         Result<ViewPart> part = loadViewPart(entry.path());
@@ -119,7 +119,7 @@ Result<const PresetLibrary::Preset*> PresetLibrary::existing(std::string_view na
 }
 
 Result<ViewSettings> PresetLibrary::load(std::string_view name, const ViewSettings& now) const {
-    // Resetting works without the data folder too.
+    // Resetting to defaults works without the data folder.
     if (name == defaultPreset && !find(name)) return ViewSettings{};
     return existing(name).and_then([&](const Preset* preset) {
         return preset->part.map([&](const ViewPart& part) { return applied(part, now); });
@@ -133,10 +133,10 @@ Result<void> PresetLibrary::save(std::string_view name, const ViewSettings& sett
         return wrongName(name, "a built-in preset has that name and cannot be replaced");
     std::error_code status;
     fs::create_directories(folders_.own, status);
-    // One that differs in case alone is written over under the name that it has.
+    // A name that differs only in case overwrites the existing file and keeps its name.
     const fs::path file =
         present ? present->file : folders_.own / (std::string(name) + std::string(presetEnding));
-    // Else a flight, say, that was put into the folder would be lost.
+    // Other files in the folder, such as flights, are not overwritten.
     if (Result<void> kind = checkKinds({{file, OutputKind::Preset}}); !kind) return kind;
     Result<void> written = writeTextFile(file, viewSettingsText(settings));
     reload();

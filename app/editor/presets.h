@@ -1,5 +1,5 @@
-// Presets: view settings under a name, kept as TOML files. Those that come with Worldy lie in its data
-// folder and stay as they are; the user's own lie in the config folder.
+// Presets: named view settings in TOML files. Those that come with Worldy are in its data folder and are
+// read-only; the user's own are in the config folder.
 #pragma once
 
 #include <filesystem>
@@ -21,11 +21,11 @@ struct PresetFolders {
 };
 PresetFolders presetFolders();
 
-// The shipped preset that holds every setting with its default.
+// The shipped preset that holds the default of every setting.
 inline constexpr std::string_view defaultPreset = "default";
 
-// A name is that of a file, on any system: 1 to 60 bytes of UTF-8, no / \ : * ? " < > | or control
-// characters, neither a dot nor a space at either end. The Error says what is wrong with it.
+// Checks that a name is a valid file name on all systems: 1 to 60 bytes of UTF-8, without / \ : * ? " < >
+// and control characters, and without a dot or space at either end. The Error says what is wrong.
 planet::Result<void> checkPresetName(std::string_view name);
 
 // All presets, read once. Call reload() after files may have changed.
@@ -35,14 +35,14 @@ public:
 
     void reload();
 
-    // For the panel: shipped ones first, then by name; files that cannot be read with their problem.
-    // Differences are those from the settings as they are, and cost nothing while these stay the same.
+    // Returns the presets for the panel: shipped ones first, then by name; unreadable files with their
+    // problem. The differences from now are cached until it changes.
     std::span<const ui::PresetView> views(const ViewSettings& now);
 
-    // What a preset makes of the settings as they are: it changes only what it holds.
+    // Returns now with the settings that the preset holds.
     planet::Result<ViewSettings> load(std::string_view name, const ViewSettings& now) const;
 
-    // All view settings, over one of the user's own of that name, but not over a shipped one.
+    // Saves all view settings. Replaces a user preset of that name, but not a shipped one.
     planet::Result<void> save(std::string_view name, const ViewSettings& settings);
     planet::Result<void> remove(std::string_view name);
 

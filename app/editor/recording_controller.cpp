@@ -33,7 +33,8 @@ std::string freeName(const RecordingController& controller) {
     }
 }
 
-// The name itself, or with the next number: "flight 2" after "flight 1", "canyon 2" after "canyon".
+// Returns the name, or the name with the next free number: "flight 2" after "flight 1", "canyon 2" after
+// "canyon".
 std::string freeNameLike(const fs::path& folder, const std::string& name) {
     const auto isFree = [&](const std::string& one) {
         std::error_code status;
@@ -52,7 +53,7 @@ std::string freeNameLike(const fs::path& folder, const std::string& name) {
     }
 }
 
-// Another window may have taken the name since the recording began, or take it just now.
+// Retries under other names, because another process may take the name at any time.
 Result<fs::path> writeUnderFreeName(const fs::path& folder, Recorder& recorder) {
     constexpr int mostTries = 10;
     for (int tries = 1;; ++tries) {
@@ -73,12 +74,12 @@ ReplayPaging pagingOf(const ui::ReplayControls& controls) {
     return controls.simulated ? ReplayPaging::Simulated : ReplayPaging::AsRecorded;
 }
 
-// Gives the planet the recording's first settings, and lets the replay begin.
+// Applies the recording's first settings to the planet and starts the replay.
 Result<void> rewind(RunningReplay& running, Scene& scene) {
     ViewSettings settings;
     for (const CalledInFlight& called : running.replay.record().frames[0].calls)
         static_cast<void>(applyFlightSettings(called.settings, settings));
-    // Paging settings that were refused before are tried again, so that the replay reports the refusal.
+    // Paging settings refused earlier are tried again, so that the replay reports the refusal.
     scene.refusedPaging.reset();
     if (Result<void> applied = applyLiveSettings(scene, settings, false, timeOf(running)); !applied)
         return applied;
@@ -202,7 +203,7 @@ Result<void> setReplay(RecordingController& controller, Scene& scene, const ui::
     if (!controller.replay) return {};
     RunningReplay& running = *controller.replay;
     const bool otherPaging = controls.simulated != running.controls.simulated;
-    // At its end there is nothing left to play.
+    // At its end the replay cannot continue to play.
     const bool fromTheEnd = controls.playing && !running.controls.playing && running.replay.atEnd();
     running.controls = controls;
     if (fromTheEnd) moveReplay(controller, 1);
@@ -242,7 +243,7 @@ BeforeReplay stopReplay(RecordingController& controller, Scene* scene) {
 
 Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
                            const ReplayWatcher& watcher) {
-    // A step of the scene resets these counters too.
+    // Stepping the scene resets these counters too.
     scene.drawCpuMs = 0;
     scene.drawn = {};
     FlightReplay& replay = running.replay;
@@ -269,7 +270,7 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
         if (replay.next() == *running.seek) running.seek.reset();
         return {};
     }
-    if (due()) running.playedS = replay.timeS();  // too slow
+    if (due()) running.playedS = replay.timeS();  // too slow: the remaining time is dropped
     if (!replay.atEnd() || !running.controls.playing) return {};
     running.playedS = 0;
     if (running.controls.loop)
@@ -311,15 +312,15 @@ ui::RecordingView recordingViewOf(const RecordingController& controller, const V
 
 namespace {
 
-// Forgets the LOD changes measured so far: the difference from the frame before a restart or a jump is no
-// change of level.
+// Discards the measured LOD changes: the difference from the frame before a restart or a jump is no level
+// change.
 void forgetChanges(const ReplayContext& context) {
     context.instruments.changes.clear();
     forgetPops(context.instruments.pops);
     forgetPopsOfA(context.compare);
 }
 
-// Reports what became of the recording that was just stopped; the log has it already.
+// Reports the outcome of the recording that was just stopped; the log already has it.
 void tellSaved(const RecordingController& controller, Notices& notices) {
     if (!controller.saveProblem.empty())
         notices.message = {
@@ -341,7 +342,7 @@ struct RecordingHandler {
         if (succeeded(notices, startRecording(controller, *scene->planet, command.name), "Recording failed"))
             notices.log->info("Recording {}: starting with the six root chunks", controller.recorder->name());
         forgetChanges(context);
-        context.frames.stepOnce = true;  // nothing is chosen any more
+        context.frames.stepOnce = true;  // there is no selection now
     }
     void operator()(const ui::StopRecording&) const {
         stopRecording(controller, scene ? scene->planet.get() : nullptr, notices.log);
@@ -386,7 +387,7 @@ void RecordingHandler::operator()(const ui::StartReplay& command) const {
     context.frames.stepOnce = true;
 }
 
-// Settings that choose and load come from the recording alone; the others may be changed meanwhile.
+// Sets the settings that affect selection and loading from the recording; the user may change the others.
 void holdRecordedSettings(const ViewSettings& recorded, ViewSettings& settings) {
     settings.lod = recorded.lod;
     settings.paging = recorded.paging;
@@ -405,7 +406,7 @@ void execute(RecordingController& controller, const ui::RecordingCommand& comman
 void endReplay(RecordingController& controller, Scene* scene, const ReplayContext& context) {
     if (!controller.replay) return;
     CameraController& camera = context.camera;
-    camera.beforeInspection.reset();  // it belongs to the replay
+    camera.beforeInspection.reset();  // belonged to the replay
     const BeforeReplay before = stopReplay(controller, scene);
     context.settings.view = before.settings;
     context.paging.paused = before.pagingPaused;
@@ -447,9 +448,9 @@ void replayFrame(RecordingController& controller, Scene& scene, const ReplayCont
         return endReplay(controller, &scene, context);
     }
     if (replayed.next() > 0) holdRecordedSettings(replayed.settings(), settings);
-    // Between frames the camera may stand where a pop was gone back to.
+    // Between replayed frames the camera may be at a pop that is being inspected.
     if (replayed.next() == frameBefore) return;
-    camera.beforeInspection.reset();  // played on, the replay moves the camera again
+    camera.beforeInspection.reset();  // when it plays on, the replay moves the camera
     pops.side = PopSide::Live;
     camera.lodView = replayed.view();
     camera.rig->camera = {camera.lodView.eyeM, camera.lodView.right, camera.lodView.back};
@@ -461,7 +462,7 @@ void giveSettings(RecordingController& controller, Scene& scene, const ViewSetti
     if (!applied) log->error("{}", applied.error().message);
     if (!controller.recorder) return;
     if (applied) return controller.recorder->givenSettings(*scene.planet, settings, pagingPaused);
-    // Nobody could repeat which of them the planet has kept.
+    // A replay could not reproduce which of the settings the planet has kept.
     log->warn("Recording stopped: settings were refused");
     stopRecording(controller, scene.planet.get(), log);
 }

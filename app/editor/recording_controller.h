@@ -1,4 +1,4 @@
-// Recording and replaying of flights in the window: the Flight panel's commands, and a frame of each. Main
+// Records and replays flights in the window: the Flight panel's commands, and the frames of both. Main
 // thread.
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace worldy {
 
-// The state before a replay, which is restored at its end.
+// The state before a replay, restored at its end.
 struct BeforeReplay {
     ViewSettings settings;
     Camera camera;
@@ -41,60 +41,59 @@ struct RunningReplay {
     BeforeReplay before;
     std::vector<double> endS;  // of each frame, from the recording's start
     std::vector<ui::FlightTick> ticks;
-    double playedS = 0;               // how far it has been played
-    std::optional<std::size_t> seek;  // frames to make before it plays on
+    double playedS = 0;               // replayed time, seconds
+    std::optional<std::size_t> seek;  // number of frames to make before it continues to play
 };
 
-// Recorded flights and the one that is recorded or replayed now; never both.
+// The recorded flights, and the one being recorded or replayed; never both.
 struct RecordingController {
-    std::filesystem::path folder;  // of the recordings; need not exist yet
+    std::filesystem::path folder;  // of the recordings; may not exist yet
     std::vector<ui::RecordedFlight> flights;
     std::optional<Recorder> recorder;
-    std::optional<Recorder> unwritten;  // has ended, and its file could not be written yet
+    std::optional<Recorder> unwritten;  // ended, but its file could not be written yet
     std::string saveProblem;            // why the last recording could not be saved
-    std::string saved;                  // name under which the last recording was saved, until it is deleted
+    std::string saved;                  // name of the last saved recording; empty once it is deleted
     std::optional<RunningReplay> replay;
 };
 
-// The folder "flights" beside the settings.
+// Returns the folder "flights" beside the settings.
 std::filesystem::path recordingsFolder();
 RecordingController openRecordings(const std::filesystem::path& folder);
 void listRecordings(RecordingController& controller);
 
 // Starts a recording. name: follows the rules for presets; empty: the next free "flight 1", "flight 2" ...
-// The Error says what is wrong with the name, that it is taken, or that the recording before is not
-// saved yet.
+// The Error says that the name is invalid or taken, or that the previous recording is not saved yet.
 planet::Result<void> startRecording(RecordingController& controller, planet::Planet& planet,
                                     std::string name);
-// Saves the recording under its name, or under the next free one if that is taken by now. A recording that
-// cannot be saved is kept and tried again at the next call; one without frames is discarded. planet: null if
-// it is gone.
+// Saves the recording under its name, or under the next free one if it is taken by now. A recording that
+// cannot be saved is kept and retried at the next call; one without frames is discarded. planet: null if it
+// no longer exists.
 void stopRecording(RecordingController& controller, planet::Planet* planet, const Log& log);
 planet::Result<void> deleteRecording(RecordingController& controller, const std::filesystem::path& file);
 
 // Resets the planet and replays up to the first frame.
 planet::Result<void> startReplay(RecordingController& controller, const std::filesystem::path& file,
                                  Scene& scene, const BeforeReplay& before);
-// Changes the controls. Another kind of paging replays up to the same frame.
+// Changes the controls. If block arrival changes, replays up to the same frame.
 planet::Result<void> setReplay(RecordingController& controller, Scene& scene,
                                const ui::ReplayControls& controls);
 void moveReplay(RecordingController& controller, std::size_t frame);
-// Goes to the last frame that ends no later.
+// Moves to the last frame that ends no later than timeS.
 void moveReplayTo(RecordingController& controller, double timeS);
-// Returns the state before the replay. scene: null if it is gone.
+// Ends the replay and returns the state from before it. scene: null if it no longer exists.
 BeforeReplay stopReplay(RecordingController& controller, Scene* scene);
 
-// stepped is called after each replayed frame, changed for each recorded change of settings.
+// Callbacks: stepped after each replayed frame, changed after each recorded change of settings.
 struct ReplayWatcher {
     std::function<void(const planet::Selection&)> stepped;
     std::function<void(const ViewSettings&, bool pagingPaused)> changed;
 };
-// Replays the frames that are due so many seconds later, but no more than fit into a frame of the window.
-// seconds 0: those of a jump alone. A replay that is too slow goes on slower and leaves out no frame.
+// Replays the frames due in the next seconds, as far as they fit into a frame of the window. seconds 0: only
+// those of a jump. A replay that is too slow runs slower but skips no frame.
 planet::Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
                                    const ReplayWatcher& watcher);
 
-// The parts of other features that a replay takes over from the user and restores at its end.
+// Parts of other features that a replay controls and restores at its end.
 struct ReplayContext {
     Settings& settings;
     CameraController& camera;
@@ -103,22 +102,22 @@ struct ReplayContext {
     InstrumentsController& instruments;
     CompareController& compare;
 };
-// scene: null while no planet is open.
+// scene: null if no planet is open.
 void execute(RecordingController& controller, const ui::RecordingCommand& command, Scene* scene,
              const ReplayContext& context, Notices& notices);
 
-// Ends the replay, if one runs, and restores the settings and the camera from before it. scene: null if its
-// planet is gone.
+// Ends a running replay and restores settings and camera from before it. scene: null if its planet no longer
+// exists.
 void endReplay(RecordingController& controller, Scene* scene, const ReplayContext& context);
-// Runs a frame of the replay, in place of moving the camera, giving the planet its settings, and choosing.
+// Runs a frame of the replay, instead of moving the camera, applying the settings, and selecting.
 void replayFrame(RecordingController& controller, Scene& scene, const ReplayContext& context, double seconds,
                  const Log& log);
 
-// Gives the planet its settings, and records them.
+// Applies the settings to the planet, and records them.
 void giveSettings(RecordingController& controller, Scene& scene, const ViewSettings& settings,
                   bool pagingPaused, const Log& log);
-// Records the frame that was just chosen, if a flight is being recorded. Returns true if it was the last one
-// that fits, which ends the recording.
+// Records the frame just selected if a recording is running. Returns true if the recording is full and has
+// ended.
 bool recordFrame(RecordingController& controller, planet::Planet& planet, const Log& log);
 
 ui::RecordingView recordingViewOf(const RecordingController& controller, const ViewSettings& settings);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using planet::Result;
 using planet::gl::ChunkPrograms;
 
-// What a file tells of its bake. Its compression level is not in it, nor is its source's path.
+// Returns the bake settings stored in a file, which exclude the compression level and the source's path.
 BakeRequest requestOf(const planet::PlanetShape& shape) {
     BakeRequest request;
     request.settings.faceSize = planet::faceCells(shape) + 1;
@@ -27,7 +27,7 @@ BakeRequest requestOf(const planet::PlanetShape& shape) {
     return request;
 }
 
-// Its own tiles of colour.
+// Adds the file's own colour tiles to the request.
 void addColours(const planet::ChunkFileInfo& info, const DataSet& data, BakeRequest& request) {
     if (!info.colour) return;
     request.settings.colour.format = info.colour->format;
@@ -35,7 +35,7 @@ void addColours(const planet::ChunkFileInfo& info, const DataSet& data, BakeRequ
     request.colour = data.bakedColour;
 }
 
-// A colour image that cannot be read is told; the planet is then coloured by height.
+// Reads a colour image. If it cannot be read, a warning is logged and the planet is coloured by height.
 std::optional<Picture> readColour(const fs::path& file, const Log& log) {
     if (file.empty()) return std::nullopt;
     Result<Picture> colour = readPlanetPicture(file);
@@ -44,9 +44,9 @@ std::optional<Picture> readColour(const fs::path& file, const Log& log) {
     return std::nullopt;
 }
 
-// What is known of a planet that was just opened.
+// Returns a planet that was just opened with what is known of it.
 OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
-    // As stored; the planet's own shape has the exaggeration counted in.
+    // The stored shape is used, because the planet's own shape includes the exaggeration.
     const planet::PlanetShape shape = scene.planet->file().info().shape;
     OpenPlanet open{data, requestOf(shape), false, false, std::move(scene)};
     open.scene.renderer.chunks().setAirInBackground(true);
@@ -98,7 +98,7 @@ void fail(Session& session, const planet::Error& error, const Log& log) {
     session.problem = error;
 }
 
-// Nobody waits for it any more; it is let go once it has ended.
+// Cancels the bake without waiting for it; it is freed when it has ended.
 void retireBake(Session& session, const Log& log) {
     if (!session.bake) return;
     if (!session.bake->stopping())
@@ -116,7 +116,7 @@ void beginBake(Session& session, SessionBake&& bake, const Log& log) {
     session.bake.emplace(std::move(bake));
 }
 
-// Two bakes must not write the same file, and one that was cancelled may still be at it.
+// Starts the bake once cancelled bakes have ended, because two bakes must not write the same file.
 void launchWaitingBake(Session& session) {
     std::erase_if(session.ending, [](const auto& job) { return job->takeResult().has_value(); });
     if (!session.bake || session.bake->job || !session.ending.empty()) return;
@@ -168,7 +168,7 @@ void advanceEstimate(SessionEstimate& estimate) {
         const std::optional<Result<planet::BakeEstimate>> result = estimate.job->takeResult();
         if (!result) return;
         estimate.job.reset();
-        // A newer question makes this answer worthless.
+        // The result is discarded if a newer request waits.
         if (!estimate.next) {
             estimate.result = *result ? std::optional(**result) : std::nullopt;
             estimate.problem = *result ? std::string() : result->error().message;
@@ -186,7 +186,7 @@ void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
 }
 
 fs::file_time_type newestIn(const fs::path& folder) {
-    fs::file_time_type newest = fs::file_time_type::min();  // today is negative on some clocks
+    fs::file_time_type newest = fs::file_time_type::min();  // current times are negative on some clocks
     std::error_code status;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
         newest = std::max(newest, entry.last_write_time(status));
@@ -221,7 +221,7 @@ planet::Error missingColour(const fs::path& image) {
                     image.string())};
 }
 
-// What a request would make, and whether all that it is made of is there.
+// Returns the data set that a request would create, or an Error if one of its sources is missing.
 Result<DataSet> dataSetOf(const BakeRequest& request) {
     if (!planet::heightSourceExists(request.source)) return tl::unexpected(missingSource(request.source));
     if (!request.colour.empty() && !planet::heightSourceExists(request.colour))
@@ -293,7 +293,7 @@ void startBake(Session& session, const BakeRequest& request, const Log& log) {
     SessionBake bake;
     bake.request = request;
     bake.data = *found;
-    // A picture that was chosen for this source stays.
+    // The image that was chosen for this source is kept.
     if (samePlace(session.data.source, request.source)) bake.data.colourImage = session.data.colourImage;
     bake.forComparison = true;
     bake.needed = !session.open;
@@ -371,7 +371,7 @@ Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const
             fmt::format("{}: is not baked yet; open it once in the window", data.source.string()));
     }
     std::optional<Picture> colour;
-    // Without its picture it is coloured by height.
+    // Without its image the planet is coloured by height.
     if (data.colourImage != session.colourFile && !data.colourImage.empty()) {
         if (Result<Picture> read = readPlanetPicture(data.colourImage)) colour = std::move(*read);
     } else if (data.colourImage == session.colourFile) {
@@ -408,7 +408,7 @@ void requestEstimate(Session& session, const BakeRequest& request) {
 
 namespace {
 
-// The open planet that is shown; as const as the session.
+// Returns the shown planet, const if the session is.
 template <class AnySession>
 auto* shownIn(AnySession& session) {
     if (session.showsPrevious && session.previous) return &*session.previous;

@@ -1,4 +1,4 @@
-// The settings, their history and the presets. Main thread.
+// The settings, their undo history and the presets. Main thread.
 #pragma once
 
 #include <string>
@@ -18,14 +18,14 @@ struct SettingsController {
     PresetLibrary presets{presetFolders()};
 };
 
-// Settings stay as they are while a replay runs, which restores them at its end.
+// Settings stay as they are during a replay, which restores them at its end.
 void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,
              Notices& notices);
 
-// Replaces the view settings in a step of their history. name: as the undo menu shows it, "preset popping".
+// Replaces the view settings as one undo step. name: as the undo menu shows it, "preset popping".
 void replaceView(SettingsController& controller, ViewSettings settings, std::string name);
 
-// Holds until the presets change.
+// Valid until the presets change.
 void fillView(SettingsController& controller, ui::EditorView& view);
 
 }  // namespace worldy

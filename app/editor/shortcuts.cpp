@@ -35,7 +35,7 @@ void zoomText(const Targets& targets, double factor) {
     targets.workspace.scale = std::clamp(targets.workspace.scale * factor, 0.5, 3.0);
 }
 
-// All away, or all that stand there at first where none is shown.
+// Hides all panels, or shows the default panels if none is shown.
 void toggleAllPanels(const Targets& targets) {
     auto& panels = targets.workspace.panels;
     const bool anyShown = std::any_of(panels.begin(), panels.end(), [](const auto& p) { return p.shown; });
@@ -43,7 +43,7 @@ void toggleAllPanels(const Targets& targets) {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i].shown = !anyShown && first[i].shown;
 }
 
-// Closes what is open over the panels, the topmost first; with nothing open, selects nothing.
+// Closes the topmost popup or dialog; if none is open, clears the selection.
 void leave(const Targets& targets) {
     const bool popupOpen = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     if (popupOpen)
@@ -54,7 +54,7 @@ void leave(const Targets& targets) {
         ask(targets, ui::SelectChunk{});
 }
 
-// From A's picture to B's and back, whatever the two were shown as.
+// Flips between A's and B's picture, in every compare mode.
 void flipCompared(const Targets& targets) {
     if (!targets.view.compare.on) return;
     CompareSettings& compare = targets.settings.compare;
@@ -93,7 +93,7 @@ constexpr std::array shortcuts = {
     Shortcut{GLFW_KEY_ESCAPE, noModifier, leave},
 };
 
-// GLFW's code of a panel's "Ctrl+X" or "Ctrl+Shift+X" is the letter or digit itself.
+// GLFW's key code in a panel's "Ctrl+X" or "Ctrl+Shift+X" is the letter or digit itself.
 void togglePanel(const KeyPress& press, bool shifted, const Targets& targets) {
     for (const PanelInfo& info : panelInfos) {
         const std::string_view shortcut = info.shortcut;
@@ -101,7 +101,7 @@ void togglePanel(const KeyPress& press, bool shifted, const Targets& targets) {
         bool& shown = targets.workspace.panels[static_cast<std::size_t>(info.id)].shown;
         const Dock dock = targets.workspace.panels[static_cast<std::size_t>(info.id)].dock;
         const bool inFront = targets.workspace.inFront[static_cast<std::size_t>(dock)] == info.id;
-        // What hides behind another tab comes to the front first.
+        // A panel behind another tab comes to the front instead of being hidden.
         if (shown && inFront)
             shown = false;
         else
@@ -117,11 +117,11 @@ std::vector<std::string> shortcutNames() {
         if (key == GLFW_KEY_ESCAPE) return "Esc";
         if (key == GLFW_KEY_KP_ADD || key == GLFW_KEY_EQUAL) return "+";
         if (key == GLFW_KEY_KP_SUBTRACT) return "-";
-        return std::string(1, static_cast<char>(key));  // GLFW's code of a letter is the letter
+        return std::string(1, static_cast<char>(key));  // GLFW's code of a letter is its ASCII code
     };
     std::vector<std::string> names;
     for (const Shortcut& one : shortcuts) {
-        // Shift only finds the plus on some keyboards.
+        // Shift is needed only to type the plus on some keyboards.
         const bool shifted = (one.modifiers & shift) != 0 && one.key != GLFW_KEY_EQUAL;
         names.push_back(std::string((one.modifiers & ctrl) != 0 ? "Ctrl+" : "") + (shifted ? "Shift+" : "") +
                         keyName(one.key));

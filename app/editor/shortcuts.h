@@ -1,4 +1,4 @@
-// The keys that do what menus do.
+// The keyboard shortcuts of menu commands.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace worldy {
 
-// What a key may change at once; the rest it asks for by commands.
+// The state that keys change directly; everything else is done by commands.
 struct ShortcutTargets {
     const ui::EditorView& view;
     ViewSettings& settings;
@@ -21,10 +21,10 @@ struct ShortcutTargets {
     ui::Commands& commands;
 };
 
-// The names of all keys that obeyShortcuts() obeys, panels' left out: "Ctrl+Shift+Z", "F1".
+// Returns the names of all keys that obeyShortcuts() handles, except those of panels: "Ctrl+Shift+Z", "F1".
 std::vector<std::string> shortcutNames();
 
-// Nothing while a text field has the keys.
+// Executes pressed shortcuts. Does nothing while a text field has focus.
 void obeyShortcuts(std::span<const KeyPress> pressed, const ShortcutTargets& targets);
 
 }  // namespace worldy

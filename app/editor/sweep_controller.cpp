@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// Returns the settings of the open planet's bake. If they are the defaults, other chunk sizes are baked by
-// the defaults too, so that their files have the names that `worldy sweep` and opening the source look for.
+// Returns the settings of the open planet's bake. If they are the defaults, other chunk sizes also use
+// defaults, so that their files have the names that `worldy sweep` and opening the source look for.
 planet::BakeSettings bakeSettingsOf(const OpenPlanet& open) {
     planet::BakeSettings usual;
     usual.chunkSize = open.baked.settings.chunkSize;
@@ -93,7 +93,7 @@ void startSweep(SweepController& controller, const OpenPlanet* open, const Sweep
                 const ViewSettings& settings, const Log& log) {
     if (!open || controller.job) return;
     controller.problem.clear();
-    // Before anything is baked for it.
+    // The flight is checked before anything is baked for it.
     const Result<FlightPath> path = loadFlightPath(request.flight);
     Result<SweepPlan> plan =
         path ? sweepPlanOf(*open, request, settings) : Result<SweepPlan>(tl::unexpected(path.error()));
@@ -180,7 +180,7 @@ Result<fs::path> saveSweep(const SweepController& controller, SweepCost cost, co
     }
     if (written) return picture;
     std::error_code status;
-    fs::remove(*picture, status);  // else an empty file would be left
+    fs::remove(*picture, status);  // otherwise an empty file would remain
     return tl::unexpected(written.error());
 }
 

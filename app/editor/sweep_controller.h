@@ -14,37 +14,38 @@
 
 namespace worldy {
 
-// A sweep keeps to the chunk files that it began with: the planet may be closed or baked again while it runs.
+// A sweep keeps using the chunk files that it started with: the planet may be closed or rebaked while it
+// runs.
 struct SweepController {
     std::unique_ptr<SweepJob> job{};  // at most one
-    bool suggesting = false;          // what the job does
-    std::vector<SweptFile> files{};   // of the table
+    bool suggesting = false;          // the job searches for a tau
+    std::vector<SweptFile> files{};   // the chunk files of the table
     planet::HeightSourceSettings sourceSettings{};
-    std::filesystem::path bakeSource{};  // of the files; empty where it is not known
+    std::filesystem::path bakeSource{};  // of the files; empty if unknown
     std::optional<SweepTable> table{};
     std::vector<SweepSuggestion> suggestions{};
     std::string problem{};
 };
 
 // Returns the plan of a sweep over the shown planet, with the current settings except overlays, fault
-// injection and simulated reads. Chunk sizes other than the planet's are bakes in the cache with the planet's
-// other bake settings. The Error says that there can be none because the source is not known.
+// injection and simulated reads. Other chunk sizes are bakes in the cache with the planet's other bake
+// settings. The Error says that these are impossible because the source is not known.
 planet::Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const SweepRequest& request,
                                       const ViewSettings& settings);
 
-// open: null while no planet is open. The log and the panel report why a sweep cannot start.
+// open: null if no planet is open. The log and the panel report why a sweep cannot start.
 void startSweep(SweepController& controller, const OpenPlanet* open, const SweepRequest& request,
                 const ViewSettings& settings, const Log& log);
 void cancelSweep(SweepController& controller);
-// Once a frame: takes the results that have come.
+// Call every frame; takes new results.
 void advanceSweep(SweepController& controller, const Log& log);
 
-// Shows the chunks of a size that was swept, without a bake if their file still exists.
+// Shows the chunks of a swept size, without a bake if their file still exists.
 void openSweptChunks(const SweepController& controller, int chunkSize, Session& session,
                      const ViewSettings& settings, const Log& log);
 
-// Saves a complete table as CSV and JSON, and as a plot beside them under the same new name, in a folder that
-// exists. Returns the plot's file. If the plot cannot be drawn, the Error says so and the tables stay.
+// Saves a complete table as CSV and JSON, and the plot, under one new name in an existing folder. Returns the
+// plot's file. If the plot cannot be drawn, the Error says so and the tables remain.
 planet::Result<std::filesystem::path> saveSweep(const SweepController& controller, SweepCost cost,
                                                 const std::filesystem::path& folder);
 

@@ -22,7 +22,7 @@ std::vector<SettingDifference> differencesOf(const ViewSettings& before, const V
     return differences(here, there);
 }
 
-// How names of settings end in their units.
+// Endings of setting names that denote units.
 struct UnitEnding {
     std::string_view ending;
     std::string_view unit;
@@ -54,7 +54,7 @@ std::string nameOf(const SettingDifference& difference) {
     const std::string& words = difference.label;
     if (difference.there == "true") return words + " on";
     if (difference.there == "false") return words + " off";
-    // A ramp or a file's path would fill the menu.
+    // A ramp or a path would be too long for the menu.
     if (difference.here.size() > 24 || difference.there.size() > 24) return words;
     if (difference.setting == "surface.sun_hour")
         return fmt::format("{} {} -> {}", words, clockOf(difference.here), clockOf(difference.there));
@@ -90,7 +90,7 @@ void UndoHistory::record(const ViewSettings& before, const ViewSettings& after, 
         }
         lastChangeS_ = timeS;
     }
-    // A control may change its value in the very frame in which it is let go.
+    // A control may change its value in the frame in which it is released.
     if (held_ ? !held : timeS - lastChangeS_ > undoMergeS) close();
 }
 

@@ -1,4 +1,4 @@
-// The history of the view settings: what Ctrl+Z and Ctrl+Shift+Z walk through. Plain values, no clock.
+// The undo history of the view settings (Ctrl+Z and Ctrl+Shift+Z). Plain values, no clock.
 #pragma once
 
 #include <deque>
@@ -10,26 +10,26 @@
 
 namespace worldy {
 
-inline constexpr std::size_t maxUndoSteps = 200;  // the oldest ones are forgotten
-// Changes of the same settings that come as close together, as by a mouse wheel or a held key, are one step.
+inline constexpr std::size_t maxUndoSteps = 200;  // the oldest are discarded
+// Changes of the same settings within this time, for example by a mouse wheel or a held key, form one step.
 inline constexpr double undoMergeS = 0.5;
 
 class UndoHistory {
 public:
-    // Once a frame: the settings before and after the panels and keys have changed them, and whether a
-    // control is being held, as a slider is while it is dragged. All changes while it is held are one step;
-    // those that end where they began are none. A new step clears what could be redone. timeS: any clock
+    // Call every frame with the settings before and after the panels and keys have changed them. held: a
+    // control is held, for example a slider that is dragged. All changes while it is held form one step;
+    // changes that end at the initial value form none. A new step clears the redo steps. timeS: any clock
     // that does not run backwards.
     void record(const ViewSettings& before, const ViewSettings& after, bool held, double timeS);
 
-    // A change that is a step of its own with a name of its own: "preset popping".
+    // Adds a change as a named step of its own: "preset popping".
     void add(const ViewSettings& before, const ViewSettings& after, std::string name);
 
-    // The settings to go back or forward to; none where there are none.
+    // Return the settings to go back or forward to; none if there are none.
     std::optional<ViewSettings> undo();
     std::optional<ViewSettings> redo();
 
-    // What they would take back or do again: "tau 2 -> 3 px"; empty where nothing.
+    // Return the change that undo or redo would make: "tau 2 -> 3 px"; empty if there is none.
     std::string undoName() const;
     std::string redoName() const;
 
@@ -38,19 +38,19 @@ private:
         ViewSettings before;
         ViewSettings after;
         std::string name;
-        std::vector<std::string> settings;  // that it changes, "lod.tau_px"
+        std::vector<std::string> settings;  // the settings it changes, "lod.tau_px"
     };
     void push(Step step);
-    void close();  // the newest step, which then grows no more
+    void close();  // the newest step, which cannot grow afterwards
 
     std::deque<Step> done_;  // newest last
     std::vector<Step> undone_;
-    bool open_ = false;  // the newest step may still grow,
-    bool held_ = false;  // for as long as a control is held; else for undoMergeS
+    bool open_ = false;  // the newest step may still grow
+    bool held_ = false;  // while a control is held; otherwise for undoMergeS
     double lastChangeS_ = 0;
 };
 
-// "tau 2 -> 3 px", "outlines on", "4 settings".
+// Returns for example "tau 2 -> 3 px", "outlines on", "4 settings".
 std::string changeName(const ViewSettings& before, const ViewSettings& after);
 
 }  // namespace worldy

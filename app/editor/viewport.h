@@ -1,5 +1,5 @@
-// The pictures of the planet in the window: what the lod view shows, and what the observer sees of it, side
-// by side or alone. Wants a current GL context; one thread.
+// The planet's pictures in the window: the LOD view's and the observer's, side by side or alone. Needs a
+// current GL context; one thread.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,9 @@ struct PixelSize {
 struct PlanetPicture {
     ui::Rect rect{};                                   // in the window; empty: not shown
     PointerInput pointer;                              // over it, in the last frame
-    planet::View view;                                 // that it was drawn for
-    std::optional<planet::gl::RenderTarget> target{};  // as large as the rectangle, once drawn
-    // While comparing: what is shown in its place, not owned and as large, and where in it its columns lie.
+    planet::View view;                                 // the view that was drawn
+    std::optional<planet::gl::RenderTarget> target{};  // as large as rect once drawn
+    // While comparing: the target shown instead, not owned and of the same size, and the mix of its columns.
     const planet::gl::RenderTarget* instead = nullptr;
     planet::gl::PictureMix mix{};
 
@@ -40,19 +40,20 @@ struct Viewport {
     PlanetPicture main;
     PlanetPicture observer;
     std::optional<planet::gl::DebugLines> lines{};
-    bool linesFailed = false;  // told once
-    float pixelRatio = 1;      // of the window's units
-    // Pictures are drawn in each frame, so one may show other settings until its shaders are compiled; not
-    // one that is kept.
+    bool linesFailed = false;  // has been reported
+    float pixelRatio = 1;      // pixels per window unit
+    // Whether drawing waits for shaders. A live picture may use stand-in shaders until its own are compiled,
+    // but a saved picture must not.
     planet::gl::ShaderWait shaderWait = planet::gl::ShaderWait::Never;
 };
 
 void layOut(Viewport& viewport, const ui::Rect& rect, ObserverMode observer, float pixelRatio);
 
-// Also of a picture that is not shown: the lod view goes on while the observer is alone.
+// Returns the size of a picture, also of one that is not shown: the LOD view continues while only the
+// observer is shown.
 PixelSize pixelSizeOf(const ui::Rect& rect, float pixelRatio);
 
-// Chunks of another frame, in the slots that hold them now.
+// Chunks of another frame, with the slots that hold them now.
 struct KeptItems {
     std::span<const planet::DrawItem> items;
     bool stitched = false;
@@ -60,14 +61,14 @@ struct KeptItems {
 
 struct PictureContent {
     planet::View view;
-    std::size_t selection = 0;                       // which of the planet's views chose
-    std::span<const planet::gl::ChunkTint> tints{};  // of its chunks
-    planet::Lines hiddenLines{};                     // the ground hides them
-    planet::Lines frontLines{};                      // seen faintly through the ground
+    std::size_t selection = 0;                       // index of the planet view that selected the chunks
+    std::span<const planet::gl::ChunkTint> tints{};  // of the chunks
+    planet::Lines hiddenLines{};                     // occluded by the ground
+    planet::Lines frontLines{};                      // drawn faintly through the ground
     std::optional<KeptItems> kept{};                 // drawn instead of the selection
 };
 
-// Draws into the picture's target. What fails is told in the log, and the picture stays as it was.
+// Draws into the picture's target. Failures are logged, and the picture then stays as it was.
 void drawPicture(Viewport& viewport, PlanetPicture& picture, Scene& scene, const ViewSettings& settings,
                  const PictureContent& content, const Log& log);
 

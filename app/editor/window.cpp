@@ -1,7 +1,7 @@
 #include "app/editor/window.h"
 
 #include <epoxy/gl.h>
-// After epoxy, which brings the GL declarations.
+// Must follow epoxy, which provides the GL declarations.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -32,7 +32,7 @@ struct WindowSize {
     int width, height;
 };
 
-// No larger than the screen has room for: kept sizes may come from another one.
+// Clamps the size to the screen, since a stored size may come from another one.
 WindowSize fittingSize(const WindowConfig& config) {
     WindowSize size{config.widthPx, config.heightPx};
     if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor()) {
@@ -59,7 +59,7 @@ GLFWwindow* createWindow(const WindowConfig& config) {
     return nullptr;
 }
 
-// The context has the window's version, since createWindow's hints still hold.
+// Creates a hidden window. Its context has the window's version, because createWindow()'s hints still apply.
 GLFWwindow* createHiddenWindow(GLFWwindow* sharing) {
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     GLFWwindow* window = glfwCreateWindow(1, 1, "Worldy's shaders", nullptr, sharing);
@@ -69,12 +69,12 @@ GLFWwindow* createHiddenWindow(GLFWwindow* sharing) {
 
 }  // namespace
 
-// GLFW itself and the one window, ended together and in order.
+// GLFW and the window, destroyed together in the right order.
 struct Window::Glfw {
     GLFWwindow* window = nullptr;
-    GLFWwindow* besides = nullptr;  // never shown: its context shares the window's objects
+    GLFWwindow* besides = nullptr;  // never shown; its context shares the window's objects
     InputQueue input;
-    std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in the frame
+    std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in this frame
     std::vector<KeyPress> pressedKeys;
     std::vector<std::filesystem::path> droppedFiles;
 
@@ -87,7 +87,7 @@ struct Window::Glfw {
     }
 
     void listen();
-    // Gives ImGui the events of the next frame. Returns where the pointer was if a button changed.
+    // Passes the events of the next frame to ImGui. Returns the pointer's position if a button changed.
     std::optional<glm::dvec2> giveInput();
 };
 
@@ -129,7 +129,7 @@ void Window::Glfw::listen() {
 
 std::optional<glm::dvec2> Window::Glfw::giveInput() {
     std::optional<glm::dvec2> pointer;
-    // The field may have been left in the last frame, which WantTextInput tells one frame later.
+    // The field may have lost focus in the last frame, which WantTextInput reports one frame late.
     const bool textFieldIsEdited = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
     for (const InputEvent& event : input.takeFrame(textFieldIsEdited)) {
         switch (event.kind) {
@@ -190,7 +190,7 @@ Window::~Window() {
     ImGui::DestroyContext();
 }
 
-// Where ImGui's units are already scaled to pixels, the font must not be scaled a second time.
+// Returns the scale of the font. If ImGui's units are already scaled to pixels, the font is not scaled again.
 float Window::contentScale() const {
     float scale = 1;
     glfwGetWindowContentScale(glfw_->window, &scale, nullptr);
@@ -202,7 +202,7 @@ void Window::startImGui(const WindowConfig& config) {
     imguiStarted_ = true;
     imguiFile_ = config.imguiFile.string();
     ImGui::GetIO().IniFilename = imguiFile_.c_str();
-    // A table that is let go while its panel is hidden comes back a frame too narrow.
+    // Otherwise ImGui frees tables of hidden panels, which come back a frame too narrow.
     ImGui::GetIO().ConfigMemoryCompactTimer = -1;
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
     glfw_->listen();
@@ -214,7 +214,7 @@ void Window::startImGui(const WindowConfig& config) {
 void Window::setTheme(Theme theme, double scale) {
     const float wanted = contentScale() * static_cast<float>(scale);
     if (theme == theme_ && wanted == appliedScale_) return;
-    const bool first = appliedScale_ == 0;  // the first frame makes the font's texture itself
+    const bool first = appliedScale_ == 0;  // the first frame creates the font's texture itself
     theme_ = theme;
     appliedScale_ = wanted;
     if (!first) ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -259,8 +259,7 @@ void Window::beginFrame(double waitS) const {
     const std::optional<glm::dvec2> pointer = glfw_->giveInput();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    // ImGui's backend asks for the buttons and the pointer as they are now, which may be later than the
-    // event.
+    // ImGui's backend reads the current buttons and pointer, which may be later than the event.
     ImGuiIO& io = ImGui::GetIO();
     std::copy_n(glfw_->buttonsDown.begin(), std::size(io.MouseDown), std::begin(io.MouseDown));
     if (pointer) io.MousePos = {static_cast<float>(pointer->x), static_cast<float>(pointer->y)};
@@ -273,8 +272,8 @@ void Window::endFrame(const std::function<void()>& drawn) {
     glfwGetFramebufferSize(glfw_->window, &widthPx, &heightPx);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, widthPx, heightPx);
-    // What docks and pictures lie on, cleared at once: filled window by window it costs a processor much of a
-    // frame.
+    // Clears the background behind docks and pictures at once; with software rendering, filling it per window
+    // takes much of a frame.
     const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
     glClearColor(ground.x, ground.y, ground.z, 1);
     glClear(GL_COLOR_BUFFER_BIT);

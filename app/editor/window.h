@@ -1,4 +1,4 @@
-// The window with its OpenGL context, and Dear ImGui in it.
+// The window with its OpenGL context and Dear ImGui.
 #pragma once
 
 #include <filesystem>
@@ -21,12 +21,12 @@ namespace worldy {
 struct WindowConfig {
     int widthPx = 1600;
     int heightPx = 1000;
-    std::filesystem::path imguiFile;  // where ImGui keeps its layout
+    std::filesystem::path imguiFile;  // ImGui's layout file
     Theme theme = Theme::Dark;
-    double scale = 1;  // of the monitor's own, [0.5, 3]
+    double scale = 1;  // relative to the monitor's scale, [0.5, 3]
 };
 
-// A key that went down, by GLFW's codes, with GLFW's modifiers.
+// A key press with GLFW's key code and modifiers.
 struct KeyPress {
     int key = 0;
     int modifiers = 0;
@@ -38,7 +38,7 @@ struct WindowFailure {
     std::string message;
 };
 
-// One at a time; main thread only.
+// Only one may exist. Main thread only.
 class Window {
 public:
     static tl::expected<Window, WindowFailure> open(const WindowConfig& config);
@@ -50,34 +50,35 @@ public:
     bool closing() const;
     void close() const;
 
-    // Reads input, waiting for it for a while where there is no hurry, and starts ImGui's frame.
+    // Reads input, waiting up to waitS for it, and starts ImGui's frame.
     void beginFrame(double waitS) const;
-    // Draws ImGui's windows and shows the picture; calls drawn with the picture done but not yet shown.
+    // Draws ImGui's windows and presents the frame. Calls drawn when the frame is drawn but not yet
+    // presented.
     void endFrame(const std::function<void()>& drawn);
 
-    // The keys that went down or repeat in this frame, the same that ImGui sees: input is handed out frame by
-    // frame (app/editor/input_queue.h), so a key that is released before a slow frame begins is seen too.
+    // Returns the keys pressed or repeated in this frame, the same that ImGui sees. Input is handed out frame
+    // by frame (app/editor/input_queue.h), so a key released before a slow frame begins is not lost.
     const std::vector<KeyPress>& pressedKeys() const;
-    // Events of keys and buttons that wait for the next frames.
+    // Returns the number of key and button events that wait for the next frames.
     std::size_t queuedInput() const;
-    // What was dropped onto the window since the frame before.
+    // Returns the files dropped onto the window since the last frame.
     const std::vector<std::filesystem::path>& droppedFiles() const;
 
-    // Between two frames: fonts and colours, where they or the monitor's scale have changed.
+    // Updates fonts and colours if the theme or scale has changed. Call between two frames.
     void setTheme(Theme theme, double scale);
     void setClipboard(const std::string& text) const;
 
-    // A thread that compiles shaders for this window's context; null where the driver has no second context
-    // for it. It must end before the window.
+    // Returns a thread that compiles shaders for this window's context; null if the driver has no second
+    // context for it. It must end before the window.
     std::shared_ptr<planet::gl::GlWorker> makeShaderWorker() const;
 
-    // What the default framebuffer shows, before endFrame's swap of the next frame: rows from the top, sRGB.
+    // Reads the default framebuffer before the next endFrame() swaps it: rows from the top, sRGB.
     Picture readPicture() const;
-    // Of drawing ImGui's windows, and of handing the picture to the monitor.
+    // Return the GPU time of drawing ImGui's windows, and the time of presenting the frame.
     double panelsGpuMs();
     double presentMs() const;
 
-    // In ImGui's units; pixelRatio() framebuffer pixels each.
+    // The window's size in ImGui's units, each of which is pixelRatio() framebuffer pixels.
     float width() const;
     float height() const;
     float pixelRatio() const;
@@ -93,7 +94,7 @@ private:
     std::string imguiFile_;
     bool imguiStarted_ = false;
     Theme theme_ = Theme::Dark;
-    float appliedScale_ = 0;  // contentScale times the user's
+    float appliedScale_ = 0;  // contentScale() times the user's
     std::optional<planet::gl::GpuTimer> panelsTimer_;
     double presentMs_ = 0;
 };

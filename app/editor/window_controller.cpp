@@ -15,7 +15,7 @@ namespace {
 
 using planet::Result;
 
-// Returns the command line that repeats the main picture; needs a planet.
+// Returns the command line that reproduces the main picture. Needs a planet.
 std::string lineOf(const WindowContent& content) {
     const planet::View& view = content.viewport.main.view;
     const OpenPlanet& open = *shownPlanet(content.session);
@@ -32,7 +32,7 @@ void copyCommandLine(const Window& window, const WindowContent& content, Notices
     show(notices, "Command line copied");
 }
 
-// Returns true while a picture is drawn by other shaders than its settings ask for.
+// Returns true while stand-in shaders are used, so that the picture does not match the settings.
 bool showsStandIn(const WindowContent& content) {
     const Scene* const scene = shownScene(content.session);
     const auto& other = content.compare.other;

@@ -1,4 +1,4 @@
-// The window's own state: panels, menus, screenshots, and the log that is shown. Main thread.
+// The window's own state: panels, menus, screenshots, and the displayed log. Main thread.
 #pragma once
 
 #include <deque>
@@ -23,11 +23,11 @@ struct WindowController {
     ui::PanelStates panels;
     ui::MenuState menu;
     std::deque<LogLine> logLines;
-    std::optional<ui::TakeScreenshot> screenshotPending;  // until a frame is drawn as it is set
+    std::optional<ui::TakeScreenshot> screenshotPending;  // kept until a frame is drawn with its settings
     std::filesystem::path itemMapFile;                    // for the positions of controls; empty: not written
 };
 
-// The content of the window that a screenshot shows and its command line repeats.
+// The content of the window that a screenshot shows and its command line reproduces.
 struct WindowContent {
     const Session& session;
     const Settings& settings;
@@ -38,8 +38,8 @@ struct WindowContent {
 void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
              const WindowContent& content, Notices& notices);
 
-// Writes the screenshot that was asked for, if any, into a new file, with the settings that made it. Call
-// with the frame drawn but not yet shown. Waits for a frame that shows what the settings ask for.
+// Writes the requested screenshot, if any, into a new file, with the settings that made it. Call when the
+// frame is drawn but not yet presented. Waits for a frame that is drawn as the settings require.
 void keepScreenshot(WindowController& controller, const Window& window, const WindowContent& content,
                     Notices& notices);
 
