@@ -27,11 +27,12 @@ using planet::Result;
 struct OpenSettings {
     Settings settings;
     fs::path file;
-    std::string textBefore;  // what the file would hold unchanged
-    bool mayBeSaved = true;  // not over a file that could not be read
+    std::string textBefore;  // the file's text without changes
+    bool mayBeSaved = true;  // false: the file could not be read and is not overwritten
 };
 
-// A file that the user names must be good; their own may be bad, which is told and gets over with defaults.
+// Reads the settings. A file named by the user must be valid; if the user's own is not, a warning is logged
+// and defaults are used.
 Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
     OpenSettings open;
     const bool named = !options.settingsFile.empty();
@@ -44,7 +45,7 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
             open.settings = *loaded;
         else
             log->warn("{}; using the defaults and leaving the file unchanged", loaded.error().message);
-        // A screenshot brings settings and stays the picture that it is.
+        // A screenshot provides settings but is never overwritten.
         open.mayBeSaved = loaded.has_value() && !isPng(open.file);
     }
     open.textBefore = settingsText(open.settings);
@@ -62,7 +63,7 @@ Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& setting
     const fs::path named = !options.file.empty() ? options.file
                            : fromSettings        ? fs::path(settings.dataSet)
                                                  : earthElevation();
-    // A picture that was chosen for it is what its tiles are made of too.
+    // The settings' own image is also the source of the colour tiles.
     const bool ownPicture = fromSettings && !settings.colourImage.empty();
     Result<DataSet> set =
         findDataSet(named, {}, {}, ownPicture ? std::optional(fs::path(settings.colourImage)) : std::nullopt);
@@ -70,7 +71,7 @@ Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& setting
     return set;
 }
 
-// Bad data is told before a window opens for it.
+// Reports bad data before a window opens.
 Result<void> checkDataSet(const DataSet& set) {
     if (set.needsBake) return planet::openHeightSource(set.source, {}).map([](const auto&) {});
     return planet::ChunkFile::open(set.chunkFile).map([](const auto&) {});
@@ -111,8 +112,8 @@ Result<void> bakeIfNeeded(const DataSet& data) {
         .map([](const auto&) {});
 }
 
-// Writes the first view that the window would have shown. It lies beside the bakes, since Worldy overwrites
-// it each time and the current folder may be a checkout.
+// Writes the first view that the window would show. The file is beside the bakes, because Worldy overwrites
+// it every time and the current folder may be a source tree.
 Result<void> writeFirstView(const AppOptions& options, const DataSet& data, const Settings& settings) {
     if (Result<void> baked = bakeIfNeeded(data); !baked) return baked;
     ShotOptions shot;

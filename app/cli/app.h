@@ -1,4 +1,4 @@
-// worldy FILE: the window, or a picture of its first view where there is no display.
+// The command worldy FILE: opens the window, or draws a picture of its first view if there is no display.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@ namespace worldy {
 struct AppOptions {
     std::filesystem::path file;          // empty: the settings' data set, or the Earth
     std::filesystem::path settingsFile;  // empty: the user's own
-    std::filesystem::path shaderFolder;  // empty: the shaders built in
+    std::filesystem::path shaderFolder;  // empty: the built-in shaders
     std::filesystem::path
-        itemMapFile;  // where to write where controls are (ui/kit/item_map.h); empty: nowhere
+        itemMapFile;  // for the positions of controls (ui/kit/item_map.h); empty: not written
 };
 
-// The program's exit code.
+// Returns the program's exit code.
 int runApp(const AppOptions& options);
 
 }  // namespace worldy

@@ -54,8 +54,8 @@ Result<std::vector<planet::CameraPose>> posesOf(const AuditOptions& options, con
     return auditPoses(planet.file());
 }
 
-// Loads for this view alone: a full budget and the height of the ground depend on what is resident. A camera
-// below the ground is lifted above it, whose height is known once the view has settled.
+// Settles a view without blocks from earlier views, since a full budget and the height of the ground depend
+// on what is resident. A camera below the ground is lifted above it once the view has settled.
 AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const planet::LodSettings& lod,
                      const AuditOptions& options, planet::View& view) {
     const double radiusM = planet.tree().shape.radiusM;
@@ -77,7 +77,7 @@ AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const plane
     return audited;
 }
 
-// A chunk of one of the views.
+// A chunk in one of the views.
 struct Listed {
     std::size_t view = 0;
     const ChunkError* chunk = nullptr;
@@ -129,7 +129,7 @@ Json jsonOf(const ChunkError& chunk) {
     return json;
 }
 
-// Of one view, or of all together.
+// Adds the figures of one view, or of all together.
 void addFigures(const TrueErrorReport& report, Json& json) {
     json["worst_eps_px"] = report.worstEpsPx;
     json["worst_drawn_bound_px"] = report.worstDrawnBoundPx;
@@ -163,7 +163,7 @@ std::uint64_t samplesOf(const Audit& audit) {
         [](std::uint64_t sum, const AuditedView& view) { return sum + view.report.samples; });
 }
 
-// Over all views: sums, and of the worst the worst.
+// Returns the totals over all views: sums, and maxima of the worst figures.
 TrueErrorReport totalsOf(const Audit& audit) {
     TrueErrorReport totals;
     std::vector<double> facing;
@@ -190,7 +190,7 @@ TrueErrorReport totalsOf(const Audit& audit) {
     return totals;
 }
 
-// An eye within the bounds of a chunk that is not exact has no useful bound.
+// There is no useful bound if the eye is inside the bounds of a chunk with an error.
 std::string columnText(double px) {
     return px < 1e5 ? fmt::format("{:.3f}", px) : fmt::format("{:.1e}", px);
 }

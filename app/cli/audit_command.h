@@ -1,5 +1,5 @@
-// worldy audit: whether thresholds mean what they say. Settles at each view, measures the true error of every
-// drawn chunk (planet/measure/true_error.h) beside the bound of what is drawn, and counts what is over it.
+// The command worldy audit: checks that tolerances hold. It settles at each view, measures the true error of
+// every drawn chunk (planet/measure/true_error.h), compares it with the drawn bound, and counts violations.
 // Needs no GL.
 #pragma once
 
@@ -17,18 +17,18 @@ namespace worldy {
 
 struct AuditOptions {
     std::filesystem::path file;
-    std::vector<planet::CameraPose> cameras;  // none, and no flight: auditPoses
-    std::filesystem::path flight;             // of keys; empty: none
+    std::vector<planet::CameraPose> cameras;  // empty without a flight: auditPoses()
+    std::filesystem::path flight;             // camera keys; empty: none
     FlightSampling sampling;
-    ReportTo report;  // every chunk of every view
-    int worst = 20;   // chunks that are listed, the worst over all views; >= 0
+    ReportTo report;  // contains every chunk of every view
+    int worst = 20;   // chunks to list, the worst over all views; >= 0
     PictureSize size;
     ViewSettings view;
 };
 
 struct AuditedView {
-    planet::CameraPose pose;  // lifted above the ground where it was below
-    bool settled = true;      // false: not everything was loaded in time
+    planet::CameraPose pose;  // lifted if it was below the ground
+    bool settled = true;      // false: loading timed out
     std::uint64_t groundTriangles = 0;
     std::uint64_t skirtTriangles = 0;
     planet::TrueErrorReport report;
@@ -36,16 +36,16 @@ struct AuditedView {
 
 struct Audit {
     std::vector<AuditedView> views;
-    double measuringS = 0;  // by the clock, on all cores
+    double measuringS = 0;  // wall time, with all cores
     std::uint64_t blocksRead = 0;
 
     std::uint32_t violations() const;
 };
 
-// True: no chunk was over its prediction.
+// Returns true if no chunk exceeded its bound.
 planet::Result<bool> runAudit(const AuditOptions& options);
 
-// The parts of it.
+// The parts of runAudit().
 planet::Result<Audit> audit(const AuditOptions& options);
 void printAudit(const AuditOptions& options, const Audit& audit);
 nlohmann::ordered_json auditJson(const AuditOptions& options, const Audit& audit);

@@ -78,7 +78,7 @@ void printField(const planet::TerrainField& field, const planet::TerrainSettings
                field.unit, field.least, field.most, field.whole ? ", integer" : "");
 }
 
-// The worlds, and the kinds of made terrain with their settings.
+// Prints the worlds and the kinds of procedural terrain with their settings.
 void printPresets() {
     fmt::print("Presets: worldy bake preset:NAME -o OUT.chk\n");
     for (const World& world : worlds()) {
@@ -95,7 +95,7 @@ void printPresets() {
     }
 }
 
-// The settings and the source that is meant, detail added.
+// Returns the source with its added detail, and the settings.
 planet::Result<NamedSource> sourceFrom(const BakeOptions& options) {
     planet::Result<NamedSource> named = sourceNamed(options.source, options.settings);
     if (!named) return named;

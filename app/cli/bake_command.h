@@ -1,4 +1,4 @@
-// worldy bake: a height source into a chunk file.
+// The command worldy bake: bakes a height source into a chunk file.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 namespace worldy {
 
 struct BakeOptions {
-    std::filesystem::path source;       // a path, a terrain's text or a world's name
-    std::optional<std::string> detail;  // parameters of the detail that is added: "strength=0.8,octaves=4"
+    std::filesystem::path source;       // a path, the text of a terrain, or the name of a world
+    std::optional<std::string> detail;  // parameters of the added detail: "strength=0.8,octaves=4"
     std::filesystem::path output;
     planet::HeightSourceSettings sourceSettings;
-    planet::BakeSettings settings;  // all but the radius
-    std::optional<double> radiusM;  // a world's own, or the Earth's
-    bool listPresets = false;       // instead: tells the worlds there are, and what made terrain can be told
-    std::filesystem::path colour;   // an image; empty: no colours
+    planet::BakeSettings settings;  // the radius is in radiusM
+    std::optional<double> radiusM;  // unset: the world's, or the Earth's
+    bool listPresets = false;       // prints the worlds and the kinds of terrain instead
+    std::filesystem::path colour;   // image; empty: no colours
     bool json = false;
 };
 

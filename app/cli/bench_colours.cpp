@@ -25,7 +25,7 @@ namespace {
 using planet::ColourFormat;
 using planet::Result;
 
-// Where there is no image: patches with grain, of a size that takes next to no time.
+// Returns synthetic colours for use without an image: patches with grain, of a size that is fast to compute.
 planet::ColourSource madeColours() {
     planet::ColourSource source;
     source.description = "synthetic colours";
@@ -46,7 +46,7 @@ planet::ColourSource madeColours() {
     return source;
 }
 
-// Six chunks without children, so that nothing but colours is paged.
+// Bakes six chunks without children, so that only colours are paged.
 Result<planet::ChunkFile> bakeColours(const planet::ColourSource& colours, ColourFormat format,
                                       const std::filesystem::path& output) {
     planet::BakeSettings settings;
@@ -69,7 +69,7 @@ Result<void> readUnder(const planet::ChunkFile& file, const planet::TileData& ti
     return {};
 }
 
-// Each block once, by one thread: read, checked and unpacked.
+// Reads, checks and unpacks each block once on one thread.
 Result<void> readAll(const planet::ChunkFile& file) {
     for (const planet::Face face : planet::allFaces) {
         const auto root = file.readColourRoot(face);
@@ -96,7 +96,7 @@ Result<Pool> makePool(const planet::ChunkFile& file, std::uint64_t tiles) {
     return Pool{std::move(*renderer), bytes};
 }
 
-// All tiles, by one loader, into the pool. The Error says that they did not come.
+// Pages in all tiles with one loader. The Error says that they were not loaded.
 Result<void> pageInAll(const std::filesystem::path& chunkFile, std::uint64_t tiles, Pool& pool) {
     planet::PagingSettings paging;
     paging.budgetBytes = std::size_t{2} << 30;

@@ -51,7 +51,7 @@ private:
     std::filesystem::path path_;
 };
 
-// What the figures were taken on.
+// The machine that was measured.
 struct Machine {
     std::string processor;
     unsigned threads = 0;
@@ -75,12 +75,12 @@ Result<Machine> lookAtMachine() {
 }
 
 struct Section {
-    const char* name;   // in the JSON
+    const char* name;   // in JSON
     const char* title;  // of the table
     std::vector<BenchRow> rows;
 };
 
-// Enough digits to compare, and no more.
+// Returns a number with enough digits for comparison.
 std::string figure(double value) {
     if (value >= 1000) return fmt::format("{:.0f}", value);
     if (value >= 100) return fmt::format("{:.1f}", value);
@@ -168,12 +168,12 @@ BenchRows benchLod(const std::vector<BenchPlanet>& planets, const BenchOptions& 
 }
 
 struct Part {
-    const char* name;  // of benchParts
+    const char* name;  // one of benchParts
     const char* title;
     std::function<BenchRows()> measure;
 };
 
-// All of them; what they take must outlive them.
+// Returns all parts. The arguments must outlive them.
 std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSource& source,
                           const std::vector<BenchPlanet>& planets, const std::filesystem::path& folder) {
     const auto largest = [&]() -> const BenchPlanet& { return planets.back(); };
@@ -206,7 +206,7 @@ Result<void> runBench(const BenchOptions& options) {
     if (!machine) return tl::unexpected(machine.error());
     const Result<ScratchFolder> folder = ScratchFolder::create();
     if (!folder) return tl::unexpected(folder.error());
-    // Colours have planets of their own.
+    // Colours are measured with their own planets.
     const bool onlyColours =
         !options.parts.empty() && std::all_of(options.parts.begin(), options.parts.end(),
                                               [](const std::string& part) { return part == "colours"; });

@@ -1,5 +1,5 @@
-// worldy bench: what LOD, streaming and the file's format cost and gain, each beside a plain way to do the
-// same, paired within one run. Needs no display, but OpenGL.
+// The command worldy bench: measures the cost and the benefit of LOD, streaming and the file format, each
+// against a plain implementation in the same run. Needs no display, but OpenGL.
 #pragma once
 
 #include "app/cli/bench_options.h"
@@ -7,8 +7,8 @@
 
 namespace worldy {
 
-// The Error names the source, or what the machine lacks. Bakes into a temporary folder, which is gone
-// afterwards.
+// Runs the benchmarks. The Error names the source, or what the machine lacks. Bakes into a temporary folder,
+// which is removed afterwards.
 planet::Result<void> runBench(const BenchOptions& options);
 
 }  // namespace worldy

@@ -19,7 +19,7 @@ namespace {
 
 using planet::Result;
 
-// A block as it is read again.
+// A block that is read again.
 struct BlockToRead {
     planet::ChunkId parent;
     planet::BlockLocation location;
@@ -41,7 +41,7 @@ std::vector<double> perSecond(double amount, const std::vector<double>& ms) {
     return result;
 }
 
-// Rates of two ways, the second of which is the yardstick.
+// Returns the rates of two implementations; the second is the baseline.
 std::vector<BenchRow> pairedRates(const std::array<std::string, 2>& subjects, const std::string& unit,
                                   double amount, const std::vector<std::vector<double>>& ms) {
     const std::vector<double> ours = perSecond(amount, ms[0]);
@@ -50,7 +50,7 @@ std::vector<BenchRow> pairedRates(const std::array<std::string, 2>& subjects, co
             {subjects[1], "rate", unit, spreadOf(plain)}};
 }
 
-// Rows of a face at a time, as the bake's own tiles are small; packed as they come.
+// Reads rows of a face, because the bake's own tiles are small, and packs them at once.
 Result<std::size_t> packSource(const planet::HeightSource& source, int faceSize, double quantumM) {
     std::size_t packed = 0;
     constexpr int rowsAtOnce = 65;
@@ -77,7 +77,7 @@ Result<std::size_t> packSource(const planet::HeightSource& source, int faceSize,
 
 struct FaceImage {
     int side = 0;
-    std::vector<std::int16_t> steps;  // side x side, rows from the south
+    std::vector<std::int16_t> steps;  // side * side, from the south
 };
 
 Result<void> copyLeaves(const planet::ChunkFile& file, const planet::ChunkData& chunk, FaceImage& image) {
@@ -105,7 +105,8 @@ std::size_t zstdBytes(const void* data, std::size_t bytes) {
     return ZSTD_compress(room.data(), room.size(), data, bytes, 3);
 }
 
-// Differences from sample to sample, low bytes before high ones: what zstd is good at.
+// Returns the zstd size of the differences between samples, low bytes before high bytes, which zstd
+// compresses well.
 std::size_t deltaZstdBytes(const FaceImage& image) {
     const std::size_t count = image.steps.size();
     std::vector<std::uint8_t> bytes(2 * count);
@@ -136,7 +137,7 @@ Result<std::size_t> pngBytes(int side, const std::vector<std::uint16_t>& grey,
     return static_cast<std::size_t>(std::filesystem::file_size(file));
 }
 
-// 0 where opj_compress is not installed.
+// Returns 0 if opj_compress is not installed.
 std::size_t jpeg2000Bytes(int side, const std::vector<std::uint16_t>& grey,
                           const std::filesystem::path& folder) {
     const std::filesystem::path input = folder / "face.pgm";
@@ -182,7 +183,7 @@ Result<void> addSizes(const planet::ChunkFile& file, planet::Face face, const st
 BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
-    // All leaves in view from on high: enough blocks that opening the file does not count.
+    // All leaves in view from a great height: enough blocks that the time to open the file is negligible.
     const planet::View view = planet::viewFromPose({.latitudeDeg = 27, .longitudeDeg = 87, .altitudeM = 5e6},
                                                    file->info().shape.radiusM, glm::radians(60.0),
                                                    options.size.widthPx, options.size.heightPx);

@@ -22,8 +22,8 @@ namespace {
 
 using planet::Result;
 
-constexpr double everyLeafPx = 1e-9;  // a tolerance that nothing but a leaf keeps
-// Mountains before a horizon: all levels are drawn.
+constexpr double everyLeafPx = 1e-9;  // a tolerance that only leaves meet
+// Mountains in front of a horizon, where all levels are drawn.
 constexpr planet::CameraPose benchPose{
     .latitudeDeg = 26, .longitudeDeg = 87, .altitudeM = 120'000, .headingDeg = 0, .pitchDeg = -25};
 
@@ -62,7 +62,7 @@ double residentMiB(const Scene& scene) {
     return static_cast<double>(paging.residentBytesCpu + paging.residentBytesGpu) / (1 << 20);
 }
 
-// A planet drawn at one setting.
+// A planet drawn with one set of settings.
 struct Contender {
     std::string name;
     ViewSettings settings;
@@ -104,8 +104,8 @@ Result<Drawing> openDrawing(const PictureSize& size) {
     return Drawing{std::move(*context), std::move(*target)};
 }
 
-// The triangles of a selection as any program would keep them that never changes them: positions and indices
-// in two buffers, one draw, one colour.
+// The triangles of a selection as a static mesh: positions and indices in two buffers, drawn by one call in
+// one colour.
 struct StaticMesh {
     planet::gl::Program program;
     planet::gl::VertexArray array;
@@ -189,7 +189,7 @@ void drawStatic(const StaticMesh& mesh, const planet::View& view, const planet::
     glFinish();
 }
 
-// Rows of what was timed in turn, the last of which is the yardstick.
+// Adds the rows of alternating measurements; the last subject is the baseline.
 void addTimes(const std::vector<std::string>& subjects, const std::vector<std::vector<double>>& times,
               const std::string& yardstick, std::vector<BenchRow>& rows) {
     for (std::size_t i = 0; i < subjects.size(); ++i) {
@@ -253,7 +253,7 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
 
     std::vector<std::function<void()>> frames;
     for (Contender& contender : contenders) frames.push_back([&] { drawFrame(contender, view); });
-    frames.front()();  // shaders are compiled on first use
+    frames.front()();  // compiles the shaders, which happens on first use
     std::vector<BenchRow> rows;
     std::vector<std::string> subjects;
     for (const Contender& contender : contenders) subjects.push_back(contender.name);
@@ -301,7 +301,7 @@ BenchRows benchSelection(const BenchPlanet& planet, const BenchOptions& options)
     std::vector<BenchRow> rows;
     for (const double tauPx : options.tausPx)
         addSelection(tree, benchView(tree.tree().shape, options.size), tauPx, options.rounds, rows);
-    addSelection(tree, above, everyLeafPx, options.rounds, rows);  // many nodes
+    addSelection(tree, above, everyLeafPx, options.rounds, rows);  // visits many nodes
     return rows;
 }
 

@@ -17,14 +17,13 @@ inline constexpr std::array<std::string_view, 7> benchParts = {"lod",  "dynamic"
                                                                "bake", "file_size", "colours"};
 
 struct BenchOptions {
-    std::filesystem::path
-        source;  // an elevation image or cube faces; empty: the Earth that comes with Worldy
+    std::filesystem::path source;  // an elevation image or cube faces; empty: the built-in Earth
     planet::HeightSourceSettings sourceSettings;
-    std::vector<int> faceSizes = {513, 4097};  // samples a side of the planets that are baked and drawn
+    std::vector<int> faceSizes = {513, 4097};  // samples per side of the planets baked and drawn
     std::vector<double> tausPx = {1, 2, 4};
-    int rounds = 5;  // each draws, reads or bakes everything once, in turn; [1, 1000]
+    int rounds = 5;  // each round draws, reads or bakes everything once; [1, 1000]
     PictureSize size;
-    std::vector<std::string> parts;  // of benchParts; empty: all
+    std::vector<std::string> parts;  // elements of benchParts; empty: all
     ReportTo report;
 };
 

@@ -156,7 +156,7 @@ void addBench(CLI::App& command, BenchOptions& options) {
         ->check(oneOf(benchParts));
 }
 
-// A sweep's options as they are written, before they are parsed.
+// The options of a sweep, unparsed.
 struct SweepTexts {
     std::string cost = "triangles";
     std::string goal;
@@ -204,7 +204,7 @@ void addPops(CLI::App& command, PopsOptions& options) {
     command.add_option("FILE", options.file, "Chunk file")->required();
 }
 
-// The settings that only one side of a comparison gets, as they are written: A and B.
+// The settings of one side of a comparison, unparsed: A and B.
 struct SideTexts {
     std::filesystem::path settingsFile;
     std::vector<std::string> assignments;
@@ -295,8 +295,8 @@ Result<void> checkOnce(std::string_view option, std::vector<Value> values) {
     return planet::badInput(fmt::format("{}: {} is given twice; expected each value once", option, *twice));
 }
 
-// Copies the shared options into those that the command's own have a place for. The settings come back for
-// what else a command wants of them.
+// Copies the shared options into the members that the command's options have. Returns the settings, for other
+// uses by the command.
 template <typename Options>
 Result<Settings> takeShared(const CommandSpec& spec, const SharedTexts& texts, Options& options) {
     if constexpr (requires { options.report; }) options.report = {texts.json, texts.output};
@@ -335,14 +335,14 @@ Result<Settings> takeShared(const CommandSpec& spec, const SharedTexts& texts, O
 }
 
 Result<void> finish(ShotOptions& options, const Settings& settings) {
-    // The settings' picture belongs to the settings' data set.
+    // The image in the settings belongs to the data set in the settings.
     const bool sameData = settings.dataSet.empty() || sameFile(settings.dataSet, options.file);
     if (options.colourImage.empty() && sameData) options.colourImage = settings.colourImage;
     return {};
 }
 
 Result<void> finish(BakeOptions& options) {
-    // A flag without a value reads "true".
+    // The parser gives a flag without a value as "true".
     if (options.detail == "true") options.detail->clear();
     if (options.listPresets) return {};
     if (options.source.empty()) return planet::badInput("SOURCE is required; see worldy bake --help");
@@ -363,7 +363,7 @@ Result<void> finish(SweepOptions& options, const SweepTexts& texts) {
     return tauGoalFromText(texts.goal).map([&](const TauGoal& goal) { options.goal = goal; });
 }
 
-// Each side begins with what both are told; its own settings file takes the place of theirs.
+// Sets both sides from the shared options. A side's own settings file replaces the shared one.
 Result<void> finish(CompareOptions& options, const SharedTexts& shared, const CompareTexts& sides) {
     for (std::size_t i = 0; i < sides.size(); ++i) {
         ViewTexts texts = shared.view;
@@ -385,7 +385,7 @@ Result<void> finish(ReplayOptions& options, const SharedTexts& texts) {
     return {};
 }
 
-// Returns the exit code of a check by whether it found no problem.
+// Returns the exit code of a check; a false result means that it found problems.
 int exitCodeOf(const Result<bool>& result) {
     if (!result) return reportError(result.error());
     return *result ? exitOk : exitCheckFailed;
@@ -395,7 +395,7 @@ int exitCodeOf(const Result<void>& result) {
     return result ? exitOk : reportError(result.error());
 }
 
-// All options, and where what was given goes. The parser points into it, so it stays where it is.
+// All options and their parsed values. The parser keeps pointers to the members, so the object cannot move.
 struct CommandLine {
     CLI::App app{
         "Worldy shows, tunes and measures planets drawn with chunked level of detail.\nWithout a command it "
@@ -418,8 +418,8 @@ struct CommandLine {
     CompareTexts compareTexts;
     MakeLayersOptions makeLayers;
     SettingsCommandOptions settings;
-    std::map<std::string_view, SharedTexts> shared;  // by command; nodes of a map stay where they are
-    std::vector<std::filesystem::path> moreInputs;   // that the command reads besides what its options name
+    std::map<std::string_view, SharedTexts> shared;  // by command; map nodes do not move
+    std::vector<std::filesystem::path> moreInputs;   // files read besides those in the options
 
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
@@ -454,7 +454,7 @@ struct CommandLine {
         addSettings(at("settings"), settings);
         app.require_subcommand(0, 1);
     }
-    // The shared options of a command go into its own, which come back with the settings.
+    // Copies the shared options of a command into its own. Returns the settings.
     template <typename Options>
     Result<Settings> take(std::string_view name, Options& options) const {
         return takeShared(commandSpec(name), shared.at(name), options);
@@ -464,7 +464,7 @@ struct CommandLine {
     CommandLine& operator=(const CommandLine&) = delete;
 };
 
-// The parser's own text of arguments that are too many has them in reverse.
+// Returns the parser's message, except for extra arguments, which it lists in reverse.
 std::string problemOf(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error.what();
     const std::vector<std::string> extras = app.remaining(true);
@@ -478,7 +478,7 @@ planet::Error errorOf(const CLI::App& app, const CLI::ParseError& error) {
     return {planet::ErrorKind::BadInput, fmt::format("{}; see {}", problemOf(app, error), help)};
 }
 
-// Through the stream whose failures are told (exit_code.h).
+// Prints through standard output, whose failures are reported (exit_code.h).
 int printHelp(const CLI::App& app, const CLI::ParseError& error) {
     std::ostringstream text;
     const int code = app.exit(error, text, text);
@@ -514,7 +514,7 @@ int runCommand(int argumentCount, const char* const* arguments) {
     } catch (const CLI::ParseError& error) {
         return error.get_exit_code() == 0 ? printHelp(app, error) : reportError(errorOf(app, error));
     }
-    // A command's options, complete; what it would write is checked; then it runs.
+    // Returns a function that completes a command's options, checks its outputs, and runs it.
     const auto command = [&line](std::string_view name, auto& options, auto run, auto prepare) {
         return [&line, name, &options, run, prepare] {
             return exitCodeOf(line.take(name, options).and_then(prepare).and_then([&] {
@@ -577,7 +577,7 @@ int runCommandLine(int argumentCount, const char* const* arguments) {
     try {
         return afterStandardOutput(runCommand(argumentCount, arguments));
     } catch (const std::system_error& error) {
-        // fmt::print throws where standard output takes no more.
+        // fmt::print throws if standard output cannot be written.
         if (std::ferror(stdout) == 0) throw;
         keepOutputError(error.code().value());
         return afterStandardOutput(exitBadInput);

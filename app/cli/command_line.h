@@ -1,4 +1,4 @@
-// The command line: what may be written on it, and where it leads.
+// Parses the command line and runs its command.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace worldy {
 
-// The program's exit code: 0, 1 where a check has failed, 2 for bad input or a failing disk, standard
-// output's too, 130 when cancelled.
+// Returns the program's exit code: 0; 1 if a check failed; 2 for bad input or if reading or writing failed,
+// including standard output; 130 if cancelled.
 int runCommandLine(int argumentCount, const char* const* arguments);
 
-// What `worldy shot ...` would draw, program name first.
+// Returns the options of a `worldy shot ...` line; the first argument is the program's name.
 planet::Result<ShotOptions> shotOptionsFrom(std::span<const char* const> arguments);
 
 }  // namespace worldy

@@ -100,7 +100,7 @@ constexpr std::array<CommandSpec, 16> commandTable = {{
      .output = "Output folder"},
 }};
 
-// Spellings of earlier versions: an option, followed by a value that ends in `value`.
+// Spellings of earlier versions: an option followed by a value that ends in `value`.
 struct OldSpelling {
     std::string_view command;
     std::string_view option;
@@ -190,7 +190,7 @@ CLI::Validator valueOf(const Field& field) {
     const auto check = [field](const std::string& text) {
         Settings settings;
         const planet::Result<void> set = setField("", movedTo(field, settings), text);
-        // The parser puts the option's name before it.
+        // The parser adds the option's name.
         return set ? std::string() : set.error().message.substr(std::string_view(": ").size());
     };
     return CLI::Validator(check, "");
@@ -310,7 +310,7 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
 
 namespace {
 
-// The parser drops what is empty between two commas.
+// The parser ignores an empty entry between two commas.
 Result<void> checkList(std::string_view option, std::string_view value) {
     constexpr std::array<std::string_view, 3> lists = {"--tau", "--chunk", "--metric"};
     if (std::find(lists.begin(), lists.end(), option) == lists.end()) return {};

@@ -23,7 +23,7 @@ using planet::Result;
 
 constexpr double pictureGain = 8;
 
-// Of what is flown: what is left out of that makes no difference.
+// Returns the settings that differ as flown; settings that the flight ignores make no difference.
 std::vector<SettingDifference> differencesOf(const ComparisonPlan& plan) {
     Settings a, b;
     a.view = flownSide(plan, 0).settings;
@@ -84,7 +84,7 @@ Json reportOf(const ComparisonPlan& plan, std::span<const SettingDifference> dif
 
 Result<void> writePictures(const std::filesystem::path& folder, const ComparedPictures& pictures) {
     std::error_code problem;
-    std::filesystem::create_directories(folder, problem);  // if not, writing says so
+    std::filesystem::create_directories(folder, problem);  // if this fails, writing reports it
     const Result<void> beside =
         writePicture(besideEachOther(pictures.a, pictures.b), folder / "side_by_side.png");
     if (!beside) return beside;

@@ -1,5 +1,5 @@
-// worldy compare: flies the same flight with two settings or two bakes, without a display, and sets their
-// figures side by side.
+// The command worldy compare: flies the same flight with two settings or two bakes, without a display, and
+// prints their figures side by side.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace worldy {
 
 struct CompareOptions {
     std::filesystem::path file;
-    std::filesystem::path fileOfB;  // empty: the same
-    std::filesystem::path flight;   // .toml, or a recorded .flight
+    std::filesystem::path fileOfB;  // empty: the same file
+    std::filesystem::path flight;   // .toml or .flight
     FlightSampling sampling;
     PictureSize size;
     std::array<ViewSettings, 2> settings;  // A and B
     ReportTo report;
-    std::filesystem::path pictures;  // a folder; empty: none
+    std::filesystem::path pictures;  // folder; empty: none
 };
 
 planet::Result<void> runCompare(const CompareOptions& options);

@@ -41,7 +41,7 @@ Result<void> runCosts(const CostsOptions& options) {
     const Result<std::optional<Picture>> colour = colourPictureOf(options.file, options.colourImage);
     if (!colour) return tl::unexpected(colour.error());
     const SceneConfig config{options.file, {}, *colour ? &**colour : nullptr};
-    // All that any part wants is loaded beforehand.
+    // The data for all features is loaded first.
     const ViewSettings all = partsOf(options.view, {}).back().settings;
     Result<Offscreen> offscreen = openOffscreen(config, all, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());

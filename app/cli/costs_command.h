@@ -1,4 +1,4 @@
-// worldy costs: what each part of a picture costs, without a display.
+// The command worldy costs: measures the cost of each rendering feature, without a display.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@ namespace worldy {
 
 struct CostsOptions {
     std::filesystem::path file;
-    std::filesystem::path colourImage;  // empty: beside the file, if there is one
+    std::filesystem::path colourImage;  // empty: the one beside the file, if there is one
     std::optional<planet::CameraPose> camera;
-    planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
+    planet::CameraPose start{.altitudeM = 0};  // used without a camera; altitude 0: the whole planet
     PictureSize size;
     int rounds = 5;
     ReportTo report;
     ViewSettings view;
 };
 
-// Prints a table, and writes it as JSON where told.
+// Prints a table, and writes JSON if requested.
 planet::Result<void> runCosts(const CostsOptions& options);
 
 }  // namespace worldy

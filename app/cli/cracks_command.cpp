@@ -26,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planet::Result;
 
-// A cluster of crack pixels, and the chunks that it lies between where they are known.
+// A cluster of crack pixels, and the chunks between which it lies if they are known.
 struct ReportedSpot {
     planet::CrackSpot spot;
     std::optional<planet::ChunkId> finer;
@@ -34,14 +34,14 @@ struct ReportedSpot {
 };
 
 struct MeasuredView {
-    double timeS = 0;  // of the flight
+    double timeS = 0;  // time in the flight
     SettledView at;
-    std::size_t seams = 0;              // edges between two levels
-    std::vector<planet::EdgeGap> gaps;  // those over 0, worst first
+    std::size_t seams = 0;              // edges between different levels
+    std::vector<planet::EdgeGap> gaps;  // gaps over 0, worst first
     std::size_t cracks = 0;
     int leaking = 0;
     std::vector<ReportedSpot> spots;  // largest first
-    double requiredDepthM = 0;        // by the gaps
+    double requiredDepthM = 0;        // computed from the gaps
     double requiredFactor = 0;
 
     planet::EdgeGap worst() const { return gaps.empty() ? planet::EdgeGap{} : gaps.front(); }
@@ -49,11 +49,11 @@ struct MeasuredView {
 
 struct Measured {
     std::vector<MeasuredView> views;
-    SmallestSkirts smallest;  // where asked for
-    Picture marked;           // where asked for
+    SmallestSkirts smallest;  // if requested
+    Picture marked;           // if requested
 };
 
-// Infinity is no number in JSON.
+// Returns null for infinity, which JSON cannot represent.
 Json numberOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -96,7 +96,7 @@ std::vector<ReportedSpot> reportedSpots(const CrackMeasurement& measured) {
     return reported;
 }
 
-// The worst picture so far, marked.
+// Keeps the picture with marks if it is the worst so far.
 Result<void> keepPicture(Offscreen& offscreen, const MeasuredView& view, const CrackMeasurement& measured,
                          const CracksOptions& options, Measured& all) {
     const auto badness = [](const MeasuredView& v) { return std::make_tuple(v.leaking, v.cracks); };
@@ -113,7 +113,7 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
                          const CracksOptions& options, Measured& all) {
     MeasuredView view;
     view.timeS = timeS;
-    // Neither hysteresis nor what is resident may carry over from the view before.
+    // Neither hysteresis nor resident chunks may carry over from the previous view.
     offscreen.scene.planet->tools().startAnew();
     view.at = settleAt(offscreen, pose, options.view);
     const Result<CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
@@ -138,7 +138,8 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
     return {};
 }
 
-// What the flight leaves open with skirts as found, measured anew: first one depth for all, then the factor.
+// Measures the views again with the found skirts. Returns the number of uncovered pixels with one depth, or
+// with the factor.
 Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const Measured& all,
                       planet::SkirtDepth kind) {
     ViewSettings settings = options.view;
@@ -181,10 +182,10 @@ Totals totalsOf(const std::vector<MeasuredView>& views) {
     return totals;
 }
 
-// The smallest skirts, proven by measuring the same views again with them.
+// The uncovered pixels that remain when the same views are measured with the smallest skirts.
 struct Proof {
-    int leaksByDepth = 0;                // leaking pixels
-    std::optional<int> leaksByFactor{};  // none where no factor is enough
+    int leaksByDepth = 0;                // uncovered pixels
+    std::optional<int> leaksByFactor{};  // none if no factor suffices
     bool tight() const { return leaksByDepth == 0 && leaksByFactor.value_or(0) == 0; }
 };
 
@@ -248,7 +249,7 @@ void printTable(const Measured& all) {
     if (!note.empty()) fmt::print("{}\n", note);
 }
 
-// The largest clusters and the widest gaps of all views.
+// Prints the largest clusters and the widest gaps of all views.
 void printWorst(const std::vector<MeasuredView>& views, int worst) {
     struct Spot {
         double timeS;

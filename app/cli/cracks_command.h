@@ -1,5 +1,5 @@
-// worldy cracks: counts crack pixels and what the skirts leave open, in one view or along a flight, without a
-// display.
+// The command worldy cracks: counts crack pixels and pixels that skirts do not cover, in one view or along a
+// flight, without a display.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@ namespace worldy {
 
 struct CracksOptions {
     std::filesystem::path file;
-    std::filesystem::path flight;  // its keys; empty: one view
+    std::filesystem::path flight;  // camera keys; empty: one view
     ReportTo report;
-    std::filesystem::path markedPicture;  // of the view that leaks most, else cracks most; empty: none
+    std::filesystem::path markedPicture;  // of the worst view by uncovered, then crack pixels; empty: none
     std::filesystem::path shaderFolder;
     std::optional<planet::CameraPose> camera;
-    planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
+    planet::CameraPose start{.altitudeM = 0};  // used without a camera; altitude 0: the whole planet
     FlightSampling sampling;
     bool findDepth = false;
-    int worst = 20;  // clusters and gaps that are printed, of each so many, >= 0; the report holds all
+    int worst = 20;  // number of clusters and of gaps to print, >= 0; the report contains all
     PictureSize size;
     ViewSettings view;
 };
 
-// Each view is measured once everything for it is loaded. True: nothing leaks.
+// Measures each view after all its blocks are loaded. Returns true if no pixel is uncovered.
 planet::Result<bool> runCracks(const CracksOptions& options);
 
 }  // namespace worldy

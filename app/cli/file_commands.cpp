@@ -237,7 +237,7 @@ Result<bool> runVerify(const FileCommandOptions& options) {
     printVerified(options, *report, *colours);
     const std::uint64_t problems = report->problemCount + colours->problemCount;
     if (problems == 0) return true;
-    // A file that is whole in itself may have been compared with what it was not baked from.
+    // A file without problems of its own may have been compared with a source that it was not baked from.
     const bool onlySource = problems == report->sourceProblems + colours->sourceProblems;
     printMessage("worldy: {}: {} found, 0 expected; {}\n", options.file.string(), problemsText(problems),
                  onlySource

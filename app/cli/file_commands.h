@@ -1,4 +1,4 @@
-// worldy info, verify and probe: what a chunk file holds.
+// The commands worldy info, verify and probe: show and check the content of a chunk file.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@ namespace worldy {
 
 struct FileCommandOptions {
     std::filesystem::path file;
-    std::filesystem::path source;  // verify: compare with this too; empty: only the file itself
+    std::filesystem::path source;  // verify: also compares with this; empty: checks only the file
     planet::HeightSourceSettings sourceSettings;
-    std::filesystem::path colour;  // verify: compare the colours with this; empty: with nothing
+    std::filesystem::path colour;  // verify: compares the colours with this; empty: does not
     double latitudeDeg = 0;        // probe
     double longitudeDeg = 0;
     bool json = false;
 };
 
 planet::Result<void> runInfo(const FileCommandOptions& options);
-// False: the file was read, and problems were found and printed.
+// Returns false if the file was read and problems were found and printed.
 planet::Result<bool> runVerify(const FileCommandOptions& options);
 planet::Result<void> runProbe(const FileCommandOptions& options);
 

@@ -35,7 +35,7 @@ struct FlownFrame {
     FrameStats stats;
 };
 
-// What the summary tells of, by its name in the JSON.
+// A quantity of the summary and its name in JSON.
 struct Quantity {
     const char* name;
     double (*of)(const FrameStats&);
@@ -72,7 +72,7 @@ constexpr std::array<Quantity, 24> quantities = {{
     {"clipmap_texels", [](const Stats& s) { return static_cast<double>(s.clipmap.filledTexels); }},
 }};
 
-// Times and pixels are measures; all else is counted, and so is each percentile of it.
+// Returns true for counts. Times and pixels are measures; percentiles of a count are counts too.
 bool isCount(const Quantity& quantity) {
     const std::string_view name = quantity.name;
     return !name.ends_with("_ms") && !name.ends_with("_px");
@@ -91,7 +91,7 @@ Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity)
             planet::percentileOf(values, 1)};
 }
 
-// elapsedS: of the flight, since the frame before.
+// elapsedS: time in the flight since the last frame.
 Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS, double elapsedS,
                             const ViewSettings& settings) {
     Scene& scene = offscreen.scene;
@@ -157,7 +157,8 @@ Result<void> flyPath(const FlyOptions& options) {
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
 
-    // As in a window where one looks at the first view before one flies off: not with the root chunks alone.
+    // The first view is settled, as in a window before the user moves, instead of starting with the root
+    // chunks.
     settleAt(*offscreen, path->keys.front().pose, options.view);
     const InterruptWatch watch;
     std::vector<FlownFrame> frames;

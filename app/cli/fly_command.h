@@ -1,4 +1,4 @@
-// worldy fly: flies a recorded path without a display, as fast as the frames come, and reports what each did.
+// The command worldy fly: flies a path without a display, as fast as possible, and reports each frame.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace worldy {
 
 struct FlyOptions {
     std::filesystem::path file;
-    std::filesystem::path flight;  // .toml, or a recorded .flight
+    std::filesystem::path flight;  // .toml or .flight
     FlightSampling sampling;
     ReportTo report;
     std::filesystem::path shaderFolder;

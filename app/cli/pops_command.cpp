@@ -30,7 +30,7 @@ using planet::Result;
 constexpr std::array shares = {0.5, 0.9, 0.99, 1.0};
 constexpr std::array<const char*, shares.size()> shareNames = {"p50", "p90", "p99", "maximum"};
 
-// All switches, the worst first; those that do not count come last.
+// Returns all level changes, worst first; those that do not count come last.
 std::vector<const PopEvent*> rankedEvents(const PopsFlight& flown) {
     std::vector<const PopEvent*> ranked;
     for (const PopEvent& event : flown.events) ranked.push_back(&event);

@@ -1,5 +1,5 @@
-// worldy pops: flies a path with all loads on time, and tells how far the surface jumps at each change of
-// level. Draws nothing.
+// The command worldy pops: flies a path with all loads on time, and measures how far the surface jumps at
+// each level change. Draws nothing.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace worldy {
 
 struct PopsOptions {
     std::filesystem::path file;
-    std::filesystem::path flight;  // its keys
+    std::filesystem::path flight;  // camera keys
     ReportTo report;
-    int worst = 20;  // switches that are printed, >= 0; the report holds all
+    int worst = 20;  // level changes to print, >= 0; the report contains all
     FlightSampling sampling;
     PictureSize size;
     ViewSettings view;

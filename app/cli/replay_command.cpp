@@ -95,7 +95,7 @@ Result<bool> replayFlight(const ReplayOptions& options) {
     if (!record) return tl::unexpected(record.error());
     Result<planet::ChunkFile> file = openData(options, record->data);
     if (!file) return tl::unexpected(file.error());
-    // The recording may have named it.
+    // The chunk file may be known only from the recording.
     if (const Result<void> apart =
             checkNotInputs({{file->name()}, {{options.report.file, OutputKind::Json}}});
         !apart)

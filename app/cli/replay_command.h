@@ -1,4 +1,4 @@
-// worldy replay: makes a recorded flight again, without a window, and tells whether it is the same.
+// The command worldy replay: replays a recorded flight without a window and checks that it is the same.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,15 @@ namespace worldy {
 
 struct ReplayOptions {
     std::filesystem::path flight;
-    std::filesystem::path file;  // chunk file; empty: the one it was recorded over, where that lay
+    std::filesystem::path file;  // chunk file; empty: the recorded path
     ReportTo report;
     ReplayPaging paging = ReplayPaging::AsRecorded;
-    std::vector<std::string> assignments;  // settings held at other values: then a difference is no failure
+    std::vector<std::string>
+        assignments;  // settings that override the recording; differences then do not fail
 };
 
-// True if it was exact, or was not meant to be. The report is printed, and written where that is asked for.
+// Returns true if the replay was exact, or settings were overridden. Prints the report, and writes it if
+// requested.
 planet::Result<bool> replayFlight(const ReplayOptions& options);
 
 }  // namespace worldy

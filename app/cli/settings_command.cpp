@@ -14,7 +14,7 @@ namespace worldy {
 
 namespace {
 
-// Returns the text as it may stand in a cell of a Markdown table.
+// Returns the text escaped for a cell of a Markdown table.
 std::string cellText(std::string_view text) {
     std::string cell;
     for (const char letter : text) {

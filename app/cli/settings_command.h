@@ -1,4 +1,4 @@
-// worldy settings: all settings with their ranges and defaults.
+// The command worldy settings: prints all settings with their ranges and defaults.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,8 +11,8 @@
 namespace worldy {
 
 struct SettingsCommandOptions {
-    bool table = false;  // prints settingsTable
-    bool json = false;   // prints settingsJson; neither: a settings file
+    bool table = false;  // prints settingsTable()
+    bool json = false;   // prints settingsJson(); neither: prints a settings file
 };
 
 planet::Result<void> runSettings(const SettingsCommandOptions& options);

@@ -44,7 +44,7 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
             {"fov_deg", options.view.camera.fovDeg}, {"settled", view.settled},
             {"camera", poseJson(view.pose)},         {"drawn_by_level", drawnByLevel(selection)}};
         nlohmann::ordered_json drawn = statsJson(stats);
-        // Of a run of frames, and there was one.
+        // Frame times need a series of frames, and there was only one.
         drawn.erase("frame_ms");
         for (const char* key : {"draw_gpu_ms", "chunks_gpu_ms", "sky_gpu_ms"}) drawn.erase(key);
         report.update(drawn);

@@ -1,4 +1,4 @@
-// worldy shot: one picture of a planet, without a display.
+// The command worldy shot: draws one picture of a planet, without a display.
 #pragma once
 
 #include <filesystem>
@@ -14,17 +14,17 @@ struct ShotOptions {
     std::filesystem::path file;
     std::filesystem::path output;
     std::filesystem::path shaderFolder;
-    std::filesystem::path colourImage;  // empty: colour.jpg or colour.png beside the file, if there is one
+    std::filesystem::path colourImage;  // empty: colour.jpg or colour.png beside the file, if it exists
     std::optional<planet::CameraPose> camera;
-    planet::CameraPose start{.altitudeM = 0};  // where no camera is given; altitude 0: the whole planet
+    planet::CameraPose start{.altitudeM = 0};  // used without a camera; altitude 0: the whole planet
     PictureSize size;
-    int samples = 4;  // of the multisampling, [1, 16]
+    int samples = 4;  // samples per pixel, [1, 16]
     bool json = false;
     ViewSettings view;
 };
 
-// A .png keeps the settings and the camera as a screenshot does. Labels on chunks and the observer are the
-// window's alone.
+// Draws and writes the picture. A .png contains the settings and the camera like a screenshot. Chunk labels
+// and the observer are drawn only in the window.
 planet::Result<void> takeShot(const ShotOptions& options);
 
 }  // namespace worldy

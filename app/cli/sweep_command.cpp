@@ -25,7 +25,7 @@ using planet::Result;
 
 constexpr int usualChunkSize = 33;
 
-// Those asked for; else the chunk file's own, or the usual one.
+// Returns the chunk sizes requested; otherwise the chunk file's own, or 33.
 Result<std::vector<int>> wantedSizes(const SweepOptions& options) {
     if (!options.chunkSizes.empty()) return options.chunkSizes;
     if (options.file.extension() != ".chk" || planet::isTerrainText(options.file))
@@ -35,8 +35,8 @@ Result<std::vector<int>> wantedSizes(const SweepOptions& options) {
     return std::vector{planet::chunkSize(file->info().shape)};
 }
 
-// What is baked for chunks of a size: of a chunk file of that size nothing, of another size what it says it
-// was made from, with its radius and face size.
+// The source and the settings of the bake for a chunk size. A chunk file of that size needs no bake; for
+// another size they are the file's recorded source, radius and face size.
 struct Baked {
     std::filesystem::path source;
     planet::BakeSettings settings;
@@ -104,7 +104,7 @@ bool isCsvTable(const std::filesystem::path& file) {
     return file.extension() == ".csv";
 }
 
-// Before anything is flown.
+// Call before anything is flown.
 Result<void> checkTableFile(const SweepOptions& options) {
     const std::filesystem::path& file = options.report.file;
     if (file.empty() || file.extension() == ".json" || (isCsvTable(file) && !options.goal)) return {};
@@ -114,7 +114,7 @@ Result<void> checkTableFile(const SweepOptions& options) {
 
 struct Swept {
     std::vector<SweepPoint> points;
-    std::vector<SweepSuggestion> suggestions;  // in place of the points where a tau was looked for
+    std::vector<SweepSuggestion> suggestions;  // instead of points if a tau is searched
 };
 
 Result<void> write(const SweepOptions& options, Swept swept, const std::string& flight) {
@@ -149,7 +149,7 @@ void print(const SweepSuggestion& suggestion) {
 }  // namespace
 
 Result<void> runSweep(const SweepOptions& options) {
-    // Before anything is baked for it.
+    // The outputs and the flight are checked before anything is baked.
     if (Result<void> good = checkTableFile(options); !good) return good;
     const Result<FlightPath> path = loadFlightPath(options.flight);
     if (!path) return tl::unexpected(path.error());

@@ -1,5 +1,5 @@
-// worldy sweep: flies the same flight at many settings, without a display, and tells which are worth
-// choosing.
+// The command worldy sweep: flies the same flight with many settings, without a display, and reports the best
+// choices.
 #pragma once
 
 #include <filesystem>
@@ -16,19 +16,19 @@
 namespace worldy {
 
 struct SweepOptions {
-    std::filesystem::path file;  // a chunk file, or what one is baked from
+    std::filesystem::path file;  // a chunk file, or a source
     planet::HeightSourceSettings sourceSettings;
     std::filesystem::path flight;  // .toml or .flight
     std::vector<double> tausPx = {0.5, 1, 2, 4, 8};
-    std::vector<int> chunkSizes;  // none: 33, or the chunk file's own
+    std::vector<int> chunkSizes;  // empty: the chunk file's own, or 33
     std::vector<planet::ErrorMetric> metrics = {planet::ErrorMetric::Additive, planet::ErrorMetric::Tight};
     FlightSampling sampling;
     SweepCost cost = SweepCost::Triangles;
-    std::optional<TauGoal> goal;       // a tau is looked for instead
-    ReportTo report;                   // as JSON, or as CSV where the file's name ends in .csv
+    std::optional<TauGoal> goal;       // if set, a tau is searched instead
+    ReportTo report;                   // JSON, or CSV if the file ends in .csv
     std::filesystem::path plotOutput;  // .png
     PictureSize size;
-    ViewSettings view;  // all but tau and metric
+    ViewSettings view;  // all except tau and metric
 };
 
 planet::Result<void> runSweep(const SweepOptions& options);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The textures of its layers, and the set's file.
+// Adds the set's file and the textures of its layers.
 void addLayerFiles(CommandFiles& files, const ViewSettings& view) {
     const LayerSettings& layers = view.surface.layers;
     const fs::path folder = layerFolderOf(layers.file);
@@ -30,14 +30,14 @@ void addLayerFiles(CommandFiles& files, const ViewSettings& view) {
     }
 }
 
-// The source that a chunk file names: a sweep bakes it again in other chunk sizes.
+// Returns the source recorded in a chunk file, from which a sweep bakes other chunk sizes.
 fs::path sourceIn(const fs::path& chunkFile) {
     if (chunkFile.extension() != ".chk") return {};
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
     return file ? sourceOf(file->info()) : fs::path();
 }
 
-// The images of a folder that --debug-levels would replace. How many levels there will be is not known yet.
+// Adds the images in a folder that --debug-levels might replace; the number of levels is not known yet.
 void addLevelImages(CommandFiles& files, const fs::path& folder) {
     std::error_code status;
     if (folder.empty()) return;

@@ -1,4 +1,4 @@
-// The files that each command reads and writes, as its options name them (app/data/write_check.h).
+// The files that each command reads and writes, according to its options (app/data/write_check.h).
 #pragma once
 
 #include "app/cli/app.h"
@@ -29,7 +29,7 @@ CommandFiles filesOf(const CracksOptions& options);
 CommandFiles filesOf(const FlyOptions& options);
 CommandFiles filesOf(const MakeLayersOptions& options);
 CommandFiles filesOf(const PopsOptions& options);
-// Without the chunk file of the recording, which is known once that is read.
+// Returns the files without the recording's chunk file, which is known only after the recording is read.
 CommandFiles filesOf(const ReplayOptions& options);
 CommandFiles filesOf(const ShotOptions& options);
 CommandFiles filesOf(const SweepOptions& options);

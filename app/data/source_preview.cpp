@@ -22,10 +22,10 @@ using planet::Result;
 
 constexpr int rowsAtOnce = 16;
 constexpr int samplesASide = previewSidePx + 1;
-constexpr double shownSlope = 0.55;  // what the root mean square of slopes is exaggerated to
+constexpr double shownSlope = 0.55;  // target RMS of the exaggerated slopes
 
 struct Stop {
-    float share;  // of the way from 0 m to the highest, or to the lowest
+    float share;  // height as a share of the highest, or of the lowest
     glm::vec3 colour;
 };
 constexpr std::array<Stop, 5> land = {{{0.0f, {0.36f, 0.47f, 0.30f}},
@@ -45,17 +45,17 @@ glm::vec3 colourAt(const std::array<Stop, count>& stops, float share) {
     return stops[0].colour;
 }
 
-// Heights of the tile, row 0 in the south of the face.
+// The heights of the tile; row 0 is the south of the face.
 struct Relief {
     std::vector<float> heightsM;
-    double stepM = 1;  // from sample to sample
+    double stepM = 1;  // between samples
     float lowM = 0;
     float highM = 0;
 
     float at(int column, int row) const {
         return heightsM[static_cast<std::size_t>(row) * samplesASide + static_cast<std::size_t>(column)];
     }
-    // Over a cell, eastwards and northwards, as they are.
+    // Returns the slope of a cell, eastwards and northwards, without exaggeration.
     glm::dvec2 slopeAt(int column, int row) const {
         const double southWest = double(at(column, row)), southEast = double(at(column + 1, row));
         const double northWest = double(at(column, row + 1)), northEast = double(at(column + 1, row + 1));

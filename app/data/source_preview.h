@@ -1,4 +1,4 @@
-// Pictures of a source before it is baked, made on a thread of their own.
+// Draws previews of a source before it is baked, on a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -23,49 +23,50 @@ inline constexpr int previewSidePx = 256;
 struct PreviewPicture {
     PreviewRequest request;
     std::vector<std::uint8_t> rgba;  // previewSidePx^2, top row first
-    double lowM = 0;                 // of the heights in it
+    double lowM = 0;                 // lowest height in the picture
     double highM = 0;
     double seconds = 0;
 };
 
-// The samples that a preview shows: one more a side than it has pixels, of the grid that its zoom makes.
+// Returns the samples of a preview: one more per side than it has pixels, on the grid of its zoom.
 planet::SampleTile tileOfPreview(const PreviewRequest& request);
 
-// Relief lit from the upper left, slopes exaggerated until they show, coloured by height; blue below 0 m.
-// goOn is asked every few rows; false ends it with an Error of kind Cancelled. Any thread.
+// Draws relief lit from the upper left, with slopes exaggerated so that they show, coloured by height; blue
+// below 0 m. goOn is called every few rows; if it returns false, the result is an Error of kind Cancelled.
+// Any thread.
 planet::Result<PreviewPicture> drawPreview(const planet::HeightSource& source, const PreviewRequest& request,
                                            const std::function<bool()>& goOn = {});
 
-// Opens the source and draws it. All calls from one thread.
+// Opens the source and draws it. All calls come from one thread.
 class PreviewJob {
 public:
     explicit PreviewJob(PreviewRequest request);
-    ~PreviewJob();  // cancels, and waits for its end
+    ~PreviewJob();  // cancels and waits for the thread
     PreviewJob(const PreviewJob&) = delete;
     PreviewJob& operator=(const PreviewJob&) = delete;
 
     void cancel() { cancelled_ = true; }
-    // Once it has ended; nothing until then and nothing again after.
+    // Returns the result once, when it is there.
     std::optional<planet::Result<PreviewPicture>> takeResult();
 
 private:
     std::mutex mutex_;
-    std::optional<planet::Result<PreviewPicture>> result_;  // guarded
+    std::optional<planet::Result<PreviewPicture>> result_;  // guarded by mutex_
     std::atomic<bool> cancelled_{false};
     std::thread thread_;
 };
 
-// One picture at a time; what is asked meanwhile takes the place of what was asked before. All calls from the
-// thread of the GL context.
+// Draws one picture at a time; a newer request replaces a waiting one. All calls come from the thread of the
+// GL context.
 struct SourcePreviewer {
     std::unique_ptr<PreviewJob> job;
     std::optional<PreviewRequest> next;
-    std::optional<PreviewPicture> shown;  // without its pixels, which are the texture's
+    std::optional<PreviewPicture> shown;  // without its pixels, which are in the texture
     planet::gl::Texture texture;
     std::string problem;
 };
 void requestPreview(SourcePreviewer& previewer, const PreviewRequest& request);
-// At a frame's start. Leaves no texture bound to the active unit.
+// Call at the start of a frame. Leaves no texture bound to the active unit.
 void advancePreview(SourcePreviewer& previewer);
 
 }  // namespace worldy

@@ -15,7 +15,7 @@ enum class OutputKind : std::uint8_t {
     ChunkFile,
     Json,
     Csv,
-    Picture,  // a picture that writePicture could have written: 8-bit RGB, no GeoTIFF tags, format as in its name
+    Picture,   // as written by writePicture: 8-bit RGB, no GeoTIFF tags, format as in its name
     PngImage,  // any PNG
     LayerSet,  // TOML
     Preset,    // TOML, settings files too

@@ -20,8 +20,7 @@ planet::Result<PictureSize> pictureSizeFromText(const std::string& text);
 // -90.
 planet::Result<planet::CameraPose> poseFromText(const std::string& text);
 
-// Writes "LAT,LON,ALT,HEADING,PITCH" as --camera takes it, with the digits that read back as the same
-// numbers.
+// Returns "LAT,LON,ALT,HEADING,PITCH" for --camera, with enough digits to read back the same numbers.
 std::string cameraText(const planet::CameraPose& pose);
 
 // Returns the pose rounded to 1e-9 degrees and 1e-6 m, for reports: smaller digits are rounding errors of the

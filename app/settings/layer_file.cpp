@@ -55,7 +55,7 @@ tl::unexpected<planet::Error> wrong(const fs::path& file, const toml::node& node
     return planet::badInput(fmt::format("{}: {}", placeOf(file, node), message));
 }
 
-// Longer ones would not fit into a recorded flight.
+// Longer names would not fit into a recorded flight.
 constexpr std::size_t mostNameBytes = 1000;
 
 struct ReadKey {

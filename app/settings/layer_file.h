@@ -1,4 +1,4 @@
-// Sets of texture layers as TOML, in files of their own and inside the settings. Files are hostile until
+// Sets of texture layers as TOML, in their own files and inside the settings. Files are untrusted until
 // checked.
 #pragma once
 
@@ -16,39 +16,41 @@ namespace worldy {
 
 inline constexpr std::array<std::string_view, 2> layerBlendNames = {"weight", "height"};
 
-// What a file may hold, key by key:
+// Loads a set. A file may contain these keys:
 //   blend = "height"                       or "weight"
 //   blend_depth = 0.3
 //   [[layer]]                              1 to 8 of them, the lowest first
 //   name = "rock"
-//   albedo = "rock_albedo.png"             beside the file, or anywhere
+//   albedo = "rock_albedo.png"             relative to the file's folder, or absolute
 //   height_m = [300, 4000, 200]            lowest, highest, soft edge; slope_deg and latitude_deg alike
-// Keys that are left out have their defaults. The Error names the file, the line, the key and what would be
-// right. Ranges that contradict themselves are no Error: planet::layerProblem tells of them, and a checker
-// pattern is drawn in their layer's place.
+// Missing keys have default values. The Error names the file, the line, the key and the expected value.
+// Contradictory ranges are no Error: planet::layerProblem reports them, and the layer is drawn as a
+// checkerboard.
 planet::Result<planet::LayerSet> loadLayerSet(const std::filesystem::path& file);
-// The same of text; place stands for the file's name in errors.
+// Does the same for text; place stands for the file's name in errors.
 planet::Result<planet::LayerSet> layerSetFromText(std::string_view text, const std::filesystem::path& place);
 
-// The file's text. Equal sets give equal text.
+// Returns the file's text. Equal sets give equal text.
 std::string layerSetText(const planet::LayerSet& set);
 
-// With the textures named so that they are found from there. folder: where they are found now.
+// Saves a set, with texture paths adapted to the new file. folder: the folder that the paths are relative to
+// now.
 planet::Result<void> saveLayerSet(const planet::LayerSet& set, const std::filesystem::path& folder,
                                   const std::filesystem::path& file);
-// What that has written: names relative to a folder, or absolute where they lie outside it.
+// Returns the set as saveLayerSet() writes it: with texture paths relative to newFolder, or absolute if they
+// are outside it.
 planet::LayerSet movedTo(const std::filesystem::path& newFolder, const std::filesystem::path& folder,
                          planet::LayerSet set);
 
-// An array of layers, as it stands in settings.
+// Reads an array of layers as settings contain it.
 planet::Result<std::vector<planet::TextureLayer>> layersFromToml(const std::filesystem::path& file,
                                                                  std::string_view name,
                                                                  const toml::node& node);
-// A layer in one line, { name = "rock", ... }, without what has its default.
+// Returns a layer in one line, { name = "rock", ... }, without keys that have default values.
 std::string layerLine(const planet::TextureLayer& layer);
 
-// Where a set's textures are looked for: beside its file, or with those that come with Worldy where it has
-// none.
+// Returns the folder of a set's textures: that of its file, or that of the built-in textures if it has no
+// file.
 std::filesystem::path layerFolderOf(const std::filesystem::path& setFile);
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// The panels that there are, and where they stand at first.
+// The list of panels and their default places.
 #pragma once
 
 #include <array>
@@ -39,8 +39,8 @@ struct PanelInfo {
     const char* title;
     std::string_view key;  // in the settings file and for --panels
     const char* shortcut;  // "Ctrl+1"
-    Dock dock;             // where it stands at first
-    bool shown;            // at first
+    Dock dock;             // default dock
+    bool shown;            // by default
 };
 inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
     {PanelId::Lod, "LOD", "lod", "Ctrl+1", Dock::Right, true},

@@ -28,7 +28,7 @@ constexpr const char* dataSetKeyword = "worldy:data";
 constexpr const char* shotLineKeyword = "worldy:shot";
 constexpr const char* versionKeyword = "worldy:version";
 
-constexpr int mostOfASecond = 1000;  // files of one name but for their number
+constexpr int mostOfASecond = 1000;  // files with the same name except for their number
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Pictures that know how they came about: the settings, the camera and the data set that a picture was taken
-// with are kept in its PNG file as text, so that opening it brings them back.
+// Screenshots that can be reproduced: a PNG file stores the settings, the camera and the data set as text,
+// and opening it restores them.
 #pragma once
 
 #include <ctime>
@@ -13,34 +13,35 @@
 
 namespace worldy {
 
-// Each is kept as a tEXt chunk; ImageDescription holds the shot line too, where image viewers show it.
+// The texts stored in a screenshot, each in a tEXt chunk. ImageDescription also contains the shot line,
+// because image viewers show it.
 struct ScreenshotNote {
-    std::string settings;       // settingsText, or viewSettingsText
-    planet::CameraPose camera;  // as the picture sees it
+    std::string settings;       // settingsText() or viewSettingsText()
+    planet::CameraPose camera;  // the camera of the picture
     std::filesystem::path dataSet;
     std::string shotLine;
-    std::string version;  // of Worldy; empty: this one
+    std::string version;  // Worldy's version; empty: this one
 };
 
-// Over what is there: a name that newScreenshotFile made.
+// Writes a screenshot over an existing file, which newScreenshotFile() has created.
 planet::Result<void> writeScreenshot(const Picture& picture, const std::filesystem::path& file,
                                      const ScreenshotNote& note);
 
-// Into a new file of picturesFolder(), named after now; returns which.
+// Writes a screenshot into a new file in picturesFolder(), named after the current time. Returns the file.
 planet::Result<std::filesystem::path> writeNewScreenshot(const Picture& picture, const ScreenshotNote& note);
 
-// The Error says where a picture is none that Worldy took.
+// Reads the texts. The Error says if the picture is not a screenshot of Worldy.
 planet::Result<ScreenshotNote> readScreenshotNote(const std::filesystem::path& file);
 
-// "worldy 2026-11-21 14.03.22.png" in the folder, with " 2" and so on where there are such files: an empty
-// file, made now, so that no two programs write the same one.
+// Creates an empty file "worldy 2026-11-21 14.03.22.png" in the folder, with " 2" and so on if that exists.
+// It is created now, so that no two programs write the same one.
 planet::Result<std::filesystem::path> newScreenshotFile(const std::filesystem::path& folder,
                                                         const std::tm& localTime);
 
-// Whether a file begins as a PNG does.
+// Returns true if a file begins like a PNG.
 bool isPng(const std::filesystem::path& file);
 
-// A settings file, a preset, or a screenshot with its settings and camera.
+// Loads a settings file, a preset, or a screenshot with its settings and camera.
 planet::Result<Settings> loadSettingsOfAnyKind(const std::filesystem::path& file);
 
 }  // namespace worldy

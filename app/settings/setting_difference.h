@@ -1,4 +1,4 @@
-// Where two sets of settings differ, as text.
+// A setting that differs between two sets of settings, as text.
 #pragma once
 
 #include <string>

@@ -123,15 +123,16 @@ struct ReadField {
 
 struct FieldText {
     std::string_view lineBreak;  // between the stops of a ramp
-    std::string_view lineEnd;    // after them
+    std::string_view lineEnd;    // after the stops
 
-    // The shortest digits that read back as the same number.
+    // Returns the shortest digits that read back as the same number.
     std::string operator()(const Number& number) const { return fmt::format("{}", *number.value); }
     std::string operator()(const Integer& integer) const { return fmt::format("{}", *integer.value); }
     std::string operator()(const Seed& seed) const { return fmt::format("{}", *seed.value); }
     std::string operator()(const Flag& flag) const { return *flag.value ? "true" : "false"; }
     std::string operator()(const Text& text) const {
-        // TOML is UTF-8, and file names need not be: better a default than a file that cannot be read.
+        // TOML is UTF-8, but file names may not be. The default is written then, so that the file stays
+        // readable.
         if (!isUtf8(*text.value)) return "\"\"";
         std::ostringstream stream;
         stream << toml::value<std::string>(*text.value);
@@ -198,8 +199,8 @@ std::string_view withoutSpaces(std::string_view text) {
     return text.substr(first, text.find_last_not_of(' ') + 1 - first);
 }
 
-// Parses the text of a value. Words and texts need no quotes. A text that is not TOML counts as a string, so that the
-// field's error names what it expects.
+// Parses the text of a value. Words and texts need no quotes. A text that is not TOML counts as a string, so
+// that the field's error names what it expects.
 toml::table valueFrom(const Field& field, std::string_view text) {
     const bool bare =
         std::holds_alternative<Choice>(field.value) || std::holds_alternative<Text>(field.value);
@@ -226,7 +227,7 @@ Result<void> setField(std::string_view place, const Field& field, std::string_vi
 
 tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::string_view name,
                                              std::span<const Field> fields) {
-    // The beginning of a very long name is far from any name already.
+    // A very long name is compared by its beginning only, which is far from every name anyway.
     constexpr std::size_t mostLetters = 100;
     std::string nearest;
     std::size_t least = std::numeric_limits<std::size_t>::max();
@@ -235,7 +236,7 @@ tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::stri
         if (distance < least) nearest = field.name();
         least = std::min(least, distance);
     }
-    // A name that is far from all settings is not misspelt.
+    // A name that is far from all settings gets no suggestion.
     const std::size_t letters = std::max(std::min(name.size(), mostLetters), nearest.size());
     std::string instead = 3 * least <= letters ? "did you mean " + nearest + "?"
                                                : "expected a name of the settings file, such as lod.tau_px";
@@ -261,7 +262,7 @@ std::string allowedText(const Field& field) {
 std::string summaryOf(const Field& field) {
     const Field& defaults = defaultOf(field);
     const Text* text = std::get_if<Text>(&defaults.value);
-    // A layer stack is longer than a line.
+    // A layer stack is too long for a line.
     const bool layers = std::holds_alternative<LayerStack>(field.value);
     const std::string value = layers                         ? "those of the Earth"
                               : text && text->value->empty() ? "empty"

@@ -19,8 +19,8 @@ planet::Result<void> readField(const std::filesystem::path& file, const Field& f
 // Sets a field to a value as typed: "3", "level", "true". The Error begins with the place.
 planet::Result<void> setField(std::string_view place, const Field& field, std::string_view text);
 
-// Returns the Error for a name that is no setting: "place: lod.tua_px is not a setting; did you mean lod.tau_px?" or,
-// if no name is near, what the name seems to belong to.
+// Returns the Error for an unknown setting: "place: lod.tua_px is not a setting; did you mean lod.tau_px?",
+// or, if no name is near, what the name seems to belong to.
 tl::unexpected<planet::Error> unknownSetting(const std::string& place, std::string_view name,
                                              std::span<const Field> fields);
 

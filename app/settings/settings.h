@@ -1,5 +1,6 @@
-// The settings that Worldy keeps between sessions, and the names of their enumerators. app/settings/settings_schema.cpp
-// describes each setting; app/settings/settings_text.h reads and writes them as text.
+// The settings that Worldy keeps between sessions, and the names of their enumerators.
+// app/settings/settings_schema.cpp describes each setting; app/settings/settings_text.h reads and writes them
+// as text.
 #pragma once
 
 #include <array>

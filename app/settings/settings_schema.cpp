@@ -502,14 +502,14 @@ void addWindow(Fields& fields, Settings& s) {
           Number{&workspace.scale, {0.5, 3, ""}}}});
 }
 
-// In the order of PanelId, as panelInfos is.
+// The panels' keys in the order of PanelId, like panelInfos.
 constexpr std::array<std::string_view, panelCount> panelKeys = [] {
     std::array<std::string_view, panelCount> keys;
     for (const PanelInfo& info : panelInfos) keys[static_cast<std::size_t>(info.id)] = info.key;
     return keys;
 }();
 
-// The texts of the panels' settings, which follow from their titles.
+// The texts of a panel's settings, derived from its title.
 struct PanelTexts {
     std::string label, help, shownKey, shownLabel, shownHelp;
 };
@@ -592,7 +592,7 @@ void addCompare(Fields& fields, CompareSettings& compare) {
           "Show B"}});
 }
 
-// The largest size of the list, so that it is allocated once.
+// The size of the largest list, so that it is allocated once.
 constexpr std::size_t fieldCount = 114 + 2 * panelCount + dockCount;
 
 }  // namespace

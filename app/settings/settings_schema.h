@@ -1,6 +1,6 @@
-// The schema of all settings, one entry each: its name, label, help, unit, range and how it is shown. The settings
-// file, --set, the options of the command line, the controls of the panels and app/SETTINGS.md are made from it. The
-// defaults are those of Settings. Pure functions.
+// The schema of all settings, one entry each: name, label, help, unit, range and presentation. The settings
+// file, --set, the options of the command line, the controls of the panels and app/SETTINGS.md are generated
+// from it. The defaults are those of Settings. Pure functions.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ enum class SliderScale : std::uint8_t { Linear, Logarithmic };
 struct Number {
     double* value;
     NumberRange range;
-    const char* format = "%.2f";  // of the digits a control shows; the unit follows
+    const char* format = "%.2f";  // of the digits in a control; the unit follows
     SliderScale scale = SliderScale::Linear;
 };
 struct Integer {
@@ -50,14 +50,14 @@ struct Choice {
     std::span<const std::string_view> labels{};  // on screen; empty: the names
 };
 
-// One setting. The value points into the settings that the field was made of.
+// One setting. The value points into the settings from which the field was made.
 struct Field {
     std::string_view table;
     std::string_view key;
     std::string_view label;  // of its control
-    std::string_view help;   // full sentences; the first one says what the setting is
+    std::string_view help;   // full sentences; the first says what the setting is
     std::variant<Number, Integer, Seed, Flag, Text, Ramp, LayerStack, Choice> value;
-    std::string_view title{};  // the label where nothing around it says the topic; empty: the label
+    std::string_view title{};  // the label with its topic, for use without context; empty: the label
 
     std::string name() const;  // "lod.tau_px"
     const void* address() const;
@@ -69,21 +69,21 @@ std::vector<Field> fieldsOf(ViewSettings& view);
 
 // Returns the fields of Settings{}: the defaults.
 std::span<const Field> defaultFields();
-// Return the field of Settings{} by its name, which must exist, or that of the same setting.
+// Return a field of Settings{}, by its name, which must exist, or for the same setting.
 const Field& defaultField(std::string_view name);
 const Field& defaultOf(const Field& field);
 
 // Returns the range of a number or an integer.
 const NumberRange& rangeOf(std::string_view name);
 
-// Returns true for the tables of ViewSettings, which presets hold. The others describe the data set, the camera and
-// the window.
+// Returns true for the tables of ViewSettings, which presets contain. The others describe the data set, the
+// camera and the window.
 bool isViewTable(std::string_view table);
 
 // Returns the field of that name, or null.
 const Field* findField(std::span<const Field> fields, std::string_view name);
 
-// Returns the label, with its topic where it has one: "Tint opacity".
+// Returns the label with its topic if it has one: "Tint opacity".
 std::string_view titleOf(const Field& field);
 // Returns the first sentence of the help.
 std::string_view firstSentence(const Field& field);
@@ -92,7 +92,7 @@ std::string choiceLabel(const Choice& choice, std::size_t index);
 
 // Copies the value of one setting; both fields must be of the same setting.
 void copyValue(const Field& from, const Field& to);
-// Returns the field with its value in other settings.
+// Returns the same field with its value in other settings.
 Field movedTo(const Field& field, Settings& settings);
 
 }  // namespace worldy

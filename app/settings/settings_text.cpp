@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-// Reads the settings that a table holds and appends their names.
+// Reads the settings that a table contains and appends their names.
 Result<void> readTable(const fs::path& file, std::string_view tableName, const toml::table& table,
                        const std::vector<Field>& fields, std::vector<std::string>& names) {
     for (const auto& [key, node] : table) {
@@ -31,7 +31,7 @@ Result<void> readTable(const fs::path& file, std::string_view tableName, const t
     return {};
 }
 
-// Reads a document into the settings. Returns the names of those that it holds.
+// Reads a document into the settings. Returns the names of the settings that it contains.
 Result<std::vector<std::string>> readDocument(const fs::path& file, const toml::table& document,
                                               Settings& settings) {
     const std::vector<Field> fields = fieldsOf(settings);

@@ -1,4 +1,4 @@
-// Settings as text: TOML files, assignments of single settings, and differences. Pure but for reading and
+// Settings as text: TOML files, assignments of single settings, and differences. Pure except for reading and
 // writing files; any thread.
 #pragma once
 
@@ -20,15 +20,15 @@ struct Field;
 // Returns true if every setting is the same.
 bool operator==(const Settings& a, const Settings& b);
 
-// Reads a settings file. Missing keys keep the values of base. The Error names the file, the line, the key and the
-// expected value.
+// Reads a settings file. Missing keys keep the values of base. The Error names the file, the line, the key
+// and the expected value.
 planet::Result<Settings> loadSettings(const std::filesystem::path& file, const Settings& base = {});
 // Does the same for text; place stands for the file's name in errors.
 planet::Result<Settings> settingsFromText(std::string_view text, const std::filesystem::path& place,
                                           const Settings& base = {});
 
-// Returns the file's text: every setting, below a comment with its help, allowed values and default. Equal settings
-// give equal text. Colours are kept in steps of 1 / 255.
+// Returns the file's text: every setting, below a comment with its help, allowed values and default. Equal
+// settings give equal text. Colours are rounded to steps of 1 / 255.
 std::string settingsText(const Settings& settings);
 // Returns the text of some fields.
 std::string fieldsText(std::span<const Field> fields);
@@ -46,19 +46,19 @@ std::vector<SettingDifference> differences(const Settings& here, const Settings&
 // Returns the assignments for setSetting that turn the default view settings into these.
 std::vector<std::string> assignmentsFor(const ViewSettings& view);
 
-// A preset's file holds view settings, all of them or a few.
+// The content of a preset's file: some or all view settings.
 struct ViewPart {
     ViewSettings values;
-    std::vector<std::string> names;  // of the settings that it holds, "lod.tau_px"
+    std::vector<std::string> names;  // of the settings it contains, "lod.tau_px"
 };
 // Returns every view setting as TOML. Equal settings give equal text.
 std::string viewSettingsText(const ViewSettings& view);
-// Reads the view settings of a file. Its other settings are checked but left out, so a settings file serves
-// too.
+// Reads the view settings of a file. Its other settings are checked but left out, so a settings file can be
+// read too.
 planet::Result<ViewPart> loadViewPart(const std::filesystem::path& file);
 // Does the same for text; place stands for the file's name in errors.
 planet::Result<ViewPart> viewPartFromText(std::string_view text, const std::filesystem::path& place);
-// Returns the settings `now` with the values that the part holds.
+// Returns the settings `now` with the values in the part.
 ViewSettings applied(const ViewPart& part, const ViewSettings& now);
 // Returns the settings that applying the part would change.
 std::vector<SettingDifference> differences(const ViewSettings& here, const ViewPart& there);

@@ -8,7 +8,7 @@ namespace worldy {
 
 namespace {
 
-// What begins with a dash would be taken for an option.
+// A path that begins with a dash would be parsed as an option.
 std::string pathWord(const std::filesystem::path& path) {
     const std::string text = path.string();
     return shellWord(text.starts_with('-') ? "./" + text : text);

@@ -1,4 +1,4 @@
-// The command line that draws what the window shows. Pure functions, any thread.
+// The command line that draws the window's view. Pure functions, any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace worldy {
 
-// One word of a POSIX shell, quoted where it must be.
+// Returns a word for a POSIX shell, quoted if necessary.
 std::string shellWord(std::string_view text);
 
-// The `worldy shot` line for a view: the camera, and of the settings only those that are not as shot has
-// them. Paths go in as they are given: absolute ones work from any folder. colourImage empty: the one beside
-// the chunk file.
+// Returns the `worldy shot` line for a view: the camera, and the settings that differ from the defaults.
+// Paths are written as given; absolute ones work in any folder. colourImage empty: the one beside the chunk
+// file.
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
                      const PictureSize& size, const ViewSettings& view,
                      const std::filesystem::path& colourImage);

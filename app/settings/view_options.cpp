@@ -25,7 +25,7 @@ planet::Result<Settings> settingsFrom(const ViewTexts& texts) {
         planet::Result<planet::LayerSet> set = loadLayerSet(texts.layerSet);
         if (!set) return tl::unexpected(set.error());
         view.surface.layers.set = std::move(*set);
-        // A picture's note of it must hold wherever it is read.
+        // The path is stored in pictures, so it must be valid in any folder.
         std::error_code status;
         view.surface.layers.file = std::filesystem::absolute(texts.layerSet, status).string();
     }

@@ -10,7 +10,7 @@
 
 namespace worldy {
 
-// The options of a command line that describe the view, as they are written.
+// The options of a command line that describe the view, unparsed.
 struct ViewTexts {
     std::filesystem::path settingsFile;  // settings, a preset or a screenshot
     std::vector<std::string>
@@ -20,7 +20,7 @@ struct ViewTexts {
     std::filesystem::path layerSet;  // a set of texture layers
 };
 
-// Returns the defaults, changed by the settings file, then by the options with names of their own, then by the
+// Returns the defaults, changed by the settings file, then by the options with their own names, then by the
 // assignments in their order.
 planet::Result<Settings> settingsFrom(const ViewTexts& texts);
 

@@ -1,5 +1,6 @@
-// The settings of the view, with their defaults, in the user's units. Panels edit them; presets, undo and the settings
-// file copy them whole. app/settings/settings_schema.cpp describes each: name, help, unit and range.
+// The view settings with their defaults, in the user's units. Panels edit them; presets, undo and the
+// settings file copy them as a whole. app/settings/settings_schema.cpp describes each: name, help, unit and
+// range.
 #pragma once
 
 #include <string>
@@ -64,7 +65,7 @@ struct LayerSettings {
     double endM = 60000;
     double colourBelow = 0.4;
     planet::gl::LayerPreview preview = planet::gl::LayerPreview::Off;
-    int previewed = 1;  // counted from the lowest layer, which is 1
+    int previewed = 1;  // number of the layer, counted from the lowest, which is 1
     std::string file;   // the set's file, which texture paths are relative to; empty: the built-in textures
     planet::LayerSet set = planet::earthLayers();
 
@@ -85,7 +86,8 @@ struct SurfaceSettings {
     bool lighting = true;
     bool atmosphere = true;
     bool detail = true;
-    // The sun stays east of the camera; otherwise it stands as at the date, or over the latitude and longitude.
+    // The sun stays east of the camera; otherwise its position follows from the date, or is the latitude and
+    // longitude below.
     bool sunFollows = true;
     bool sunByDate = false;
     planet::SunDate sunDate;

@@ -1,4 +1,4 @@
-// The arrangement of the window that is kept between sessions.
+// The layout of the window that is kept between sessions.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace worldy {
 
-// Tells where a panel is docked, and whether it is shown.
+// The dock of a panel, and whether it is shown.
 struct PanelPlace {
     Dock dock = Dock::Right;
     bool shown = true;
@@ -24,8 +24,8 @@ constexpr std::array<PanelPlace, panelCount> firstPlaces() {
 
 enum class Theme : std::uint8_t { Dark, Light };
 
-// Holds the arrangement of the window. It is kept between runs. Sizes are in units of a 13 px font, so that
-// they fit any monitor.
+// The layout of the window, kept between sessions. Sizes are in units of a 13 px font, so that they fit any
+// monitor.
 struct Workspace {
     double leftWidth = 300;
     double rightWidth = 310;

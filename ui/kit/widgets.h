@@ -17,8 +17,8 @@ void beginFixedWindow(const char* name, const Rect& rect, ImGuiWindowFlags flags
 // Draws a heading that expands and collapses. Returns true if it is expanded.
 bool section(const char* title);
 
-// The text of a tooltip, or a function that makes it. The function is called only while the tooltip is shown; it must
-// live as long as the call that takes the Tip.
+// The text of a tooltip, or a function that makes it. The function is called only while the tooltip is shown;
+// it must live as long as the call that takes the Tip.
 class Tip {
 public:
     Tip(const char* text)
@@ -62,7 +62,7 @@ float valuesWidth(std::span<const ValueRow> rows, const char* widestValue);
 // which the button goes down, because that motion came before the press.
 ImVec2 dragDelta(ImGuiMouseButton button);
 
-// Draws a label in the left column and makes room for a control in the right one; draw the control right after.
+// Draws a label in the left column. The next item drawn is its control, in the right column.
 void labelledControl(const char* label, Tip tip);
 // Does the same; the label is lit if changed: the value differs from its default or from the open file's.
 void litLabel(const char* label, bool changed, Tip tip);
