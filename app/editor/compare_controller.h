@@ -33,7 +33,7 @@ struct ComparedMeters {
 struct ComparedOther {
     OpenPlanet planet;
     ViewSettings settings;  // camera, cracks and compare are A's
-    std::string origin;     // "settings kept", "preset popping"
+    std::string origin;     // "snapshot", "preset popping"
     FrameStats stats;       // smoothed
 };
 

@@ -29,7 +29,7 @@ public:
     std::optional<ViewSettings> undo();
     std::optional<ViewSettings> redo();
 
-    // Return the change that undo or redo would make: "tau 2 -> 3 px"; empty if there is none.
+    // Return the step that undo or redo would apply: "Tolerance τ 2 -> 3 px"; empty if there is none.
     std::string undoName() const;
     std::string redoName() const;
 
@@ -50,7 +50,7 @@ private:
     double lastChangeS_ = 0;
 };
 
-// Returns for example "tau 2 -> 3 px", "outlines on", "4 settings".
+// Returns for example "Tolerance τ 2 -> 3 px", "Outlines on", "4 settings".
 std::string changeName(const ViewSettings& before, const ViewSettings& after);
 
 }  // namespace worldy

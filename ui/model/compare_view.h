@@ -28,7 +28,7 @@ struct FlightComparisonView {
     bool stopping = false;
     double progress = 0;                                   // [0, 1]
     const std::array<ComparedFigures, 2>* last = nullptr;  // null: none yet
-    std::string lastName;                                  // "andes low fast, 12 moments. A: ..., B: ..."
+    std::string lastName;                                  // "andes low fast, 12 sample frames. A: ..."
     std::string problem;                                   // why the last measurement failed
 };
 
@@ -38,7 +38,7 @@ struct CompareView {
     const ViewSettings* settingsB = nullptr;
     std::filesystem::path fileA;
     std::filesystem::path fileB;
-    std::string origin;                            // of B, for example "settings kept" or "preset popping"
+    std::string origin;                            // of B: "snapshot", "preset popping"
     std::span<const SettingDifference> different;  // SettingDifference::here is A, there is B
     std::array<ComparedFigures, 2> now;
     std::optional<PictureDifferenceNow> difference;

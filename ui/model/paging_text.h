@@ -9,8 +9,8 @@
 
 namespace worldy::ui {
 
-// Returns why children are requested: "ε 3.1 > τ 2.0", or that they are needed less by now. Errors in pixels;
-// hysteresis is a share of tau.
+// Returns why children are requested: "ε 3.10 > τ 2.00", or that they are needed less by now. Errors in
+// pixels; hysteresis is a share of tau.
 std::string pageInReason(double epsPx, double tauPx, double hysteresis, const char* epsSymbol,
                          const char* tauSymbol);
 // Returns the same for a colour tile. timesTooFew: its priority, the ratio of wanted to available texels per

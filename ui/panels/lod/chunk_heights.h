@@ -25,7 +25,7 @@ std::vector<float> chunkProfile(const planet::ChunkTree& tree, const planet::Chu
 // Returns the chunk's extent on the ground through its middle, metres.
 double groundSizeM(const planet::PlanetShape& shape, const planet::ChunkId& id, ProfileWay way);
 
-// Returns the position of the chunk's middle: "27.988 N  86.925 E".
+// Returns the position of the chunk's middle: "27.9880° N, 86.9250° E".
 std::string middlePlaceText(const planet::ChunkId& id);
 
 // Returns what is wrong with a typed id and what is expected; empty if it names a chunk that a planet can
