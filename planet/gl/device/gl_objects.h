@@ -1,4 +1,4 @@
-// Owners of GL objects: deleted with the context current that made them. Move only.
+// Move-only owners of GL objects. Destroy them while the context that made them is current.
 #pragma once
 
 #include <epoxy/gl.h>

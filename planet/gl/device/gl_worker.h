@@ -1,5 +1,5 @@
-// A thread with an OpenGL context of its own, for work that would hold up a frame. Programs, textures and
-// buffers are shared between both contexts; vertex arrays, framebuffers and all state are not.
+// A thread with its own OpenGL context, for work that would delay a frame. Programs, textures and buffers are
+// shared between both contexts; vertex arrays, framebuffers and all state are not.
 #pragma once
 
 #include <atomic>
@@ -11,29 +11,29 @@
 
 namespace planet::gl {
 
-// A context that shares its objects with the one that draws. Both functions are called on the worker's
-// thread, and the context must not be current anywhere else. It has to outlive the worker.
+// A context that shares its objects with the drawing context. The worker calls both functions on its own
+// thread; the context must not be current on another one, and must outlive the worker.
 struct SharedContext {
-    std::function<bool()> makeCurrent;  // false: this driver does not let a second thread have a context
+    std::function<bool()> makeCurrent;  // false: the driver allows no second context
     std::function<void()> release;
 };
 
 enum class Urgency { Now, Later };
 
-// Any thread may call it.
+// Thread-safe.
 class GlWorker {
 public:
     explicit GlWorker(SharedContext context);
     GlWorker(const GlWorker&) = delete;
     GlWorker& operator=(const GlWorker&) = delete;
-    // Waits for the job that runs. The jobs that have not begun are dropped.
+    // Waits for the running job. Jobs that have not begun are dropped.
     ~GlWorker();
 
-    // Jobs that are needed now run before the others; otherwise they run in the order in which they came. A
-    // job makes what it has drawn visible to other contexts by glFinish.
+    // Queues a job. Urgent jobs run before the others; jobs of equal urgency run in order of arrival. A job
+    // calls glFinish to make its results visible to other contexts.
     void add(std::function<void()> job, Urgency urgency);
 
-    // False once the context could not be made current: jobs are not run then.
+    // Returns false once the context could not be made current; no job runs after that.
     bool works() const { return works_; }
 
 private:
@@ -44,7 +44,7 @@ private:
     std::deque<std::function<void()>> now_, later_;
     bool ending_ = false;
     std::atomic<bool> works_{true};
-    std::thread thread_;  // last: it uses all the others
+    std::thread thread_;  // last, because it uses all other members
 };
 
 }  // namespace planet::gl

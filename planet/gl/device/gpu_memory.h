@@ -1,12 +1,12 @@
-// Whether the context has the memory that something is to take.
+// Checks that an allocation fits into GPU memory.
 #pragma once
 
 #include <epoxy/gl.h>
 
 namespace planet::gl {
 
-// Runs what allocates textures or buffers in the current context; false where the context has no room for
-// them. Errors from before are dropped. Waits for the context, so not for each frame.
+// Runs a function that allocates textures or buffers in the current context. Returns false if the context is
+// out of memory. Discards earlier GL errors. Waits for the context, so do not call it every frame.
 template <class Allocate>
 bool hasRoomFor(const Allocate& allocate) {
     while (glGetError() != GL_NO_ERROR) continue;

@@ -14,7 +14,7 @@ GpuTimer::GpuTimer() {
 }
 
 void GpuTimer::begin() {
-    // All in flight: this frame goes unmeasured rather than waiting.
+    // With all queries in flight, this frame is not measured, so that nothing waits.
     running_ = available_ && !ring_[current_].pending;
     if (running_) glQueryCounter(ring_[current_].start.name(), GL_TIMESTAMP);
 }

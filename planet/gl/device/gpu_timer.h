@@ -1,5 +1,5 @@
-// How long the GPU took for what lies between begin() and end(), without waiting for it: the answer is some
-// frames old. Timestamps rather than an elapsed-time query, so that a caller's own timer may run around it.
+// Measures the GPU time between begin() and end() without waiting for the GPU, so results are some frames
+// old. Uses timestamps rather than an elapsed-time query, so that a caller's own timer may enclose it.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ public:
     GpuTimer();
     void begin();
     void end();
-    double lastMs();  // of the last measurement that has come back; 0 before the first, or without timestamps
+    double lastMs();  // of the last finished measurement; 0 before the first, or without timestamps
 
 private:
     struct Measurement {

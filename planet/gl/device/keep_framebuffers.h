@@ -1,4 +1,5 @@
-// Puts back the framebuffers and the viewport that were bound. Wants a current context; one thread.
+// Restores the bound framebuffers and the viewport at the end of a scope. Requires a current context; one
+// thread.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -10,13 +10,13 @@ namespace planet::gl {
 
 namespace {
 
-// Drivers hand out names in one of two ways: the lowest that is free, so that there are no long gaps, or one
-// more than the last, so that a fresh one is above all others.
+// Drivers allocate names in one of two ways. Some return the lowest free name, which leaves no long gaps;
+// others return the last name plus 1, so that a new name is above all others.
 constexpr GLuint longestGap = 512;
 
 template <class Make, class IsObject>
 std::uint32_t countNames(Make make, IsObject isObject) {
-    const GLuint fresh = make().name();  // gone again
+    const GLuint fresh = make().name();  // deleted at once
     std::uint32_t count = 0;
     GLuint end = fresh + longestGap;
     for (GLuint name = 1; name < end; ++name) {

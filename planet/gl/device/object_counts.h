@@ -1,9 +1,9 @@
-// How many GL objects of each kind the current context has, whoever made them.
+// Counts the current context's GL objects of each kind, whoever made them.
 //
-// The driver is asked about one name after the other, up to those that it hands out now and some beyond. So
-// no count has to be kept beside the objects, objects of other libraries are seen too, and another thread's
-// context is not mixed in. Some thousand calls that draw nothing, more where many objects have come and gone;
-// a driver that works behind the caller's back may have to be waited for. So not for every frame.
+// The driver is queried name by name, up to the name it hands out now and somewhat beyond. This needs no
+// bookkeeping, includes the objects of other libraries, and leaves out those of another thread's context. It
+// takes some thousand calls that draw nothing, more if many objects have been created and deleted, and may
+// wait for a driver that works asynchronously. So do not call it every frame.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct ObjectCounts {
     bool operator==(const ObjectCounts&) const = default;
 };
 
-// Wants a current context. An object counts from when it is first bound or begun.
+// Requires a current context. An object counts once it has been bound or begun.
 ObjectCounts countObjects();
 
 }  // namespace planet::gl

@@ -82,7 +82,7 @@ Opened openOn(EGLDisplay display, const OffscreenSettings& settings) {
     if (!hasWord(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
         return {EGL_NO_CONTEXT, nullptr, "lacks EGL_KHR_surfaceless_context"};
     if (!eglBindAPI(EGL_OPENGL_API)) return {EGL_NO_CONTEXT, nullptr, "has OpenGL ES only"};
-    // Nothing is drawn to a surface of EGL's own, so any config will do, and none is asked for surfaces.
+    // No EGL surface is used, so any config works; this requests none with surface support.
     const std::array<EGLint, 5> wanted = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
@@ -148,7 +148,7 @@ OffscreenContext::~OffscreenContext() {
     if (context_ == nullptr) return;
     if (eglGetCurrentContext() == context_)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    // The display stays initialised: EGL gives the same one to everybody in the process.
+    // The display stays initialised, because EGL gives the same one to the whole process.
     eglDestroyContext(display_, context_);
 }
 

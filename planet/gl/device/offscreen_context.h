@@ -1,4 +1,4 @@
-// An OpenGL context without a window or a display, through EGL: for headless runs and tests.
+// An OpenGL context without a window or a display, created with EGL, for headless runs and tests.
 #pragma once
 
 #include <string>
@@ -16,17 +16,17 @@ struct ContextVersion {
 };
 
 struct OffscreenSettings {
-    ContextVersion highest{4, 6};  // not asked for more than this; at least 3.3
+    ContextVersion highest{4, 6};  // the highest version requested, >= 3.3
     bool debug = false;            // the driver reports errors through GL_KHR_debug
 };
 
-// Current on the thread that made it until it is destroyed or another is made current there.
+// The context is current on the thread that created it until it is destroyed or another one becomes current.
 class OffscreenContext {
 public:
-    // Core profile, the highest version from settings.highest down to 3.3 that there is. Tries Mesa without a
-    // surface first, then EGL's devices. The Error says what each lacks.
+    // Creates a core-profile context of the highest available version from settings.highest down to 3.3.
+    // Tries Mesa without a surface first, then EGL's devices. The Error says what each of them lacks.
     static Result<OffscreenContext> create(const OffscreenSettings& settings = {});
-    // A second one, whose programs, textures and buffers are those of this one too; it is current nowhere.
+    // Creates a context that shares programs, textures and buffers with this one. It is not made current.
     Result<OffscreenContext> sharing() const;
     OffscreenContext(OffscreenContext&& other) noexcept;
     OffscreenContext& operator=(OffscreenContext&& other) noexcept;
@@ -37,12 +37,12 @@ public:
     void release() const;
 
     ContextVersion version() const { return version_; }
-    const std::string& renderer() const { return renderer_; }  // the driver's name for itself
+    const std::string& renderer() const { return renderer_; }  // as the driver reports it
 
 private:
     OffscreenContext() = default;
 
-    void* display_ = nullptr;  // EGLDisplay, shared by all contexts of this process on it
+    void* display_ = nullptr;  // EGLDisplay, shared by all contexts of the process
     void* context_ = nullptr;  // EGLContext
     void* config_ = nullptr;   // EGLConfig
     bool debug_ = false;

@@ -1,5 +1,5 @@
-// A picture to draw into without a window: colour and float depth, multisampled where asked.
-// Wants a current context; one thread.
+// An off-screen framebuffer with colour and float depth, optionally multisampled. Requires a current context;
+// one thread.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,18 @@ namespace planet::gl {
 
 class RenderTarget {
 public:
-    // Samples: 1, or more for smooth edges, at most RenderCapabilities::samples. The Error names what the
-    // context cannot do.
+    // samples: [1, RenderCapabilities::samples]. The Error names what the context cannot do.
     static Result<RenderTarget> create(int widthPx, int heightPx, int samples = 1);
 
-    void bind() const;  // to draw into it
+    void bind() const;
 
-    // Copies the samples into the readable colour texture; nothing to do with one sample.
+    // Resolves the samples into the readable colour texture. Does nothing with one sample.
     void resolve() const;
 
-    // After resolve(). Rows from the top, 3 bytes a pixel, sRGB.
+    // Returns the rows from the top, 3 bytes per pixel, sRGB. Call resolve() first.
     std::vector<std::uint8_t> readRgb() const;
 
-    // Rows from the top, as the depth buffer holds it; one sample only.
+    // Returns the depth buffer's values, rows from the top. Requires one sample.
     std::vector<float> readDepth() const;
 
     GLuint colourTexture() const { return colour_.name(); }  // RGBA8, after resolve(); row 0 at the bottom

@@ -1,5 +1,5 @@
-// The uniform blocks and samplers of all shaders. Their names in GLSL are written here only; a block's
-// binding point and a sampler's texture unit are its place in the table. Wants a current context.
+// The uniform blocks and samplers of all shaders: the only place in C++ that has their GLSL names. A block's
+// binding point and a sampler's texture unit are its index in the table. Requires a current context.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -46,12 +46,12 @@ void bindUniforms(UniformBlock block, const Buffer& buffer);
 // Leaves texture unit 0 active.
 void bindTexture(Sampler sampler, GLenum target, GLuint texture);
 
-// Uniforms are computed in doubles.
+// Converts to a uniform's type; uniforms are computed in doubles.
 constexpr float toFloat(double value) {
     return static_cast<float>(value);
 }
 
-// Gives the buffer a new store each time, so that the GPU may still read the last one.
+// Gives the buffer a new store each time, because the GPU may still read the old one.
 template <class Uniforms>
 void fillUniforms(const Buffer& buffer, const Uniforms& uniforms) {
     glBindBuffer(GL_UNIFORM_BUFFER, buffer.name());

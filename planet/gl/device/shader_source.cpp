@@ -34,7 +34,7 @@ std::string sourceNumbers(ShaderFiles files) {
 // Returns the log of a shader or a program.
 template <class Get, class GetLog>
 std::string logOf(GLuint name, Get get, GetLog getLog) {
-    GLint length = 0;  // with the terminating zero
+    GLint length = 0;  // including the terminating zero
     get(name, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
     GLsizei written = 0;

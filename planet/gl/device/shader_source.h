@@ -1,4 +1,4 @@
-// Reads shaders and links them into programs. Wants a current context; one thread.
+// Reads shaders and links them into programs. Requires a current context; one thread.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace planet::gl {
 
-// Returns the text of a file of shaders/ as it was built in; empty if there is none of that name.
+// Returns the built-in text of a file of shaders/; empty if there is no such file.
 std::string_view embeddedShader(std::string_view name);
 
-// A shader consists of these files in this order; linkProgram adds the version line.
+// The files of a shader, in order; linkProgram adds the version line.
 using ShaderFiles = std::span<const std::string_view>;
 
 struct ShaderText {

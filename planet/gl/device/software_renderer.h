@@ -1,4 +1,4 @@
-// What is done otherwise where the CPU draws, for speed.
+// Cheaper alternatives for software rendering.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -8,21 +8,22 @@
 
 namespace planet::gl {
 
-// Mesa's llvmpipe. Wants a current context.
+// Returns whether Mesa's llvmpipe is the renderer. Requires a current context.
 inline bool isSoftwareRenderer() {
     const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     return renderer.find("llvmpipe") != std::string_view::npos;
 }
 
-// Mixing two mipmaps costs nothing on a GPU, and as much as a second lookup on a CPU.
+// Returns the filter between mipmaps: trilinear filtering is free on a GPU, but doubles the cost on a CPU.
 inline GLint mipmapFilter() {
     return isSoftwareRenderer() ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
 }
 
-// Borders of tiles are wide enough for the samples of this.
+// The borders of tiles are wide enough for this anisotropy.
 inline constexpr float wantedAnisotropy = 8;
 
-// Mesa's software renderer has anisotropy, but some footprints make it sample at the wrong place.
+// Returns 1 on Mesa's software renderer, which supports anisotropy but samples some footprints at the wrong
+// place.
 inline float anisotropyToUse() {
     if (isSoftwareRenderer() || !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return 1;
     GLfloat most = 1;

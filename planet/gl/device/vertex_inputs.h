@@ -1,5 +1,5 @@
-// The inputs of a vertex shader: each is written once, in the list that both linkProgram and the vertex array
-// follow.
+// The inputs of a vertex shader. Each is declared once, in a list that both linkProgram and the vertex array
+// use.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -9,9 +9,9 @@
 
 namespace planet::gl {
 
-enum class InputKind { Integer, Float, Normalised };  // Normalised: integers as [0, 1]
+enum class InputKind { Integer, Float, Normalised };  // Normalised: integers read as [0, 1]
 
-// Its location is its place in the list.
+// An input's location is its index in the list.
 struct VertexInput {
     const char* name = "";  // in GLSL
     GLint components = 1;
@@ -20,9 +20,9 @@ struct VertexInput {
     std::size_t offset = 0;  // bytes, in a vertex or an instance
 };
 
-// Tells the bound vertex array to read inputs [first, first + count) of a program from the bound
-// GL_ARRAY_BUFFER, whose elements are `stride` bytes apart. divisor: 0 for one element per vertex, 1 for one
-// per instance.
+// Makes the bound vertex array read inputs [first, first + count) of a program from the bound
+// GL_ARRAY_BUFFER. stride: bytes from one element to the next. divisor: 0 for one element per vertex, 1 for
+// one per instance.
 void describeInputs(std::span<const VertexInput> inputs, GLuint first, GLsizei stride, GLuint divisor);
 
 }  // namespace planet::gl

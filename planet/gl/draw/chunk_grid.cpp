@@ -7,7 +7,8 @@ namespace planet::gl {
 
 namespace {
 
-// Wide grids are walked in strips, so that a row's vertices are still cached when the next row wants them.
+// Wide grids are drawn in strips, so that a row's vertices are still in the cache when the next row uses
+// them.
 constexpr int stripCells = 32;
 
 struct Walker {
@@ -35,7 +36,7 @@ void addCells(const Walker& walker) {
     }
 }
 
-// The border counter-clockwise seen from above, from the south-west corner; each vertex once.
+// Returns the border from the south-west corner, counter-clockwise as seen from above; each vertex once.
 std::vector<GridVertex> border(int cells) {
     std::vector<GridVertex> vertices;
     const auto add = [&](int column, int row) {

@@ -39,7 +39,7 @@ std::array<std::uint32_t, edgeCount> slotsBeside(const DrawnSlots& drawn, const 
             slotAt(id.y > 0, id.x, id.y - 1), slotAt(id.y < last, id.x, id.y + 1)};
 }
 
-// Leaves out the slots and the tint.
+// Returns the instance without its slots and tint.
 ChunkInstance instanceOf(const DrawItem& item, bool stitched) {
     ChunkInstance instance;
     instance.face = static_cast<std::uint16_t>(item.id.face);

@@ -1,4 +1,4 @@
-// The instance data of the chunks that are drawn. One thread.
+// The instance data of drawn chunks. One thread.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace planet::gl {
 
-// One drawn chunk, as shaders/chunk.vert reads it.
+// One drawn chunk, in the layout of shaders/chunk.vert.
 struct ChunkInstance {
     std::uint16_t face = 0;
     std::uint16_t level = 0;
@@ -33,12 +33,12 @@ struct ChunkInstance {
 static_assert(sizeof(ChunkInstance) == 64);
 inline constexpr std::uint32_t noSlot = ~std::uint32_t{0};
 
-// Slots of drawn chunks by keyOf(), to find those beside a chunk.
+// The slots of drawn chunks by keyOf(), to find a chunk's neighbours.
 using DrawnSlots = std::unordered_map<std::uint64_t, std::uint32_t>;
 
 class ChunkInstances {
 public:
-    // Takes the items, with one tint each or none, and after them the chunks that only cast shadows.
+    // Adds the items, with one tint each or none, followed by the chunks that only cast shadows.
     void fill(const PoolLayout& layout, std::span<const DrawItem> items, std::span<const ChunkTint> tints,
               bool stitched, std::span<const DrawItem> shadowCasters);
 
@@ -52,10 +52,10 @@ private:
 // Returns the inputs of shaders/chunk.vert: those of a GridVertex, then those of a ChunkInstance.
 std::span<const VertexInput> chunkInputs();
 
-// Tells the bound vertex array to read them from these buffers.
+// Makes the bound vertex array read them from these buffers.
 void describeChunkVertices(const Buffer& gridVertices, const Buffer& instances);
 
-// Returns the switches for vertices that do not stay where their heights put them.
+// Returns the switches for vertices that move away from the places their heights give them.
 Switches slidingSwitches(std::span<const DrawItem> items, bool stitched);
 
 }  // namespace planet::gl

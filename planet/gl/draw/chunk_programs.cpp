@@ -37,15 +37,15 @@ Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles ve
     return linkProgram(*vertex, *fragment, {.prologue = prologue});
 }
 
-// Returns whether everything that one variant reads is bound for the other one.
+// Returns whether everything that the drawn variant reads is bound for the wanted one.
 bool hasInputsFor(Switches drawn, Switches wanted) {
     constexpr Switches reading = switchImage | switchTiles | switchClipmap | switchRamp | switchShadows |
                                  switchNormalTiles | switchPhysicalAir;
     return (drawn & ~wanted & reading) == 0;
 }
 
-// Returns how differently one variant draws from the wanted one. Switches that move vertices weigh most; a
-// program that could morph vertices draws those that do not morph as any other does.
+// Returns how differently one variant draws from the wanted one. Switches that move vertices weigh most. A
+// program that can morph also draws chunks correctly that do not morph.
 int difference(Switches wanted, Switches drawn) {
     constexpr Switches shape = switchCube | switchSeaSurface;
     constexpr Switches slide = switchSlide | switchMorph | switchGather;
@@ -98,7 +98,7 @@ Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
         *text = std::move(*read);
     }
     programs.texts_ = texts;
-    // Programs differ by constants only: if one compiles, so will the others.
+    // Programs differ only in constants: if one compiles, so will the others.
     for (const ProgramKey& key : {ProgramKey{}, skyKey(false), skyKey(true)}) {
         Result<Program> program = linked(*texts, key);
         if (!program) return tl::unexpected(program.error());

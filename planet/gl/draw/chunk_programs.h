@@ -1,4 +1,4 @@
-// The programs that a planet is drawn with. Wants a current context; one thread, beside the worker's.
+// The programs that draw a planet. Requires a current context. One thread uses it; the worker has its own.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -21,7 +21,7 @@
 
 namespace planet::gl {
 
-// Each combination of a use and switches is a program of its own. Depth and sky read few of the switches.
+// Each combination of a use and switches is a separate program. Depth and Sky depend on few switches.
 struct ProgramKey {
     ProgramUse use = ProgramUse::Chunk;
     Switches switches = 0;
@@ -29,39 +29,37 @@ struct ProgramKey {
     auto operator<=>(const ProgramKey&) const = default;
 };
 
-// Serves any number of renderers whose contexts share their objects.
+// Can be shared by any number of renderers whose contexts share objects.
 class ChunkPrograms {
 public:
-    // Reads the shaders from a folder, or the built-in ones if it is empty. Compiles one program of each use,
-    // so that errors in the text are found at once. A worker can compile the others. The Error names the
-    // file.
+    // Reads the shaders from a folder, or the built-in ones if it is empty. Compiles one program per use, to
+    // find errors in the text at once. The worker, if any, can compile the others. The Error names the file.
     static Result<ChunkPrograms> build(const std::filesystem::path& folder,
                                        std::shared_ptr<GlWorker> worker = nullptr);
 
-    // Reads the shaders again and compiles the last chunk program drawn with; on an Error the last good ones
-    // stay.
+    // Rereads the shaders and compiles the chunk program used last. On an Error the last valid programs stay.
     Result<void> reload();
-    // Counts the successful reloads, for renderers that keep programs of their own.
+    // Counts the successful reloads, for renderers that keep their own programs.
     int reloads() const { return reloads_; }
 
     // Returns the program, compiling it if needed. If the driver rejects a chunk program, returns the one
-    // without switches; other uses then return a program without a name.
+    // without switches; for other uses, returns a program with name 0.
     const Program& program(const ProgramKey& key);
 
-    // The functions from here to nearest() never wait. Returns whether a worker compiles in the background.
+    // Returns whether a worker compiles in the background. The functions from here to nearest() never wait.
     bool canOrder() const;
-    // Takes the programs that the worker has finished.
+    // Collects the programs that the worker has finished.
     void takeOrdered();
     bool isOrdered(const ProgramKey& key) const { return ordered_.contains(key); }
-    // Has the worker compile the program and draw with it once in this state. Later orders of it are ignored.
+    // Makes the worker compile the program and draw with it once in this state. Repeated orders are ignored.
     void order(const ProgramKey& key, const DrawingState& state, Urgency urgency);
-    // Returns the program if it has been drawn with, here or by the worker; else null.
+    // Returns the program if it has been used in a draw, here or by the worker; else null.
     const Program* ready(const ProgramKey& key) const;
-    // Returns the ready chunk program that draws most like one with these switches, among those that read no
+    // Returns the ready chunk program that draws most similarly to one with these switches and reads no
     // texture or table that it does not read; null if none is ready.
     const Program* nearest(Switches switches) const;
 
-    // Compiles a chunk program whose vertex outputs of these names can be read back.
+    // Compiles a chunk program whose vertex outputs of these names can be captured.
     Result<Program> capturing(Switches switches, std::span<const char* const> outputs) const;
 
     const Program& faceImage() const { return faceImage_; }
@@ -72,10 +70,10 @@ private:
         ShaderText chunkVertex, chunkFragment, depthFragment, skyVertex, skyFragment;
     };
     struct Linked {
-        Program program;     // without a name if the driver rejected it
-        bool drawn = false;  // the driver has compiled it for the drawing state too
+        Program program;     // name 0 if the driver rejected it
+        bool drawn = false;  // the driver has also compiled it for the drawing state
     };
-    // Programs that the worker has finished. Its jobs hold weak references, so that a program that is no
+    // The programs that the worker has finished. Its jobs hold weak references, so that a program that is no
     // longer wanted is deleted.
     struct Delivery {
         std::mutex mutex;
@@ -97,7 +95,7 @@ private:
     Program faceImage_, clipmapFill_;
 };
 
-// The keys of the programs that go with a chunk program's switches.
+// Return the keys of the programs that accompany a chunk program.
 ProgramKey depthKey(Switches switches);
 ProgramKey skyKey(bool physicalAir);
 

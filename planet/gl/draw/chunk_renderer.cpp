@@ -40,7 +40,7 @@ namespace planet::gl {
 
 namespace {
 
-constexpr int checkerSize = 64;  // of the texture layers until pictures are set
+constexpr int checkerSize = 64;  // size of the texture layers until pictures are set
 
 Result<void> checkContext() {
     const int version = epoxy_gl_version();
@@ -73,7 +73,7 @@ bool boundDepthIsFloat() {
     return type == GL_FLOAT;
 }
 
-// Light and air are computed at vertices if cells are small compared with their distance, so that air is
+// Light and air are computed per vertex if cells are small compared with their distance, so that air is
 // nearly linear across a cell, and with the planet, so that the sea's glint is.
 constexpr double widestSeenForLightByVertex = 0.05;  // of the distance
 constexpr double widestForLightByVertex = 0.025;     // of the radius
@@ -94,7 +94,7 @@ bool cellsAreSmall(const PlanetShape& shape, const View& view, std::span<const D
     return true;
 }
 
-// Returns the switches after chunks begin to morph, or stop: a flight alternates between the two.
+// Returns the switches for when chunks start or stop morphing: a flight alternates between the two.
 Switches otherSliding(Switches switches) {
     if ((switches & switchMorph) != 0) return switches & ~(switchSlide | switchMorph | switchGather);
     return switches | switchSlide | switchMorph |
@@ -103,7 +103,7 @@ Switches otherSliding(Switches switches) {
 
 }  // namespace
 
-// The programs of one picture; null: that part is not drawn.
+// The programs of one picture. A null part is not drawn.
 struct DrawnWith {
     const Program* chunk = nullptr;
     const Program* depth = nullptr;
@@ -117,9 +117,9 @@ struct ChunkRenderer::State {
     RenderCounters counters;
     Projection projection;
     HeightPool pool;
-    std::vector<std::int16_t> highestSteps;  // of each slot
+    std::vector<std::int16_t> highestSteps;  // by slot
     std::shared_ptr<ChunkPrograms> programs;
-    Program capture;  // made when first asked for
+    Program capture;  // made on first use
     Switches captureSwitches = 0;
     int captureReloads = 0;  // ChunkPrograms::reloads() when it was made
     Texture noise;
@@ -139,9 +139,9 @@ struct ChunkRenderer::State {
     AirTextures air;
     bool airInBackground = false;
     std::optional<ShadowMaps> shadows;  // while they are drawn
-    int shadowsAskedPx = 0;             // map size last asked for; 0: no shadows
+    int shadowsAskedPx = 0;             // last requested map size; 0: no shadows
     std::vector<std::string> problems;  // not yet reported
-    FrameUniforms uniforms{};           // as last filled
+    FrameUniforms uniforms{};           // as last uploaded
     GpuTimer chunksTimer, skyTimer, shadowsTimer;
     std::uint32_t uploads = 0;  // since the last draw
 
@@ -152,7 +152,7 @@ struct ChunkRenderer::State {
     Switches chooseSwitches(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                             bool tinted, Switches more = 0) const;
     bool wantsPhysicalAir(const RenderSettings& settings) const;
-    bool airIsPhysical(const RenderSettings& settings) const;  // and there are tables for it
+    bool airIsPhysical(const RenderSettings& settings) const;  // also requires that its tables exist
     void fillInstances(std::span<const DrawItem> items, std::span<const ChunkTint> tints, bool stitched,
                        std::span<const DrawItem> shadowCasters = {});
     bool drawsShadows(const RenderSettings& settings) const;
@@ -257,7 +257,7 @@ void ChunkRenderer::State::fillInstances(std::span<const DrawItem> items, std::s
                        [&](const DrawItem& item) { return item.slot < pool.slotCapacity(); }));
     instanceData.fill(pool.layout(), items, tints, stitched, shadowCasters);
     const std::span<const ChunkInstance> filled = instanceData.all();
-    // A new store each frame lets the GPU still read the last one.
+    // A new store each frame, because the GPU may still read the last one.
     const std::size_t needed = filled.size_bytes();
     while (instanceBytes < needed) instanceBytes = std::max<std::size_t>(2 * instanceBytes, 4096);
     glBindBuffer(GL_ARRAY_BUFFER, instances.name());
@@ -545,7 +545,8 @@ DrawnWith ChunkRenderer::State::programsFor(Switches switches, bool physicalSky)
             &programs->program(skyKey(physicalSky)), false};
 }
 
-// Returns the programs that are ready, and the most similar ones in place of the others, which it orders.
+// Returns the ready programs. For the others, returns the most similar ready ones and orders the missing
+// ones.
 DrawnWith ChunkRenderer::State::programsAtHand(Switches switches, bool physicalSky) const {
     programs->takeOrdered();
     const bool shadowed = (switches & switchShadows) != 0;

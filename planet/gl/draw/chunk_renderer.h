@@ -1,5 +1,5 @@
 // Draws chunks with one static grid and one instanced draw call; the vertex shader fetches heights from one
-// pool. Needs OpenGL 3.3 core. Wants a current context, and the same one throughout; one thread.
+// pool. Requires OpenGL 3.3 core, and the same current context for all calls; one thread.
 #pragma once
 
 #include <cstdint>
@@ -29,21 +29,21 @@ namespace planet::gl {
 
 class ChunkPrograms;
 
-// Tells whether a draw waits for programs that are not ready or draws with others until they are.
+// Selects whether a draw waits for programs that are not ready, or uses others until they are.
 enum class ShaderWait : std::uint8_t { UntilReady, Never };
 
 struct RendererConfig {
     PlanetShape shape;
     std::uint32_t slotCapacity = 0;      // PagingCounters: the capacity of heights
-    std::filesystem::path shaderFolder;  // read instead of the shaders built in; empty: built in
+    std::filesystem::path shaderFolder;  // empty: the built-in shaders
     // Shared with other renderers, so that none waits for a program that another one has compiled; replaces
-    // shaderFolder. Null: the renderer has its own.
+    // shaderFolder. Null: the renderer makes its own.
     std::shared_ptr<ChunkPrograms> programs{};
 };
 
 class ChunkRenderer {
 public:
-    // The Error says what the context lacks, or what the shader compiler said.
+    // The Error says what the context lacks, or quotes the shader compiler.
     static Result<ChunkRenderer> create(const RendererConfig& config);
     ChunkRenderer(ChunkRenderer&&) noexcept;
     ChunkRenderer& operator=(ChunkRenderer&&) noexcept;
@@ -57,23 +57,23 @@ public:
     // Error the last image stays.
     Result<void> setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
-    // Makes a pool for the planet's own colours, which then replace the image; none: the image again. Call
-    // followColours() next with all of Planet::takeTileChanges() since beginTilesAnew() or the planet's
+    // Makes a pool for the planet's own colours, which then replace the image; unset restores the image.
+    // Next, call followColours() with all of Planet::takeTileChanges() since beginTilesAnew() or the planet's
     // opening. On an Error the last pool stays.
     Result<void> setColours(const std::optional<ColourPoolConfig>& config);
     void followColours(std::span<const TileChange> changes);
 
-    // Draws the pool's colours from a clipmap: windows of sizePx texels a side that follow the viewer
-    // (planet/surface/colour_clipmap.h). None: from the tiles again; frees its memory. Needs a pool;
-    // setColours() removes the clipmap. On an Error there is none.
+    // Draws the pool's colours from a clipmap: windows of sizePx texels per side that follow the viewer
+    // (planet/surface/colour_clipmap.h). Unset: draws from the tiles and frees the clipmap. Requires a pool;
+    // setColours() removes the clipmap. After an Error there is no clipmap.
     Result<void> setColourClipmap(std::optional<int> sizePx);
     // Moves the clipmap to the viewer, fills new and changed texels, and drops levels finer than finestLevel.
     // Call it between followColours() and draw(). Keeps the bound framebuffer and the viewport; leaves depth
     // test, culling, blending and scissor off. On an Error the clipmap is removed.
     Result<void> moveColourClipmap(const glm::dvec3& eyeM, int finestLevel);
     const ColourClipmapState* colourClipmap() const;  // null: none
-    // Makes a pool for tiles of normals, which are drawn as LightDrawing::normals says. Call followNormals()
-    // next with all of Planet::takeTileChanges().
+    // Makes a pool for tiles of normals, which LightDrawing::normals turns on. Next, call followNormals()
+    // with all of Planet::takeTileChanges().
     Result<void> setNormals(const std::optional<NormalPoolConfig>& config);
     void followNormals(std::span<const TileChange> changes);
 
@@ -81,39 +81,40 @@ public:
     // an Error the last ones stay.
     Result<void> setLayers(std::span<const LayerPicture> pictures, int size);
 
-    // Lets draws with ShaderWait::Never make the tables of the physical atmosphere in the background, while
-    // the last ones, or at first the analytic atmosphere, are drawn. Off at first: draws wait for the tables.
+    // Lets draws with ShaderWait::Never compute the tables of the physical atmosphere in the background.
+    // Until they are ready, the last tables are used, or at first the analytic atmosphere. Off by default:
+    // draws wait.
     void setAirInBackground(bool inBackground);
 
     // Makes an empty pool of another size. On an Error the old one stays.
     Result<void> setSlotCapacity(std::uint32_t slotCapacity);
-    // Takes the shape of the same planet after its exaggeration has changed.
+    // Adopts the shape of the same planet after its exaggeration has changed.
     void setShape(const PlanetShape& shape);
 
-    // Reads and compiles the shaders again; on an Error the last good ones stay.
+    // Rereads and recompiles the shaders; on an Error the last valid ones stay.
     Result<void> reloadShaders();
 
-    // Clears the bound framebuffer and fills its lower left view.widthPx x view.heightPx pixels, sky
-    // included. It needs a depth buffer, with reversedZ preferably a float one. Leaves depth, culling and
-    // clip control as a new context has them. Draws the skirts of items whose skirt has a depth. tints: one
-    // per item, or none. shadowCasters: chunks that cast shadows but are not drawn (shadow_cascades.h);
+    // Clears the bound framebuffer and fills its lower left view.widthPx x view.heightPx pixels, including
+    // the sky. The framebuffer needs a depth buffer, with reversedZ preferably a float one. Leaves depth,
+    // culling and clip control as in a new context. Draws the skirts of items whose skirt has a depth. tints:
+    // one per item, or none. shadowCasters: chunks that cast shadows but are not drawn (shadow_cascades.h);
     // ignored unless drawsShadows(). ShaderWait::Never: if the programs have a worker, it compiles missing
-    // programs in the background. Until they are ready the most similar ones draw, or nothing is drawn;
+    // programs in the background. Until they are ready, the most similar programs draw, or nothing is drawn;
     // RenderCounters::standIn reports it.
     void draw(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
               std::span<const ChunkTint> tints = {}, std::span<const DrawItem> shadowCasters = {},
               ShaderWait wait = ShaderWait::UntilReady);
     bool drawsShadows(const RenderSettings& settings) const;
     bool drawsSeaSurface(const RenderSettings& settings) const;
-    // Returns the reasons why something was not drawn as set since the last call, each once.
+    // Returns, once each, the reasons why parts were not drawn as set since the last call.
     std::vector<std::string> takeProblems();
 
     // Returns the last draw's projection, to convert depths into metres.
     const Projection& projection() const;
 
     // Reads back the vertex positions of the items, with morph and stitched edges, without skirts and the
-    // sea's surface: metres from the eye in world axes, chunkVertexCount for each item. Waits for the GPU;
-    // for tests and measuring. Draws nothing, but OpenGL wants a complete framebuffer bound.
+    // sea's surface: metres from the eye in world axes, chunkVertexCount per item. Waits for the GPU, so it
+    // is for tests and measurements. Draws nothing, but OpenGL requires a complete framebuffer to be bound.
     Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
                                                        const RenderSettings& settings);
 

@@ -16,9 +16,9 @@ namespace {
 constexpr std::array<std::string_view, 1> lineVertexFiles = {"lines.vert"};
 constexpr std::array<std::string_view, 1> lineFragmentFiles = {"lines.frag"};
 constexpr float faintOpacity = 0.25f;
-constexpr double nearestM = 0.1;  // lines come closer than a non-reversed near plane: depth is clamped there
+constexpr double nearestM = 0.1;  // of lines; a non-reversed near plane clamps their depth
 
-// One end of a line, as shaders/lines.vert reads it.
+// One end of a line, in the layout of shaders/lines.vert.
 struct LineEnd {
     glm::vec3 fromEyeM{0, 0, 0};
     LineColour colour{};

@@ -1,4 +1,4 @@
-// Draws lines over a picture that ChunkRenderer has drawn. Wants a current context; one thread.
+// Draws lines over a picture that ChunkRenderer has drawn. Requires a current context; one thread.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 namespace planet::gl {
 
 enum class LineDepth : std::uint8_t {
-    Hidden,  // nearer ground hides them
-    Faint,   // a quarter of them shows through nearer ground
+    Hidden,  // hidden by nearer ground
+    Faint,   // drawn at a quarter of the opacity behind nearer ground
     InFront,
 };
 
@@ -23,7 +23,7 @@ public:
     static Result<DebugLines> create();
 
     // Draws into the bound framebuffer with the projection of the last ChunkRenderer::draw. widthPx: [1, 16],
-    // with smooth sides. Leaves depth test, blending and clip control as a new context has them.
+    // with antialiased sides. Leaves depth test, blending and clip control as in a new context.
     void draw(const View& view, const Projection& projection, std::span<const LineVertex> lines,
               float widthPx, LineDepth depth);
 

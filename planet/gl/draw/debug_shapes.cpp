@@ -15,7 +15,7 @@ void append(const glm::dvec3& a, const glm::dvec3& b, const LineColour& colour, 
     lines.push_back({b, colour});
 }
 
-// About a centre, through centre + x and centre + y.
+// Appends the circle around a centre through centre + x and centre + y.
 void appendCircle(const glm::dvec3& centreM, const glm::dvec3& x, const glm::dvec3& y,
                   const LineColour& colour, Lines& lines) {
     const auto at = [&](int segment) {
@@ -26,7 +26,7 @@ void appendCircle(const glm::dvec3& centreM, const glm::dvec3& x, const glm::dve
         append(at(segment), at(segment + 1), colour, lines);
 }
 
-// A unit vector across another.
+// Returns a unit vector perpendicular to the direction.
 glm::dvec3 across(const glm::dvec3& direction) {
     const glm::dvec3 size = glm::abs(direction);
     const glm::dvec3 other = size.x < size.y && size.x < size.z ? glm::dvec3(1, 0, 0)

@@ -1,5 +1,5 @@
-// Lines that show what cannot be seen: bounding boxes, frusta, horizons, distances. In doubles, metres from
-// the planet's centre; whoever draws them makes them relative to the eye. Pure functions, any thread.
+// Line shapes for debugging: bounding boxes, frusta, horizons, distances. Coordinates are doubles, metres
+// from the planet's centre; the caller makes them relative to the eye. Pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -19,21 +19,23 @@ struct LineVertex {
     glm::dvec3 positionM{0, 0, 0};
     LineColour colour{255, 255, 255, 255};
 };
-// Two vertices a line.
+// Two vertices per line.
 using Lines = std::vector<LineVertex>;
 
 void appendBox(const OrientedBox& box, const LineColour& colour, Lines& lines);
 
-// The four edges from the eye and rectangles at a third, two thirds and the whole of a length along its axis.
+// Appends the frustum's four edges from the eye, and its rectangles at one third, two thirds and all of a
+// length along its axis.
 void appendFrustum(const View& view, double lengthM, const LineColour& colour, Lines& lines);
 
-// Lines of sight that touch the occluder, and the circle where they do; none where the horizon sees all.
+// Appends lines of sight that touch the occluder, and the circle where they do; nothing if the horizon hides
+// nothing.
 void appendHorizon(const Horizon& horizon, const glm::dvec3& eyeM, const LineColour& colour, Lines& lines);
 
-// Three great circles of a sphere about a point.
+// Appends three great circles of a sphere.
 void appendSphere(const glm::dvec3& centreM, double radiusM, const LineColour& colour, Lines& lines);
 
-// A chunk's outline on its own surface, liftM above it so that the surface does not hide it.
+// Appends a chunk's outline on its own surface, raised by liftM so that the surface does not hide it.
 void appendOutline(const ChunkTree& tree, const ChunkNode& node, double liftM, const LineColour& colour,
                    Lines& lines);
 

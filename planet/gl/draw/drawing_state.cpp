@@ -24,7 +24,7 @@ constexpr auto targets =
                                               {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
                                               {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D}});
 
-// Zeros for everything that a program reads.
+// Zeros for all inputs of a program.
 struct EmptyInputs {
     Buffer uniforms = makeBuffer();
     Buffer gridVertices = makeBuffer();
@@ -107,8 +107,8 @@ void drawNothing(const Program& program, ProgramUse use, const DrawingState& sta
         beginDepthTest(state.reversedZ);
         if (use == ProgramUse::Sky) glDepthMask(GL_FALSE);
     }
-    // A chunk's three vertices are one, so no pixel is covered; the sky covers a few, of the target made
-    // here.
+    // A chunk's three vertices coincide, so no pixel is covered. The sky covers a few pixels of the target
+    // made here.
     glUseProgram(program.name());
     if (use == ProgramUse::Sky) {
         glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -1,6 +1,6 @@
 // The OpenGL state that chunks and the sky are drawn with. Drivers generate machine code for the state of a
-// program's first draw, which takes some of them far longer than linking: drawNothing makes that draw. Wants
-// a current context; one thread each.
+// program's first draw, which in some drivers takes far longer than linking; drawNothing makes that draw.
+// Requires a current context; one thread per context.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -11,10 +11,10 @@
 
 namespace planet::gl {
 
-enum class ProgramUse { Chunk, Depth, Sky };  // Depth: chunks as the sun sees them
+enum class ProgramUse { Chunk, Depth, Sky };  // Depth: chunks seen from the sun
 
 void beginDepthTest(bool reversedZ);
-// Restores the depth test of a new context.
+// Restores a new context's depth test.
 void endDepthTest(bool reversedZ);
 
 struct BoundTexture {
@@ -23,19 +23,18 @@ struct BoundTexture {
     GLuint name = 0;
 };
 
-// Drivers compile a program for this state, beside its text.
+// The state that drivers compile a program for, besides its text.
 struct DrawingState {
     bool reversedZ = false;
     int samples = 1;
     std::vector<BoundTexture> textures;
 };
 
-// Reads the current state; samples are those of the framebuffer that is bound for drawing. Leaves texture
-// unit 0 active.
+// Reads the current state; samples are those of the draw framebuffer. Leaves texture unit 0 active.
 DrawingState currentDrawingState(bool reversedZ);
 
-// Draws with the program into a small target of its own and waits until that is done. Leaves the context's
-// state changed: for a context that does nothing else.
+// Draws with the program into a small target of its own and waits for it. Changes the context's state, so use
+// it in a context that does nothing else.
 void drawNothing(const Program& program, ProgramUse use, const DrawingState& state);
 
 }  // namespace planet::gl

@@ -12,18 +12,19 @@ namespace planet::gl {
 
 namespace {
 
-// Scale heights in the planet's radius: 10 km on Earth, a little over the real 8.4, so that the rim shows.
+// The planet's radius in scale heights. On Earth a scale height is then 10 km, slightly more than the real
+// 8.4 km, so that the rim is visible.
 constexpr double radiusInScaleHeights = 640;
 
-// Relief is too flat to see from high up: slopes are lit as they are near the ground, and up to four times as
-// steep from orbit.
+// Returns the factor by which lighting steepens slopes. Relief is too flat to see from high up: slopes are
+// lit as they are near the ground, and up to four times as steep from orbit.
 double reliefBoost(const PlanetShape& shape, const View& view) {
     const double altitude = (glm::length(view.eyeM) - shape.radiusM) / shape.radiusM;
     const double t = std::clamp((std::log10(std::max(altitude, 1e-9)) + 4) / 3, 0.0, 1.0);
     return 1 + 3 * t * t * (3 - 2 * t);
 }
 
-// 1 up to a hundredth of the radius above it, 0 from a tenth: 64 and 640 km on Earth.
+// Returns 1 up to an altitude of a hundredth of the radius, 0 from a tenth: 64 km and 640 km on Earth.
 double nearness(const PlanetShape& shape, double eyeRadiusM) {
     const double altitude = eyeRadiusM / shape.radiusM - 1;
     const double t = std::clamp(-1 - std::log10(std::max(altitude, 1e-9)), 0.0, 1.0);
@@ -50,11 +51,11 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
     return all;
 }
 
-// Metres after which each octave of the detail noise repeats, for height samples one metre apart: its
-// coarsest waves are about as long as the shortest of the heights.
+// The periods of the octaves of the detail noise, metres, for height samples 1 m apart. The longest waves are
+// about as long as the shortest waves of the heights.
 constexpr std::array<double, 3> detailSizes = {8, 1.3, 0.22};
 
-// Rotates each octave its own way, so that the ground cuts the noise at odd angles and shows no repeat.
+// Rotates each octave differently, so that the ground cuts the noise at odd angles and shows no repeats.
 glm::dmat3 detailTurn(int octave) {
     const double a = 0.7 + 1.1 * octave;
     const double b = 0.5 + 0.4 * octave;
@@ -67,8 +68,8 @@ double samplesApartM(const PlanetShape& shape) {
     return 1.5 * shape.radiusM / faceCells(shape);
 }
 
-// Computes the eye's place in the noise in doubles, as the planet's centre is too far away for floats, and
-// keeps its fraction: the noise repeats.
+// Computes the eye's position in the noise in doubles, because the planet's centre is too far away for
+// floats, and keeps its fraction, because the noise repeats.
 void setDetail(const PlanetShape& shape, const View& view, const ColoursDrawn& colours,
                FrameUniforms& uniforms) {
     const double apartM = samplesApartM(shape);
@@ -93,7 +94,7 @@ double linearFromSrgb(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-// Colours are mixed as square roots of linear light, which is close to mixing in sRGB and cheap to undo.
+// Mixes colours as square roots of linear light, which is close to mixing in sRGB and cheap to undo.
 void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
     const std::vector<RampStop>& ramp = settings.ramp;
     assert(ramp.size() <= maxRampStops);
@@ -111,7 +112,7 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
             uniforms.ramp[i].root[channel] = toFloat(std::sqrt(linearFromSrgb(value)));
         }
         uniforms.ramp[i].startM = toFloat(startM);
-        // Two stops at one height are a sharp step.
+        // Two stops at one height make a sharp step.
         uniforms.ramp[i].perM = toFloat(1 / std::max(ramp[i].heightM - startM, 1e-3));
     }
 }

@@ -16,7 +16,7 @@
 
 namespace planet::gl {
 
-// Members have std140's offsets, since every vec3 is aligned to 16 bytes.
+// Members have std140 offsets, because every vec3 is aligned to 16 bytes.
 struct FaceUniforms {
     glm::ivec2 grid;
     glm::vec2 coordinates;
@@ -67,14 +67,14 @@ struct FrameUniforms {
     float normalRiseM;
 };
 
-// The colours over the planet: an image, or streamed tiles.
+// The colours of the planet: an image, or streamed tiles.
 struct ColoursDrawn {
-    int faceSizePx = 0;     // texels along a face at the finest level; 0: there are none
-    bool streamed = false;  // the members below are of streamed colours
+    int faceSizePx = 0;     // texels along a face at the finest level; 0: no colours
+    bool streamed = false;  // the members below describe streamed colours
     int leafLevel = 0;
     double anisotropy = 1;      // of the sampler, >= 1
     double texelsPerPixel = 1;  // TileSettings
-    bool fromClipmap = false;   // instead of the tiles themselves
+    bool fromClipmap = false;   // drawn from the clipmap instead of the tiles
 
     bool exist() const { return faceSizePx > 0; }
 };
@@ -92,8 +92,8 @@ void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUnif
 // Returns whether the sea is drawn as water with waves. software: features set to Automatic are off.
 bool isSeaSurfaceDrawn(const RenderSettings& settings, bool software);
 
-// Returns the switches that follow from the settings and the distance of the ground, metres. LightByVertex,
-// Slide and Morph follow from the chunks and are left out. software: features set to Automatic are off.
+// Returns the switches that follow from the settings and the distance to the ground, metres. LightByVertex,
+// Slide and Morph depend on the chunks and are left out. software: features set to Automatic are off.
 Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSettings& settings,
                      const ColoursDrawn& colours, bool tinted, double nearestGroundM, bool software);
 

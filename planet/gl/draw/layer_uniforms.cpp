@@ -31,7 +31,7 @@ NoiseOctave noiseOctave(const View& view, double cellsPerM) {
     return {glm::ivec3(latticeCell(cell)), toFloat(cellsPerM), place - cell};
 }
 
-// Layers whose noise is of one size share its field.
+// Returns the index of the noise field for a size; layers of one noise size share a field.
 int fieldOf(double sizeM, const View& view, std::vector<double>& sizes, LayersUniforms& uniforms) {
     const auto found = std::find(sizes.begin(), sizes.end(), sizeM);
     const auto field = static_cast<std::size_t>(found - sizes.begin());
@@ -49,7 +49,8 @@ int sliceOf(const LayerDrawing& drawing, std::size_t layer, std::size_t slices) 
     return there && layerProblem(drawing.set.layers[layer]).empty() ? picture + 1 : 0;
 }
 
-// Keeps the fraction of the eye's place, computed in doubles: floats are too coarse for the planet's radius.
+// Keeps the fraction of the eye's position, computed in doubles: floats are too coarse for the planet's
+// radius.
 void setRepeats(const View& view, double scaleM, std::size_t at, LayersUniforms& uniforms) {
     double repeatM = scaleM;
     for (std::size_t level = 0; level < layerRepeatLevels; ++level, repeatM *= layerRepeatLevelStep) {

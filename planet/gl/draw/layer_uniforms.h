@@ -13,11 +13,11 @@
 namespace planet::gl {
 
 inline constexpr std::size_t layerRepeatLevels = 10;
-inline constexpr double layerRepeatLevelStep = 3.2360680;  // irrational: the repeats of two levels never meet
-// A repeat of the textures covers at least as many pixels, as long as larger repeats are left.
+inline constexpr double layerRepeatLevelStep = 3.2360680;  // irrational: repeats never align
+// The least number of pixels that a repeat of the textures covers, as long as there are larger repeats.
 inline constexpr double layerRepeatPx = 320;
 
-// Members have std140's offsets, since every vec3 is aligned to 16 bytes.
+// Members have std140 offsets, because every vec3 is aligned to 16 bytes.
 struct alignas(16) LineUniforms {
     float lowest, rise, highest, fall;
 };
@@ -50,12 +50,12 @@ struct LayersUniforms {
     std::array<RepeatUniforms, maxLayers * layerRepeatLevels> repeats;
 };
 
-// Returns the switches for layers. software: Automatic leaves them off.
+// Returns the switches for layers. software: features set to Automatic are off.
 Switches layerSwitches(const LayerDrawing& drawing, bool software, double nearestGroundM);
 
-// reliefBoost: how many times steeper slopes are lit than drawn, >= 1. exaggeration: of the drawn heights, >
-// 0; the ranges of layers are true heights and slopes. means: mean linear albedo of each slice of the
-// textures, the checker's first.
+// Returns the uniform block. reliefBoost: factor by which lighting exaggerates slopes, >= 1. exaggeration: of
+// the drawn heights, > 0; the ranges of layers are true heights and slopes. means: mean linear albedo of each
+// slice of the textures, the checker's first.
 LayersUniforms layersUniforms(const LayerDrawing& drawing, const View& view, double reliefBoost,
                               double exaggeration, std::span<const glm::vec3> means);
 

@@ -63,7 +63,7 @@ void PlanetRenderer::followColours(Planet& planet) {
         }
         colourPool_ = wanted;
         drawsColours_ = made.has_value();
-        clipmapPx_.reset();  // it went with the pool
+        clipmapPx_.reset();  // setColours() removed it
     }
     const std::vector<TileChange> changes = planet.takeTileChanges(BlockKind::Colours);
     if (drawsColours_) chunks_.followColours(changes);
@@ -89,8 +89,8 @@ void PlanetRenderer::followNormals(Planet& planet) {
     if (drawsNormals_) chunks_.followNormals(changes);
 }
 
-// The clipmap stands around the first view, whose tiles it is filled from, whichever view is drawn. A size
-// that cannot be had is tried again only when it changes.
+// Centres the clipmap on the first view, whose tiles fill it, whichever view is drawn. A size that failed is
+// retried only when it changes.
 void PlanetRenderer::followClipmap(const Planet& planet, const RenderSettings& settings) {
     const bool isSeen = drawsColours_ && settings.streamed && settings.surface == SurfaceColour::Image &&
                         settings.imageOpacity > 0 && !settings.cube;
@@ -109,10 +109,11 @@ void PlanetRenderer::followClipmap(const Planet& planet, const RenderSettings& s
     note(chunks_.moveColourClipmap(planet.views()[0].input.lodView.eyeM, finestLevel));
 }
 
-// Returns the casters for the view that the level of detail is chosen for, so that shadows freeze with it.
+// Returns the casters for the view that the level of detail is chosen for, so that freezing the level of
+// detail also freezes the shadows.
 std::vector<DrawItem> PlanetRenderer::shadowCasters(const Planet& planet, const RenderSettings& settings,
                                                     std::span<const DrawItem> items) const {
-    // From far off nothing drawn is within their reach, and the walk would see every resident chunk.
+    // From far away no drawn chunk is within reach of shadows, and the walk would visit every resident chunk.
     const double reachM = settings.light.shadows.reachM;
     const bool mayBeSeen = std::any_of(items.begin(), items.end(), [&](const DrawItem& item) {
         return static_cast<double>(item.distanceM) < reachM;

@@ -1,5 +1,5 @@
-// Draws a Planet: keeps the pools of heights, colours and normals, the colour clipmap and the shadow casters
-// as the planet's paging has them, and draws with a ChunkRenderer. This is the header to embed.
+// Draws a Planet. Keeps the pools of heights, colours and normals, the colour clipmap and the shadow casters
+// in step with the planet's paging, and draws with a ChunkRenderer. Embedding programs include this header.
 //
 //     auto renderer = PlanetRenderer::create(*planet).value();
 //     for (;;) {
@@ -8,8 +8,8 @@
 //         renderer.draw(*planet, view, renderSettings);
 //     }
 //
-// All calls need the same current OpenGL context, on the thread that steps the planet. A renderer is for one
-// planet.
+// All calls require the same current OpenGL context, on the thread that steps the planet. A renderer serves
+// one planet.
 #pragma once
 
 #include <cstddef>
@@ -28,14 +28,14 @@
 namespace planet::gl {
 
 struct PlanetRendererConfig {
-    std::filesystem::path shaderFolder{};       // as RendererConfig has them
-    std::shared_ptr<ChunkPrograms> programs{};  // the same
+    std::filesystem::path shaderFolder{};       // as in RendererConfig
+    std::shared_ptr<ChunkPrograms> programs{};  // as in RendererConfig
 };
 
-// The options of a draw besides its view and its settings.
+// The options of a draw besides its view and settings.
 struct PlanetDrawing {
-    std::size_t selection = 0;  // of the last step: the view whose chunks are drawn
-    // Chunks to draw instead of that selection; their slots must hold them.
+    std::size_t selection = 0;  // index of a view in the last step, whose chunks are drawn
+    // Replaces that selection; the slots must hold these chunks.
     std::optional<std::span<const DrawItem>> items{};
     std::span<const ChunkTint> tints{};  // one per chunk, or none
     ShaderWait wait = ShaderWait::UntilReady;
@@ -43,40 +43,40 @@ struct PlanetDrawing {
 
 class PlanetRenderer {
 public:
-    // The Error says what the context lacks, or what the shader compiler said.
+    // The Error says what the context lacks, or quotes the shader compiler.
     static Result<PlanetRenderer> create(const Planet& planet, const PlanetRendererConfig& config = {});
     PlanetRenderer(PlanetRenderer&&) noexcept = default;
     PlanetRenderer& operator=(PlanetRenderer&&) noexcept = default;
 
-    // Uploads chunks, for Planet::step and settle. Valid as long as this object stays where it is.
+    // Returns the upload function for Planet::step and settle. This object must not move while it is in use.
     UploadChunk upload();
 
-    // Fits the pool of heights to the planet's capacity and uploads every chunk again: call it where
-    // Planet::setPaging returned true. On an Error the old pool stays: give the planet its old settings back
+    // Resizes the pool of heights to the planet's capacity and uploads every chunk again. Call it when
+    // Planet::setPaging has returned true. On an Error the old pool stays: restore the planet's old settings
     // and call this again.
     Result<void> fitHeights(const Planet& planet);
-    // Takes over the planet's exaggeration; draw does so too.
+    // Adopts the planet's exaggeration; draw() does so too.
     void fitShape(const Planet& planet);
 
-    // Turns off the tiles of a view that the GPU has no memory to draw, so that they are not loaded.
+    // Turns off the tiles of a view for which the GPU is out of memory, so that they are not loaded.
     void limit(ViewInput& view) const;
 
-    // Takes the planet's changes since the last draw, and draws a view of it into the bound framebuffer, as
-    // ChunkRenderer::draw does. The settings decide whether colours and normals are drawn; the views of the
-    // last step decide which tiles of them are loaded, the whole faces at least.
+    // Applies the planet's changes since the last draw, and draws a view of it into the bound framebuffer, as
+    // ChunkRenderer::draw does. The settings decide whether colours and normals are drawn. The views of the
+    // last step decide which of their tiles are loaded; the whole faces always are.
     void draw(Planet& planet, const View& view, const RenderSettings& settings,
               const PlanetDrawing& drawing = {});
 
-    // Whether there is a pool for colours or normals, so that they are drawn.
+    // Returns whether there is a pool for colours or normals, so that they are drawn.
     bool drawsTiles(BlockKind kind) const {
         return kind == BlockKind::Colours ? drawsColours_ : drawsNormals_;
     }
-    // Returns the reasons why something was not drawn as asked since the last call, each once.
+    // Returns, once each, the reasons why parts were not drawn as set since the last call.
     std::vector<std::string> takeProblems();
-    // The reason why the last draw had no clipmap though RenderSettings::clipmapPx asked for one; else empty.
+    // Returns why the last draw had no clipmap although RenderSettings::clipmapPx requested one; else empty.
     const std::string& clipmapProblem() const { return clipmapProblem_; }
 
-    // The renderer of chunks, for colour images, layers, counters and measurements.
+    // Returns the renderer of chunks, for colour images, layers, counters and measurements.
     ChunkRenderer& chunks() { return chunks_; }
     const ChunkRenderer& chunks() const { return chunks_; }
 
@@ -91,11 +91,11 @@ private:
     ChunkRenderer chunks_;
     std::uint32_t heightSlots_ = 0;               // of the pool
     double exaggeration_ = 1;                     // of the shape that is drawn
-    std::optional<ColourPoolConfig> colourPool_;  // last asked for
-    bool drawsColours_ = false;                   // that pool could be made
-    std::optional<NormalPoolConfig> normalPool_;  // last asked for
-    bool drawsNormals_ = false;                   // that pool could be made
-    std::optional<int> clipmapPx_;                // last asked for
+    std::optional<ColourPoolConfig> colourPool_;  // last requested
+    bool drawsColours_ = false;                   // the requested pool exists
+    std::optional<NormalPoolConfig> normalPool_;  // last requested
+    bool drawsNormals_ = false;                   // the requested pool exists
+    std::optional<int> clipmapPx_;                // last requested
     std::string clipmapProblem_;
     std::vector<std::string> problems_;
 };

@@ -1,4 +1,4 @@
-// From camera space to clip space and back. Pure functions, any thread.
+// Conversions between camera space and clip space. Pure functions, any thread.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -11,27 +11,27 @@ struct Projection {
     glm::dmat4 clipFromCamera{1};
     bool reversedZ = true;
     double nearM = 0.1;
-    double farM = 0;  // of the classic one; the reversed one has no far plane
+    double farM = 0;  // of the non-reversed projection; the reversed one has no far plane
 };
 
-// Depth 1 at the near plane, 0 at infinity: for clip depth 0 to 1 and a float depth buffer, which keeps about
-// seven digits of the distance at any distance.
+// Returns a projection with depth 1 at the near plane and 0 at infinity, for clip depth [0, 1] and a float
+// depth buffer, which keeps about seven digits of the distance at any distance.
 Projection reversedProjection(const View& view, double nearM);
 
-// Depth 0 at the near plane, 1 at the far plane, clip depth -1 to 1, as OpenGL always had it.
+// Returns a projection with depth 0 at the near plane and 1 at the far plane, for OpenGL's default clip depth
+// [-1, 1].
 Projection classicProjection(const View& view, double nearM, double farM);
 
-// The classic one with planes for a planet: as near as the ground may be, and as far as any of it can be
-// seen. highestRadiusM: of the highest ground drawn, from the planet's centre.
+// Returns the classic projection with planes for a planet: the near plane as near as the ground may be, the
+// far plane as far as ground is visible. highestRadiusM: the highest drawn ground, from the planet's centre.
 Projection fallbackProjection(const View& view, double radiusM, double highestRadiusM);
 
-// Metres along the view direction of a depth buffer's value in [0, 1]; infinity at the reversed one's 0.
+// Returns the metres along the view direction of a depth value in [0, 1]; infinity for the reversed one's 0.
 double viewDistanceM(const Projection& projection, double depth);
 
-// Metres along the view direction from one value of a depth buffer to the next farther one, at a distance
-// that the buffer can tell, nearM or more: nearer together two surfaces may show through each other. For a
-// float depth buffer; one of 24 bits is the same on the classic projection's farther half. Infinity where
-// there is no farther value.
+// Returns the metres along the view direction from one depth value to the next farther one: surfaces nearer
+// together may show through each other. distanceM: >= nearM. Assumes a float depth buffer; a 24-bit one is
+// the same on the farther half of the classic projection. Infinity if there is no farther value.
 double depthStepM(const Projection& projection, double distanceM);
 
 }  // namespace planet::gl

@@ -1,4 +1,4 @@
-// The renderer's (chunk_renderer.h) counters, capabilities and GPU memory, as plain data.
+// The counters, capabilities and GPU memory of the renderer (chunk_renderer.h), as plain data.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,24 @@ struct RenderCounters {
     std::uint32_t chunks = 0;
     std::uint64_t groundTriangles = 0;
     std::uint64_t skirtTriangles = 0;
-    // GPU times, ms, of the last frame whose timer queries have finished.
-    double chunksMs = 0;  // clearing included
+    // GPU times, ms, of the last frame with finished timer queries.
+    double chunksMs = 0;  // including the clear
     double skyMs = 0;
     double shadowsMs = 0;
-    std::uint32_t uploads = 0;  // chunks uploaded since the draw before
-    // The programs for the settings are still being compiled, or the first tables of the atmosphere computed
-    // (ShaderWait::Never), so others drew the frame, or none did: it does not show the settings.
+    std::uint32_t uploads = 0;  // chunks uploaded since the previous draw
+    // With ShaderWait::Never: the programs for the settings are still being compiled, or the first tables of
+    // the atmosphere computed. Other programs drew the frame, or none, so it does not show the settings.
     bool standIn = false;
 
     std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
 };
 
-// The features of the context that the renderer uses.
+// The context's features that the renderer uses.
 struct RenderCapabilities {
-    // GL_ARB_clip_control. Without it, or with a depth buffer that is not float, the near plane follows the
-    // height above the highest ground drawn.
+    // The context has GL_ARB_clip_control. Without it, or with a depth buffer that is not float, the near
+    // plane depends on the height above the highest drawn ground.
     bool reversedZ = false;
-    int samples = 1;        // the most that a RenderTarget can have
+    int samples = 1;        // the largest for a RenderTarget
     bool software = false;  // the CPU renders
 };
 
@@ -36,9 +36,9 @@ struct GpuMemory {
     std::size_t heightPool = 0;
     std::size_t meshes = 0;  // grid and instances
     std::size_t textures = 0;
-    // The parts of textures that hold streamed colours.
+    // Parts of textures that hold streamed colours.
     std::size_t colourTiles = 0;    // the pool of tiles and its page table
-    std::size_t colourClipmap = 0;  // 0: there is no clipmap
+    std::size_t colourClipmap = 0;  // 0: no clipmap
     std::size_t shadowMaps = 0;
 
     std::size_t total() const { return heightPool + meshes + textures + shadowMaps; }

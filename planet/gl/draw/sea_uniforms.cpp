@@ -12,9 +12,9 @@ namespace {
 
 constexpr double longestWaveM = 110;
 constexpr double shortestWaveM = 1.3;
-constexpr double shareOfWaves = 0.3;  // of the variance of all slopes; the rest are ripples below any pixel
+constexpr double shareOfWaves = 0.3;  // of the variance of all slopes; ripples below a pixel have the rest
 
-// Returns directions all around, so that on any side of the planet some run along its surface.
+// Returns directions spread over the sphere, so that anywhere on the planet some run along its surface.
 glm::dvec3 waveDirection(std::size_t wave) {
     const double turn = 2.399963 * static_cast<double>(wave) + 0.4;  // the golden angle
     const double z = 2 * std::fmod(0.5 + 0.618034 * static_cast<double>(wave), 1.0) - 1;
@@ -43,8 +43,8 @@ glm::dvec3 waterExtinction(double clarityM) {
 SeaUniforms seaUniforms(const SeaDrawing& sea, const View& view, double exaggeration) {
     SeaUniforms uniforms{};
     const double variance = seaSlopeVariance(sea.windMps);
-    // The variance of a sine's slope is half the square of its largest, and two thirds of vectors so spread
-    // lie along a surface.
+    // The slope of a sine has a variance of half its squared maximum. Two thirds of vectors spread over the
+    // sphere lie along a surface.
     const double slope = sea.waves * std::sqrt(2 * 1.5 * shareOfWaves * variance / seaWaveCount);
     for (std::size_t i = 0; i < seaWaveCount; ++i) {
         const double place = (static_cast<double>(i) + 0.5 * std::sin(7.0 * static_cast<double>(i))) /

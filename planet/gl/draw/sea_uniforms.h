@@ -12,7 +12,7 @@ namespace planet::gl {
 
 inline constexpr std::size_t seaWaveCount = 32;
 
-// Members have std140's offsets, since every vec3 is aligned to 16 bytes.
+// Members have std140 offsets, because every vec3 is aligned to 16 bytes.
 struct WaveUniforms {
     alignas(16) glm::vec3 vector;
     float phase;
@@ -26,12 +26,12 @@ struct SeaUniforms {
     float perExaggeration, slopeVariance, waveSlope;
 };
 
-// Returns the variance of the slopes of the sea along both axes together, from the wind 12.5 m above it: Cox
-// and Munk's clean sea.
+// Returns the variance of the sea's slopes, summed over both axes, for a wind speed 12.5 m above it: the
+// clean sea of Cox and Munk.
 double seaSlopeVariance(double windMps);
 
-// Returns the extinction of downwelling light, 1 / metre, in water that leaves 1 / e of green after clarityM:
-// red goes first, blue last, as in the clear ocean (Jerlov's type I).
+// Returns the extinction of downwelling light, 1/m, in water that leaves 1/e of green after clarityM metres.
+// Red is absorbed first and blue last, as in the clear ocean (Jerlov's type I).
 glm::dvec3 waterExtinction(double clarityM);
 
 // exaggeration: of the drawn heights, > 0.

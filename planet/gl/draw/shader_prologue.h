@@ -1,4 +1,4 @@
-// The text in front of every chunk, sky and clipmap shader: constants that GLSL and C++ share.
+// The text in front of every chunk, sky and clipmap shader: the constants that GLSL and C++ share.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace planet::gl {
 
-// Declares each switch as a constant bool of its name, and the C++ constants that shaders need under theirs.
+// Declares each switch as a constant bool, and the C++ constants that shaders need, under their own names.
 std::string shaderPrologue(Switches on);
 
 }  // namespace planet::gl

@@ -1,5 +1,5 @@
 // The switches that programs are compiled for. A switch that is off costs nothing, even where a branch would
-// save nothing. C++ has a bit of each name, GLSL a constant bool (shader_prologue.h): both are made from this
+// not help. C++ has a bit and GLSL a constant bool (shader_prologue.h) of each name, both made from this
 // table.
 #pragma once
 
@@ -38,7 +38,7 @@ namespace planet::gl {
     SWITCH(switchLoudSkirts)     /* skirts in one glaring colour */
 // clang-format on
 
-using Switches = std::uint32_t;  // those that are on
+using Switches = std::uint32_t;  // bits of the switches that are on
 
 #define PLANET_SWITCH_INDEX(name) name##Index,
 enum SwitchIndex : unsigned { PLANET_SHADER_SWITCHES(PLANET_SWITCH_INDEX) switchCount };

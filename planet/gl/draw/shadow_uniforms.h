@@ -18,7 +18,7 @@ struct ShadowUniforms {
     float softness, texelSize;
 };
 
-// softness: radius of the filter, texels, >= 0.
+// Returns the uniform block. softness: radius of the filter, texels, >= 0.
 ShadowUniforms shadowUniforms(const ShadowCascades& cascades, double softness, int mapSizePx);
 
 }  // namespace planet::gl

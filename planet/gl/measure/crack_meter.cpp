@@ -20,16 +20,16 @@ namespace {
 constexpr std::uint32_t nothing = ~std::uint32_t{0};
 constexpr double noGround = std::numeric_limits<double>::infinity();
 
-// Of two distances that the rasteriser makes of one place: each is rounded to 24 bits once when it is stored,
-// and some three times while vertices are transformed and depths are interpolated. A depth buffer that is not
-// reversed holds its values near 1, so the same rounding is a larger share of what is farther away.
+// Returns whether a is nearer than b by more than the rasteriser's rounding of one place. Each distance is
+// rounded to 24 bits once when it is stored and about three times during transformation and interpolation. A
+// non-reversed depth buffer stores values near 1, so the relative error grows with the distance.
 bool isNearer(double aM, double bM, const Projection& projection) {
     double share = 8.0 / (1 << 24);
     if (!projection.reversedZ) share *= std::max(aM / projection.nearM, 1.0);
     return aM * (1 + share) < bM;
 }
 
-// What a pass shows, rows from the top.
+// The picture of a pass, rows from the top.
 struct Pass {
     std::vector<std::uint32_t> item;  // nothing: no ground
     std::vector<double> distanceM;    // along the view's direction; infinity: no ground
@@ -85,10 +85,10 @@ Result<Pass> drawPass(ChunkRenderer& renderer, const View& view, const DrawnGrou
     return drawPass(renderer, view, items, ground.stitched);
 }
 
-// A piece of a chunk's border between two of its vertices.
+// A segment of a chunk's border between two vertices.
 struct BorderPiece {
     Edge edge = Edge::West;
-    std::size_t from = 0;  // vertices, in the order in which skirts are hung: counter-clockwise from above
+    std::size_t from = 0;  // vertices, in the order of the skirts: counter-clockwise from above
     std::size_t to = 0;
 };
 
@@ -102,7 +102,7 @@ std::vector<BorderPiece> borderOf(int cells) {
     return pieces;
 }
 
-// A drawn chunk as the view sees it: its ground, and its long skirt, labelled by pieces of the border.
+// A drawn chunk in the view: its ground, and its long skirt labelled by border segment.
 struct SeenChunk {
     DrawnGrid grid;
     std::vector<BorderPiece> border;
@@ -132,7 +132,7 @@ SeenChunk seenChunk(const View& view, const DrawnGround& ground, std::uint32_t i
     return chunk;
 }
 
-// What is worked out in doubles for one view. Chunks are looked at when first asked about.
+// Verifies crack pixels of one view in doubles. Chunks are computed on first use.
 class CrackJudge {
 public:
     CrackJudge(const View& view, const DrawnGround& ground, std::span<const DrawnPair> pairs,
@@ -143,8 +143,8 @@ public:
           shellDepthM_(shellDepthM),
           projection_(projection) {}
 
-    // The crack at a pixel where the closed pass shows something nearer than the open one; none where that is
-    // nothing but rounding.
+    // Returns the crack at a pixel whose closed pass shows something nearer than the open one; nothing if the
+    // difference is only rounding.
     std::optional<CrackPixel> crackAt(int x, int y, std::size_t at, const Pass& closed, const Pass& open) {
         CrackPixel pixel;
         pixel.x = x;
@@ -176,7 +176,8 @@ private:
         const BorderPiece& piece = chunk.border[wall.label];
         const glm::dvec3& from = chunk.grid.positionM[piece.from];
         const glm::dvec3& to = chunk.grid.positionM[piece.to];
-        // Along the edge as seen from the planet's centre, since skirts hang towards it.
+        // The position along the edge is measured as seen from the planet's centre, because skirts hang
+        // towards it.
         const glm::dvec3 start = glm::normalize(from);
         const glm::dvec3 way = glm::normalize(to) - start;
         const glm::dvec3 seen =

@@ -1,5 +1,5 @@
-// Draws two pictures of the same size into one and counts how much they differ. Wants a current context; one
-// thread.
+// Combines two pictures of the same size into one and counts the pixels that differ. Requires a current
+// context; one thread.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace planet::gl {
 
-// Columns x < border of the result show A's column x + shiftA, the others B's column x + shiftB, unscaled; or
-// all show the difference.
+// The columns x < border of the result show A's column x + shiftA, the others B's column x + shiftB,
+// unscaled. With `difference`, all columns show the difference.
 struct PictureMix {
     int border = 0;  // [0, width]
     int shiftA = 0;
@@ -20,9 +20,9 @@ struct PictureMix {
 
     bool operator==(const PictureMix&) const = default;
 };
-// Shows A up to a share of the width, [0, 1], and B beyond.
+// Shows A in a share of the width, [0, 1], and B in the rest.
 PictureMix wipeMix(int widthPx, double share);
-// Shows the middle half of each, so that pixels keep their size: A's on the left.
+// Shows the middle half of each picture unscaled, A on the left.
 PictureMix sideBySideMix(int widthPx);
 PictureMix onlyMix(int widthPx, bool showsB);
 PictureMix differenceMix(double gain);
@@ -31,8 +31,8 @@ PictureMix differenceMix(double gain);
 double pictureColumn(const PictureMix& mix, double columnPx);
 
 struct PictureDifference {
-    std::uint64_t pixels = 0;  // that differ by more than one 8-bit step in some channel
-    int largestSteps = 0;      // of all pixels and channels, [0, 255]
+    std::uint64_t pixels = 0;  // pixels that differ by more than one 8-bit step in a channel
+    int largestSteps = 0;      // the largest over all pixels and channels, [0, 255]
 
     bool operator==(const PictureDifference&) const = default;
 };
@@ -41,10 +41,10 @@ class PictureComparer {
 public:
     static Result<PictureComparer> create();
 
-    // Draws into the bound framebuffer, which is as large as the two RGBA8 textures. Sets the viewport.
+    // Draws into the bound framebuffer, which has the size of the two RGBA8 textures. Sets the viewport.
     void draw(GLuint textureA, GLuint textureB, int widthPx, int heightPx, const PictureMix& mix) const;
 
-    // Counts on the GPU and waits. Leaves another framebuffer bound and sets the viewport.
+    // Counts on the GPU and waits for the result. Leaves another framebuffer bound and sets the viewport.
     PictureDifference count(GLuint textureA, GLuint textureB, int widthPx, int heightPx);
 
 private:

@@ -17,13 +17,13 @@ namespace planet::gl {
 
 namespace {
 
-// Light of a white level square below the sun. It is close to the analytic atmosphere's at noon, so that the
-// tone mapping shows the ground by day equally bright in both. The sun above the air is a little warmer than
-// a screen's white.
+// The light of a white, level square under the sun at the zenith. It is close to that of the analytic
+// atmosphere at noon, so that tone mapping shows daylit ground equally bright in both. Above the air, the sun
+// is slightly warmer than a screen's white.
 constexpr double noonLight = 3.6;
 constexpr glm::dvec3 sunColour(1.03, 1, 0.955);
 
-// Pictures from space, where all of the air's light lies over the ground, are exposed less, and those at dusk
+// Views from space, where all the light of the air lies over the ground, get less exposure; views at dusk get
 // more.
 constexpr double spaceExposure = 0.6;
 constexpr double duskExposure = 6;
@@ -93,8 +93,8 @@ AirUniforms airUniforms(const AirTables& tables, const AirDrawing& drawing, cons
 
 AirTextures::AirTextures() : frame_(makeBuffer()) {}
 
-// Keeps the last tables: they are the same for every planet, so a planet that replaces another need not wait
-// for them.
+// Keeps the last tables in a static. They do not depend on the planet, so a planet that replaces another one
+// need not wait for them.
 AirTextures::Made AirTextures::made(const AirSettings& settings) {
     static std::mutex guard;
     static std::optional<Made> last;

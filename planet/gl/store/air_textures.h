@@ -1,5 +1,5 @@
 // The physical atmosphere on the GPU: its tables as textures, and the uniform block of shaders/air.glsl.
-// Wants a current context, and the same one throughout; one thread.
+// All calls require the same current context; one thread.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace planet::gl {
 
-// Members have std140's offsets, since every vec3 is aligned to 16 bytes; shaders/air.glsl describes them.
+// Members have std140 offsets because every vec3 is aligned to 16 bytes; shaders/air.glsl describes them.
 struct AirUniforms {
     alignas(16) glm::vec3 rayleigh;
     float perRayleighHeight;
@@ -32,7 +32,7 @@ struct AirUniforms {
     glm::vec2 transmittanceSize;
 };
 
-// eyeM: metres from the planet's centre. sun: unit.
+// Returns the uniform block. eyeM: metres from the planet's centre. sun: unit vector.
 AirUniforms airUniforms(const AirTables& tables, const AirDrawing& drawing, const glm::dvec3& eyeM,
                         double radiusM, const glm::dvec3& sun);
 
@@ -40,9 +40,9 @@ class AirTextures {
 public:
     AirTextures();
 
-    // Makes the tables for these settings. In the background the last tables, at first none, stay until the
-    // new ones are ready; else it waits. Reports once as an Error that the context has no memory for them;
-    // the last ones stay.
+    // Makes the tables for these settings. In the background, the last tables (none at first) stay in use
+    // until the new ones are ready; otherwise the call waits. Returns an Error once if the context is out of
+    // memory for them; the last tables then stay.
     Result<void> follow(const AirSettings& settings, bool inBackground);
     bool exist() const { return transmittance_.name() != 0; }
 
@@ -63,7 +63,7 @@ private:
 
     AirTables tables_;
     AirSettings settings_;                // of the tables
-    std::optional<AirSettings> refused_;  // there was no memory for their tables
+    std::optional<AirSettings> refused_;  // out of memory for their tables
     AirFigures figures_;
     Texture transmittance_, glow_, sky_;
     Buffer frame_;

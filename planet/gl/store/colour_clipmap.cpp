@@ -91,10 +91,10 @@ Result<void> ColourClipmap::makeBase() {
     return {};
 }
 
-// Makes at least one layer, so that there is a texture to bind.
+// Makes at least one layer, because a texture must be bound.
 Result<void> ColourClipmap::makeStack(int layers) {
     const glm::ivec2 size = layers > 0 ? glm::ivec2(windows_.layout().sizePx) : glm::ivec2(1);
-    stack_ = Texture();  // frees the old one first, so that both never take memory at once
+    stack_ = Texture();  // frees the old one first, so that both never exist at once
     stackLayers_ = 0;
     Result<Texture> made = makeLayers(size, std::max(layers, 1), GL_REPEAT, anisotropy_);
     if (!made) return tl::unexpected(made.error());
@@ -124,7 +124,7 @@ Result<void> ColourClipmap::move(const glm::dvec3& eyeM, int finestLevel, const 
     if (windows_.layerCount() > stackLayers_) {
         const Result<void> made = makeStack(windows_.layerCount());
         if (!made) return tl::unexpected(made.error());
-        // The old stack's texels are lost; this also fills the whole levels again.
+        // The old stack's texels are lost. forget() also makes the whole levels be filled again.
         windows_.forget();
         updates = windows_.move(centre, finestLevel);
     }

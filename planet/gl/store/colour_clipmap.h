@@ -1,12 +1,12 @@
-// A clipmap of colours on the GPU, filled from the tiles of a TilePool through its page table, so that it
-// shows what the tiles show: where a tile is not resident, a coarser one.
+// A clipmap of colours on the GPU. It is filled from the tiles of a TilePool through its page table, so it
+// shows a coarser tile where a tile is not resident.
 //
-// The base has one layer per face for the levels that are kept whole, the finest in the corner, the others in
+// The base has one layer per face for the levels that are kept whole: the finest in the corner, the others in
 // a row above it. The stack has one window per layer; a texel lies at its coordinates modulo the size. Both
-// are uncompressed, since a BC1 texture cannot be drawn into. The stack begins with a layer for each level.
-// Near a face's edge there are more windows: the stack then grows, is filled again, and stays as large.
+// are uncompressed, because BC1 textures cannot be rendered to. The stack starts with one layer per level.
+// Near a face's edge there are more windows: the stack then grows, is filled again, and keeps that size.
 //
-// Everything here wants a current context, and the same one throughout; one thread.
+// All calls require the same current context; one thread.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ struct alignas(16) ClipmapWindow {
     int layer;
 };
 
-// The uniform block of shaders/colour_clipmap.glsl, which describes its members. They have std140's offsets,
-// since every vec3 is aligned to 16 bytes.
+// The uniform block of shaders/colour_clipmap.glsl, which describes its members. They have std140 offsets,
+// because every vec3 is aligned to 16 bytes.
 struct ClipmapUniforms {
     std::array<ClipmapWindow, faceCount*(maxColourLevel + 1)> windows;
     alignas(16) glm::vec3 centre;
@@ -39,20 +39,20 @@ struct ClipmapUniforms {
 
 class ColourClipmap {
 public:
-    // Shows a pool's colours in windows of sizePx texels a side, [smallestClipmapPx, largestClipmapPx]. The
-    // Error says what the context cannot hold.
+    // Creates a clipmap of a pool's colours with windows of sizePx texels per side, [smallestClipmapPx,
+    // largestClipmapPx]. The Error says what the context cannot hold.
     static Result<ColourClipmap> create(int sizePx, const TilePool& pool);
 
-    // Takes the changes that the pool has followed.
+    // Applies the changes that the pool has applied.
     void follow(std::span<const TileChange> changes);
 
     // Moves the windows around the viewer, drops those finer than finestLevel, and fills new and changed
     // texels with fillProgram. Keeps the bound framebuffer and the viewport; leaves depth test, culling,
-    // blending and scissor off. The Error says what the context has no room for: the clipmap must not be
-    // drawn from then.
+    // blending and scissor off. The Error says what the context is out of memory for; the clipmap must not be
+    // drawn after it.
     Result<void> move(const glm::dvec3& eyeM, int finestLevel, const TilePool& pool, GLuint fillProgram);
 
-    bool isFilled() const { return filled_; }  // false until it is first moved
+    bool isFilled() const { return filled_; }  // false before the first move
     GLuint base() const { return base_.name(); }
     GLuint stack() const { return stack_.name(); }
     const ClipmapUniforms& uniforms() const { return uniforms_; }

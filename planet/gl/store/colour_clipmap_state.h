@@ -1,4 +1,4 @@
-// What can be told of a clipmap of colours: no GL in it, as in all that embedding programs include.
+// The state of a colour clipmap as plain data. It contains no GL, since embedding programs include it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace planet::gl {
 
 struct ColourClipmapState {
     ClipmapLayout layout;
-    // Those that hold anything, of levels that are not whole, face by face.
+    // The windows that are not empty, of the levels that are not kept whole, face by face.
     struct Window {
         Face face = Face::PosX;
         int level = 0;
@@ -21,7 +21,7 @@ struct ColourClipmapState {
     std::vector<ClipmapUpdate> updates;  // of the last move
     std::int64_t updatedTexels = 0;      // in the last move
     std::size_t baseBytes = 0;           // on the GPU: the levels that are kept whole
-    std::size_t stackBytes = 0;          // the windows
+    std::size_t stackBytes = 0;          // on the GPU: the windows
 
     std::size_t bytes() const { return baseBytes + stackBytes; }
 };

@@ -27,7 +27,7 @@ std::size_t byteCount(int width, int height) {
     return std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-// Averages 2 x 2 pixels; an odd last row or column is left out.
+// Averages 2 x 2 pixels; an odd last row or column is dropped.
 Pixels halved(const Pixels& from) {
     Pixels to{{}, std::max(from.width / 2, 1), std::max(from.height / 2, 1)};
     to.rgb.reserve(byteCount(to.width, to.height));
@@ -80,7 +80,7 @@ void setAxis(GLuint program, const char* name, const glm::vec3& axis) {
     glUniform3f(glGetUniformLocation(program, name), axis.x, axis.y, axis.z);
 }
 
-// Draws each face into its layer, then puts the caller's framebuffer and viewport back.
+// Draws each face into its layer and restores the caller's framebuffer and viewport.
 void drawFaces(GLuint program, GLuint faces, int size) {
     GLint framebufferBefore = 0;
     std::array<GLint, 4> viewportBefore{};
@@ -136,7 +136,7 @@ void ColourImage::fill(std::span<const std::uint8_t> rgb, int width, int height,
     glActiveTexture(GL_TEXTURE0);
     const Texture sphereImage = uploaded(rgb, width, height);
 
-    // A quarter of the way around, and a quarter more, since each texel is read through another filter.
+    // A face spans a quarter of the width. A quarter of that is added because each texel is filtered again.
     faceSizePx_ = std::max(width * 5 / 16, 2);
     texture_ = makeTexture();
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());

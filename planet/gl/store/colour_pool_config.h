@@ -1,5 +1,5 @@
-// What a renderer has to know of a planet's colours to draw them: no GL in it, as in all that embedding
-// programs include.
+// The properties of a planet's colours that a renderer needs. It contains no GL, since embedding programs
+// include it.
 #pragma once
 
 #include <cstdint>

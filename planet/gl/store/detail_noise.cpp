@@ -19,7 +19,8 @@ std::uint32_t hashed(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uin
     return h ^ (h >> 16);
 }
 
-// Perlin's twelve gradients, from a cell's corner towards the middles of a cube's edges.
+// Returns the dot product with one of Perlin's twelve gradients, which point from a cell's corner to the
+// middles of a cube's edges.
 float alongGradient(std::uint32_t hash, const glm::vec3& p) {
     const std::uint32_t pick = hash % 12;
     const float a = pick < 8 ? p.x : p.y;
@@ -31,7 +32,7 @@ float faded(float t) {
     return t * t * t * (t * (t * 6 - 15) + 10);
 }
 
-// In [-1, 1], the same again after so many cells along each axis.
+// Returns noise in [-1, 1] that repeats after `cells` cells along each axis.
 float gradientNoise(const glm::vec3& p, std::uint32_t cells, std::uint32_t seed) {
     const glm::vec3 floor(std::floor(p.x), std::floor(p.y), std::floor(p.z));
     const glm::vec3 inside = p - floor;
@@ -53,7 +54,7 @@ float gradientNoise(const glm::vec3& p, std::uint32_t cells, std::uint32_t seed)
     return sum;
 }
 
-// Three octaves, creased where the noise passes through 0: ridges, and rounded valleys between them.
+// Returns three octaves, creased where the noise passes through 0: ridges with rounded valleys between them.
 float ridges(int x, int y, int z) {
     const glm::vec3 place = glm::vec3(x, y, z) / static_cast<float>(detailNoiseSize);
     float sum = 0;

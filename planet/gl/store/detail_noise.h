@@ -1,4 +1,4 @@
-// The noise that RenderSettings::detail draws between the samples there are.
+// The noise of RenderSettings::detail, which fills in between the samples of the data.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace planet::gl {
 
-inline constexpr int detailNoiseSize = 64;  // texels a side
+inline constexpr int detailNoiseSize = 64;  // texels per side
 inline constexpr std::size_t detailNoiseBytes =
-    std::size_t{4} * (detailNoiseSize * detailNoiseSize * detailNoiseSize * 8 - 1) / 7;  // with mipmaps
+    std::size_t{4} * (detailNoiseSize * detailNoiseSize * detailNoiseSize * 8 - 1) / 7;  // including mipmaps
 
-// Ridged gradient noise (Perlin, "Improving noise", 2002) on a torus, x fastest: three channels of its slope,
-// noise units of half the range in one whole side, and one of its height; 128 is 0 and each channel's mean.
-// Made at the first call, and kept. Any thread.
+// Returns ridged gradient noise (Perlin, "Improving noise", 2002) on a torus, x fastest. Three channels hold
+// the noise's slope, in units of half the noise's range per whole side, and the fourth its height. 128 stands
+// for 0, the mean of each channel. Computed at the first call and cached. Thread-safe.
 const std::vector<std::uint8_t>& detailNoise();
 
-// The same as a 3-D texture with mipmaps, which end at 0: what is finer than a pixel is gone.
+// Returns the noise as a 3-D texture. Its mipmaps end at 0, so detail finer than a pixel disappears.
 Texture detailNoiseTexture();
 
 }  // namespace planet::gl

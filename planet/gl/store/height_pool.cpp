@@ -13,11 +13,11 @@ namespace planet::gl {
 namespace {
 
 constexpr int usualPageSize = 2048;
-constexpr int mostSlotsPerRow = 1 << 10;  // as packedPlace packs them
+constexpr int mostSlotsPerRow = 1 << 10;  // the range of packedPlace
 constexpr int mostPages = 1 << 12;
 
 PoolLayout layoutWithPages(std::uint32_t slotCapacity, int chunkSize, int largestPage) {
-    // No larger than what holds all slots in one page.
+    // A page is no larger than needed for all slots.
     const int wholeRow = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(slotCapacity))));
     PoolLayout layout;
     layout.chunkSize = chunkSize;

@@ -10,28 +10,28 @@
 
 namespace planet::gl {
 
-// How slots are packed. A slot is chunkSize x chunkSize texels, a page slotsPerRow x slotsPerRow slots.
+// The packing of slots. A slot has chunkSize x chunkSize texels, a page slotsPerRow x slotsPerRow slots.
 struct PoolLayout {
     int chunkSize = 0;
     int slotsPerRow = 0;
-    int pageSize = 0;  // texels a side
+    int pageSize = 0;  // texels per side
     int pages = 0;
 
     std::size_t bytes() const;
 };
 
 struct SlotPlace {
-    int x = 0;  // texel of the slot's first height
+    int x = 0;  // texel of the slot's first height, (x, y)
     int y = 0;
     int page = 0;
 };
 SlotPlace placeOf(const PoolLayout& layout, std::uint32_t slot);
 
-// The same as the vertex shader wants it: column + 2^10 row + 2^20 page, counted in slots.
+// Returns the place in the vertex shader's format: column + 2^10 row + 2^20 page, counted in slots.
 std::uint32_t packedPlace(const PoolLayout& layout, std::uint32_t slot);
 
-// Pages of up to 2048 texels a side, larger ones only where the context has too few layers. The Error names
-// the limits that are too small.
+// Chooses pages of up to 2048 texels per side, larger ones only if the context has too few layers. The Error
+// names the limits that are too small.
 Result<PoolLayout> poolLayout(std::uint32_t slotCapacity, int chunkSize, int maxTextureSize, int maxLayers);
 
 class HeightPool {

@@ -1,4 +1,4 @@
-// A picture of a texture layer as a renderer is given it.
+// A picture of a texture layer in the renderer's input format.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The pictures of texture layers on the GPU: two arrays with a slice a picture, mipmaps and anisotropy. Slice
-// 0 is a checker pattern that shows where a picture is missing.
+// The pictures of texture layers on the GPU: two texture arrays with one slice per picture, mipmaps and
+// anisotropic filtering. Slice 0 is a checker pattern that marks missing pictures.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@
 
 namespace planet::gl {
 
-// Magenta and black squares, eight a side, level and rough.
+// Returns magenta and black squares, eight per side, flat and rough.
 LayerPicture checkerPicture(int size);
 
 class LayerTextures {
 public:
-    // size: a power of two, [8, 4096]. The Error says what the context has no memory for.
+    // size: a power of two, [8, 4096]. The Error says what the context is out of memory for.
     static Result<LayerTextures> create(std::span<const LayerPicture> pictures, int size);
 
     GLuint albedo() const { return albedo_.name(); }
     GLuint surface() const { return surface_.name(); }
-    // Linear light of each slice on average, the checker's first.
+    // Returns the mean linear colour of each slice, the checker's first.
     std::span<const glm::vec3> means() const { return means_; }
-    std::size_t bytes() const { return bytes_; }  // mipmaps included
+    std::size_t bytes() const { return bytes_; }  // including mipmaps
 
 private:
     LayerTextures() = default;

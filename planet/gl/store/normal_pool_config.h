@@ -1,5 +1,5 @@
-// What a renderer has to know of a planet's normals to draw them: no GL in it, as in all that embedding
-// programs include.
+// The properties of a planet's normals that a renderer needs. It contains no GL, since embedding programs
+// include it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace planet::gl {
 struct NormalPoolConfig {
     int leafLevel = 0;
     std::uint32_t tileCapacity = 0;  // BlockCounters::tileCapacity
-    double quantumM = 1;             // of the shape as stored: the tiles' slopes are of true heights
+    double quantumM = 1;             // of the stored shape: the tiles' slopes are those of true heights
 
     bool operator==(const NormalPoolConfig&) const = default;
 };

@@ -58,7 +58,8 @@ void ShadowMaps::begin(std::size_t cascade) {
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glClearDepth(1);
-    // Away from the sun, by what a texel's slope makes of its depth, so that ground does not shade itself.
+    // The offset moves depths away from the sun, in proportion to their slope, so that ground does not shade
+    // itself.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.5f, 2.0f);
     glClear(GL_DEPTH_BUFFER_BIT);

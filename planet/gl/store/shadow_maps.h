@@ -1,4 +1,4 @@
-// What the sun sees of the ground: a depth map for each cascade. Wants a current context; one thread.
+// The depth maps of the sun's cascades. Requires a current context; one thread.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,16 @@ namespace planet::gl {
 
 class ShadowMaps {
 public:
-    // The largest side that the context can have is taken where it is less. The Error says what the context
-    // cannot do.
+    // Clamps the size to the context's largest. The Error says what the context cannot do.
     static Result<ShadowMaps> create(int sizePx);
 
     int sizePx() const { return sizePx_; }
-    GLuint texture() const { return depth_.name(); }  // an array, compared: 1 where the sun is seen
+    GLuint texture() const { return depth_.name(); }  // an array with depth comparison: 1 is lit by the sun
     std::size_t bytes() const;
 
-    // Binds a cascade's map to be drawn into, cleared, with the state that drawing it wants; what is nearer
-    // to the sun than the map's range is clamped. end() leaves the state as a new context has it; the
-    // framebuffer and the viewport stay.
+    // Binds and clears a cascade's map and sets the state to draw into it. Depths nearer to the sun than the
+    // map's range are clamped. end() restores the state of a new context; the framebuffer and the viewport
+    // stay changed.
     void begin(std::size_t cascade);
     static void end();
 

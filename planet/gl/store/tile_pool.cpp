@@ -150,7 +150,7 @@ void TilePool::beginAnew() {
     for (const Face face : allFaces) setPages({face, 0, 0, 0}, Page{});
 }
 
-// As the texture takes it where it does not take the tile as it is.
+// Returns the texels for a texture whose format is not the tile's own.
 std::vector<std::uint8_t> TilePool::unpacked(const TileData& tile) const {
     if (texels_.colours) return rgbOfColourTexels(*texels_.colours, tile.texels);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(tile.texels.data());
@@ -181,7 +181,7 @@ void TilePool::uploadRoot(const TileData& root) {
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-// The tile's own texel and all those under it, of which nothing finer is resident.
+// Sets the page of the tile and those of all its descendants, none of which is resident.
 void TilePool::setPages(const ChunkId& tile, Page page) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, pages_.name());
     for (int level = tile.level; level <= leafLevel_; ++level) {

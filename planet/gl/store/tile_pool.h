@@ -1,12 +1,12 @@
-// Tiles of colours or of normals on the GPU, and the page table by which shaders find them (virtual
+// Tiles of colours or of normals on the GPU, and the page table through which shaders find them (virtual
 // texturing, after Barrett, "Sparse virtual textures", GDC 2008).
 //
-// The pool is a texture array with one tile per layer, its slot. The page table has a texel for each tile
-// that a level could have, which names the finest resident tile over it: itself, one above or none. So one
-// lookup finds the best tile for any place at any level. The six roots also exist with mipmaps, for a planet
-// that is small in the picture.
+// The pool is a texture array with one tile per layer; the layer is the tile's slot. The page table has a
+// texel for each possible tile of each level. It names the finest resident tile that covers it: the tile
+// itself, an ancestor, or none. So one lookup finds the best tile for any place at any level. The six roots
+// also exist with mipmaps, for a planet that is small in the picture.
 //
-// Everything here wants a current context, and the same one throughout; one thread.
+// All calls require the same current context; one thread.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,10 @@
 
 namespace planet::gl {
 
-// The slot that a page names where no tile is resident.
+// The slot in pages over which no tile is resident.
 inline constexpr std::uint32_t noTile = 0xFFFF;
 
-// Returns the most tiles that the context can hold in one pool.
+// Returns the largest number of tiles that the context can hold in one pool.
 std::uint32_t mostColourTiles();
 
 class TilePool {
@@ -36,16 +36,16 @@ public:
     static Result<TilePool> create(const ColourPoolConfig& config);
     static Result<TilePool> create(const NormalPoolConfig& config);
 
-    // Takes the changes in their order; the first one resets the pool.
+    // Applies the changes in order; the first one resets the pool.
     void follow(std::span<const TileChange> changes);
 
     int leafLevel() const { return leafLevel_; }
     GLuint tiles() const { return tiles_.name(); }
     GLuint pages() const { return pages_.name(); }
     GLuint roots() const { return roots_.name(); }
-    // Returns whether tiles stay BC1 on the GPU; a context without BC1 gets them unpacked.
+    // Returns whether tiles stay BC1 on the GPU; without BC1 support they are unpacked.
     bool isCompressed() const { return texels_.isCompressed; }
-    float anisotropy() const { return anisotropy_; }  // of its sampler, >= 1
+    float anisotropy() const { return anisotropy_; }  // of the sampler, >= 1
     std::size_t bytes() const;
 
 private:
@@ -58,7 +58,7 @@ private:
         bool isCompressed = false;
         std::size_t tileBytes = 0;  // on the GPU
         std::size_t rootBytes = 0;
-        std::optional<ColourFormat> colours{};  // as the tiles come; none: normals
+        std::optional<ColourFormat> colours{};  // format of the incoming tiles; unset: normals
         const char* name = "";
     };
     // A texel of the page table.
