@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int32_t nobody = -1;
 
-// The crack pixel at each pixel of the picture, and which of them belong to a cluster already.
+// The crack pixel at each pixel of the picture, and the flags of those that belong to a cluster already.
 struct Field {
     std::span<const CrackPixel> pixels;
     int widthPx;
@@ -36,7 +36,7 @@ struct Field {
     }
 };
 
-// Takes the neighbours of a pixel that belong to its cluster, and lists them.
+// Adds the neighbours of a pixel that belong to its cluster, and lists them.
 void takeAround(Field& field, std::size_t index, std::vector<std::size_t>& members) {
     const CrackPixel& here = field.pixels[index];
     for (int y = std::max(here.y - 1, 0); y <= std::min(here.y + 1, field.heightPx - 1); ++y) {

@@ -12,25 +12,25 @@ namespace planet {
 
 inline constexpr std::uint32_t noPair = ~std::uint32_t{0};
 
-// A pixel that a crack goes through.
+// A pixel that shows a crack.
 struct CrackPixel {
     int x = 0;                    // from the left
     int y = 0;                    // from the top
     std::uint32_t item = 0;       // the drawn item whose long skirt shows there
-    std::uint32_t pair = noPair;  // index of the drawn pair whose edge that skirt hangs from
-    bool leaks = false;           // the skirts as set do not hide it
-    double closedM = 0;  // to what the pixel shows with long skirts, metres along the view's direction,
-    double openM = 0;    // and without any: infinity where there is nothing
-    double wallM = 0;    // to the farthest point of the long skirt that the pixel may show
-    glm::dvec3 placeM{0, 0, 0};  // on the edge over it, metres from the planet's centre
+    std::uint32_t pair = noPair;  // index of the drawn pair at whose edge the skirt hangs
+    bool leaks = false;           // the skirts as set do not cover the pixel
+    double closedM = 0;           // distance with long skirts, metres along the view's direction
+    double openM = 0;             // distance without skirts; infinity: nothing there
+    double wallM = 0;             // distance of the farthest point of the long skirt in the pixel
+    glm::dvec3 placeM{0, 0, 0};   // on that edge, metres from the planet's centre
 };
 
 struct CrackSpot {
     std::uint32_t pair = noPair;
     int pixels = 0;
-    int leaking = 0;             // of them
-    glm::ivec2 from{0, 0};       // the box around it: its first column and row,
-    glm::ivec2 to{0, 0};         // and its last
+    int leaking = 0;             // number of leaking pixels
+    glm::ivec2 from{0, 0};       // first column and row of its bounding box
+    glm::ivec2 to{0, 0};         // last column and row
     glm::dvec2 centre{0, 0};     // the pixels' mean, in pixels from the picture's top left corner
     glm::dvec3 placeM{0, 0, 0};  // of the pixel nearest to the centre
 };

@@ -18,7 +18,7 @@ bool isUpright(Edge edge) {
     return edge == Edge::West || edge == Edge::East;
 }
 
-// Returns how far along an edge of a chunk a point of the cube lies, [0, 1]. Exact.
+// Returns the position of a cube point along a chunk's edge, [0, 1], exactly.
 double alongEdge(const ChunkId& id, Edge edge, const glm::dvec3& cube) {
     const FaceSquare square = faceSquareOf(id);
     const FaceAxes& axes = faceAxes(id.face);
@@ -44,7 +44,7 @@ glm::dvec3 endOfEdge(const ChunkId& id, Edge edge, bool farEnd) {
 
 // An edge as it is drawn.
 struct EdgeLine {
-    std::vector<double> along;  // [0, 1], never falling
+    std::vector<double> along;  // [0, 1], non-decreasing
     std::vector<glm::dvec3> positionM;
 };
 
@@ -71,13 +71,13 @@ glm::dvec3 pointAt(const EdgeLine& line, double along) {
     return glm::mix(line.positionM[before], line.positionM[before + 1], share);
 }
 
-// Returns the pixels between two points in a view that is turned to face them.
+// Returns the distance of two points in a view turned to face them, pixels.
 double facingPx(const View& view, double scalePx, const glm::dvec3& a, const glm::dvec3& b) {
     return scalePx * glm::length(glm::normalize(a - view.eyeM) - glm::normalize(b - view.eyeM));
 }
 
-// Returns the pixels in the flat picture; 0 unless the first point lies in it and the other before the
-// camera.
+// Returns the distance in the flat picture, pixels; 0 unless the first point lies in the picture and the
+// other one in front of the camera.
 double screenPx(const View& view, double scalePx, const glm::dvec3& a, const glm::dvec3& b) {
     const auto inCamera = [&](const glm::dvec3& p) {
         const glm::dvec3 fromEye = p - view.eyeM;

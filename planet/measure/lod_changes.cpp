@@ -22,7 +22,7 @@ std::vector<ChunkId> missingFrom(const ChunkTable& table, const std::vector<Chun
     return missing;
 }
 
-// Returns whether one chunk is the other or lies above it.
+// Returns whether one of the drawn chunks is this chunk or its ancestor.
 bool coversOne(const ChunkTable& drawn, ChunkId id) {
     while (!drawn.contains(id)) {
         if (id.level == 0) return false;
@@ -44,7 +44,7 @@ void LodChanges::add(const Selection& selection, double timeS) {
     drawn.reserve(selection.draw.size());
     for (const DrawItem& item : selection.draw) drawn.push_back(item.id);
     if (splits != splits_) {
-        // A chunk that is split now was drawn before, itself or as part of a coarser one; otherwise it was
+        // A chunk that becomes split was drawn before, itself or as part of a coarser one; otherwise it was
         // out of view.
         if (const auto begun = missingFrom(tableOf(splits_), splits); !begun.empty()) {
             const ChunkTable drawnBefore = tableOf(drawn_);

@@ -1,5 +1,5 @@
 // Counts the changes of the drawn chunks from frame to frame: splits, merges, and chunks that flip back and
-// forth. It takes one selection per frame and uses no clock. One thread at a time.
+// forth. Takes one selection per frame and reads no clock. One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@ enum class LodChangeType : std::uint8_t { Split, Merge };
 
 struct LodChange {
     double timeS = 0;
-    ChunkId chunk;  // that was replaced by its children, or took their place
+    ChunkId chunk;  // replaced by its children, or replacing them
     LodChangeType type = LodChangeType::Split;
-    bool thrash = false;  // the same chunk changed the other way less than a second before
+    bool thrash = false;  // the same chunk changed in the other direction less than 1 s before
 };
 
 class LodChanges {
 public:
-    // Compares with the selection before. A chunk that is culled or comes into view is not a change of level.
-    // A jump over several levels counts each chunk whose split begins or ends. A time before the last one
-    // clears everything first.
+    // Compares the selection with the previous one. A chunk that is culled or comes into view is no change of
+    // level. A jump over several levels counts every chunk that begins or ends to be split. A time before the
+    // last one clears everything first.
     void add(const Selection& selection, double timeS);
     // Clears everything, for another planet.
     void clear();
 
     // Returns the changes of the last keptS seconds, oldest first; splits come first in a frame.
     const std::deque<LodChange>& recent() const { return recent_; }
-    double splitsPerS() const;  // over the last second
+    double splitsPerS() const;  // in the last second
     double mergesPerS() const;
     std::uint64_t thrashTotal() const { return thrashTotal_; }
     std::size_t thrashRecent() const;  // in the last keptS seconds
@@ -45,8 +45,8 @@ private:
     double perS(LodChangeType type) const;
 
     std::deque<LodChange> recent_;
-    std::unordered_map<ChunkId, LodChange> last_;  // of each chunk in recent_
-    std::vector<ChunkId> splits_;                  // of the selection before
+    std::unordered_map<ChunkId, LodChange> last_;  // by chunk, of recent_
+    std::vector<ChunkId> splits_;                  // of the previous selection
     std::vector<ChunkId> drawn_;
     double nowS_ = 0;
     std::uint64_t thrashTotal_ = 0;

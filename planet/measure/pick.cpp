@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A ray with two axes across it: across, up and along are right-handed, all of unit length.
+// A ray with two axes perpendicular to it: across, up and along form a right-handed orthonormal frame.
 struct Ray {
     glm::dvec3 eyeM;
     glm::dvec3 along;
@@ -34,7 +34,7 @@ Ray makeRay(const glm::dvec3& eyeM, const glm::dvec3& direction) {
     return {eyeM, along, across, glm::cross(along, across)};
 }
 
-// A point in the ray's axes.
+// Converts a point to the ray's axes.
 glm::dvec3 fromRay(const Ray& ray, const glm::dvec3& pointM) {
     const glm::dvec3 offset = pointM - ray.eyeM;
     return {glm::dot(offset, ray.across), glm::dot(offset, ray.up), glm::dot(offset, ray.along)};
@@ -62,26 +62,27 @@ double entryM(const OrientedBox& box, const Ray& ray) {
     return entry <= exit ? entry : infinity;
 }
 
-// Returns twice the area of the triangle of the ray and an edge, positive if the ray lies to its left. The
-// reversed edge gives exactly the negative, so no ray passes between two triangles.
+// Returns twice the area of the triangle of the ray and an edge, positive if the ray lies to the edge's left.
+// The reversed edge gives exactly the negative, so no ray passes between two triangles.
 double sideOf(const glm::dvec3& from, const glm::dvec3& to) {
     return from.x * to.y - from.y * to.x;
 }
 
 // Returns the distance along the ray to a triangle in the ray's axes, or infinity. Hits front faces only:
-// seen from their front, corners run counter-clockwise; the ray looks along +z, so here they run clockwise.
+// their corners run counter-clockwise as seen from the front, and clockwise here, since the ray looks along
+// +z.
 double triangleM(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double overA = sideOf(c, b);
     const double overB = sideOf(a, c);
     const double overC = sideOf(b, a);
     if (overA < 0 || overB < 0 || overC < 0) return infinity;
     const double sum = overA + overB + overC;
-    if (sum == 0) return infinity;  // edge on
+    if (sum == 0) return infinity;  // edge-on
     const double alongM = (overA * a.z + overB * b.z + overC * c.z) / sum;
     return alongM >= 0 ? alongM : infinity;
 }
 
-// The extent of points across the ray.
+// The bounding box of points across the ray.
 struct Extent {
     glm::dvec2 low{infinity, infinity};
     glm::dvec2 high{-infinity, -infinity};
@@ -95,7 +96,7 @@ struct Extent {
     }
 };
 
-// Chunks are searched in tiles of so many cells a side, because most tiles can be skipped.
+// The cells per side of the tiles that a chunk is searched in; most tiles can be skipped.
 constexpr int pickCells = 8;
 constexpr int pickSide = pickCells + 1;
 

@@ -1,4 +1,4 @@
-// Finds the first hit of a ray, exactly, on the drawn triangles. Pure functions, any thread.
+// Finds the exact first hit of a ray on the drawn triangles. Pure functions, any thread.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,9 +17,9 @@ struct SurfaceHit {
     double distanceM = 0;           // from the eye
 };
 
-// The chunks may come in any order; their nodes must be in the tree. Ignores skirts, morph and stitched
-// edges. Hits front faces only, as they are drawn: one can see out from under the ground. The direction has
-// any length but 0.
+// Returns the first hit; nothing if the ray misses. The chunks may come in any order; their nodes must be in
+// the tree. Ignores skirts, morph and stitched edges. Hits front faces only, as drawn, so a ray from below
+// the ground passes out through it. The direction may have any length but 0.
 std::optional<SurfaceHit> pickSurface(const ChunkTree& tree, std::span<const DrawItem> items,
                                       const glm::dvec3& eyeM, const glm::dvec3& direction);
 

@@ -10,12 +10,11 @@
 
 namespace planet {
 
-// A place whose level has changed: a coarser chunk of one frame, and the chunks that cover its place in the
-// other.
+// A place whose level has changed: a coarser chunk of one frame, and the chunks at its place in the other.
 struct PopMeter::Switch {
     ChunkId chunk;
     bool merged = false;        // the coarser one is drawn now
-    std::uint32_t coarser = 0;  // places in the chunks of their frames
+    std::uint32_t coarser = 0;  // index of the coarser chunk in its frame
     std::vector<std::uint32_t> finer;
     Why why{};
     SurfaceJump jump{};
@@ -24,7 +23,7 @@ struct PopMeter::Switch {
 
 namespace {
 
-// Returns the drawn chunk above one; null if there is none.
+// Returns the drawn ancestor of a chunk; null if there is none.
 const std::uint32_t* drawnAbove(const ChunkTable& places, ChunkId id) {
     while (id.level > 0) {
         id = parentOf(id);
@@ -33,7 +32,7 @@ const std::uint32_t* drawnAbove(const ChunkTable& places, ChunkId id) {
     return nullptr;
 }
 
-// Returns the drawn chunk that is the given one or lies above it.
+// Returns the drawn chunk that is the given one or an ancestor; null if there is none.
 const std::uint32_t* drawnOver(const ChunkTable& places, const ChunkId& id) {
     const std::uint32_t* found = places.find(id);
     return found ? found : drawnAbove(places, id);
@@ -49,13 +48,13 @@ bool isStitched(const LodSettings& settings) {
     return settings.seams == SeamMode::Stitched;
 }
 
-// Returns whether a chunk is drawn although it needs such children.
+// Returns whether a chunk needs its resident children and is drawn nevertheless, because of a stitched seam.
 bool isHeldBack(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
     return isStitched(settings) && children == ChildrenState::Resident &&
            item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
 }
 
-// Returns whether two settings choose the same levels for one camera. Morphs and seams do not change levels.
+// Returns whether two settings choose the same levels for one camera. Morphs and skirts do not change levels.
 bool chooseAlike(const LodSettings& a, const LodSettings& b) {
     return a.metric == b.metric && a.tauPx == b.tauPx && a.hysteresis == b.hysteresis &&
            a.maxLevel == b.maxLevel && a.frustumCulling == b.frustumCulling &&
@@ -174,7 +173,7 @@ std::vector<PopMeter::Switch> PopMeter::findSwitches(const Frame& now) {
     std::uint64_t went = 0;
     find(now, *before_, false, came);
     find(*before_, now, true, went);
-    // A coarser chunk that was exchanged lies above a counted chunk, so it has no match itself.
+    // The coarser chunk of a switch has no drawn ancestor in the other frame, so it was counted: subtract it.
     for (const Switch& change : switches) --(change.merged ? came : went);
     totals_.cameIntoView += came;
     totals_.wentOutOfView += went;
@@ -199,8 +198,8 @@ void PopMeter::measure(const PlanetShape& shape, const Frame& now, std::vector<S
     });
 }
 
-// Returns whether a place that has changed is drawn in both frames: the coarser chunk draws all of it, the
-// finer chunks the part that is not culled.
+// Returns whether a place that has changed is drawn in both frames. The coarser chunk draws all of it; the
+// finer chunks draw the part that is not culled.
 bool PopMeter::isDrawn(const Frame& now, const Switch& change, const ChunkId& place) const {
     const Frame& fine = change.merged ? *before_ : now;
     return std::any_of(change.finer.begin(), change.finer.end(), [&](std::uint32_t i) {
@@ -209,7 +208,8 @@ bool PopMeter::isDrawn(const Frame& now, const Switch& change, const ChunkId& pl
     });
 }
 
-// The edge of an unchanged chunk follows its neighbour, so it may jump when the neighbour is exchanged.
+// Measures the edges of unchanged chunks: an edge follows its neighbour, so it may jump when the neighbour is
+// exchanged.
 void PopMeter::measureBeside(const PlanetShape& shape, const Frame& now,
                              std::vector<Switch>& switches) const {
     ChunkTable switched(switches.size());
@@ -226,7 +226,7 @@ void PopMeter::measureBeside(const PlanetShape& shape, const Frame& now,
             if (sameEdge(was.item, chunk.item, edge)) continue;
             const ChunkId neighbour = neighbourOf(chunk.item.id, edge);
             const std::uint32_t* beside = drawnOver(switched, neighbour);
-            // If the neighbour has left the view, so has the edge.
+            // An edge leaves the view together with its neighbour.
             if (!beside || !isDrawn(now, switches[*beside], neighbour)) continue;
             const SurfaceJump jump = edgeJump(shape, drawnChunk(*before_, was), drawnChunk(now, chunk), edge,
                                               now.view, now.conditions.seaM);
@@ -267,7 +267,7 @@ PopMeter::Why PopMeter::whyOf(const Frame& now, const Switch& change) const {
         const bool culling = neighbourCameOrWent(now, change.chunk);
         return {culling ? PopCause::Culling : PopCause::SeamLimit, jumped};
     }
-    // Hysteresis would have kept it split.
+    // With resident children, hysteresis would have kept it split.
     const double leastPx = coarse.settings.tauPx * (1 - coarse.settings.hysteresis);
     if (change.merged && coarser.children != ChildrenState::Resident &&
         static_cast<double>(coarser.item.epsPx) > leastPx)
@@ -286,7 +286,7 @@ const PopMeter::Switch* PopMeter::switchAbove(const ChunkId& chunk, std::span<co
     return found != switches.end() && found->chunk == split ? &*found : nullptr;
 }
 
-// Returns the cause for a drawn chunk whose split is due and waits from this frame on.
+// Returns the cause for a drawn chunk whose split is due and pending from this frame on.
 PopMeter::Why PopMeter::whyOfWaiting(const Frame& now, const ChunkId& chunk,
                                      std::span<const Switch> switches) const {
     const bool jumped = now.conditions.cameraJumped;
@@ -299,7 +299,7 @@ PopMeter::Why PopMeter::whyOfWaiting(const Frame& now, const ChunkId& chunk,
             return {cause, jumped};
         return {neighbourCameOrWent(now, chunk) ? PopCause::Culling : PopCause::SeamLimit, jumped};
     }
-    // The chunk will be split further.
+    // The chunk came from a split in this frame and will be split further.
     if (const Switch* above = switchAbove(chunk, switches)) return above->why;
     return {cameraOrSettings(now), jumped};
 }
@@ -318,7 +318,7 @@ PopMeter::Decided PopMeter::findDecided(const Frame& now, const Selection& selec
         if (afterJump) decided.loadsAfterJump.insert(id);
     }
     if (!now.settings.morph || now.settings.fadeS == 0) return decided;
-    // Parents come first: the merges below a merge have the same cause.
+    // Parents come first: the merges below a merge have its cause.
     for (const ChildrenRequest& split : selection.splits) {
         const ChunkId& id = split.parentId;
         const auto above = id.level > 0 ? decided.merges.find(parentOf(id)) : decided.merges.end();

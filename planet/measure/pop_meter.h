@@ -1,15 +1,15 @@
-// Measures the visible effects of changes of level: the jump of the drawn surface on screen in the frame of a
-// switch (a pop), and the time that chunks are drawn too coarse because their children have not loaded (late
-// arrivals). It takes one selection per frame and uses no clock and no GL. One thread at a time; frames with
-// many switches use several cores.
+// Measures the visible effects of level changes: the jump of the drawn surface on screen in the frame of a
+// switch (a pop), and the time for which chunks are drawn too coarse because their children have not loaded
+// (late arrivals). Takes one selection per frame, reads no clock and calls no GL. One thread at a time;
+// frames with many switches use several cores.
 //
-// A pop is the distance on screen, through the new view, between the surface as it was drawn in the frame
-// before, morph included, and as it is drawn now at the same place. The motion of the camera does not count,
-// but the sliding of vertices in that frame does. Only places in the picture count, hidden by ground or not;
-// places under a drawn sea do not count.
+// A pop is the distance on screen, in the new view, between the surface as drawn in the previous frame, morph
+// included, and as drawn now at the same place. Camera motion does not count, but the sliding of vertices in
+// that frame does. Only places inside the picture count, even if ground hides them. Places under a drawn sea
+// do not count.
 //
-// A jump of the camera, and the first frame, begin loads and fades that do not represent a moving camera.
-// Every switch that results from such a frame is marked as after a jump, until none of them waits any more.
+// A camera jump, and the first frame, start loads and fades that do not occur with a moving camera. Every
+// switch that results from such a frame is marked as after a jump, until none of them is pending.
 //
 // A chunk that comes into view or leaves it is not a change of level.
 #pragma once
@@ -29,27 +29,27 @@
 
 namespace planet {
 
-// Why a place changed its level. A switch that fades is drawn many frames after it was decided: it has the
-// cause of the frame that decided it, and so do the switches above and below that follow it. If the settings
-// and the camera change in one frame, the settings are the cause.
+// The reason why a place changed its level. A fading switch is drawn many frames after the decision. It has
+// the cause of the frame that decided it, and so do the switches above and below that follow from it. If the
+// settings and the camera change in one frame, the settings are the cause.
 enum class PopCause : std::uint8_t {
     CameraMoved,      // its error crossed the tolerance
-    SettingsChanged,  // what chooses the level, field of view, picture size or exaggeration changed
-    LoadFinished,     // it was waiting for its children, and they came
-    Evicted,          // its children are gone though they are wanted
-    SeamLimit,        // how far neighbours may differ with stitched seams, since a neighbour changed
-    Culling,          // the same, since a neighbour came into view or went out
+    SettingsChanged,  // level settings, field of view, picture size or exaggeration changed
+    LoadFinished,     // its children were missing and have loaded
+    Evicted,          // its children were evicted although they are needed
+    SeamLimit,        // the level limit between stitched neighbours, because a neighbour changed
+    Culling,          // that limit, because a neighbour came into view or left it
 };
 inline constexpr std::size_t popCauseCount = 6;
 const char* popCauseName(PopCause cause);  // "camera moved"
 
-// Further facts about a frame that the meter needs.
+// Additional facts about a frame.
 struct PopConditions {
-    bool cameraJumped = false;     // since the frame before, or is on its way to a flight
+    bool cameraJumped = false;     // since the last frame; also true during the flight to a target
     std::optional<double> seaM{};  // level of a sea that is drawn as water, metres above the radius
 };
 
-// The drawn chunks of a switch, for showing them again.
+// The drawn chunks of a frame, to show them again.
 struct DrawnFrame {
     std::vector<DrawItem> items;
     View view;
@@ -58,48 +58,48 @@ struct DrawnFrame {
 
 struct PopEvent {
     double timeS = 0;
-    std::uint64_t frame = 0;  // frames that were added before it
-    ChunkId chunk;            // the coarser one: replaced, or taking the finer ones' place
-    int fromLevel = 0;        // of the finest chunk on either side
+    std::uint64_t frame = 0;  // index of the frame, from 0
+    ChunkId chunk;            // the coarser one: replaced, or replacing the finer ones
+    int fromLevel = 0;        // of the finest chunk before
     int toLevel = 0;
     PopCause cause = PopCause::CameraMoved;
-    bool afterJump = false;  // it was wanted in the frame of a jump, or in the first
-    bool measured = true;    // false where the exaggeration changed in the same frame
-    SurfaceJump jump;        // of the place itself; jump.places is 0 where nothing of it is seen
-    double besidePx = 0;     // the largest screenPx along edges of unchanged chunks that it lies beside
+    bool afterJump = false;  // it was requested in the frame of a jump, or in the first
+    bool measured = true;    // false if the exaggeration changed in the same frame
+    SurfaceJump jump;        // of the place itself; jump.places is 0 if it is not visible
+    double besidePx = 0;     // largest screenPx along the edges of unchanged chunks next to it
     View viewBefore;
-    View view;                     // that the jump is measured in
-    std::vector<DrawItem> before;  // at the chunk's place; node and slot held in that frame only
+    View view;                     // in which the jump is measured
+    std::vector<DrawItem> before;  // at the chunk's place; nodes and slots are valid in that frame only
     std::vector<DrawItem> after;
-    std::weak_ptr<const DrawnFrame> frameBefore;  // all that was drawn; gone once it is too old
+    std::weak_ptr<const DrawnFrame> frameBefore;  // everything drawn in it; null once it is too old
     std::weak_ptr<const DrawnFrame> frameAfter;
 };
 
-// Returns whether an event counts: it is seen, and not after a jump.
+// Returns whether an event counts: it is visible, and not after a jump.
 inline bool counts(const PopEvent& event) {
     return event.jump.places > 0 && !event.afterJump;
 }
-// Returns why it does not count: "not measured", "outside picture", "under sea" or "after jump"; "" if it
-// counts.
+// Returns why an event does not count: "not measured", "outside picture", "under sea" or "after jump"; "" if
+// it counts.
 const char* popNote(const PopEvent& event);
-// Orders events that count first, then by the largest jump, then by the earliest.
+// Orders events that count first, then by decreasing jump, then by time.
 bool isWorsePop(const PopEvent& a, const PopEvent& b);
 
 enum class LateEnd : std::uint8_t {
     Open,       // still late
-    Loaded,     // its children took its place
-    NotWanted,  // its error came below the tolerance, or its parent took its place
+    Loaded,     // its children replaced it
+    NotWanted,  // its error fell below the tolerance, or its parent replaced it
     OutOfView,
 };
 
-// A chunk that was drawn with eps over tau, because its children were not resident.
+// A chunk that was drawn with ε above τ because its children were not resident.
 struct LateArrival {
     ChunkId chunk;
     double sinceS = 0;
-    double untilS = 0;         // of the first frame that did without it; of the last frame while it is open
-    std::uint32_t frames = 0;  // that it was drawn in, too coarse
+    double untilS = 0;         // of the first frame without it; of the last frame while it is open
+    std::uint32_t frames = 0;  // in which it was drawn too coarse
     double worstEpsPx = 0;     // predicted error on screen
-    double tauPx = 0;          // at the worst
+    double tauPx = 0;          // in the frame of worstEpsPx
     LateEnd end = LateEnd::Open;
 };
 
@@ -108,13 +108,13 @@ struct PopTotals {
     std::array<std::uint64_t, popCauseCount> byCause{};
     std::uint64_t switches = 0;
     std::uint64_t notMeasured = 0;     // switches in a frame that changed the exaggeration
-    std::uint64_t outsidePicture = 0;  // switches of which no place lay in the picture
-    std::uint64_t underSea = 0;        // of which all places in the picture lay under a drawn sea
-    std::uint64_t afterJump = 0;       // seen, but after a jump
-    std::uint64_t counted = 0;         // the others; the largest below are of these
-    std::uint64_t cameIntoView = 0;    // chunks that were culled in the frame before
+    std::uint64_t outsidePicture = 0;  // switches without a place in the picture
+    std::uint64_t underSea = 0;        // switches with all their places in the picture under a drawn sea
+    std::uint64_t afterJump = 0;       // visible, but after a jump
+    std::uint64_t counted = 0;         // all others; the largest values below are of these
+    std::uint64_t cameIntoView = 0;    // chunks that were culled in the previous frame
     std::uint64_t wentOutOfView = 0;
-    std::uint64_t late = 0;  // late arrivals, open ones too
+    std::uint64_t late = 0;  // late arrivals, including open ones
     double worstPx = 0;
     double worstBesidePx = 0;
     double measuringS = 0;  // spent in add() on measuring jumps
@@ -130,17 +130,17 @@ public:
     // Clears everything, for another planet.
     void clear();
 
-    // Returns the switches of the last keptS seconds, at most mostEvents, oldest first; those of one frame by
+    // Returns the switches of the last keptS seconds, at most mostEvents, oldest first; within a frame, by
     // chunk.
     const std::deque<PopEvent>& events() const { return events_; }
-    // Returns the late arrivals in the order in which they ended; those that have not ended are last.
+    // Returns the late arrivals in the order of their ends, open ones last.
     const std::deque<LateArrival>& late() const { return late_; }
     std::size_t lateOpen() const { return open_.size(); }
     const PopTotals& totals() const { return totals_; }
-    // Returns the jump that a share, [0, 1], of the kept switches that count does not exceed, by nearest
-    // rank; 0 if there are none.
+    // Returns the percentile of the jumps of the kept switches that count, by nearest rank; 0 if there are
+    // none. share: [0, 1].
     double percentilePx(double share) const;
-    double measuredUsPerSwitch() const;  // time that measuring one switch takes, on average
+    double measuredUsPerSwitch() const;  // mean time to measure one switch
     double lastTimeS() const { return nowS_; }
 
     static constexpr double keptS = 300;
@@ -154,10 +154,9 @@ private:
         SharedHeights heights;
         ChildrenState children = ChildrenState::None;
     };
-    // A frame as it was drawn.
     struct Frame {
         std::vector<KeptChunk> chunks;  // in the order of the selection
-        ChunkTable places{0};           // of chunks, by id
+        ChunkTable places{0};           // indices of chunks, by id
         View view;
         LodSettings settings;
         double exaggeration = 1;
@@ -169,11 +168,11 @@ private:
         PopCause cause = PopCause::CameraMoved;
         bool afterJump = false;
     };
-    // Switches that are decided and not drawn yet, with what decided them; by the coarser chunk.
+    // Switches that are decided but not drawn yet, with their causes, by the coarser chunk.
     struct Decided {
         std::unordered_map<ChunkId, Why> splits;
         std::unordered_map<ChunkId, Why> merges;
-        std::unordered_set<ChunkId> loadsAfterJump;  // drawn, waiting for children since a jump
+        std::unordered_set<ChunkId> loadsAfterJump;  // chunks that lack children since a jump
     };
 
     static Frame keep(const ChunkTree& tree, const Selection& selection, const View& view,
@@ -198,7 +197,7 @@ private:
     std::deque<PopEvent> events_;
     std::deque<LateArrival> late_;  // ended ones, then those in open_ as of the last frame
     std::unordered_map<ChunkId, LateArrival> open_;
-    std::deque<std::shared_ptr<const DrawnFrame>> drawnFrames_;  // that events refer to
+    std::deque<std::shared_ptr<const DrawnFrame>> drawnFrames_;  // referenced by events
     std::size_t keptItems_ = 0;
     PopTotals totals_;
     std::uint64_t frame_ = 0;

@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-// Mirrors the shader's positionOf in floats; its slides have an order of their own.
+// Mirrors the shader's positionOf in floats, except for the order of slides.
 struct ShaderVertices {
     const PlanetShape& shape;
     const VertexFrame& frame;

@@ -1,7 +1,7 @@
-// Measures the float precision of the vertex shader: its vertex positions against doubles. The shader's maths
-// is that of vertex_position.h; both sides include morph and stitched edges, without skirts.
+// Measures the float precision of the vertex shader by comparing its vertex positions with doubles. The
+// shader computes as vertex_position.h does; both sides include morph and stitched edges, without skirts.
 //
-// Pixels are K' |a/|a| - b/|b||, a and b from the eye: as if the view were turned to face the vertex.
+// Errors in pixels are K' |a/|a| - b/|b||, a and b relative to the eye: in a view turned to face the vertex.
 //
 // Pure functions, any thread.
 #pragma once
@@ -17,20 +17,20 @@
 
 namespace planet {
 
-// A position in floats against the true one.
+// A float position and its error.
 struct FloatPosition {
     glm::dvec3 positionM{0, 0, 0};  // metres from the planet's centre
-    double errorM = 0;              // distance to the true one
+    double errorM = 0;              // distance to the exact position, metres
     double errorPx = 0;
 };
 
 struct VertexPrecision {
     ChunkId chunk;
     glm::ivec2 vertex{0, 0};        // column and row on the chunk
-    glm::dvec3 positionM{0, 0, 0};  // in doubles, as drawn; metres from the planet's centre
+    glm::dvec3 positionM{0, 0, 0};  // exact, as drawn; metres from the planet's centre
     double distanceM = 0;           // from the eye
-    FloatPosition shader;           // as it is drawn: relative to the eye, from a reference point beside it
-    // For comparison, the error of a float position from the planet's centre minus a float eye.
+    FloatPosition shader;           // as drawn: relative to the eye, through a reference point near the eye
+    // For comparison: a float position from the planet's centre, minus a float eye.
     FloatPosition fromCentre;
 };
 

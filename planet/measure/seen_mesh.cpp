@@ -9,7 +9,7 @@ namespace planet {
 
 namespace {
 
-// The distance of the near plane.
+// The distance of the near plane, metres.
 constexpr double clipM = 1e-3;
 
 double crossOf(const glm::dvec2& a, const glm::dvec2& b) {

@@ -1,10 +1,10 @@
-// Finds the triangles at a pixel's centre and their distances, as a rasteriser does, in doubles.
+// Finds the triangles at a pixel's centre and their distances as a rasteriser does, but in doubles.
 //
-// A rasteriser moves vertices to a grid of 1/256 pixel or finer, so the point that it shows at a pixel's
-// centre may lie that far beside it. On a triangle seen nearly edge-on, that is a large difference in depth.
-// So distances are ranges: those of a triangle within slackPx of the centre.
+// A rasteriser snaps vertices to a grid of 1/256 pixel or finer, so the point that it shows at a pixel's
+// centre may be off by that much. On a triangle seen nearly edge-on, this is a large difference in depth. So
+// distances are ranges: those of a triangle within slackPx of the centre.
 //
-// Pure, any thread.
+// Pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace planet {
 class SeenMesh {
 public:
     // Two vertices of an edge may each move by half a step of the coarsest grid in use, 1/256 pixel, and the
-    // sample point lies between; twice that is a safe margin.
+    // sample point lies between them. Twice that is a safe margin.
     static constexpr double slackPx = 1.0 / 128;
 
     // Distances are metres along the view's direction.
@@ -30,33 +30,33 @@ public:
         double offPx = 0;  // from the pixel's centre to the triangle, 0 inside
         double nearestM = 0;
         double farthestM = 0;
-        double distanceM = 0;  // at the centre, or of the triangle's nearest or farthest point to that
+        double distanceM = 0;  // at the centre, or else at the triangle's nearest or farthest point
     };
 
     explicit SeenMesh(const View& view);
 
-    // Adds a triangle; corners are metres from the planet's centre. Clips the part behind the eye.
+    // Adds a triangle and clips the part behind the eye. cornersM: metres from the planet's centre.
     void add(const std::array<glm::dvec3, 3>& cornersM, std::uint32_t label = 0);
 
-    // Returns the triangle at the centre of a pixel, columns from the left and rows from the top, whose
-    // farthest point within the slack is nearest; if there is none, the triangle closest to the centre in the
-    // picture.
+    // Returns, among the triangles at a pixel's centre, the one whose farthest point within the slack is
+    // nearest. If there is none, returns the triangle closest to the centre in the picture. Columns count
+    // from the left, rows from the top.
     std::optional<Hit> frontAt(int x, int y) const;
-    // Returns the least distance of any triangle within the slack of the centre.
+    // Returns the smallest distance of any triangle within the slack of the centre.
     std::optional<double> nearestAtM(int x, int y) const;
 
-    // Returns the point at a pixel's centre, at a distance along the view's direction, metres from the
+    // Returns the point at a pixel's centre and at a distance along the view's direction, metres from the
     // planet's centre.
     static glm::dvec3 pointAt(const View& view, int x, int y, double distanceM);
 
 private:
     struct Corner {
         glm::dvec2 px;
-        double inverse;  // of the distance, 1/m: linear over the picture
+        double inverse;  // of the distance, 1/m: linear in the picture
     };
     struct Triangle {
         std::array<Corner, 3> corners;
-        glm::dvec2 low, high;  // box
+        glm::dvec2 low, high;  // bounding box
         std::uint32_t label;
     };
     void addClipped(const std::array<Corner, 3>& corners, std::uint32_t label);

@@ -15,7 +15,7 @@ namespace planet {
 
 namespace {
 
-// The projection of a view, and the sea that is drawn in it.
+// The projection of a view and the sea drawn in it.
 struct Screen {
     const View& view;
     double scalePx;                      // K'
@@ -34,11 +34,11 @@ struct ScreenPoint {
     bool inPicture = false;
 };
 
-// A place before and after.
+// A place before and after the switch.
 struct ComparedPlace {
     glm::dvec2 px{0, 0};       // on screen, after
-    glm::dvec2 movedPx{0, 0};  // from where it was before
-    bool inFront = false;      // before and after; else there is no jump
+    glm::dvec2 movedPx{0, 0};  // its motion on screen
+    bool inFront = false;      // in front of the camera before and after; otherwise there is no jump
     bool counts = false;
     bool underSea = false;  // before and after
 };
@@ -52,8 +52,8 @@ ScreenPoint onScreen(const Screen& screen, const glm::dvec3& fromEyeM) {
     return {px, true, 2 * std::abs(px.x) <= view.widthPx && 2 * std::abs(px.y) <= view.heightPx};
 }
 
-// Triangles between the sea's vertices dip below it by less than this at neighbouring levels; ground within
-// this height counts as the sea.
+// Returns whether a point counts as under the sea. Triangles between vertices at sea level dip below it by
+// less than roundingM at neighbouring levels.
 bool isUnderSea(const Screen& screen, const glm::dvec3& pointM) {
     constexpr double roundingM = 1e-3;
     return screen.seaRadiusM && glm::length(pointM) <= *screen.seaRadiusM + roundingM;
@@ -83,9 +83,9 @@ std::vector<JumpCorner> clippedAt(const std::vector<JumpCorner>& polygon, int ax
     return kept;
 }
 
-// Returns the mean length over a triangle of a vector that is linear between its corners. If corners move in
-// opposite directions, it is less than the mean of their lengths, so it is sampled in the middles of smaller
-// triangles.
+// Returns the mean length, over a triangle, of a vector that is linear between the corners. It is less than
+// the mean of the corners' lengths if they move in opposite directions, so it is sampled in the middles of
+// smaller triangles.
 double meanLength(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     constexpr int along = 6;
     double total = 0;
@@ -167,7 +167,7 @@ struct Sum {
     }
 
     SurfaceJump done() {
-        // A surface that is seen edge-on has no area.
+        // A surface seen edge-on has no area.
         if (areaPx > 0)
             jump.meanPx = areaJumpPx / areaPx;
         else if (jump.places > 0)
@@ -178,7 +178,7 @@ struct Sum {
     }
 };
 
-// Returns the drawn position of a vertex: a vertex below the sea's level is drawn at that level.
+// Returns the drawn position of a vertex: vertices below the sea are drawn at its level.
 glm::dvec3 aboveSea(const Screen& screen, const glm::dvec3& positionM) {
     const double radiusM = glm::length(positionM);
     if (!screen.seaRadiusM || radiusM >= *screen.seaRadiusM) return positionM;
@@ -191,13 +191,13 @@ DrawnGrid gridOf(const PlanetShape& shape, const DrawnChunk& chunk, const Screen
     return grid;
 }
 
-// Returns the drawn point at a grid point of the chunk, whether or not its own vertex is still there.
+// Returns the drawn point at a grid point of the chunk, even if its vertex has moved away.
 glm::dvec3 drawnAt(const DrawnGrid& grid, int column, int row) {
     const auto index = static_cast<std::size_t>(row * (grid.cells + 1) + column);
     return grid.place[index] == glm::dvec2(column, row) ? grid.positionM[index] : pointOn(grid, column, row);
 }
 
-// Places in cells, from a cell's south-west corner: one within either triangle, for both diagonals.
+// Places in a cell, from its south-west corner: one within each triangle, for either diagonal.
 constexpr std::array<glm::dvec2, 2> triangleMiddles = {{{2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3}}};
 
 void addFiner(const DrawnGrid& coarser, const DrawnGrid& finer, bool coarserIsAfter, Sum& sum) {
@@ -256,7 +256,7 @@ SurfaceJump edgeJump(const PlanetShape& shape, const DrawnChunk& before, const D
     const int cells = chunkCells(shape);
     Sum sum{screen};
     if (before.stitched || after.stitched) {
-        // Other vertices of the chunk in these rows morph independently of the edge.
+        // Takes only the edge from `after`: the other vertices in these rows morph independently of it.
         const auto index = static_cast<std::size_t>(edge);
         DrawnChunk edgeAfter = before;
         edgeAfter.stitched = after.stitched;

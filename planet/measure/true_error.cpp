@@ -32,11 +32,11 @@ struct Piece {
 
 // The result of a piece.
 struct PieceError {
-    double chordSquared = -1;   // |a/|a| - b/|b||^2, the largest
-    double errorM = 0;          // there
-    glm::dvec3 worst{0, 0, 0};  // a there, from the eye, in the face's axes
+    double chordSquared = -1;   // largest squared chord |a/|a| - b/|b||^2
+    double errorM = 0;          // there, metres
+    glm::dvec3 worst{0, 0, 0};  // a there, relative to the eye, in the face's axes
     bool inSeam = false;
-    double screenSquared = 0;  // of tangents, the largest
+    double screenSquared = 0;  // largest, tangents squared
     double chordSum = 0;
     std::uint64_t samples = 0;
 };
@@ -51,7 +51,7 @@ struct Camera {
     double cornerRad = 0;  // from the middle of the picture to its corners
 };
 
-// A face's own axes: normal, u, v.
+// Convert to and from a face's axes: normal, u, v.
 glm::dvec3 inFaceAxes(const FaceAxes& axes, const glm::dvec3& p) {
     return {glm::dot(axes.normal, p), glm::dot(axes.u, p), glm::dot(axes.v, p)};
 }
@@ -94,8 +94,8 @@ public:
     const DrawnGrid& grid() const { return grid_; }
     int finestCells() const { return grid_.cells * perCell_; }
 
-    // Returns whether a finest sample lies in a cell that stitching changes: one of the two outermost rows of
-    // an edge.
+    // Returns whether a finest sample lies in a cell that stitching changes: in one of the two outermost rows
+    // along an edge.
     bool inSeam(int x, int y) const {
         if (!grid_.stitched) return false;
         const int last = grid_.cells - 1;
@@ -106,8 +106,8 @@ public:
                (row <= 1 && moved(Edge::South)) || (row >= last - 1 && moved(Edge::North));
     }
 
-    // Computes the drawn points at finest samples x, x + 1, ... of a row, counted from the chunk's west and
-    // south.
+    // Computes the drawn points at the finest samples x, x + 1, ... of row y, counted from the chunk's
+    // south-west corner.
     void fill(int x, int y, Row& out) const {
         const int row = std::min(y / perCell_, grid_.cells - 1);
         const double t = static_cast<double>(y - row * perCell_) / perCell_;
@@ -136,7 +136,8 @@ private:
         }
     }
 
-    // The drawn point is linear along the row on each of a cell's two triangles.
+    // Fills one cell's samples of the row; along it, the drawn point is linear on each of the cell's
+    // triangles.
     void fillCell(glm::ivec2 cell, double t, int x, int first, int end, Row& out) const {
         const auto side = static_cast<std::size_t>(grid_.cells) + 1;
         const std::size_t at = static_cast<std::size_t>(cell.y) * side + static_cast<std::size_t>(cell.x);
@@ -169,10 +170,10 @@ private:
     DrawnGrid grid_;
     int perCell_;  // finest cells along a cell of the chunk
     glm::dvec3 eye_;
-    std::vector<glm::dvec3> local_;  // the grid's vertices from the eye, in the face's axes
+    std::vector<glm::dvec3> local_;  // the grid's vertices, relative to the eye, in the face's axes
 };
 
-// Computes Nowell's map in a face's own axes; within a row, only the root of the normal's component depends
+// Computes Nowell's mapping in a face's axes. Within a row, only the root of the normal's component depends
 // on both u and v.
 struct LeafColumns {
     std::array<double, mostChunkSize> u, uSquared, uRoot;
@@ -206,8 +207,8 @@ void fillTruth(const PlanetShape& shape, const LeafColumns& columns, double v, c
     }
 }
 
-// Returns the chord between the directions of a and b = a + e. Its sine comes from the cross product of a and
-// e, which avoids cancellation if they are almost equal.
+// Computes the chord between the directions of a and b = a + e. Its sine comes from the cross product of a
+// and e, which avoids cancellation if they are almost equal.
 void compare(Row& row) {
     constexpr double nearestSquared = nearestM * nearestM;
     const auto count = static_cast<std::size_t>(row.count);
@@ -236,7 +237,7 @@ void compare(Row& row) {
     }
 }
 
-// Four parallel sums, added up in a fixed order.
+// Returns the sum of the chords: four parallel sums, added in a fixed order.
 double sumOf(const Row& row) {
     std::array<double, 4> sums{};
     int i = 0;
@@ -247,8 +248,8 @@ double sumOf(const Row& row) {
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// Returns the largest distance in the picture, in tangents, of two directions a chord apart: the stretch is 1
-// / cos^2 outwards from a corner.
+// Returns the largest distance in the picture, in tangents, of two directions a chord apart. Outwards from a
+// corner, the picture stretches by 1 / cos^2.
 double largestInPicture(const Camera& camera, double chord) {
     const double apartRad = 2 * std::asin(std::min(chord / 2, 1.0));
     const double outerRad = camera.cornerRad + apartRad;
@@ -293,7 +294,8 @@ void takeRow(const Surface& surface, const Camera& camera, const Row& row, int x
     if (most * most > found.screenSquared) projectRow(camera, row, found);
 }
 
-// Samples on an edge between two leaves are compared once, except those on the chunk's own edges.
+// Compares a leaf's samples. Samples on an edge between two leaves are compared once, except those on the
+// chunk's own edges.
 void measureLeaf(const PlanetShape& shape, const Surface& surface, const Camera& camera,
                  const HeldChunk& leaf, Row& row, PieceError& found) {
     const int cells = chunkCells(shape);
@@ -314,7 +316,7 @@ void measureLeaf(const PlanetShape& shape, const Surface& surface, const Camera&
     }
 }
 
-// If every vertex is a finest sample at its own place, there is nothing to compare.
+// Returns whether every vertex is a finest sample at its own place, so that there is nothing to compare.
 bool isExact(const DrawItem& item, const DrawnSnapshot& snapshot) {
     if (item.id.level < leafLevel(snapshot.shape) || item.morph > 0) return false;
     for (std::size_t edge = 0; edge < edgeCount; ++edge) {
@@ -329,7 +331,7 @@ std::uint64_t samplesUnder(const PlanetShape& shape, const ChunkId& id) {
     return side * side;
 }
 
-// Splits a chunk into pieces of at most 64 leaves, while that makes at most 4096 pieces.
+// Splits a chunk into pieces of at most 64 leaves each, as long as there are at most 4096 pieces.
 void addPieces(const ChunkId& id, int levels, std::size_t item, std::vector<Piece>& pieces) {
     if (levels == 0) {
         pieces.push_back({item, id});
@@ -376,7 +378,7 @@ public:
             const PieceError& piece = found_[i];
             ChunkError& chunk = chunks[pieces_[i].item];
             chunk.samples += piece.samples;
-            chunk.meanPx += scale * piece.chordSum;  // a sum until finish()
+            chunk.meanPx += scale * piece.chordSum;  // a sum until finish() divides it
             chunk.screenPx = std::max(chunk.screenPx, scale * std::sqrt(piece.screenSquared));
             const double facingPx = scale * std::sqrt(std::max(piece.chordSquared, 0.0));
             if (facingPx <= chunk.facingPx) continue;
@@ -414,7 +416,7 @@ private:
         report(found.samples);
     }
 
-    // Reports the problem of the first piece, if several failed.
+    // Records the problem of the first piece, if several fail.
     void fail(std::size_t piece, const Error& error) {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
@@ -431,11 +433,11 @@ private:
     FinestHeights& heights_;
     const TrueErrorProgress& progress_;
     const std::vector<Piece> pieces_;
-    std::vector<PieceError> found_;  // of the pieces; each written by one thread
+    std::vector<PieceError> found_;  // by piece; each is written by one thread
     std::array<Camera, faceCount> cameras_;
     std::uint64_t total_ = 0;
     std::atomic<bool> stopped_ = false;
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards the members below
     std::uint64_t done_ = 0;
     std::optional<Problem> problem_;
 };
