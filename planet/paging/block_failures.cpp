@@ -11,7 +11,7 @@ namespace planet {
 
 namespace {
 
-// Bounds the memory if all reads fail. A forgotten block is read again.
+// Bounds the memory if all reads fail. A forgotten block is read again when it is wanted.
 constexpr std::size_t mostKnown = 4096;
 
 }  // namespace

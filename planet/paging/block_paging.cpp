@@ -46,7 +46,7 @@ void BlockPaging::request(PagingQueue& queue, const MergedRequests& requests, Pa
     }
 }
 
-// Takes free slots first, then those of a block that may be evicted, then those of a page-in with a lower
+// Reserves free slots first, then those of a block that may be evicted, then those of a page-in with a lower
 // priority.
 bool BlockPaging::reserveRoom(PagingQueue& queue, const MergedRequest& wanted,
                               const std::vector<MergedRequest>& splits, PagingRun& run) {
@@ -70,7 +70,7 @@ void BlockPaging::withdraw(const PagingRequest& cancelled, PagingRun& run) {
 void BlockPaging::finish(FinishedLoad&& load, PagingRun& run, const UploadChunk& upload) {
     counters_.bytesRead += load.bytes;
     if (!isKept(load.request)) return run.log.arrived(load, PagingOutcome::Cancelled, run.nowS);
-    // The parent is still resident: it is dropped only if the load is discarded.
+    // The parent is still resident, because dropping it would have discarded the load.
     const NodeIndex parent = find(load.request.parent);
     assert(parent != noNode && stateOf(parent) == ChildrenState::Requested && reserved_ > 0);
     --reserved_;
@@ -83,7 +83,7 @@ void BlockPaging::finish(FinishedLoad&& load, PagingRun& run, const UploadChunk&
     run.log.arrived(load, PagingOutcome::Loaded, run.nowS);
 }
 
-// Reports only blocks that will not be retried.
+// Handles a failed read. Reports the block only if it will not be retried.
 void BlockPaging::fail(NodeIndex parent, const FinishedLoad& load, Error error, PagingRun& run) {
     ++counters_.failed;
     const bool badData = error.kind == ErrorKind::BadInput;
@@ -161,7 +161,7 @@ std::uint32_t BlockPaging::takeSlots() {
 void BlockPaging::recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const {
     if (state != ChildrenState::Absent) return;
     const ChildrenState known = failures_.stateAt(id, sinceAnewS);
-    // Blocks that have a stand-in are requested again, so that the stand-in appears once there is room.
+    // Blocks with a stand-in are requested again, so that the stand-in appears once there is room.
     if (known == ChildrenState::AwaitingRetry || (known == ChildrenState::Failed && !hasStandIn()))
         changeState(state, known);
 }

@@ -1,10 +1,9 @@
-// The paging of one kind of blocks: it decides which are resident, which are requested, and which make room.
-// Heights (chunk_paging.h), colours and normals (tile_paging.h) share this class; virtual functions hold the
-// differences. Internal to the library; one thread.
+// The paging of one kind of blocks: decides which blocks are resident, which are requested, and which are
+// evicted for others. The classes for heights (chunk_paging.h), colours and normals (tile_paging.h) derive
+// from it. Internal to the library; one thread.
 //
 // Slots of the pool come in groups of four, one group per block. Each page-in that is queued or being read
-// has a group reserved, but no particular one: free_.size() >= reserved_. So a block that arrives always
-// finds room.
+// reserves a group, but no particular one: free_.size() >= reserved_. So a loaded block always finds room.
 #pragma once
 
 #include <array>
@@ -37,12 +36,12 @@ struct MergedRequests {
     std::vector<MergedRequest> splits;  // resident blocks that a view uses
 };
 
-// The state that the paging of all kinds shares.
+// State that is shared by the paging of all kinds.
 struct PagingRun {
     std::uint64_t frame = 0;       // of the current step; the first is 1
     double nowS = 0;               // seconds since the planet was opened, as of the current step
-    double sinceAnewS = 0;         // seconds since PlanetTools::startAnew(); retries are timed by it
-    std::uint64_t nextTicket = 1;  // of page-ins
+    double sinceAnewS = 0;         // seconds since PlanetTools::startAnew(), the time of retries
+    std::uint64_t nextTicket = 1;  // of the next page-in
     RetryRules retry{};
     PagingLog log{};
 };
@@ -55,73 +54,73 @@ public:
     BlockPaging& operator=(const BlockPaging&) = delete;
 
     BlockKind kind() const { return kind_; }
-    std::uint32_t capacity() const { return capacity_; }  // slots of the pool, the six roots' included
+    std::uint32_t capacity() const { return capacity_; }  // slots of the pool, including the six roots
     bool isOn() const { return capacity_ > 0; }
     const BlockFailures& failures() const { return failures_; }
     const BlockCounters& counters() const { return counters_; }
     BlockCounters& counters() { return counters_; }
 
-    // Gives pending page-ins of blocks that are still wanted their new priority.
+    // Updates the priorities of pending page-ins of blocks that are still wanted.
     void renew(PagingQueue& queue, const std::vector<MergedRequest>& wanted, const PagingRun& run) const;
-    // Queues page-ins for the wanted blocks that are not pending, while there is room.
+    // Queues page-ins for the wanted blocks that are not pending, as far as there is room.
     void request(PagingQueue& queue, const MergedRequests& requests, PagingRun& run);
-    // Undoes request() for a page-in of this kind that was taken out of the queue before its read.
+    // Reverts request() for a page-in of this kind that was removed from the queue before its read.
     void withdraw(const PagingRequest& cancelled, PagingRun& run);
     // Returns whether the read of a request of this kind will be used.
     bool isKept(const PagingRequest& request) const { return request.ticket >= oldestTicketKept_; }
-    // Takes a finished read of this kind: makes its block resident, or notes the failure.
+    // Handles a finished read of this kind: makes its block resident, or records the failure.
     void finish(FinishedLoad&& load, PagingRun& run, const UploadChunk& upload);
 
     // Withdraws the page-ins of this kind; results of reads in progress will be discarded.
     void discardRequests(PagingQueue& queue, PagingRun& run);
     // Evicts every block and discards all reads. No request of this kind may be queued.
     virtual void dropAll(PagingQueue& queue, PagingRun& run) = 0;
-    // Resets to the state just after opening and forgets failures. No request may be queued, and no read in
+    // Resets to the state after opening and forgets failures. No request may be queued, and no read in
     // progress.
     void startAnew(PagingRun& run);
 
-    // Lets blocks that failed be requested again: all, or one.
+    // Allow failed blocks to be requested again: all, or one.
     void retryAll();
     void retryOne(const ChunkId& parent);
 
-    // Returns whether a block that waits for room may still get it, because another is about to make room.
+    // Returns whether a block that waits for room may still get it, because another one will be evicted.
     virtual bool roomIsComing() const = 0;
-    // Updates the counters of the present state.
+    // Updates the counters of the current state.
     void count();
 
 protected:
-    // Frees every slot from firstFree on; the lowest are taken first.
+    // Frees every slot from firstFree on. The lowest slots are used first.
     void resetSlots(std::uint32_t capacity, std::uint32_t firstFree);
     void freeSlots(std::uint32_t firstSlot) { free_.push_back(firstSlot); }
     std::uint32_t takeSlots();
     std::size_t reserved() const { return reserved_; }
     // Discards the requests that are being read or have finished.
     void discardReads(const PagingRun& run);
-    // Sets the state of a node that has just become resident, given the known failures of its children.
+    // Sets the children's state of a node that has just become resident from their known failures.
     void recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const;
     void forgetRetryTime() { failures_.beginStep(); }
     void noteEviction(const PagingRequest& request, bool wasLoaded, PagingRun& run);
 
 private:
     virtual NodeIndex find(const ChunkId& id) const = 0;  // noNode if it is not resident
-    virtual std::size_t nodeCount() const = 0;            // free nodes included
+    virtual std::size_t nodeCount() const = 0;            // including free nodes
     virtual std::size_t residentCount() const = 0;
     virtual ChildrenState& stateOf(NodeIndex parent) = 0;
-    // Adds the fields that a loader needs to a page-in.
+    // Fills in the fields of a page-in that a loader needs.
     virtual void describe(NodeIndex parent, PagingRequest& request) const = 0;
-    // Evicts a block in favour of one that is wanted, if there is one to evict.
+    // Evicts a block in favour of a wanted one. Returns false if none may be evicted.
     virtual bool makeRoom(PagingQueue& queue, const MergedRequest& wanted,
                           const std::vector<MergedRequest>& splits, PagingRun& run) = 0;
     // Checks a block before it becomes resident.
     virtual Result<void> check(NodeIndex parent, const LoadedBlock& block) const = 0;
     virtual void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
                              const UploadChunk& upload) = 0;
-    virtual void beginRequests() {}  // request() begins
-    // Shows a stand-in in place of a block that has failed for good. Heights and normals have none.
+    virtual void beginRequests() {}  // called at the beginning of request()
+    // Shows a stand-in for a block that has failed for good. Heights and normals have none.
     virtual bool hasStandIn() const { return false; }
     virtual void addStandIn(NodeIndex, PagingRun&) {}
     virtual void dropStandIn(NodeIndex) {}
-    virtual void reset(PagingRun& run) = 0;  // startAnew()'s part of it
+    virtual void reset(PagingRun& run) = 0;  // this kind's part of startAnew()
 
     bool reserveRoom(PagingQueue& queue, const MergedRequest& wanted,
                      const std::vector<MergedRequest>& splits, PagingRun& run);
@@ -130,8 +129,8 @@ private:
 
     const BlockKind kind_;
     std::uint32_t capacity_ = 0;
-    std::vector<std::uint32_t> free_;     // first slots of fours
-    std::size_t reserved_ = 0;            // fours, for page-ins that are queued or being read
+    std::vector<std::uint32_t> free_;     // first slots of groups
+    std::size_t reserved_ = 0;            // groups reserved for page-ins that are queued or being read
     std::uint64_t oldestTicketKept_ = 1;  // results of older reads are discarded
     BlockFailures failures_;
     BlockCounters counters_;

@@ -12,10 +12,10 @@ namespace planet {
 
 namespace {
 
-// Limits the blocks per frame, because their ground becomes coarser at once.
+// Limits the yielding blocks per frame, because their ground becomes coarser at once.
 constexpr std::size_t yieldsPerFrame = 8;
 
-constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any
+constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any frame
 
 }  // namespace
 
@@ -74,7 +74,7 @@ void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& 
 
 void ChunkPaging::use(PagingQueue& queue, NodeIndex index, PagingRun& run) {
     ChunkNode& node = tree.nodes[index];
-    if (node.lastUsedFrame == run.frame) return;  // by a view before
+    if (node.lastUsedFrame == run.frame) return;  // another view has used it already
     ++usedChunks_;
     const bool wasOutOfUse = std::exchange(node.lastUsedFrame, run.frame) + 1 < run.frame;
     if (node.parent == noNode || quadrantOf(node.id) != 0) return;
@@ -111,7 +111,6 @@ void ChunkPaging::markUsed(PagingQueue& queue, std::span<const Selection* const>
     }
 }
 
-// Evicts the least recently used block.
 bool ChunkPaging::makeRoom(PagingQueue& queue, const MergedRequest&, const std::vector<MergedRequest>&,
                            PagingRun& run) {
     while (const PagingRequest* oldest = queue.best(PagingType::PageOut)) {
@@ -138,7 +137,7 @@ void ChunkPaging::evict(PagingQueue& queue, NodeIndex parent, PagingRun& run) {
     noteEviction(request, true, run);
 }
 
-// Requests are merged, so a block that several views split has the highest of their priorities.
+// Merged requests have the highest priority of the views that split the block.
 void ChunkPaging::chooseYielding(const MergedRequests& requests) {
     std::vector<MergedRequest> least = requests.splits;
     std::erase_if(least, [&](const MergedRequest& split) {
@@ -170,7 +169,7 @@ bool ChunkPaging::roomIsComing() const {
     return counters().budgetWaits > 0 && (tree.residentChunks > usedChunks_ || isYielding());
 }
 
-// A freed node has no parent. The roots have none either, but they are never watched.
+// Removes freed nodes from watched_: they have no parent. The roots have none either, but are never watched.
 void ChunkPaging::forgetGone() {
     std::erase_if(watched_, [&](NodeIndex index) { return tree.nodes[index].parent == noNode; });
 }
@@ -180,7 +179,7 @@ bool ChunkPaging::isOver(std::size_t blocks) const {
 }
 
 // Drops blocks last used before a frame, until few enough are left or no such block remains: least recently
-// used first, then deepest first. Works in rounds, because dropping a block can free the one above it.
+// used first, then deepest first. Works in rounds, because dropping a block can free its parent's block.
 void ChunkPaging::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore,
                                  PagingRun& run) {
     if (!isOver(blocks)) return;
@@ -212,7 +211,7 @@ void ChunkPaging::evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::ui
 }
 
 // Evicts the blocks that no view uses, then cancels the requests with the lowest priority, then evicts the
-// least recently used blocks. Reads that keep even those resident are discarded.
+// least recently used blocks. Discards reads that would keep even those blocks resident.
 void ChunkPaging::resize(PagingQueue& queue, std::uint32_t capacity, PagingRun& run) {
     const std::size_t blocks = (capacity - faceCount) / quadrantCount;
     evictLeastUsed(queue, blocks, run.frame, run);

@@ -1,7 +1,7 @@
-// The paging of heights: the resident chunks, their page-outs, and the blocks that yield when the budget is
-// full. Internal to the library; one thread.
+// The paging of heights: the resident chunks, their page-outs, and the blocks that are dropped for more
+// urgent ones when the budget is exhausted. Internal to the library; one thread.
 //
-// A chunk that is dropped may be in this step's draw lists, so a step drops blocks in use only before the
+// A chunk may be in this step's draw lists when it is dropped, so a step drops blocks in use only before the
 // selection (dropYielding). Select the views again after resize and dropAll.
 #pragma once
 
@@ -19,32 +19,33 @@
 
 namespace planet {
 
-// Adds the name of the chunks' file, if any, to an Error: for chunks with matching checksums and wrong
+// Adds the name of the chunks' file, if any, to an Error. Used for chunks with matching checksums and invalid
 // contents.
 Error namingFile(const ChunkFile* file, Error error);
 
 class ChunkPaging final : public BlockPaging {
 public:
-    // The roots are resident. capacity: slots, from chunkSlotsFor(). file: for errors; may be null.
+    // chunks: with resident roots. capacity: slots, from chunkSlotsFor(). file: for errors; may be null.
     ChunkPaging(ChunkTree&& chunks, std::uint32_t capacity, std::shared_ptr<const ChunkFile> file);
 
     ChunkTree tree;
 
-    // Keeps a page-out for each block that no view uses: least recently used first, then deepest first, so
-    // that children go before their parents. A block that is used again leaves the queue.
+    // Queues a page-out for each block that no view uses, least recently used first, then deepest first, so
+    // that children precede their parents. A block that is used again leaves the queue.
     void markUsed(PagingQueue& queue, std::span<const Selection* const> views, PagingRun& run);
-    // Returns whether wanted blocks wait while every resident block is in use.
+    // Returns whether wanted blocks wait although every resident block is in use.
     bool lacksRoom() const { return counters().budgetWaits > 0 && tree.residentChunks <= usedChunks_; }
-    // Chooses blocks that the next step drops, because others are wanted more than yieldFactor times as much.
-    // Call it if lacksRoom(). This evens out the errors of views that exceed the budget: otherwise the chunks
-    // that came first would stay fine, and those that the camera has approached since would stay coarse.
+    // Chooses blocks for the next step to drop, because others have more than yieldFactor times their
+    // priority. Call it if lacksRoom(). This evens out the errors of views that exceed the budget. Without
+    // it, the chunks that came first would stay fine, and those that the camera has approached since would
+    // stay coarse.
     void chooseYielding(const MergedRequests& requests);
     bool isYielding() const { return !yielding_.empty(); }
     void dropYielding(PagingQueue& queue, PagingRun& run);
-    // Keeps the blocks that were to yield, because the selections are made again.
+    // Cancels chooseYielding(), because the selections are made again.
     void cancelYielding();
 
-    // Sets the number of slots. Evicts down to it and renumbers every slot.
+    // Sets the number of slots, evicts down to it and renumbers every slot.
     void resize(PagingQueue& queue, std::uint32_t capacity, PagingRun& run);
     void dropAll(PagingQueue& queue, PagingRun& run) override;
     bool roomIsComing() const override;
@@ -70,13 +71,13 @@ private:
     void renumber(std::uint32_t capacity);
 
     std::shared_ptr<const ChunkFile> file_;
-    std::vector<NodeIndex> watched_;  // first nodes of resident blocks that have no page-out pending
+    std::vector<NodeIndex> watched_;  // first nodes of resident blocks without a pending page-out
     std::vector<ChunkId> yielding_;   // parents of blocks that the next step drops before it selects
     std::size_t usedChunks_ = 0;      // visited by any view in the last step
     std::uint32_t blocksLoaded_ = 0;  // for ChunkNode::loadOrder
 };
 
-// Returns the number of slots that fit a budget: six for the roots and then whole sibling blocks, at most as
+// Returns the number of slots that fit a budget: six for the roots and the rest in whole blocks, at most as
 // many as the planet has chunks. The Error names the smallest budget: it allows the finest level at one
 // place, even where four chunks meet.
 Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::size_t budgetBytes);

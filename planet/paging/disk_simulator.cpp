@@ -25,7 +25,7 @@ std::uint64_t draw(std::uint32_t seed, Purpose purpose, const BlockId& block, st
     return XXH3_64bits_withSeed(what.data(), sizeof what, seed);
 }
 
-// Uniform in [0, 1).
+// Converts random bits to a uniform value in [0, 1).
 double share(std::uint64_t drawn) {
     return static_cast<double>(drawn >> 11) * 0x1p-53;
 }

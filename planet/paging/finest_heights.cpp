@@ -80,7 +80,7 @@ void FinestHeights::setCacheBytes(std::size_t bytes) {
     dropSurplus();
 }
 
-// Call it with the mutex locked.
+// Drops the least recently used blocks. Call it with the mutex locked.
 void FinestHeights::dropSurplus() {
     while (bytes_ > cacheBytes_) {
         bytes_ -= kept_.back().bytes;

@@ -1,8 +1,8 @@
-// Reads the finest data under any chunk: decodes blocks from the chunk downwards and caches the last used
-// ones.
+// Reads the finest data under any chunk. Decodes blocks from the chunk downwards and caches the most recently
+// used ones.
 //
-// The instruments take this data as the truth, so nothing here relies on a delta_c, a bound or an extreme of
-// the file, only on heights, which a checksum protects.
+// Meters of error take this data as the truth, so it does not depend on a δc, a bound or an extreme of the
+// file, only on heights, which a checksum protects.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace planet {
 
-// A chunk with its heights, and the place of its children.
+// A chunk with its heights and the location of its children.
 struct HeldChunk {
     ChunkId id;
     SharedHeights heights;   // never null
@@ -31,19 +31,18 @@ struct HeldChunk {
 // The four children of a chunk, in quadrant order.
 using HeldBlock = std::array<HeldChunk, quadrantCount>;
 
-// The blocks that are resident in a tree, by keyOf(parent); they are used without reading.
+// The resident blocks of a tree, by keyOf(parent). They are used without reading the file.
 using ResidentBlocks = std::unordered_map<std::uint64_t, std::shared_ptr<const HeldBlock>>;
 
-// Adds the children of a resident node, and of all resident nodes under it.
+// Adds the children of a resident node and of all its resident descendants.
 void addResidentBlocks(const ChunkTree& tree, NodeIndex node, ResidentBlocks& blocks);
 
-// Reads and caches decoded blocks. Any thread, several at once; a block that two threads want at once may be
-// read twice.
+// Reads and caches decoded blocks. Thread-safe; a block that two threads request at once may be read twice.
 class FinestHeights {
 public:
     static constexpr std::size_t usualCacheBytes = std::size_t{256} << 20;
 
-    // cacheBytes: the limit of cached heights, >= 0. Blocks beyond it are read again.
+    // cacheBytes: the limit of cached heights, >= 0. Blocks beyond it are dropped and read again.
     explicit FinestHeights(LoadChildren load, std::size_t cacheBytes = usualCacheBytes);
     explicit FinestHeights(std::shared_ptr<const ChunkFile> file, std::size_t cacheBytes = usualCacheBytes);
 
@@ -51,14 +50,14 @@ public:
     Result<std::shared_ptr<const HeldBlock>> childrenOf(const HeldChunk& chunk,
                                                         const ResidentBlocks& resident);
 
-    // Returns the chunk of an id that lies at or under a held one.
+    // Returns the chunk with an id at or under a held one.
     Result<HeldChunk> chunkUnder(const HeldChunk& top, const ChunkId& id, const ResidentBlocks& resident);
 
-    // Visits every leaf at or under a chunk, in quadrant order; visit returns false to end early.
+    // Visits every leaf at or under a chunk, in quadrant order; visit returns false to stop.
     Result<void> forEachLeaf(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 
-    void setCacheBytes(std::size_t bytes);  // as above; what is too much then is dropped
+    void setCacheBytes(std::size_t bytes);  // as above; drops the excess
 
     std::uint64_t blocksRead() const;
     std::size_t cachedBytes() const;
@@ -76,9 +75,9 @@ private:
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 
     const LoadChildren load_;
-    mutable std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards the members below
     std::size_t cacheBytes_;
-    std::list<Kept> kept_;  // the last used first
+    std::list<Kept> kept_;  // most recently used first
     std::unordered_map<std::uint64_t, std::list<Kept>::iterator> byKey_;
     std::size_t bytes_ = 0;
     std::uint64_t blocksRead_ = 0;

@@ -20,14 +20,14 @@ namespace planet {
 
 namespace {
 
-constexpr double steepest = 60'000;  // a half float ends at 65,504
+constexpr double steepest = 60'000;  // the largest half float is 65,504
 
 struct Slope {
     double alongU = 0;
     double alongV = 0;
 };
 
-// The tangents of Nowell's map at (u, v), along the face's normal, u and v.
+// The tangents of Nowell's mapping at (u, v), along the face's normal, u and v.
 struct Tangents {
     glm::dvec3 alongU;
     glm::dvec3 alongV;
@@ -39,7 +39,7 @@ Tangents tangentsAt(double u, double v) {
             {v * (u * u / 3 - 0.5) / roots.x, -u * v / 6 / roots.y, roots.z}};
 }
 
-// Returns alpha of the header for the edge u = +-1; exchange u and v for the edge v = +-1.
+// Returns the alpha of normal_tile.h for the edge u = +-1. Exchange u and v for the edge v = +-1.
 double bendAt(double u, double v) {
     const Tangents tangents = tangentsAt(u, v);
     return glm::dot(tangents.alongU, tangents.alongV) / glm::dot(tangents.alongV, tangents.alongV);
@@ -53,10 +53,10 @@ public:
         : shape_(shape), level_(level), roots_(roots), heights_(heights) {}
 
     int cells() const { return chunkCells(shape_) << level_; }
-    // Returns the Error of the first chunk that could not be read; its heights are given as 0.
+    // Returns the Error of the first chunk that could not be read; heights are 0 after it.
     const std::optional<Error>& problem() const { return problem_; }
 
-    // Returns the vertices of a chunk of the level; null once there is a problem.
+    // Returns the vertices of a chunk of the level; null after a problem.
     const std::int16_t* chunk(Face face, int column, int row) {
         const ChunkId id{face, static_cast<std::uint8_t>(level_), static_cast<std::uint32_t>(column),
                          static_cast<std::uint32_t>(row)};
@@ -68,7 +68,7 @@ public:
         return lastHeights_;
     }
 
-    // Returns the height of a point on a face or over one of its edges, in steps.
+    // Returns the height of a point on a face or beyond one of its edges, in steps.
     double step(const FaceGridPoint& point) {
         const FaceGridPoint on = foldedOver(point, cells());
         const int size = chunkCells(shape_);
@@ -145,7 +145,7 @@ void copyChunk(LevelGrid& grid, Face face, int size, int column, int row, Window
     }
 }
 
-// Reads the part of a square of texels that lies on the face, and one vertex around it.
+// Reads the part of a square of texels that lies on the face, and a margin of one vertex.
 Window readWindow(LevelGrid& grid, Face face, int size, int firstColumn, int firstRow) {
     const auto clamped = [&](int vertex) { return std::clamp(vertex, 0, grid.cells()); };
     Window window;
@@ -192,8 +192,8 @@ Slope slopeOnFace(LevelGrid& grid, const FaceGridPoint& point) {
     return {(step(1, 0) - step(-1, 0)) * perUnit, (step(0, 1) - step(0, -1)) * perUnit};
 }
 
-// Returns the slope at a texel over one edge, along the axes of the tile's own face, for filters that reach
-// there.
+// Returns the slope at a texel beyond one edge, along the axes of the tile's own face, for filters that reach
+// over the edge.
 Slope slopeBeyondEdge(LevelGrid& grid, const FaceGridPoint& point) {
     const int cells = grid.cells();
     const FaceGridPoint on = foldedOver(point, cells);
@@ -214,7 +214,7 @@ Slope slopeBeyondEdge(LevelGrid& grid, const FaceGridPoint& point) {
     return {alongU, across + 2 * bendAt(side, 2.0 * point.column / cells - 1) * alongU};
 }
 
-// Returns the slope at a texel on an edge of a face or beyond it, slowly. Beyond a corner of the cube, where
+// Returns the slope at a texel on an edge of a face or beyond it; slow. Beyond a corner of the cube, where
 // there is no fourth face, it is the slope at the corner.
 Slope slopeAround(LevelGrid& grid, FaceGridPoint point) {
     const int cells = grid.cells();

@@ -11,7 +11,8 @@ namespace planet {
 
 namespace {
 
-// Reading may run out of memory, and the caller's code may throw; neither may end the program.
+// Loads a block and turns exceptions into Errors: reading may run out of memory, and the caller's code may
+// throw.
 Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& request) {
     const auto asLoaded = [](auto&& block) { return LoadedBlock(std::forward<decltype(block)>(block)); };
     try {
@@ -42,7 +43,7 @@ Pager::Pager(BlockLoaders load, int threads) : load_(std::move(load)) {
 }
 
 Pager::~Pager() {
-    // All threads are told to stop before the first is joined, so that they stop in parallel.
+    // Stops all threads before joining the first one, so that they stop in parallel.
     for (std::jthread& thread : threads_) thread.request_stop();
 }
 
@@ -53,9 +54,9 @@ void Pager::setThreads(int threads) {
     loadersWanted_ = static_cast<std::size_t>(threads);
     const VirtualLoaders loaders{*this};
     for (std::size_t i = 0; i < loadersWanted_; ++i) {
-        if (loaders_[i].running) continue;  // one that was about to go stays
+        if (loaders_[i].running) continue;  // a loader that has not stopped yet stays
         loaders_[i].running = true;
-        // The previous thread in this place has ended, so joining it does not wait.
+        // The previous thread at this index has ended, so joining it does not block.
         threads_[i] = std::jthread([this, i](const std::stop_token& stop) { runLoader(i, stop); });
     }
 }
@@ -127,7 +128,7 @@ DiskFault Pager::nextFault(const PagingRequest& request) {
     return diskFault(badDisk_, request.block(), attempts_[request.block()]++, request.location.size);
 }
 
-// Takes and serves one request. Locked on entry and return.
+// Takes and serves one request. The lock is held on entry and return.
 void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     const std::uint64_t epoch = epoch_;
     PagingRequest request = takeNext();
@@ -142,7 +143,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
         block = loadSafely(load_, request);
         lock.lock();
     }
-    if (epoch != epoch_) return;  // given up
+    if (epoch != epoch_) return;  // abandoned
     loaders_[index].reading.reset();
     const std::chrono::duration<double> taken = Clock::now() - reading.since;
     const std::uint32_t bytes = fails ? 0 : request.location.size;
@@ -150,7 +151,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     loadFinished_.notify_all();
 }
 
-// Waits as long as the injected fault says, also if the settings change meanwhile. Returns true if the read
+// Waits as long as the injected fault says, even if the settings change meanwhile. Returns true if the read
 // fails.
 bool Pager::sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock) {
     const std::uint64_t epoch = epoch_;
@@ -220,7 +221,7 @@ void Pager::startVirtualReads() {
     }
 }
 
-// Returns the read that ends first; of equals, the one taken first. There must be one.
+// Returns the read that ends first; among equals, the one taken first. There must be one.
 std::size_t Pager::nextVirtualEnd() const {
     const auto next =
         std::min_element(virtualReadings_.begin(), virtualReadings_.end(),

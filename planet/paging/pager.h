@@ -1,10 +1,10 @@
-// The loader threads: they take page-ins from the paging queue, best first, read and decode them, and leave
-// what they loaded in a list for the owning thread. One thread owns a pager and makes all calls.
+// The loader threads. They take page-ins from the paging queue, best first, read and decode them, and add the
+// results to a list for the owner. One thread owns a pager and makes all calls.
 //
-// In simulated time no thread reads. Virtual loaders, as many as the threads, take requests as soon as they
-// are free and a request is queued. A read lasts as long as diskFault() says, or no time without a bad disk,
-// and ends when advance() has reached its end; takeFinished() then reads the block. So the same calls give
-// the same loads in the same order, on any machine.
+// In simulated time no thread reads. Virtual loaders, as many as the threads, take requests when they are
+// free and a request is queued. A read lasts as long as diskFault() says, or no time without fault injection.
+// It ends when advance() has reached its end, and takeFinished() then reads the block. So the same calls give
+// the same loads in the same order on any machine.
 #pragma once
 
 #include <array>
@@ -31,30 +31,30 @@ namespace planet {
 
 using SiblingBlock = std::array<ChunkData, quadrantCount>;
 using TileBlock = std::array<TileData, quadrantCount>;
-// The alternative follows from the kind of the request.
+// The kind of the request determines the alternative.
 using LoadedBlock = std::variant<SiblingBlock, TileBlock>;
 
-// Reads the four children of a chunk, as ChunkFile::readChildren does. Called from loader threads, several at
+// Reads the four children of a chunk, as ChunkFile::readChildren does. Called from several loader threads at
 // once.
 using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, BlockLocation location,
                                                         std::span<const std::int16_t> parentHeights)>;
 // Reads the four children of a tile of colours, as ChunkFile::readColourChildren does.
 using LoadColours = std::function<Result<TileBlock>(const ChunkId& parent, BlockLocation location)>;
 
-// Derives the four children of a tile of normals. Called from loader threads too.
+// Derives the four children of a tile of normals. Called from loader threads.
 using LoadNormals = std::function<Result<TileBlock>(const ChunkId& parent)>;
 
 struct BlockLoaders {
     LoadChildren chunks;
-    LoadColours colours{};  // none where no colours are asked for
-    LoadNormals normals{};  // nor these where no normals are
+    LoadColours colours{};  // unset if no colours are requested
+    LoadNormals normals{};  // unset if no normals are requested
 };
 
 struct FinishedLoad {
     PagingRequest request;  // as it was when a loader took it
     Result<LoadedBlock> block;
-    double seconds = 0;       // reading and decoding, a bad disk's waiting included
-    std::uint32_t bytes = 0;  // of the block in the file; 0 where a bad disk failed the read, and of normals
+    double seconds = 0;       // reading and decoding, including injected delays
+    std::uint32_t bytes = 0;  // of the block in the file; 0 for normals and injected failures
 };
 
 // A request that a loader has taken.
@@ -70,35 +70,35 @@ struct PagerStatus {
     std::uint32_t queued = 0;   // page-ins waiting for a loader
     std::uint32_t loading = 0;  // taken by a loader and not yet finished
     std::uint32_t finished = 0;
-    bool held = false;  // paused, and no queued page-in is let through
+    bool held = false;  // paused, and no queued page-in may start
 
     bool idle() const { return queued + loading + finished == 0; }
-    // No read is in progress or finished, and no queued request can start.
+    // Returns whether no read is in progress or finished, and no queued request can start.
     bool atRest() const { return loading + finished == 0 && (queued == 0 || held); }
 };
 
 inline constexpr int maxLoaderThreads = 64;
 
-// Decides when a read ends.
+// Determines when a read ends.
 enum class PagingTime : std::uint8_t {
-    Clock,      // loader threads, as fast as they are
-    Simulated,  // virtual loaders, by the bad disk's settings and seed, in the time of advance()
-    Recorded,   // whoever calls take() and finish()
+    Clock,      // loader threads, in real time
+    Simulated,  // virtual loaders, by fault injection settings and seed, in the time of advance()
+    Recorded,   // calls of take() and finish()
 };
 
 class Pager {
 public:
     // threads: [1, maxLoaderThreads].
     Pager(BlockLoaders load, int threads);
-    // Waits for the blocks being read and drops everything else.
+    // Waits for the blocks being read and discards everything else.
     ~Pager();
     Pager(const Pager&) = delete;
     Pager& operator=(const Pager&) = delete;
 
-    // Calls edit(PagingQueue&) with the queue locked, then wakes the loaders. Keep it short.
+    // Calls edit(PagingQueue&) with the queue locked, then wakes the loaders. It must be quick.
     template <class Edit>
     auto withQueue(Edit&& edit) {
-        // Destruction runs in reverse: virtual loaders take requests, the lock is released, then the threads
+        // Destruction runs in reverse order: virtual loaders take requests, the lock is released, the threads
         // wake.
         const Wake wake{workArrived_};
         const std::lock_guard lock(mutex_);
@@ -112,45 +112,45 @@ public:
         return look(queue_);
     }
 
-    // Sets the number of loaders. Does not wait: a loader beyond the number stops when its read is done.
+    // Sets the number of loaders without waiting: a surplus loader stops when its read is done.
     void setThreads(int threads);
 
-    // While paused, the loaders take only the requests that loadOne() lets through, one per call. With
-    // nothing queued, loadOne() does nothing.
+    // While paused, the loaders take only the requests that loadOne() lets through, one per call. loadOne()
+    // does nothing if no request is queued.
     void setPaused(bool paused);
     void loadOne();
 
     // Sets the injected faults, also for reads that are waiting. The attempts of a block are counted while
-    // faults are injected, and from 0 after each change.
+    // faults are injected, starting from 0 after each change.
     void setBadDisk(const BadDiskSettings& settings);
-    // Counts attempts from 0, so that the injected faults repeat.
+    // Resets the attempts to 0, so that the injected faults repeat.
     void forgetAttempts();
 
-    // Sets the paging's time; simulated seconds begin at 0. Gives up the reads in progress and the finished
-    // reads that have not been taken: returns their requests and discards their results.
+    // Sets the paging's time; simulated seconds begin at 0. Abandons the reads in progress and the finished
+    // reads that have not been taken: discards their results and returns their requests.
     std::vector<PagingRequest> setTime(PagingTime time);
-    // Gives up the same reads without changing the time.
+    // Abandons the same reads without changing the time.
     std::vector<PagingRequest> giveUp();
     PagingTime time() const;
-    // In simulated and recorded time: lets seconds, >= 0, pass.
+    // Advances simulated or recorded time by seconds, >= 0.
     void advance(double seconds);
-    // In simulated time: returns the seconds until the next read ends; nothing if none is in progress.
+    // Returns the simulated seconds until the next read ends; nothing if none is in progress.
     std::optional<double> untilNextEnd() const;
-    // In recorded time: take starts the read of a queued block, and finish ends one. They return false if
+    // Recorded time: take() starts the read of a queued block, and finish() ends one. They return false if
     // there is no such read. Of several reads of one block, all but the last result are discarded.
     bool take(const BlockId& block);
-    // failure: the kind of the failure, if the read fails.
+    // failure: the kind of the failure; unset: the read succeeds.
     bool finish(const BlockId& block, std::optional<ErrorKind> failure, bool last = true);
 
     // Returns the blocks that were taken since the last call, in order. Call it inside withQueue, so that no
-    // block is taken meanwhile.
+    // block is taken in the meantime.
     std::vector<BlockId> takeTaken(const PagingQueue& lockedQueue);
 
-    // Returns the next finished load, in the order they finished. Except with PagingTime::Clock, it reads the
-    // block here.
+    // Returns the next finished load, in the order of finishing. Except with PagingTime::Clock, this call
+    // reads the block.
     std::optional<FinishedLoad> takeFinished();
 
-    // Waits until a load is finished, `until` has passed, or there is nothing to wait for. Returns whether a
+    // Waits until a load is finished, `until` has passed, or nothing remains to wait for. Returns whether a
     // load is finished.
     bool waitForFinished(std::chrono::steady_clock::time_point until);
 
@@ -169,12 +169,13 @@ private:
         PagingRequest request;
         Clock::time_point since;
     };
-    // The reads of virtual loaders, in the order they were taken. Times are seconds of the pager's own time.
+    // The reads of virtual loaders, in the order in which they were taken. Times are seconds of the pager's
+    // time.
     struct VirtualReading {
         PagingRequest request;
         double sinceS = 0;
         double endS = 0;
-        std::optional<ErrorKind> failure{};  // where it fails
+        std::optional<ErrorKind> failure{};  // unset: it succeeds
     };
     struct VirtualLoaders {
         Pager& pager;
@@ -199,7 +200,7 @@ private:
     PagerStatus statusLocked() const;
 
     const BlockLoaders load_;
-    mutable std::mutex mutex_;  // guards what follows, but the threads
+    mutable std::mutex mutex_;  // guards the members below, except the threads
     std::condition_variable_any workArrived_;
     std::condition_variable_any loadFinished_;
     std::condition_variable_any badDiskChanged_;
@@ -208,17 +209,17 @@ private:
     std::size_t loadersWanted_ = 0;
     std::array<Loader, maxLoaderThreads> loaders_{};
     bool paused_ = false;
-    std::size_t letThrough_ = 0;  // requests that may still be taken while paused
+    std::size_t letThrough_ = 0;  // number of requests that may still be taken while paused
     BadDiskSettings badDisk_{};
-    std::uint64_t badDiskVersion_ = 0;  // one more with each change
+    std::uint64_t badDiskVersion_ = 0;  // incremented by each change
     std::unordered_map<BlockId, std::uint32_t> attempts_;
     PagingTime time_ = PagingTime::Clock;
-    std::uint64_t epoch_ = 0;  // one more each time reads are given up
+    std::uint64_t epoch_ = 0;  // incremented when reads are abandoned
     double nowS_ = 0;          // of Simulated and Recorded
     std::vector<VirtualReading> virtualReadings_;
-    std::deque<VirtualReading> virtuallyFinished_;  // endS: when it ended
+    std::deque<VirtualReading> virtuallyFinished_;  // endS: the time when it ended
     std::vector<BlockId> taken_;
-    std::array<std::jthread, maxLoaderThreads> threads_;  // last: joined before the rest goes
+    std::array<std::jthread, maxLoaderThreads> threads_;  // last, so joined before the other members go
 };
 
 }  // namespace planet

@@ -7,7 +7,7 @@ namespace planet {
 namespace {
 
 constexpr std::size_t eventsKept = 1000;
-constexpr std::size_t problemsKept = 1000;  // a program that never takes them must not run out of memory
+constexpr std::size_t problemsKept = 1000;  // bounds the memory of a program that never takes them
 
 }  // namespace
 

@@ -20,30 +20,30 @@
 namespace planet {
 
 struct PagingSettings {
-    std::size_t budgetBytes = 256u << 20;  // for resident chunks, CPU and GPU together; smaller: coarser
+    std::size_t budgetBytes = 256u << 20;  // for resident chunks, CPU and GPU together; smaller is coarser
     int loaderThreads = 1;                 // [1, maxLoaderThreads]
-    // Time per frame for making loaded chunks drawable, ms, >= 0; at least one block is uploaded.
+    // Time per frame for making loaded chunks drawable, ms, >= 0. At least one block is uploaded per frame.
     double uploadLimitMs = 4;
-    bool paused = false;  // loaders take only what loadOne() lets through
+    bool paused = false;  // loaders take only the requests that loadOne() lets through
     BadDiskSettings badDisk{};
     // Retries of failed reads: their number, and the delay before the first one, which doubles with each.
     // Corrupt blocks are never retried.
     RetryRules retry{};
-    // The share of the budget for tiles of colours, if the planet has any, [0.01, 0.9]; larger: sharper
-    // colours, and coarser ground when the budget is full.
+    // Share of the budget for colour tiles, if the planet has any, [0.01, 0.9]. Larger values give sharper
+    // colours, and coarser ground when the budget is exhausted.
     double colourShare = 0.25;
-    std::uint32_t maxColourTiles = 2048;  // the renderer's pool holds at most so many
+    std::uint32_t maxColourTiles = 2048;  // the capacity of the renderer's pool
     // Loads tiles of normals (normal_tile.h) if the heights fill any. Off: they take no memory, and no view
-    // has them.
+    // uses them.
     bool normals = false;
-    // The share of the budget left by colours for tiles of normals and the heights that they are derived
-    // from, [0.01, 0.9]; larger: finer light on coarse chunks, and coarser ground when the budget is full. If
-    // it is too small for any tile there are none, and takeProblems() says so.
+    // Share of the budget left by colours for tiles of normals and for the heights to derive them from,
+    // [0.01, 0.9]. Larger values give finer lighting on coarse chunks, and coarser ground when the budget is
+    // exhausted. If it is too small for any tile, there are none, and takeProblems() reports it.
     double normalShare = 0.2;
-    std::uint32_t maxNormalTiles = 2048;  // the renderer's pool holds at most so many
-    // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS, and a block arrives in
-    // the first step at or past the end of its read; uploadLimitMs has no effect. The same steps, settings
-    // and calls then give the same selections, requests and arrivals, bit for bit, on any machine.
+    std::uint32_t maxNormalTiles = 2048;  // the capacity of the renderer's pool
+    // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS. A block arrives in the
+    // first step at or after the end of its read; uploadLimitMs has no effect. The same steps, settings and
+    // calls then give the same selections, requests and arrivals, bit for bit, on any machine.
     PagingTime time = PagingTime::Clock;
 
     bool operator==(const PagingSettings&) const = default;
@@ -57,15 +57,15 @@ struct PagingEvent {
     PagingOutcome outcome = PagingOutcome::Loaded;
     double atS = 0;                // seconds since the planet was opened
     double waitedS = 0;            // since it was first requested
-    double readS = 0;              // reading and decoding, a bad disk's delays included
+    double readS = 0;              // reading and decoding, including injected delays
     std::uint32_t bytes = 0;       // read
-    std::uint32_t timesAsked = 1;  // over 1: merged
+    std::uint32_t timesAsked = 1;  // > 1: merged
     double priority = 0;
-    PagingType type = PagingType::PageIn;  // only Cancelled has either; page-outs end in no other way
+    PagingType type = PagingType::PageIn;  // the outcome implies it, except Cancelled
 };
 
-// The outcome of requests in one step or one call between steps: everything about paging that depends on a
-// clock, and the blocks that were requested.
+// The outcomes of requests in one step, or in one call between steps: everything in the paging that depends
+// on a clock, and the requested blocks.
 struct PagingMoves {
     struct Arrival {
         BlockId block;
@@ -75,41 +75,40 @@ struct PagingMoves {
         bool operator==(const Arrival&) const = default;
     };
     bool gaveUp = false;               // the paging's time changed: reads in progress were requeued
-    std::vector<BlockId> taken{};      // after that, by loaders, in order
-    std::vector<Arrival> arrived{};    // after that, in order
-    std::vector<BlockId> requested{};  // at the end
+    std::vector<BlockId> taken{};      // by loaders, in order; after gaveUp
+    std::vector<Arrival> arrived{};    // in order; after taken
+    std::vector<BlockId> requested{};  // last
 
     bool operator==(const PagingMoves&) const = default;
 };
 
-// The counters of one kind of blocks. loaded - evicted blocks are resident now, not counting checker patterns
-// in place of blocks of colours that failed.
+// The counters of one kind of blocks. loaded - evicted blocks are resident now, not counting the checker
+// patterns that replace failed blocks of colours.
 struct BlockCounters {
     // Since the planet was opened.
-    std::uint64_t loaded = 0;   // blocks read and made resident
-    std::uint64_t evicted = 0;  // loaded blocks that are no longer resident
-    std::uint64_t failed = 0;   // reads that failed
-    std::uint64_t bytesRead =
-        0;  // from the file; for normals those of the heights that they are derived from
+    std::uint64_t loaded = 0;     // blocks read and made resident
+    std::uint64_t evicted = 0;    // loaded blocks that are no longer resident
+    std::uint64_t failed = 0;     // reads that failed
+    std::uint64_t bytesRead = 0;  // from the file; for normals, of the heights that they are derived from
 
     // Now.
     std::uint32_t budgetWaits = 0;    // blocks wanted in the last step that the budget has no room for
     std::uint32_t failedForGood = 0;  // blocks that are not requested again until retryFailed()
     std::uint32_t awaitingRetry = 0;  // other blocks whose last read failed
-    std::size_t resident = 0;         // chunks or tiles, roots included
+    std::size_t resident = 0;         // chunks or tiles, including roots
     std::uint32_t capacity = 0;       // slots for them; 0 if the kind is off or has no room
 };
 
-// Counters over all kinds of blocks, since the planet was opened unless said otherwise, and those of each.
+// Counters over all kinds of blocks, since the planet was opened unless noted, and those of each kind.
 struct PagingCounters {
-    std::uint64_t requested = 0;          // page-ins put into the queue
+    std::uint64_t requested = 0;          // queued page-ins
     std::uint64_t merged = 0;             // requested again while queued
-    std::uint64_t cancelled = 0;          // replaced by the opposite request, no longer wanted, or discarded
-    std::uint64_t pageOutsQueued = 0;     // page-outs put into the queue
-    std::uint64_t pageOutsCancelled = 0;  // the page-outs among the cancelled
-    double loadSeconds = 0;               // spent on reading and decoding, over all threads
+    std::uint64_t cancelled = 0;          // cancelled by the opposite request, no longer wanted, or discarded
+    std::uint64_t pageOutsQueued = 0;     // queued page-outs
+    std::uint64_t pageOutsCancelled = 0;  // number of page-outs among the cancelled
+    double loadSeconds = 0;               // reading and decoding, over all threads
     std::uint32_t queued = 0;             // now
-    std::uint32_t loading = 0;            // now being read, or read and waiting for their upload
+    std::uint32_t loading = 0;            // now being read, or read and waiting for upload
     std::size_t residentBytesCpu = 0;     // now, of chunks
     std::size_t residentBytesGpu = 0;     // now, of the slots that hold a resident chunk
     std::array<BlockCounters, blockKindCount> blocks{};
@@ -132,17 +131,17 @@ private:
 };
 
 // Makes the heights of one chunk drawable: chunkVertexCount steps into a slot below the capacity of heights.
-// Called by the thread that steps the planet.
+// Called on the thread that steps the planet.
 using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
 
 // No-op upload, for headless use.
 inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
 
-// An update that a pool of tiles makes to follow a step; updates are applied in order.
+// An update for a pool of tiles after a step. Updates are applied in order.
 struct TileChange {
-    bool beginsAnew = false;          // every slot is empty, as when the planet was opened
+    bool beginsAnew = false;          // all slots become empty, as after opening
     std::optional<ChunkId> gone{};    // the tiles under this one are no longer resident
-    std::uint32_t firstSlot = 0;      // of those that have arrived
+    std::uint32_t firstSlot = 0;      // of the arrived tiles
     std::vector<TileData> arrived{};  // a root alone, or four siblings in consecutive slots
 };
 

@@ -43,7 +43,7 @@ void TilePaging::dropAll(PagingQueue&, PagingRun& run) {
     begin(capacity(), run.sinceAnewS);
 }
 
-// Evicts the least recently used block, or else one that is in use but wanted far less.
+// Evicts the least recently used block, or one that is in use with a far lower priority.
 bool TilePaging::makeRoom(PagingQueue&, const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
                           PagingRun& run) {
     return evictUnused(run) || evictLessWanted(wanted, splits, run);
@@ -74,8 +74,8 @@ bool TilePaging::evictLessWanted(const MergedRequest& wanted, const std::vector<
                                  PagingRun& run) {
     for (auto split = splits.rbegin(); split != splits.rend(); ++split) {
         if (wanted.priority <= yieldFactor * split->priority) return false;
-        // A tile may have a higher priority than its parent, because their bounds are not nested. The parent
-        // is needed all the same.
+        // A tile may have a higher priority than its parent, because their bounds are not nested, but it
+        // needs its parent resident.
         if (split->parent == tree.nodes[wanted.parent].parent) continue;
         // Another request of this step may have evicted it already.
         if (!mayBeEvicted(split->parent) || tree.nodes[split->parent].id != split->parentId) continue;

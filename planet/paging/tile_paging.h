@@ -1,7 +1,7 @@
 // The paging of tiles of colours or of normals. Internal to the library; one thread.
 //
-// The renderer looks its tiles up in every frame, so a step no longer draws a tile that it drops. Blocks are
-// therefore dropped at once when others need room, without page-outs.
+// The renderer looks up its tiles in every frame, so a step stops drawing a tile as soon as it drops it. So
+// blocks are dropped at once when others need room, without page-outs.
 #pragma once
 
 #include <array>
@@ -20,17 +20,16 @@ public:
     explicit TilePaging(BlockKind kind) : BlockPaging(kind) {}
 
     int leafLevel = -1;  // of the pyramid; -1: the planet has none
-    // Set for colours: a block that has failed for good is resident as a checker pattern of this format.
-    // Blocks of normals that fail have no stand-in.
+    // Set for colours: a block that has failed for good is replaced by a checker pattern of this format.
+    // Failed blocks of normals have no stand-in.
     std::optional<ColourFormat> checkers;
-    // The tiles of whole faces, kept so that they can be shown again. One without texels could not be read
-    // or derived.
+    // The tiles of whole faces, kept to show them again. A tile without texels could not be read or derived.
     std::array<TileData, faceCount> roots;
     TileTree tree;                    // empty if the kind is off
     std::vector<TileChange> changes;  // for Planet::takeTileChanges()
 
-    // Evicts every block and begins with the roots alone, in a pool of `capacity` slots; turns paging off if
-    // it is 0. Keeps failures. No request may be pending.
+    // Evicts every block and begins with only the roots, in a pool of `capacity` slots; 0 turns paging off.
+    // Keeps failures. No request may be pending.
     void begin(std::uint32_t capacity, double sinceAnewS);
 
     // Marks the tiles that a view used in a frame.
@@ -64,13 +63,13 @@ private:
     void remove(NodeIndex parent);
     void addTilesUnder(NodeIndex parent, TileBlock&& tiles, const PagingRun& run);
 
-    // True if a request of the last step waits for a block to be out of use for long enough.
+    // A request of the last step waits for a block to be out of use for long enough.
     bool roomIsComing_ = false;
 };
 
-// Returns the number of tiles that fit a share of the budget: six roots and then whole blocks, at most as
-// many as there are, and at most `most`. The Error names the smallest number: it allows the finest level at
-// one place.
+// Returns the number of tiles that fit a share of the budget: six roots and the rest in whole blocks, at most
+// as many as there are, and at most `most`. The Error names the smallest number: it allows the finest level
+// at one place.
 struct TilePyramid {
     const char* name = "";  // "colour tiles"
     int leafLevel = 0;
