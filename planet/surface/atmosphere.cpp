@@ -17,15 +17,15 @@ using std::numbers::pi;
 constexpr int transmittanceWidth = 256;
 constexpr int transmittanceHeight = 64;
 constexpr int transmittanceSteps = 40;
-constexpr int glowSize = 32;  // suns and heights
+constexpr int glowSize = 32;  // texels of suns and of heights
 constexpr int glowSteps = 20;
-constexpr int glowRises = 8;  // directions over the whole sphere: so many times so many
+constexpr int glowRises = 8;  // rises of directions over the whole sphere
 constexpr int glowSides = 8;
 constexpr int skyRises = 32;
 constexpr int skySides = 24;
 constexpr int skySteps = 24;
 
-// How much of each there is at a height, over what there is where it is densest.
+// The densities at a height, relative to the densest.
 struct Density {
     double rayleigh, haze, ozone;
 };
@@ -45,15 +45,15 @@ double rayleighPhase(double cosine) {
     return 3 / (16 * pi) * (1 + cosine * cosine);
 }
 
-// Cornette and Shanks.
+// Returns the phase function of Cornette and Shanks.
 double hazePhase(double g, double cosine) {
     const double spread = 1 + g * g - 2 * g * cosine;
     return 3 / (8 * pi) * (1 - g * g) * (1 + cosine * cosine) / ((2 + g * g) * spread * std::sqrt(spread));
 }
 
-// The part of a ray that lies in the air, as seen from where it begins.
+// The part of a ray inside the atmosphere. Height and rise are those at its start.
 struct AirSpan {
-    double beforeKm = 0;  // from the ray's start to here
+    double beforeKm = 0;  // from the ray's start to the span's
     double heightKm = 0;
     double along = 0;  // radius x rise
     double lengthKm = 0;
@@ -84,7 +84,7 @@ AirSpan spanOf(const Atmosphere& air, double heightKm, double rise, double lengt
     return span;
 }
 
-// Steps along a span: shortest where the ray is lowest, growing with the distance from there.
+// The steps along a span: shortest at the ray's lowest point, and longer with the distance from it.
 struct Steps {
     double lowestKm, from, width;
 
@@ -98,7 +98,7 @@ struct Steps {
     }
 };
 
-// Of a square by its middles: from [0, 1] to a texel's place.
+// Interpolates a table of texel centres: maps [0, 1] to a texel and a share of the next one.
 struct Between {
     int low;
     double share;
@@ -141,7 +141,7 @@ double shareOf(int texel, int count) {
     return static_cast<double>(texel) / (count - 1);
 }
 
-// The sun's rise, finest where it rises and sets.
+// Map the sun's rise to a table's coordinate and back; the resolution is finest at sunrise and sunset.
 double placeOfSun(double sunRise) {
     return 0.5 + 0.5 * std::copysign(std::sqrt(std::min(std::abs(sunRise), 1.0)), sunRise);
 }
@@ -154,8 +154,8 @@ double placeOfHeight(const Atmosphere& air, double heightKm) {
     return std::sqrt(std::clamp(heightKm / air.topKm, 0.0, 1.0));
 }
 
-// Bruneton's coordinates: how far the air's end is, between straight up and along the horizon; and how far
-// the horizon is.
+// Bruneton's coordinates: the distance to the top of the atmosphere, from straight up to along the horizon,
+// and the distance to the horizon.
 struct TransmittancePlace {
     double x, y;
 };
@@ -188,7 +188,7 @@ glm::dvec3 transmittanceTexel(const Atmosphere& air, double x, double y) {
     return transmittanceBySteps(air, height, std::clamp(rise, -1.0, 1.0), transmittanceSteps);
 }
 
-// What a thickness of air leaves, and how much of it on average over its depth.
+// The transmittance of an optical depth, and its mean over the depth.
 struct Taken {
     glm::dvec3 left, mean;
 
@@ -198,8 +198,8 @@ struct Taken {
     }
 };
 
-// Hillaire's sums over one direction: light scattered for the second time, were it scattered evenly, and the
-// share of even light that is scattered again.
+// Hillaire's sums along one direction: the light of second-order scattering, if scattering is isotropic, and
+// the share of isotropic light that is scattered again.
 struct SecondScattering {
     glm::dvec3 light{0}, again{0};
 };
@@ -237,7 +237,7 @@ SecondScattering secondAlong(const AirTables& tables, double height, double rise
     return sum;
 }
 
-// Over the whole sphere.
+// Returns the multiply scattered light, integrated over the whole sphere.
 glm::dvec3 evenLight(const AirTables& tables, double height, double sunRise) {
     SecondScattering sum;
     const double sunAside = std::sqrt(std::max(1 - sunRise * sunRise, 0.0));
@@ -245,7 +245,7 @@ glm::dvec3 evenLight(const AirTables& tables, double height, double sunRise) {
         const double rise = 2 * (i + 0.5) / glowRises - 1;
         const double aside = std::sqrt(1 - rise * rise);
         for (int k = 0; k < glowSides; ++k) {
-            const double turn = pi * (k + 0.5) / glowSides;  // the other half is its mirror image
+            const double turn = pi * (k + 0.5) / glowSides;  // the other half is symmetric
             const double cosine = rise * sunRise + aside * sunAside * std::cos(turn);
             const SecondScattering one = secondAlong(tables, height, rise, sunRise, cosine);
             sum.light += one.light;
@@ -260,7 +260,7 @@ glm::dvec3 irradiance(const AirTables& tables, double height, double sunRise) {
     glm::dvec3 sum(0);
     const double sunAside = std::sqrt(std::max(1 - sunRise * sunRise, 0.0));
     for (int i = 0; i < glowRises; ++i) {
-        // Squares of the rise, so that each direction counts the same on a level square.
+        // Square roots of even steps, so that all directions have the same weight on a level square.
         const double rise = std::sqrt((i + 0.5) / glowRises);
         const double aside = std::sqrt(1 - rise * rise);
         for (int k = 0; k < glowSides; ++k) {
@@ -314,7 +314,7 @@ Atmosphere atmosphereOf(const AirSettings& settings) {
 }
 
 glm::dvec3 transmittanceBySteps(const Atmosphere& air, double heightKm, double rise, int steps) {
-    // Where the ground would be in the way: along it, at height 0.
+    // A ray that would meet the ground follows it at height 0.
     const AirSpan span = spanOf(air, heightKm, rise, 1e9);
     const Steps places(span, steps);
     const double radius = airRadiusKm + span.heightKm;

@@ -10,17 +10,17 @@ namespace planet {
 
 namespace {
 
-constexpr std::size_t texelBytes = 4;  // sRGB and an unused alpha: what every context can draw into
+constexpr std::size_t texelBytes = 4;  // sRGB and an unused alpha: a format that every context can render to
 
 int cellsOf(int level) {
     return colourTileCells << level;
 }
 
 int wrapped(int texel, int sizePx) {
-    return texel & (sizePx - 1);  // of a power of two, right for negative ones too
+    return texel & (sizePx - 1);  // sizePx is a power of two; also correct for negative texels
 }
 
-// From first to last, last left out.
+// Returns the rectangle from first to last, excluding last.
 TexelRect rectOf(const glm::ivec2& first, const glm::ivec2& last) {
     return {first.x, first.y, std::max(last.x - first.x, 0), std::max(last.y - first.y, 0)};
 }
@@ -90,8 +90,8 @@ TexelRect texelsUnder(const ChunkId& tile, int level) {
 TexelRect clipmapWindow(const ClipmapLayout& layout, const ClipmapCentre& centre, Face face, int level) {
     const FaceAxes& axes = faceAxes(face);
     const glm::dvec3& up = faceAxes(centre.home).normal;
-    if (glm::dot(axes.normal, up) < -0.5) return {};  // across the planet
-    // Folded up into the plane of the viewer's face.
+    if (glm::dot(axes.normal, up) < -0.5) return {};  // the opposite face
+    // The face is unfolded into the plane of the viewer's face.
     const double away = face == centre.home ? 0 : 1 - glm::dot(centre.cube, axes.normal);
     const glm::dvec3 unfolded = centre.cube + away * up;
     const int cells = cellsOf(level);
@@ -101,7 +101,7 @@ TexelRect clipmapWindow(const ClipmapLayout& layout, const ClipmapCentre& centre
         return clipmapStepTexels * static_cast<int>(std::lround(steps));
     };
     const TexelRect window{first(axes.u), first(axes.v), layout.sizePx, layout.sizePx};
-    // Over the border alone there is nothing that is drawn.
+    // A window over the border alone shows nothing.
     if (intersectionOf(window, {0, 0, cells + 1, cells + 1}).isEmpty()) return {};
     return intersectionOf(window, faceTexels(level));
 }
@@ -151,8 +151,8 @@ double clipmapDistance(const ClipmapCentre& centre, Face face, const glm::dvec2&
         const glm::dvec3 along = apart * (1.0 - up);
         return std::max({along.x, along.y, along.z}) + down;
     }
-    // Besides the distance on the unfolded cube, what makes the two faces agree that meet beside the
-    // viewer's in a corner: on their edge both are as far away as the farther of them.
+    // Two faces that meet next to a corner of the viewer's face must agree on their common edge. So the
+    // distance there is the larger of the two, in addition to the distance on the unfolded cube.
     const glm::dvec3 side = 1.0 - up - out;
     const double corner = std::abs(2 * glm::dot(point, side) - glm::dot(centre.cube, side)) - 1;
     return std::max({down + glm::dot(apart, out), glm::dot(apart, side), down + corner});
@@ -164,7 +164,7 @@ double clipmapReach(const ClipmapLayout& layout) {
 
 double clipmapFinest(const ClipmapLayout& layout, double distance) {
     const double level = std::log2(clipmapReach(layout) / std::max(distance, 1e-9));
-    const double holding = std::floor(level);  // the finest whose window reaches so far
+    const double holding = std::floor(level);  // the finest whose window reaches that far
     const double inside = 1 - std::exp2(holding - level);
     const double finest = holding - 1 + std::min(inside / clipmapFade, 1.0);
     return std::clamp(finest, static_cast<double>(layout.wholeLevel), static_cast<double>(layout.leafLevel));
@@ -205,7 +205,7 @@ void ClipmapWindows::forget() {
     }
 }
 
-// Where there is something to store, there is a layer.
+// Stores a window's texels; allocates a layer if there are any, and frees it otherwise.
 void ClipmapWindows::place(Window& window, const TexelRect& now) {
     window.texels = now;
     if (now.isEmpty() && window.layer >= 0) {

@@ -1,11 +1,11 @@
-// Whether a part of the picture that costs time is drawn.
+// Selects whether an expensive feature is drawn.
 #pragma once
 
 #include <cstdint>
 
 namespace planet::gl {
 
-// Automatic: on, but off where the CPU draws, which is then too slow for 20 frames a second.
+// Automatic: on, except with software rendering, which would fall below 20 frames per second.
 enum class FeatureUse : std::uint8_t { Automatic, On, Off };
 
 inline bool isUsed(FeatureUse use, bool software) {

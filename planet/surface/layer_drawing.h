@@ -1,4 +1,4 @@
-// How texture layers are drawn: what a renderer is told of them, frame by frame.
+// Settings for drawing texture layers, which a renderer gets per frame.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace planet::gl {
 
-// Heat: the chosen layer's weight in colours over the picture. Mask: alone, black to white.
+// Heat: the chosen layer's weight as colours over the picture. Mask: the weight alone, black to white.
 enum class LayerPreview : std::uint8_t { Off, Heat, Mask };
 
 struct LayerDrawing {
     FeatureUse use = FeatureUse::Automatic;
     LayerSet set;
-    // Which of the pictures given to ChunkRenderer::setLayers each layer is drawn with; -1, or none for it:
-    // the checker pattern.
+    // For each layer, the index of its picture in ChunkRenderer::setLayers; -1 or missing: the checker
+    // pattern.
     std::vector<int> pictures;
-    double beginM = 2000;      // from the eye: nearer than this, layers alone are seen,
-    double endM = 60000;       // and beyond this what lies below them alone; > beginM
-    double opacity = 1;        // over what lies below, [0, 1]
-    double colourBelow = 0.4;  // how much of its colour goes through them, [0, 1]
+    double beginM = 2000;      // only the layers are seen up to this distance from the eye, metres
+    double endM = 60000;       // only the ground below is seen from this distance on, metres; > beginM
+    double opacity = 1;        // over the ground below, [0, 1]
+    double colourBelow = 0.4;  // share of the ground's own colour that is mixed in, [0, 1]
     LayerPreview preview = LayerPreview::Off;
-    int previewed = 0;  // a layer of the set
+    int previewed = 0;  // index of a layer of the set
 };
 
 }  // namespace planet::gl

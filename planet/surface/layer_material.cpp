@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-// What a material is painted as, before it is lit into bytes.
+// The painted properties of a material, before they are converted to bytes.
 struct Canvas {
     int size;
     std::vector<double> relief;      // any range
@@ -44,13 +44,13 @@ struct Canvas {
     }
 };
 
-// A stream of numbers in [0, 1) that follow from a seed.
+// A stream of pseudo-random numbers in [0, 1) from a seed.
 struct Dice {
     std::uint32_t seed;
     std::uint32_t count = 0;
     double operator()() { return tilingRandom(count++, 0x51u, seed); }
     double operator()(double least, double most) { return least + (most - least) * (*this)(); }
-    // One after the other: in which order a call works out its arguments is each compiler's own.
+    // Draws y before x in statements of their own, because the evaluation order of arguments is unspecified.
     glm::dvec2 place() {
         const double y = (*this)();
         const double x = (*this)();
@@ -67,7 +67,7 @@ double grain(std::size_t texel, std::uint32_t seed) {
     return tilingRandom(static_cast<std::uint32_t>(texel), 3, seed) - 0.5;
 }
 
-// Wind's or water's ripples, whole waves across the square: a gentle rise, a sharp fall.
+// Returns ripples of wind or water, in whole waves across the square: a gentle rise and a steep fall.
 double ripples(const glm::dvec2& place, const glm::dvec2& waves, double bend) {
     const double phase = waves.x * place.x + waves.y * place.y + bend;
     const double t = phase - std::floor(phase);
@@ -96,7 +96,7 @@ void paintSand(Canvas& canvas, std::uint32_t seed) {
     });
 }
 
-// A leaf of grass bent over the ground; what stands higher hides what is below it.
+// Paints a bent blade of grass; higher relief hides what is below it.
 void paintBlade(Canvas& canvas, Dice& dice, const glm::dvec3& hue) {
     const glm::dvec2 root = dice.place();
     const double clump = 2 * pi * tilingNoise(root, 5, 77);
@@ -148,7 +148,7 @@ void paintGrass(Canvas& canvas, std::uint32_t seed) {
     });
 }
 
-// A tree's crown from above: a lumpy dome.
+// Paints a tree's crown as seen from above: a lumpy dome.
 void paintCrown(Canvas& canvas, Dice& dice, std::uint32_t seed) {
     const glm::dvec2 middle = dice.place();
     const double usual = dice(0.012, 0.030);
@@ -194,11 +194,11 @@ void paintForest(Canvas& canvas, std::uint32_t seed) {
     });
 }
 
-// Facets: each cell leans its own way, as broken stone does.
+// A facet of broken stone: each cell leans in its own direction.
 struct Facet {
     double height = 0;
-    double facing = 0;  // [-1, 1], up the square: what light from there makes of it
-    double crack = 0;   // distance from the nearest one's border, in cells
+    double facing = 0;  // [-1, 1], up the square: its brightness in light from there
+    double crack = 0;   // distance to the border of the nearest cell, in cells
 };
 Facet facetAt(const glm::dvec2& place, int cells, std::uint32_t seed) {
     const CellPlace cell = tilingCells(place, cells, seed);
@@ -216,7 +216,7 @@ void paintRock(Canvas& canvas, std::uint32_t seed) {
         const Facet middle = facetAt(bent + 0.3, 15, seed + 4);
         const Facet small = facetAt(bent, 41, seed + 5);
         const double ridges = tilingRidges(bent, 3, 6, seed + 6);
-        // Beds that run across, broken by the facets.
+        // Strata run across the square, broken by the facets.
         const double beds = tilingNoise(glm::dvec2(0.5, bent.y + 0.02 * big.height), 34, seed + 7);
         const double fine = tilingFbm(p, 48, 4, seed + 8);
         const double split =
@@ -238,7 +238,7 @@ void paintSnow(Canvas& canvas, std::uint32_t seed) {
     canvas.each([&](const glm::dvec2& p, std::size_t i) {
         const glm::dvec2 bent = p + 0.06 * tilingNoise2(p, 3, seed + 1);
         const double drifts = tilingFbm(bent, 3, 3, seed + 2);
-        // Carved by wind: long across the square, short along it, and a sharp edge to one side.
+        // Wind carves ridges: long across the square, short along it, with a sharp edge on one side.
         const double carved = tilingNoise(glm::dvec2(bent.x, 3.0 * bent.y), 6, seed + 3) +
                               0.5 * tilingNoise(glm::dvec2(bent.x, 4.0 * bent.y), 13, seed + 4);
         const double edge = std::max(carved, 0.0) * (carved > 0.25 ? 1.0 : smooth(0.0, 0.25, carved));
@@ -253,7 +253,7 @@ void paintSnow(Canvas& canvas, std::uint32_t seed) {
     });
 }
 
-// A pebble or a shell, half sunk.
+// Paints a pebble or a shell, half sunk.
 void paintPebble(Canvas& canvas, Dice& dice, std::uint32_t seed) {
     const glm::dvec2 middle = dice.place();
     const double radius = 0.0035 + 0.013 * std::pow(dice(), 4.0);
@@ -304,7 +304,7 @@ void paintSeaBed(Canvas& canvas, std::uint32_t seed) {
     for (int pebble = 0; pebble < 420; ++pebble) paintPebble(canvas, dice, seed + 31);
 }
 
-// The mean over a square of texels around each, wrapped: what tells hollows from heights.
+// Returns the mean relief of a square of texels around each, wrapped, to tell hollows from heights.
 std::vector<double> blurred(const Canvas& canvas, int reach) {
     const auto pass = [&](const std::vector<double>& from, bool alongX) {
         std::vector<double> to(from.size());
@@ -322,20 +322,20 @@ std::vector<double> blurred(const Canvas& canvas, int reach) {
     return pass(pass(canvas.relief, true), false);
 }
 
-// How a material's relief is lit into its textures.
+// The parameters for turning a material's relief into textures.
 struct Finish {
     double height = 0.03;      // of the whole relief, in sides of the texture
-    double hollow = 0.3;       // by how much hollows are darkened
+    double hollow = 0.3;       // strength with which hollows are darkened
     double hollowSize = 0.02;  // in sides
 };
 
-// In so wide steps from 128: noise hides them, and files get smaller by a third.
+// Quantises to steps from 128: noise hides the steps, and files are a third smaller.
 std::uint8_t byteOf(double share, int step) {
     const long steps = std::lround((255 * share - 128) / step);
     return static_cast<std::uint8_t>(std::clamp(128 + steps * step, 0L, 255L));
 }
 
-// To [0, 1].
+// Scales the relief to [0, 1].
 void spreadRelief(Canvas& canvas) {
     const auto [least, most] = std::minmax_element(canvas.relief.begin(), canvas.relief.end());
     const double from = *least;

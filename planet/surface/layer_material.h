@@ -1,5 +1,5 @@
-// The materials that come with Worldy, made of noise: the same seed and size give the same textures, bit for
-// bit. Pure functions, any thread.
+// The built-in materials, made of noise: the same seed and size give the same textures, bit for bit. Pure
+// functions, any thread.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@
 namespace planet {
 
 enum class Material : std::uint8_t { Sand, Grass, Forest, Rock, Snow, SeaBed };
-// In their order, as in file names.
+// In the order of Material, as in file names.
 inline constexpr std::array<std::string_view, 6> materialNames = {"sand", "grass", "forest",
                                                                   "rock", "snow",  "sea_bed"};
 
-inline constexpr int shippedMaterialSize = 512;  // texels a side of data/layers/
+inline constexpr int shippedMaterialSize = 512;  // texels per side in data/layers/
 inline constexpr std::uint32_t shippedMaterialSeed = 1;
 
-// Textures that tile, row 0 at the top.
+// Tileable textures, row 0 at the top.
 struct MaterialMaps {
-    int size = 0;                         // texels a side
-    std::vector<std::uint8_t> albedo;     // RGBA: sRGB, and the relief, 255 highest
-    std::vector<std::uint8_t> normal;     // RGB: red along columns, green up, 128 even
+    int size = 0;                         // texels per side
+    std::vector<std::uint8_t> albedo;     // RGBA: sRGB, and the relief, 255 is highest
+    std::vector<std::uint8_t> normal;     // RGB: red along columns, green up, 128 is flat
     std::vector<std::uint8_t> roughness;  // grey
 };
 
-// size: a power of two, [16, 4096].
+// Makes a material's textures. size: a power of two, [16, 4096].
 MaterialMaps makeMaterial(Material material, int size, std::uint32_t seed);
 
 }  // namespace planet

@@ -1,6 +1,6 @@
-// The noise that breaks up the borders of texture layers: value noise on an integer lattice, which is hashed
-// in whole numbers, so that shaders/layers.glsl has the same to within float rounding. Pure functions, any
-// thread.
+// The noise that breaks up the borders of texture layers: value noise on an integer lattice. The lattice is
+// hashed in integers, so that shaders/layers.glsl computes the same values to within float rounding. Pure
+// functions, any thread.
 #pragma once
 
 #include <array>
@@ -10,20 +10,20 @@
 
 namespace planet {
 
-// Each octave's cells are so many times smaller than those of the one before; and the octaves' shares.
+// The ratio of the cell sizes of two octaves, and the octaves' shares.
 inline constexpr double layerNoiseOctave = 3.17;
 inline constexpr std::array<double, 3> layerNoiseShares = {0.56, 0.28, 0.16};
 
-// The lattice point of whole coordinates of any size: they wrap at 2^32, as the shader's do.
+// Returns the lattice point of integral coordinates of any size. They wrap at 2^32, as in the shader.
 glm::uvec3 latticeCell(const glm::dvec3& whole);
-// Of a lattice point; all 32 bits are mixed.
+// Returns the hash of a lattice point. All 32 bits are mixed.
 std::uint32_t layerHash(const glm::uvec3& cell);
 
-// Four noises at once, each of a byte of the hash; in [-1, 1], over cells one unit a side.
+// Returns four independent noises in [-1, 1], one per byte of the hash, with cells of side 1.
 glm::dvec4 valueNoise(const glm::dvec3& place);
 
-// All octaves at a place on the planet, metres from its centre; sizeM: a side of the coarse cells, > 0.
-// Layer i of a set takes component i % 4.
+// Returns the sum of all octaves at a place, metres from the planet's centre. sizeM: the side of the coarsest
+// cells, metres, > 0. Layer i of a set takes component i % 4.
 glm::dvec4 layerNoise(const glm::dvec3& positionM, double sizeM);
 
 }  // namespace planet

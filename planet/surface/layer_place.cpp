@@ -28,7 +28,8 @@ struct Grid {
     }
 };
 
-// Steps a cell: a central difference, second order and one-sided where there is no vertex beyond.
+// Returns the slope in steps per cell: a central difference, or a second-order one-sided one at the last
+// vertex.
 template <class At>
 double slopeAlong(int at, int last, const At& stepAt) {
     if (at == 0) return (4 * stepAt(1) - 3 * stepAt(0) - stepAt(2)) / 2;
@@ -36,7 +37,7 @@ double slopeAlong(int at, int last, const At& stepAt) {
     return (stepAt(at + 1) - stepAt(at - 1)) / 2;
 }
 
-// Unit, of a vertex.
+// Returns the unit normal at a vertex.
 glm::dvec3 normalAt(const Grid& grid, int x, int y) {
     const double alongX =
         grid.shape.quantumM * slopeAlong(x, grid.cells, [&](int at) { return grid.stepAt(at, y); });
@@ -45,7 +46,7 @@ glm::dvec3 normalAt(const Grid& grid, int x, int y) {
     const double radiusM =
         grid.shape.radiusM + grid.shape.baseHeightM + grid.stepAt(x, y) * grid.shape.quantumM;
     const glm::dvec3 up = grid.direction(x, y);
-    // The map is smooth: a small step either way gives its slope to many digits.
+    // The mapping is smooth, so a small step to either side gives its derivative to many digits.
     constexpr double step = 1.0 / 64;
     const auto tangent = [&](double byX, double byY, double rise) {
         const glm::dvec3 turn =

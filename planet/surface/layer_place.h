@@ -1,5 +1,5 @@
-// What texture layers look at, of a point on a drawn chunk: for the readout under the pointer, and for tests
-// that hold the shader to it. Pure functions, any thread.
+// Computes the inputs of texture layers at a point of a drawn chunk, for the readout under the pointer and
+// for tests of the shader. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace planet {
 
-// Of a point of a chunk's surface as it is drawn, metres from the planet's centre. heights: the chunk's
-// steps, its morph left out. Slopes follow from the heights beside each vertex, as light does, and are mixed
-// over a triangle; at a chunk's border from those inside alone. exaggeration: in the shape already; the
-// place's height and slope are the true ones. > 0.
+// Returns the place of a point of a chunk's drawn surface, metres from the planet's centre. heights: the
+// chunk's steps, without morph. Slopes are computed from the heights around each vertex, as in lighting, and
+// interpolated over the triangle; at a chunk's border, from inside the chunk only. exaggeration: included in
+// the shape, > 0; the returned height and slope are the true ones.
 LayerPlace layerPlace(const PlanetShape& shape, const ChunkId& id, std::span<const std::int16_t> heights,
                       const glm::dvec3& positionM, double seaLevelM, double exaggeration);
 

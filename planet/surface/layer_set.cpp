@@ -13,7 +13,7 @@ namespace planet {
 
 namespace {
 
-// Sharper edges than this floats cannot tell from a step.
+// In floats, a sharper edge is the same as a step.
 constexpr double leastSoftEdge = 0.01;
 constexpr double openEnd = 1e9;
 
@@ -65,7 +65,7 @@ LayerSet earthLayers() {
     seaBed.noiseAmount = 1;
     seaBed.noiseSizeM = 900;
 
-    // Under all land; grass, forest and snow leave open what is steep or high.
+    // Rock lies under all land; grass, forest and snow leave steep or high places uncovered.
     TextureLayer rock = material("rock", 40);
     rock.heightM = {0, allHeightsM.highest, 4};
 

@@ -56,7 +56,7 @@ glm::dvec2 tilingNoise2(const glm::dvec2& place, int cells, std::uint32_t seed) 
 
 namespace {
 
-// Moved aside, so that no octave's lattice lies on another's.
+// Returns one octave, shifted so that no two lattices coincide.
 double octaveOf(const glm::dvec2& place, int cells, int octave, std::uint32_t seed) {
     return tilingNoise(place + static_cast<double>(octave) * glm::dvec2(0.37, 0.61), cells << octave,
                        seed + static_cast<std::uint32_t>(octave));
