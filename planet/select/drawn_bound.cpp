@@ -55,7 +55,7 @@ double edgeSlideM(std::span<const DrawItem> items, const DrawItem& item, std::si
         own, item.coarserBy[edge] > 0 ? static_cast<double>(other.deltaCM) : mostSlideM(other, metric));
 }
 
-// Returns the bound of the inside of a chunk and of its edges that are not stitched to a coarser chunk.
+// Returns the bound inside a chunk and along its edges that are not stitched to a coarser chunk.
 double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const DrawnNeighbours& neighbours,
                   double spanM, double screenScalePx, ErrorMetric metric, bool stitched) {
     const auto eps = static_cast<double>(item.epsPx);
@@ -68,7 +68,7 @@ double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const D
                  static_cast<double>(item.parentDeltaM) * screenScalePx / std::max(distanceM, nearestM));
     const double inside = eps + morph * std::max(parentPx - eps, 0.0);
     const double slidM = morph * mostSlideM(item, metric);
-    double mixedPx = 0;  // the two bounds of what lies along an edge
+    double mixedPx = 0;  // the two bounds along an edge
     double slidPx = 0;
     double gatheredPx = 0;
     for (std::size_t edge = 0; edge < edgeCount; ++edge) {
@@ -94,7 +94,7 @@ double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const D
 
 }  // namespace
 
-// A step along either axis is at most as long on the unit sphere as on the cube, whose faces have side 2.
+// On the unit sphere, a step along either axis is at most as long as on the cube, whose faces have side 2.
 double cellSpanM(const PlanetShape& shape, const ChunkNode& node) {
     const double cellSide = 2.0 / static_cast<double>(std::uint64_t{1} << node.id.level) / chunkCells(shape);
     const double highestM = shape.radiusM + static_cast<double>(node.maxHeightM);

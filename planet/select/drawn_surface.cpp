@@ -19,7 +19,7 @@ std::optional<Edge> edgeOf(glm::ivec2 vertex, int last) {
     return std::nullopt;
 }
 
-// Returns the next multiple of four beside an odd vertex.
+// Returns the multiple of four next to an odd vertex.
 int gatherPoint(int vertex) {
     return (vertex & 3) == 1 ? vertex - 1 : vertex + 1;
 }
@@ -33,8 +33,8 @@ void add(VertexBlend& blend, glm::ivec2 vertex, double share) {
     if (share > 0) blend.parts[blend.count++] = {vertex, share};
 }
 
-// The two ends are equally far away and come first, so that sums are bit-identical in either order:
-// neighbours may count an edge in opposite directions.
+// Adds both ends of the segment across a vertex. They are equally far away and added first, so that sums are
+// bit-identical in either order: neighbours may count an edge in opposite directions.
 void addBetween(VertexBlend& blend, glm::ivec2 vertex, glm::ivec2 aside, double amount, double share) {
     add(blend, vertex - aside, 0.5 * amount * share);
     add(blend, vertex + aside, 0.5 * amount * share);
@@ -96,13 +96,13 @@ DrawnVertex blended(glm::ivec2 itself, const VertexBlend& blend, const OwnPositi
     DrawnVertex drawn{itself, {0, 0, 0}};
     for (std::size_t i = 0; i < blend.count; ++i) {
         const auto& [vertex, share] = blend.parts[i];
-        drawn.place += share * glm::dvec2(vertex - itself);  // between equally far ends just 0
+        drawn.place += share * glm::dvec2(vertex - itself);  // exactly 0 between equally distant ends
         drawn.positionM += share * own(vertex);
     }
     return drawn;
 }
 
-// Returns the point of a triangle over a place, or nothing if the triangle does not cover it.
+// Returns the point of a triangle at a place; nothing if the triangle does not cover it.
 std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const CellTriangle& triangle,
                                           glm::dvec2 place) {
     const std::array<std::size_t, 3>& vertex = triangle.vertices;
@@ -110,7 +110,7 @@ std::optional<glm::dvec3> pointOnTriangle(const DrawnGrid& grid, const CellTrian
     const glm::dvec2 ab = grid.place[vertex[1]] - a;
     const glm::dvec2 ac = grid.place[vertex[2]] - a;
     const double area = ab.x * ac.y - ab.y * ac.x;
-    if (area <= 0) return std::nullopt;  // stitching has drawn it to a line
+    if (area <= 0) return std::nullopt;  // stitching has collapsed it to a line
     const glm::dvec2 at = place - a;
     const double b = (at.x * ac.y - at.y * ac.x) / area;
     const double c = (ab.x * at.y - ab.y * at.x) / area;

@@ -16,51 +16,51 @@ namespace planet {
 
 namespace {
 
-// The state of a chunk in the frame before.
+// The state of a chunk in the previous frame.
 struct Shown {
     float morph = 0;
     std::array<float, edgeCount> edgeMorph{};
     std::array<bool, edgeCount> onCoarser{};  // stitched: the edge showed a coarser chunk's vertices
 };
 
-// The parts of the selection before that this one uses.
+// The parts of the previous selection that this one uses.
 struct Memory {
     std::optional<ChunkTable> splits;  // for hysteresis and fading
-    std::optional<ChunkTable> drawn;   // for fading: each chunk's place in shown
+    std::optional<ChunkTable> drawn;   // for fading: the index of each chunk in `shown`
     std::vector<Shown> shown;
-    float fadeStep = 0;  // the most that a morph moves in this frame, [0, 1]
+    float fadeStep = 0;  // largest change of a morph in this frame, [0, 1]
 
     bool fades() const { return drawn.has_value(); }
     bool wasSplit(const ChunkId& id) const { return splits && splits->contains(id); }
-    // Returns null if it was not drawn.
+    // Returns null if the chunk was not drawn.
     const Shown* find(const ChunkId& id) const {
         const std::uint32_t* found = drawn ? drawn->find(id) : nullptr;
         return found ? &shown[*found] : nullptr;
     }
 };
 
-// The values that all nodes of a frame share.
+// Values shared by all nodes of a frame.
 struct Frame {
     const ChunkTree& tree;
     const LodSettings& settings;
     glm::dvec3 eyeM;
     Culling culling;
     double scalePx;     // K'
-    double reach;       // K = K' / tau: d_m is delta times this
-    double mergeReach;  // the same for what was split: K' / (tau (1 - hysteresis))
+    double reach;       // K = K' / τ: d_m is δ times this
+    double mergeReach;  // the same for split chunks: K' / (τ (1 - hysteresis))
     Memory before;
-    std::unordered_set<NodeIndex> seamLimit;  // drawn though they could be split, for stitched seams
+    std::unordered_set<NodeIndex> seamLimit;  // drawn although they could be split, for stitched seams
 };
 
-// The values that a node takes from its parent.
+// Values that a node takes from its parent.
 struct Above {
     double epsPx = 0;        // 0 for a root
     double deltaM = 0;       // by the metric, metres
-    bool justSplit = false;  // drawn in the frame before: the node begins on its surface
-    bool merging = false;    // it, or one above it, waits until it can take its children's place
+    bool justSplit = false;  // drawn in the previous frame, so the node starts on its surface
+    bool merging = false;    // it, or an ancestor, waits to replace its children
 };
 
-// A node as the eye sees it.
+// A node in the view.
 struct Seen {
     NodeIndex index = noNode;
     double deltaM = 0;  // by the metric, metres
@@ -70,10 +70,10 @@ struct Seen {
 // Returns the natural morph: 1 if the parent is about to replace the chunk, 0 if it is far from that.
 //
 // The chunk must show its own surface when it is exchanged with its children, so it must not slide while its
-// eps is over tau (1 - hysteresis). The parent's eps is at least delta(parent) / delta times the chunk's if
-// the parent's box holds the chunk's; otherwise the ratio of the eps is smaller. Without hysteresis a ratio
-// of 1 leaves no range and needs none, because the two surfaces are equal. With hysteresis a short range
-// would be a pop of its own, so at least a quarter of it is kept.
+// ε exceeds τ (1 - hysteresis). The parent's ε is at least δ(parent) / δ times the chunk's if the parent's
+// box contains the chunk's; otherwise the ratio of the two ε is smaller. Without hysteresis, a ratio of 1
+// leaves no range and needs none, because the two surfaces are equal. With hysteresis, a short range would
+// itself be a pop, so at least a quarter of it is kept.
 double naturalMorph(const LodSettings& settings, const Above& above, double deltaM, double epsPx) {
     if (!settings.morph || above.epsPx == 0) return 0;
     const double overTau = above.epsPx / settings.tauPx;
@@ -87,12 +87,12 @@ double naturalMorph(const LodSettings& settings, const Above& above, double delt
 }
 
 float faded(const Memory& before, float last, float target) {
-    constexpr float rounding = 1e-6f;  // so that many steps end where they should
+    constexpr float rounding = 1e-6f;  // so that the sum of many steps ends exactly
     if (std::abs(target - last) <= before.fadeStep + rounding) return target;
     return target > last ? last + before.fadeStep : last - before.fadeStep;
 }
 
-// Moves a morph from its value in the frame before towards its target.
+// Moves a morph from its value in the previous frame towards its target.
 float fadedMorph(const Memory& before, const ChunkId& id, const Above& above, float target) {
     if (!before.fades()) return target;
     if (above.justSplit) return 1;
@@ -123,7 +123,8 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     out.counters.worstEpsPx = std::max(out.counters.worstEpsPx, item.epsPx);
 }
 
-// Hysteresis applies only if the children are still resident; it requests nothing.
+// Returns whether hysteresis keeps a node split. This applies only if the children are still resident;
+// nothing is requested for it.
 bool staysSplit(const Frame& frame, const ChunkNode& node, const Seen& seen) {
     return frame.settings.hysteresis > 0 && node.childrenState == ChildrenState::Resident &&
            seen.deltaM * frame.mergeReach > seen.distanceM && frame.before.wasSplit(node.id);
@@ -154,8 +155,8 @@ bool finerNeighboursFit(const Memory& before, const ChunkId& id, Edge edge) {
     return true;
 }
 
-// Returns whether the split would be visible: the node does not show its own surface yet, or a finer
-// neighbour does not show the same edge yet.
+// Returns whether the split would be visible: the node does not yet show its own surface, or a finer
+// neighbour does not yet show the same edge.
 bool splitMustWait(const Memory& before, const ChunkId& id, const Above& above) {
     if (!before.fades()) return false;
     if (above.justSplit) return true;
@@ -168,7 +169,7 @@ bool splitMustWait(const Memory& before, const ChunkId& id, const Above& above) 
     });
 }
 
-// Returns whether a chunk showed its parent's surface, its edges included, or was not drawn.
+// Returns whether a chunk showed its parent's surface, including the edges, or was not drawn.
 bool showedItsParent(const Memory& before, const ChunkId& id) {
     if (before.wasSplit(id)) return false;
     const Shown* shown = before.find(id);
@@ -180,8 +181,8 @@ bool showedItsParent(const Memory& before, const ChunkId& id) {
     return true;
 }
 
-// Returns whether the merge of a node would be visible: its children do not show its surface yet, or a
-// neighbour does not show the same edge yet. Culled children show nothing.
+// Returns whether the merge of a node would be visible: its children do not yet show its surface, or a
+// neighbour does not yet show the same edge. Culled children show nothing.
 bool mergeMustWait(const Frame& frame, NodeIndex index) {
     const ChunkNode& node = frame.tree.nodes[index];
     const Memory& before = frame.before;
@@ -233,7 +234,7 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
 struct Beyond {
     static constexpr std::uint32_t nothing = noNeighbour;
     std::uint32_t item = nothing;  // the drawn chunk there, of the same level or coarser
-    Edge back = Edge::West;        // of a coarser one: its edge that both share
+    Edge back = Edge::West;        // of a coarser chunk: its edge that both share
     bool finer = false;            // finer chunks are drawn there
 };
 
@@ -257,11 +258,11 @@ public:
     }
 
 private:
-    // Returns the value that an edge's morph starts from.
+    // The morphs from which a drawn chunk's edges start.
     struct Start {
         bool known = false;
-        bool switched = false;    // only now drawn, in the place of its children or its parent
-        bool mergesNext = false;  // nothing but its and its siblings' sliding keeps its parent from its place
+        bool switched = false;    // drawn since this frame, replacing its children or its parent
+        bool mergesNext = false;  // only its and its siblings' sliding delays the merge
         std::array<float, edgeCount> edgeMorph{};
     };
 
@@ -298,7 +299,7 @@ private:
         }
         for (std::uint32_t i = 0; i < draw.size(); ++i) {
             for (std::size_t e = 0; e < edgeCount; ++e) {
-                // The neighbour is of the same level or coarser; finer neighbours find this chunk themselves.
+                // Finds neighbours of the same level or coarser; finer neighbours find this chunk themselves.
                 const std::uint32_t* found =
                     drawn.findHolder(neighbourOf(draw[i].id, allEdges[e]), coarsestLevel);
                 if (!found) continue;
@@ -401,7 +402,7 @@ private:
         }
     }
 
-    // The span is 0 if the bound does not depend on it.
+    // Returns 0 if nothing slides, because the bound does not depend on the distance then.
     float nearestSampleOf(const DrawItem& item, const ChunkNode& node) const {
         const bool slides = item.morph > 0 || std::any_of(item.edgeMorph.begin(), item.edgeMorph.end(),
                                                           [](float morph) { return morph > 0; });
@@ -418,7 +419,7 @@ private:
         for (DrawItem& item : out_.draw) {
             const ChunkNode& node = frame_.tree.nodes[item.node];
             cellSpansM.push_back(cellSpanM(frame_.tree.shape, node));
-            // An unmorphed item's bound is its eps.
+            // Without morph, an item's bound is its ε.
             if (settings_.morph) item.nearestSampleM = nearestSampleOf(item, node);
         }
         fillDrawnBounds(out_.draw, neighbours, cellSpansM, frame_.scalePx, settings_.metric,
@@ -431,13 +432,13 @@ private:
     const LodSettings& settings_;
     const bool fades_;
     Selection& out_;
-    std::vector<std::array<Beyond, edgeCount>> beyond_;  // by place in draw
+    std::vector<std::array<Beyond, edgeCount>> beyond_;  // by index in draw
     std::vector<Start> starts_;
 };
 
-// Finds, for each seam that is too wide to be stitched, the chunk that must replace the finer one: its
-// ancestor of the finest level that can be stitched to the coarser one. Every valid selection needs these,
-// because the coarser chunk can only become coarser. Returns false if there is none.
+// Finds the replacement of the finer chunk for each seam that is too wide to stitch: its finest ancestor that
+// can be stitched to the coarser chunk. Every valid selection needs these replacements, because the coarser
+// chunk can only become coarser. Returns false if there are none.
 bool limitSeams(Frame& frame, const Selection& selection) {
     const int widest = frame.tree.shape.chunkCellsLog2 - 1;
     const std::size_t before = frame.seamLimit.size();
@@ -491,7 +492,7 @@ Memory memoryOf(const Selection& before, const LodSettings& settings, double ela
         Shown& shown = memory.shown.emplace_back(Shown{item.morph, item.edgeMorph, {}});
         for (std::size_t e = 0; settings.seams == SeamMode::Stitched && e < edgeCount; ++e) {
             shown.onCoarser[e] = item.coarserBy[e] > 0;
-            if (shown.onCoarser[e]) shown.edgeMorph[e] = 1;  // of one level, the same as its own at 1
+            if (shown.onCoarser[e]) shown.edgeMorph[e] = 1;  // equals its own edge at 1, at one level
         }
     }
     return memory;
@@ -515,7 +516,7 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
                 memoryOf(out, settings, elapsedS),
                 {}};
     selectOnce(frame, out);
-    // Each round draws fewer and coarser chunks, so the loop ends, almost always after the first round.
+    // Each round draws fewer and coarser chunks, so the loop ends, usually after the first round.
     while (settings.seams == SeamMode::Stitched && limitSeams(frame, out)) selectOnce(frame, out);
 
     std::sort(out.draw.begin(), out.draw.end(), [](const DrawItem& a, const DrawItem& b) {

@@ -13,33 +13,32 @@ namespace planet {
 enum class SeamMode : std::uint8_t { None, Skirts, Stitched };
 enum class SkirtDepth : std::uint8_t { Automatic, Fixed };
 
-// The error bound of a chunk. Additive: delta_c, a sum over the levels under it; conservative. Tight: the
-// largest measured distance of the surface of the chunk, or of one under it, from the finest data; fewer
-// triangles for the same tau.
+// The error bound of a chunk. Additive: δc, a sum over the levels below; conservative. Tight: the largest
+// measured distance of the surfaces of the chunk and its descendants from the finest data; fewer triangles
+// for the same τ.
 enum class ErrorMetric : std::uint8_t { Additive, Tight };
 
 struct LodSettings {
     ErrorMetric metric = ErrorMetric::Additive;
-    double tauPx = 2;  // tolerance, pixels, > 0; larger: fewer triangles, more visible error
-    // A split chunk stays split until eps <= tau (1 - hysteresis); [0, 0.9]; larger: fewer flips, more
-    // triangles.
+    double tauPx = 2;  // tolerance τ, pixels, > 0; larger: fewer triangles, more visible error
+    // A split chunk stays split until ε <= τ (1 - hysteresis); [0, 0.9]. Larger: fewer flips, more triangles.
     double hysteresis = 0.1;
     int maxLevel = planet::maxLevel;  // chunks of this level are not split; [0, maxLevel]
-    bool frustumCulling = true;       // off: chunks beside and behind the view are drawn and loaded too
-    bool horizonCulling = true;       // off: chunks on the planet's far side are drawn and loaded too
+    bool frustumCulling = true;       // off: chunks outside the frustum are drawn and loaded too
+    bool horizonCulling = true;       // off: chunks below the horizon are drawn and loaded too
     bool morph = true;                // off: chunks pop when their level changes
-    // The share of tau over which a chunk slides onto its parent's surface, (0, 4]; larger: slower, and more
-    // of the picture is coarser than necessary.
+    // The share of τ over which a chunk slides onto its parent's surface, (0, 4]. Larger: slower, and a
+    // larger part of the picture is coarser than necessary.
     double morphRange = 0.3;
     // With morph: the seconds of a chunk's whole slide if its level changes at once, because of late
-    // children, a new tau or a fast camera. [0, 10]; 0: at once, with a pop.
+    // children, a new τ or a fast camera. [0, 10]; 0: at once, with a pop.
     double fadeS = 0.25;
     SeamMode seams = SeamMode::Skirts;
     SkirtDepth skirtDepth = SkirtDepth::Automatic;
-    double skirtDepthM = 1000;  // of Fixed, metres, >= 0; less than the gaps: cracks show
-    // For Automatic: the ratio of the skirt depth to (delta_c of the chunk + the largest delta_c among its
-    // drawn neighbours). At 1 no crack shows, because each surface is within its delta_c of the finest data.
-    // 0: no skirts.
+    double skirtDepthM = 1000;  // of Fixed, metres, >= 0; cracks show if it is less than the gaps
+    // For Automatic: the ratio of the skirt depth to (δc of the chunk + the largest δc of its drawn
+    // neighbours). At 1 no crack shows, because each surface is within its δc of the finest data. 0: no
+    // skirts.
     double skirtFactor = 1;
 
     bool operator==(const LodSettings&) const = default;
@@ -49,25 +48,25 @@ struct DrawItem {
     NodeIndex node = noNode;
     ChunkId id;
     std::uint32_t slot = 0;    // in the pool of heights
-    float epsPx = 0;           // error on screen, pixels
-    float parentEpsPx = 0;     // the parent's; 0 for a root
-    float drawnBoundPx = 0;    // bound of what is drawn, morph included (drawn_bound.h); epsPx without morph
+    float epsPx = 0;           // screen-space error ε, pixels
+    float parentEpsPx = 0;     // of the parent; 0 for a root
+    float drawnBoundPx = 0;    // bound of the drawn surface with its morph (drawn_bound.h); else epsPx
     float distanceM = 0;       // from the eye to the bounding volume; nearestM inside it (screen_error.h)
-    float nearestSampleM = 0;  // no finest sample is nearer to the eye, metres (drawn_bound.h); 0: not known
+    float nearestSampleM = 0;  // lower bound of the distance to finest samples (drawn_bound.h); 0: unknown
     float deltaCM = 0;         // metres, by LodSettings::metric
-    float parentDeltaM = 0;    // the parent's; 0 for a root
+    float parentDeltaM = 0;    // of the parent; 0 for a root
     float skirtDepthM = 0;     // metres, towards the planet's centre; 0 unless seams are Skirts
     float morph = 0;           // [0, 1]: 0 own surface, 1 the parent's
-    bool splitWaits = false;   // its children would be drawn, but it has not shown just its own surface
-    // A chunk above it should be drawn, but waits until all chunks below that one show its surface.
+    bool splitWaits = false;   // its split waits until it has been drawn with just its own surface
+    // The merge of an ancestor waits until all chunks below it show its surface.
     bool mergeWaits = false;
     // The levels by which the drawn neighbour is coarser, by edge, west to north; 0 if it is not coarser.
     std::array<std::uint8_t, edgeCount> coarserBy{};
-    // The morph of the vertices of each edge. Two chunks of one level have the same on both sides: the larger
-    // of their morphs. Beside a coarser chunk, if seams are Stitched, it is that chunk's morph and applies to
-    // that chunk's vertices. Otherwise it is the chunk's own morph, or with fading 1, while the coarser chunk
-    // has 0 there: both then show the coarser chunk's edge, and neither edge changes when the two come to be
-    // of one level.
+    // The morph of the vertices of each edge. Two chunks of one level have the same value on both sides: the
+    // larger of their morphs. Next to a coarser chunk with Stitched seams, it is that chunk's morph and
+    // applies to that chunk's vertices. Otherwise it is the chunk's own morph; with fading it is 1 while the
+    // coarser chunk has 0 there. Both then show the coarser chunk's edge, so neither edge changes when the
+    // two get the same level.
     std::array<float, edgeCount> edgeMorph{};
 };
 
@@ -87,40 +86,40 @@ struct VisitedNode {
     bool operator==(const VisitedNode&) const = default;
 };
 
-// "This node should be drawn as its children."
+// A request to draw a node as its children.
 struct ChildrenRequest {
     NodeIndex parent = noNode;
     ChunkId parentId;
-    float priority = 0;  // eps / tau of the parent: how far it exceeds the tolerance by itself; larger first
+    float priority = 0;  // ε / τ of the parent: by how much it exceeds the tolerance; larger first
 };
 
 struct SelectionCounters {
-    std::uint32_t visited = 0;        // nodes looked at
-    std::uint32_t culledFrustum = 0;  // subtrees cut off by each test
+    std::uint32_t visited = 0;        // visited nodes
+    std::uint32_t culledFrustum = 0;  // subtrees culled by each test
     std::uint32_t culledHorizon = 0;
     std::uint32_t drawn = 0;  // chunks
-    // Triangles of the drawn chunks. All chunks have skirts as soon as one of them has a depth, else none.
+    // Triangles of the drawn chunks. If any chunk has a skirt depth, all have skirts; otherwise none has.
     std::uint64_t groundTriangles = 0;
     std::uint64_t skirtTriangles = 0;
-    std::uint32_t waiting = 0;       // drawn though eps > tau, for lack of children
-    std::uint32_t deepestLevel = 0;  // of what is drawn
-    // Drawn chunks, and edges of them, that differ from a selection without a memory: their morph is not
-    // natural, or a split or merge waits.
+    std::uint32_t waiting = 0;       // drawn although ε > τ, because children are missing
+    std::uint32_t deepestLevel = 0;  // of the drawn chunks
+    // Drawn chunks and their edges that differ from a selection without memory: their morph is not natural,
+    // or a split or merge waits.
     std::uint32_t fading = 0;
-    float worstEpsPx = 0;  // of what is drawn
+    float worstEpsPx = 0;  // of the drawn chunks
     float worstDrawnBoundPx = 0;
-    std::uint32_t widestSeam = 0;  // the most levels by which two drawn neighbours differ
+    std::uint32_t widestSeam = 0;  // largest level difference of two drawn neighbours
 
     std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
 };
 
 struct Selection {
     std::vector<DrawItem> draw;             // near to far
-    std::vector<ChildrenRequest> requests;  // highest priority first; children absent or on their way
-    std::vector<ChildrenRequest> splits;    // those whose children are resident, parents first
+    std::vector<ChildrenRequest> requests;  // highest priority first; children absent or requested
+    std::vector<ChildrenRequest> splits;    // with resident children, parents first
     std::vector<LevelSeam> seams;
     // All visited nodes, parents first: the drawn ones, their ancestors, and the culled siblings of both.
-    // Drawing this view again needs them resident.
+    // They must be resident to draw this view again.
     std::vector<VisitedNode> touched;
     SelectionCounters counters;
 };

@@ -1,5 +1,5 @@
-// The screen-space error of a chunk: eps = delta K' / D, with delta by the metric, K' = screenScalePx() and D
-// the distance from the eye to the chunk's bounds. Pure functions, any thread.
+// The screen-space error of a chunk: ε = δ K' / D, with δ by the metric, K' = screenScalePx(), and D the
+// distance from the eye to the chunk's bounds. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace planet {
 
-// The smallest distance D, metres. It keeps the error of a chunk that holds the eye finite.
+// The smallest distance D, metres. It keeps the error of a chunk that contains the eye finite.
 inline constexpr double nearestM = 1e-3;
 
 // Returns a node's error bound by either metric, metres.

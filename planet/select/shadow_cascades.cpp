@@ -23,8 +23,8 @@ SunAxes sunAxes(const glm::dvec3& sun) {
     return {x, glm::cross(towards, x), towards};
 }
 
-// Returns the smallest sphere around the piece of a view between two distances along its direction; its
-// centre lies on the view's axis.
+// The smallest sphere around the part of a view between two distances along its direction. Its centre lies on
+// the view's axis.
 struct PieceSphere {
     double alongM = 0;
     double radiusM = 0;
@@ -38,7 +38,7 @@ PieceSphere sphereAround(const View& view, double startM, double endM) {
     return {alongM, std::sqrt((endM - alongM) * (endM - alongM) + endM * endM * aside2)};
 }
 
-// Moves a coordinate relative to the eye to a whole number of texels from the planet's centre.
+// Snaps a coordinate relative to the eye to a whole number of texels from the planet's centre.
 double wholeTexels(double eyeM, double relativeM, double texelM) {
     return std::round((eyeM + relativeM) / texelM) * texelM - eyeM;
 }
@@ -47,7 +47,7 @@ ShadowCascade cascadeAround(const View& view, const SunAxes& axes, const PieceSp
                             int mapSizePx) {
     ShadowCascade cascade;
     cascade.endM = endM;
-    // A texel of room on each side for the move.
+    // One texel of margin on each side for the snapping.
     cascade.texelM = 2 * piece.radiusM / (mapSizePx - 2);
     const double halfM = cascade.texelM * mapSizePx / 2;
     const glm::dvec3 middle = -view.back * piece.alongM;
@@ -63,7 +63,8 @@ ShadowCascade cascadeAround(const View& view, const SunAxes& axes, const PieceSp
     return cascade;
 }
 
-// Rounds the distance, so that the sizes of texels, which follow from it, change rarely.
+// Rounds down to a power of two. Distances are rounded so that the texel sizes, which depend on them, rarely
+// change.
 double powerOfTwoBelow(double value) {
     return std::exp2(std::floor(std::log2(value)));
 }
@@ -79,7 +80,7 @@ ShadowCascades shadowCascades(const View& view, const glm::dvec3& sun, double gr
     double startM = firstM;
     for (std::size_t i = 0; i < shadowCascadeCount; ++i) {
         const double share = static_cast<double>(i + 1) / static_cast<double>(shadowCascadeCount);
-        // Steps of the same ratio suit perspective; a share of even steps keeps the first from being tiny.
+        // Equal ratios suit perspective; a share of equal steps keeps the first cascade from being tiny.
         const double evenM = firstM + (reachM - firstM) * share;
         const double endM = 0.85 * firstM * std::pow(reachM / firstM, share) + 0.15 * evenM;
         cascades[i] = cascadeAround(view, axes, sphereAround(view, startM, endM), endM, mapSizePx);

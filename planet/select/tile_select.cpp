@@ -19,7 +19,8 @@ struct TileFrame {
     Culling culling;
 };
 
-// Returns the chunk that covers a tile: of its level if that is resident, else the finest above it.
+// Returns the chunk that covers a tile: the one of the same level if it is resident, else its finest resident
+// ancestor.
 NodeIndex chunkOver(const ChunkTree& chunks, NodeIndex above, const ChunkId& tile) {
     const ChunkNode& node = chunks.nodes[above];
     if (node.id.level >= tile.level || node.childrenState != ChildrenState::Resident) return above;
