@@ -1,33 +1,33 @@
-// The physical atmosphere, as planet/surface/atmosphere.h has it: light that is scattered once summed along the ray,
-// light scattered more often and what is left of the sun's from tables.
+// The physical atmosphere, as in planet/surface/atmosphere.h: single scattering summed along the ray,
+// multiple scattering and the sun's transmittance from tables.
 //   Bruneton and Neyret, "Precomputed Atmospheric Scattering" (EGSR 2008), with the table of transmittance of
 //   the revision of 2017
 //   Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique" (EGSR 2020)
 //
-// Lengths are kilometres of an Earth (air.kmPerM of them a metre), heights above the planet's radius. A rise
-// is the cosine of a direction to the zenith. Light is as the tone mapping takes it: air.light is what a
-// white level square sends out where the sun, unweakened, stands in the zenith.
+// Lengths are kilometres of the Earth (air.kmPerM of them per metre), heights are above the planet's radius.
+// A rise is the cosine of a direction to the zenith. Light has the unit of the tone mapping: air.light is the
+// light that a white level square reflects if the unattenuated sun stands at the zenith.
 
 // AirUniforms in planet/gl/store/air_textures.h has the same members.
 layout(std140) uniform Air {
     vec3 rayleigh;            // scattering coefficient at height 0, 1 / km
     float perRayleighHeight;  // 1 / scale height
-    vec3 ozone;               // absorption coefficient where it is densest
+    vec3 ozone;               // absorption coefficient at its densest, 1 / km
     float perOzoneHalf;       // 1 / half the layer's depth
-    float ozoneMiddleKm;      // height where it is densest
+    float ozoneMiddleKm;      // height of the densest layer
     float hazeScattered;      // Mie: scattering coefficient at height 0, 1 / km
-    float hazeTaken;          // extinction coefficient
+    float hazeTaken;          // Mie: extinction coefficient at height 0, 1 / km
     float perHazeHeight;      // 1 / scale height
     float forward;            // asymmetry g
     float radiusKm;           // of the planet
-    float topKm;              // height of the air's end
-    float farthestKm;         // the longest way from height 0 to the air's end
+    float topKm;              // height of the top of the atmosphere
+    float farthestKm;         // longest distance from height 0 to the top
     float kmPerM;
     vec3 light;               // of the sun
-    float steps;              // along a ray through all of the air
-    vec3 eyeUp;               // unit
-    float eyeKm;              // height, 0 or more
-    vec3 skySize;             // texels of the tables; of the sky's: rises, sides, suns
+    float steps;              // along a ray through the whole atmosphere
+    vec3 eyeUp;               // unit vector
+    float eyeKm;              // height of the eye, >= 0
+    vec3 skySize;             // texels of the tables; of the sky's table: rises, sides, suns
     float glowSize;
     vec2 transmittanceSize;
 } air;
@@ -36,7 +36,7 @@ uniform sampler2D airTransmittance;
 uniform sampler2DArray airGlow;
 uniform sampler3D airSky;
 
-// Light of a moonless night, so that the dark side is not pitch-black.
+// The light of a moonless night, so that the dark side is not pitch-black.
 const vec3 nightLight = vec3(0.0025, 0.003, 0.0045);
 
 vec3 clearTo(float height, float rise) {
@@ -53,12 +53,12 @@ vec3 clearTo(float height, float rise) {
     return textureLod(airTransmittance, mix(halfTexel, 1.0 - halfTexel, place), 0.0).rgb;
 }
 
-// What is left of the sun's light at a height, 0 behind the ground; over its light above the air.
+// Returns the transmittance of the sun's light at a height; 0 behind the ground.
 vec3 sunThroughAir(float height, float sunRise) {
     float above = max(height, 0.0);
     float radius = air.radiusKm + above;
     float overHorizon = sunRise + sqrt(above * (radius + air.radiusKm)) / radius;
-    float soft = 0.004654 * air.radiusKm / radius;  // the sun's own radius
+    float soft = 0.004654 * air.radiusKm / radius;  // the sun's angular radius
     return clearTo(above, sunRise) * smoothstep(-soft, soft, overHorizon);
 }
 
@@ -68,13 +68,14 @@ vec2 glowPlace(float height, float sunRise) {
     return mix(vec2(0.5 / air.glowSize), vec2(1.0 - 0.5 / air.glowSize), place);
 }
 
-// What a white level square sends out of the sky's light.
+// Returns the sky's light that a white level square reflects.
 vec3 skyIrradianceAt(float height, float sunRise) {
     return air.light * textureLod(airGlow, vec3(glowPlace(height, sunRise), 1.0), 0.0).rgb + nightLight;
 }
 
-// The sky's light in a direction, unit, seen from low ground, up there being unit: by one lookup, without the sun
-// itself. Below the horizon: the horizon's. Of the thin air where that is drawn, and none where none is.
+// Returns the sky's radiance from low ground in a direction, by one lookup, without the sun's disk. Below the
+// horizon, it is the horizon's. direction, up: unit vectors. Uses the analytic atmosphere if that is drawn,
+// and returns 0 if none is.
 vec3 skyRadianceAlong(vec3 direction, vec3 up) {
     float rise = clamp(dot(direction, up), 0.0, 1.0);
     if (!switchPhysicalAir) {
@@ -93,19 +94,19 @@ vec3 skyRadianceAlong(vec3 direction, vec3 up) {
 
 struct AirLight {
     vec3 scattered;  // into the ray
-    vec3 through;    // what is left of light from its end
+    vec3 through;    // transmittance from the ray's end
 };
 
-// The part of a ray from the eye that lies in the air.
+// The part of a ray from the eye inside the atmosphere. Height and rise are those at its start.
 struct AirSpan {
-    float before;  // from the eye to here
+    float before;  // from the eye to the span's start
     float height;
     float along;   // radius x rise
     float far;
     bool meetsGround;
 };
 
-// distance: to where the ray ends; negative: at the air's end or on the ground at height 0.
+// distance: to the ray's end; negative: to the top of the atmosphere, or to the ground at height 0.
 AirSpan airSpan(float rise, float distance) {
     AirSpan span = AirSpan(0.0, air.eyeKm, 0.0, 0.0, false);
     float radius = air.radiusKm + span.height;
@@ -134,8 +135,9 @@ float squareOf(float x) {
     return x * x;
 }
 
-// Steps, shortest where the ray is lowest, growing with the distance from there. They need not be whole: the last
-// one is then shorter, so that nothing jumps where their number changes.
+// Sums the light in steps that are shortest at the ray's lowest point and grow with the distance from it.
+// Their number may be fractional: the last step is then shorter, so that nothing jumps when the number
+// changes.
 AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
     AirLight light = AirLight(vec3(0.0), vec3(1.0));
     if (span.far <= 0.0) return light;
@@ -146,7 +148,7 @@ AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
     float g = air.forward;
     float spread = max(1.0 + g * g - 2.0 * g * cosine, 1e-4);
     float forward = 0.1193662 * (1.0 - g * g) * (1.0 + cosine * cosine) /
-                    ((2.0 + g * g) * spread * sqrt(spread));  // Cornette and Shanks
+                    ((2.0 + g * g) * spread * sqrt(spread));  // phase function of Cornette and Shanks
     float lowest = clamp(-span.along, 0.0, span.far);
     float v = -sqrt(lowest);
     float end = sqrt(span.far - lowest);
@@ -180,8 +182,9 @@ AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
     return light;
 }
 
-// Along a ray, unit, to the air's end; or down to height 0, and then with the light of dark ground there: what is
-// seen past ground that lies lower, between the horizon and where it begins.
+// Returns the light along a ray (a unit vector) to the top of the atmosphere. If the ray meets height 0, it
+// ends there, and the light of dark ground is added. This is seen past lower ground, between the horizon and
+// where that ground begins.
 AirLight lightOfSky(vec3 ray, out bool meetsGround) {
     AirSpan span = airSpan(dot(air.eyeUp, ray), -1.0);
     meetsGround = span.meetsGround;
@@ -194,16 +197,18 @@ AirLight lightOfSky(vec3 ray, out bool meetsGround) {
     return light;
 }
 
-// To where a ray is at a height; where it stays above, to its lowest point.
+// Returns the distance at which a ray reaches a height; if it stays above it, the distance to its lowest
+// point.
 float distanceToHeight(float rise, float height) {
     float along = (air.radiusKm + air.eyeKm) * rise;
     float fall = along * along - (air.eyeKm - height) * (2.0 * air.radiusKm + air.eyeKm + height);
     return -along - sqrt(max(fall, 0.0));
 }
 
-// Before a point of the ground, metres from the eye; its height, metres. share: of the full number of steps.
-// Seen from space the middles of large triangles lie deep below the sphere that their corners are on: there the
-// height says where the ray ends. The sea's bed is drawn as its surface, which is where light comes from.
+// Returns the light of the atmosphere before a point of the ground, metres from the eye. heightM: of the
+// point. share: of the full number of steps. Seen from space, the middles of large triangles lie far below
+// the sphere through their corners, so there the height decides where the ray ends. The bed of the sea counts
+// as its surface, which the light comes from.
 AirLight lightBefore(vec3 position, float heightM, float share) {
     float distance = length(position);
     vec3 ray = position / max(distance, 1e-6);
@@ -222,12 +227,13 @@ AirLight lightBefore(vec3 position, float heightM, float share) {
     return lightAlongSpan(span, ray, steps);
 }
 
-// Before the tone mapping: the toe of a film, which keeps dark things dark under the veil of so much air.
+// Applies a film-like toe before the tone mapping, to keep dark areas dark under the veil of the atmosphere.
 vec3 onFilm(vec3 light) {
     return light * (light + 0.02) / (light + 0.08);
 }
 
-// The sun's disk, darker to its rim, with an edge a pixel wide: over what is left of its light there.
+// Returns the brightness of the sun's disk, with limb darkening and an edge one pixel wide. The sun's
+// transmittance is not included.
 float sunDisk(float cosine, float pixelRad) {
     float away = sqrt(max(2.0 - 2.0 * cosine, 0.0));
     float radius = max(0.004654, pixelRad);

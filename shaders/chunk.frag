@@ -1,4 +1,4 @@
-// The surface: what it is made of, the sun on it, and the air before it.
+// Shades the surface: its material, the sun's light on it, and the atmosphere before it.
 
 in vec3 surface;
 in vec4 facePlace;
@@ -16,14 +16,15 @@ flat in vec3 faceV;
 flat in vec4 tint;
 flat in float meshLevel;
 
-uniform sampler2DArray colourImage;  // a face a layer: roots of linear light; where water may be
-uniform sampler3D detailNoise;       // a slope and a height, in [-1, 1]
+uniform sampler2DArray colourImage;  // one face per layer: root of linear light; probability of water
+uniform sampler3D detailNoise;       // slope and height, in [-1, 1]
 
 out vec4 fragment;
 
-// Returns the least 1 / distance that a triangle can have in this pixel. Where multisampling draws a pixel whose middle
-// the triangle does not cover, inputs are extrapolated to that middle; for a triangle seen on edge, as at the horizon,
-// that may lie infinitely far away or behind the eye, and gl_FragCoord.w is then less than this.
+// Returns the smallest 1 / distance that a triangle can have in this pixel. If multisampling draws a pixel
+// whose centre the triangle does not cover, inputs are extrapolated to that centre. For a triangle seen
+// edge-on, as at the horizon, that place may be infinitely far away or behind the eye; gl_FragCoord.w is then
+// smaller than this.
 float leastNearness() {
     return 0.5 * fwidth(gl_FragCoord.w);
 }
@@ -32,18 +33,19 @@ bool isExtrapolated() {
     return gl_FragCoord.w < leastNearness();
 }
 
-// Returns the position relative to the eye, moved back along the pixel's ray where it was extrapolated too far.
+// Returns the position relative to the eye, moved back along the pixel's ray if it was extrapolated too far.
 vec3 positionSeen() {
     return isExtrapolated() ? surface * (gl_FragCoord.w / leastNearness()) : surface;
 }
 
-// Returns light from vertices, bounded where it was extrapolated.
+// Returns interpolated light, bounded if it was extrapolated.
 vec3 inRange(vec3 light) {
     return isExtrapolated() ? clamp(light, 0.0, 1.0) : light;
 }
 
-// Between the samples that there are: INVENTED ground, purely for the eye. It moves no vertex. Noise fixed to the
-// planet, each octave gone where it would be finer than a pixel, all of it gone where the samples are.
+// Invented ground between the samples, for appearance only: it moves no vertex. The noise is fixed to the
+// planet. Each octave fades out where it is finer than a pixel, and all of them fade out where the samples
+// are.
 struct Detail {
     vec3 slope;    // world axes
     float height;  // [-1, 1]
@@ -59,7 +61,8 @@ Detail octaveAt(int i, vec3 position) {
     return Detail(octave.axes * noise.xyz * octave.sizeM, noise.w);
 }
 
-// Finer octaves are bent by the coarsest, and fade in its valleys, so that no pattern runs through.
+// Returns the detail. The coarsest octave bends the finer ones, and they fade in its valleys, so that no
+// pattern continues through.
 Detail detailAt(vec3 position) {
     Detail coarse = octaveAt(0, position);
     vec3 bent = position + 0.07 * frame.detail[1].sizeM * coarse.slope;
@@ -71,8 +74,8 @@ Detail detailAt(vec3 position) {
                   coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
 }
 
-// The image, its lookup moved by a part of a step so that its blobs get ragged edges. On a face's edge it only moves
-// along, where the next face's does the same.
+// Returns the image's colour and water. The lookup is shifted by a fraction of a texel, so that blobs get
+// ragged edges. On a face's edge it is shifted along the edge only, as on the next face.
 vec4 imageColour(Detail detail, float strength) {
     vec2 place = facePlace.xy;
     if (switchDetail) {
@@ -89,7 +92,7 @@ vec4 imageColour(Detail detail, float strength) {
         }
         return vec4(colour, waterOf(colour));
     }
-    // The outermost texels have their middles on the edges.
+    // The centres of the outermost texels lie on the edges.
     vec2 size = vec2(textureSize(colourImage, 0).xy);
     vec4 image = texture(colourImage, vec3(place * (1.0 - 1.0 / size) + 0.5 / size, facePlace.w));
     return vec4(image.rgb * image.rgb, image.a);
@@ -103,7 +106,8 @@ vec3 seaByDepth(float height) {
     return mix(mix(shelf, open, smoothstep(0.0, 0.22, depth)), deep, smoothstep(0.3, 1.0, depth));
 }
 
-// Lowland green to rock to snow; frame.perRampTopM is 1 / the height of the highest band.
+// Returns colours from lowland green to rock to snow; frame.perRampTopM is 1 / the height of the highest
+// band.
 vec3 landByHeight(float height, float latitudeSine, float steep) {
     float h = max(height, 0.0) * frame.perRampTopM;
     float cold = latitudeSine * latitudeSine;
@@ -121,16 +125,17 @@ vec3 landByHeight(float height, float latitudeSine, float steep) {
 
 struct Material {
     vec3 albedo;
-    float water;       // 1 where light falls on open sea
-    float shownWater;  // 1 where the image shows water, at any height: sea, lakes and rivers
-    vec3 bed;          // albedo of the bed below a sea that is drawn as water
+    float water;       // 1: light falls on open sea
+    float shownWater;  // 1: the image shows water at any height: sea, lakes and rivers
+    vec3 bed;          // albedo of the bed, if the sea is drawn as water
 };
 
 float anyWater(Material material) {
     return max(material.water, material.shownWater);
 }
 
-// The ramp's own stops, mixed one after the other: those above the height add nothing, those below it are covered.
+// Returns the colour of the ramp's own stops, mixed one after the other: stops above the height add nothing,
+// and those below it are covered.
 vec3 stopsAt(float height) {
     vec3 root = frame.ramp[0].root;
     for (int i = 1; i < frame.rampStopCount; ++i)
@@ -151,25 +156,27 @@ Material rampMaterial(vec3 up, float height, float steep, float below) {
     return Material(mix(land, sea, below), below * (1.0 - ice), 0.0, sandyBed);
 }
 
-// Returns whether the sea's surface is drawn here: over ground below the sea level, as the mesh has it. Water that the
-// image shows on higher ground has no depth to draw, and keeps the image's colour.
+// Returns whether the sea's surface is drawn here: over ground below the sea level, by the mesh. Water that
+// the image shows on higher ground has no depth to draw and keeps the image's colour.
 bool isUnderSea() {
     return switchSeaSurface && facePlace.z < frame.seaLevelM;
 }
 
-// Returns 1 where the ground lies as deep as the shore or deeper, 0 above the sea level. shoreM: on the Earth.
+// Returns 1 where the ground is at least as deep as the shore, 0 above the sea level. shoreM: depth of the
+// shore on the Earth, metres.
 float belowSea(float height, float shoreM) {
     if (!switchSea) return 0.0;
     return 1.0 - smoothstep(-shoreM * frame.radiusM / 6.371e6, 0.0, height);
 }
 
-// The image says which low land is dry and which ground is water, but knows nothing of a sea that has risen. Where the
-// sea's surface is drawn, the image's colour is its bed's: it shows shallows as they look.
+// Returns the material by the image. The image shows which low land is dry and which ground is water, but not
+// a raised sea. Where the sea's surface is drawn, the image's colour is that of the bed, because it shows how
+// shallows look.
 Material imageMaterial(float height, float below, Detail detail, float strength) {
     vec4 image = imageColour(detail, strength);
     float flooded = clamp(frame.seaLevelM * (6.371e6 / 30.0) / frame.radiusM, 0.0, 1.0);
-    // The mesh's coast is coarser than the image's, and lakes may be deeper than the sea level: in water that the image
-    // shows, the drawn surface fades in with its depth.
+    // The mesh's coast is coarser than the image's, and lakes may be deeper than the sea level. So the drawn
+    // surface fades in with its depth in water that the image shows.
     float deep = isUnderSea() ? belowSea(height, 30.0) : below;
     float water = max(below * flooded, deep * image.a);
     vec3 shown = image.rgb * 1.2;
@@ -178,7 +185,7 @@ Material imageMaterial(float height, float below, Detail detail, float strength)
     return Material(mix(shown, sea, water), water, image.a, shown);
 }
 
-// Height above the sea level.
+// Returns the material. height: above the sea level, metres.
 Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
     float below = belowSea(height, isUnderSea() ? 2.0 : 30.0);
     if (!switchImage) return rampMaterial(up, height, steep, below);
@@ -190,21 +197,22 @@ Material materialAt(vec3 up, float height, float steep, Detail detail, float str
                     share * image.shownWater, mix(ramp.bed, image.bed, share));
 }
 
-// The chunk's mesh: lines one pixel wide along rows, columns and diagonals, smooth whatever their distance.
+// Returns the coverage of the mesh's lines: one pixel wide along rows, columns and diagonals, antialiased at
+// any distance.
 float meshLine() {
     vec3 at = vec3(gridCoordinate, gridCoordinate.x - gridCoordinate.y);
     vec3 width = fwidth(at);
     vec3 away = abs(at - floor(at + 0.5));
     vec3 cover = 1.0 - smoothstep(width * 0.3, width * 1.0, away);
-    // Down a skirt a coordinate stands still: no line runs along it.
+    // Along a skirt one coordinate is constant, so no line runs along it.
     cover *= step(vec3(1e-5), width);
     float line = max(0.85 * max(cover.x, cover.y), 0.5 * cover.z);
     float widest = max(width.x, width.y);
     return mix(line, 0.35, smoothstep(0.2, 0.6, widest));
 }
 
-// The chunk's border in pixels away, for a line half of which the chunk beside it draws; far away where the chunk
-// itself is only some pixels wide, and down a skirt, where a coordinate stands still.
+// Returns the distance to the chunk's border, pixels; the chunk beside it draws the other half of the line.
+// It is large if the chunk is only a few pixels wide, and along a skirt, where one coordinate is constant.
 float borderAwayPx() {
     vec2 width = fwidth(gridCoordinate);
     vec2 away = min(gridCoordinate, float(1 << frame.chunkCellsLog2) - gridCoordinate) / max(width, vec2(1e-9));
@@ -213,7 +221,7 @@ float borderAwayPx() {
     return min(away.x, away.y) + 10.0 * (1.0 - smoothstep(3.0, 8.0, chunkPx));
 }
 
-// A light line 1.5 pixels wide, shaded at its sides so that it shows on any ground.
+// Draws a light line 1.5 pixels wide, with dark sides so that it is visible on any ground.
 vec3 outlined(vec3 colour) {
     float away = borderAwayPx();
     vec3 line = switchWireframe ? vec3(1.0, 0.70, 0.15) : vec3(1.0, 0.98, 0.92);
@@ -221,12 +229,14 @@ vec3 outlined(vec3 colour) {
     return mix(colour, line, 0.9 * (1.0 - smoothstep(0.25, 1.25, away)));
 }
 
-// A step of heights or of the image is drawn larger than some two pixels.
+// Returns 1 if a step of the heights or the image is drawn larger than about two pixels, with a smooth
+// transition.
 float between(float pixels) {
     return smoothstep(2.0, 6.0, pixels);
 }
 
-// The air between the eye and the ground takes light away and scatters the sun's in.
+// Attenuates the light by the air between the eye and the ground, and adds the sunlight that the air
+// scatters.
 vec3 throughAir(vec3 light, vec3 position, vec3 ray, vec3 up) {
     if (!switchAir) return light;
     if (switchPhysicalAir) {
@@ -321,7 +331,8 @@ void main() {
     if (switchLayerPreview)
         colour = layerPreview(colour, surface, normalize(frame.eyeM + surface), groundNormal(),
                               facePlace.z - frame.seaLevelM);
-    // A tint measures: it is laid over the finished picture, so that light, air and dither do not change its colour.
+    // Tints carry measured values. They are applied to the finished picture, so that light, air and dither do
+    // not change their colours.
     if (switchTint) colour = mix(colour, tint.rgb, tint.a);
     if (switchWireframe) {
         vec3 lineColour = switchTint ? tint.rgb : vec3(0.92, 0.96, 1.0);

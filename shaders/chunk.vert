@@ -1,40 +1,40 @@
-// One vertex of the grid that all chunks share.
+// Transforms and lights a vertex of the grid that all chunks share.
 
-// Their locations are the order in planet/gl/draw/chunk_instances.cpp.
+// The inputs' locations follow their order in planet/gl/draw/chunk_instances.cpp.
 in uvec2 gridVertex;  // column, row
 in uint skirt;        // 1 at the skirt's lower end
 in uint chunkFace;
 in uint chunkLevel;
 in uvec2 chunkPlace;  // x, y
 in uint chunkSlot;
-in uvec4 beside;      // slots of the chunks of the same level to the west, east, south, north
+in uvec4 beside;      // slots of the neighbours of the same level: west, east, south, north
 in float skirtDepthM;
 in float morph;       // [0, 1]
 in vec4 chunkTint;    // sRGB and opacity
-in uvec4 coarserBy;   // levels that the chunk beside it is coarser and moved onto: west, east, south, north
+in uvec4 coarserBy;   // levels by which the neighbour is coarser and stitched to: west, east, south, north
 in vec4 edgeMorph;    // west, east, south, north: [0, 1]
 
 uniform isampler2DArray heightPool;
 
 out vec3 surface;         // position relative to the eye
 out vec4 facePlace;       // [0, 1] along u and v; height, metres; the face
-out vec4 surfaceNormal;   // not unit; [0, 1] how rough the ground is
+out vec4 surfaceNormal;   // not unit length; roughness of the ground, [0, 1]
 out vec3 sunLit;          // the sun's light on the ground
-out vec3 skyLit;          // the sky's
+out vec3 skyLit;          // the sky's light on the ground
 out vec3 airLit;          // the sun's light on the air before the ground
-out vec4 groundArriving;  // by vertex: light that white land sends to the eye through the air; the sea's over it
-out vec4 airArriving;     // by vertex: what that air scatters; the glint on the sea over groundArriving
-out float steep;          // by vertex: [0, 1]
-out vec2 gridCoordinate;  // column and row, for lines
+out vec4 groundArriving;  // lit per vertex: light of white land at the eye; ratio of the sea's to it
+out vec4 airArriving;     // lit per vertex: light that the air scatters; ratio of the sea's glint to land
+out float steep;          // lit per vertex: [0, 1]
+out vec2 gridCoordinate;  // column and row, for the mesh's lines
 out float onSkirt;        // 0 on the ground, 1 at the skirt's lower end
 flat out vec3 faceU;      // the face's axes
 flat out vec3 faceV;
 flat out vec4 tint;
-flat out float meshLevel;  // of tiles whose texels are the mesh's vertices
+flat out float meshLevel;  // level of the tiles whose texels are the mesh's vertices
 
 invariant gl_Position;
 
-// Texel of a slot's first height: column and row in its page, and the page.
+// Returns the texel of a slot's first height: column and row in its page, and the page.
 ivec3 slotCorner(uint slot, int last) {
     return ivec3(ivec2(int(slot & 0x3FFu), int((slot >> 10u) & 0x3FFu)) * (last + 1), int(slot >> 20u));
 }
@@ -43,10 +43,12 @@ int stepAt(ivec3 corner, ivec2 vertex) {
     return texelFetch(heightPool, corner + ivec3(vertex, 0), 0).r;
 }
 
-// Steps a cell along one axis, between vertices so many cells apart: a central difference, across the chunk's border
-// too where the chunk beside it is drawn at the same level. Elsewhere on the border second order and one-sided, so
-// that both sides agree as far as their heights tell. And the larger of the steps to either side, 0 where only one is
-// known: on a face's edge both faces then see only the steps along it, the same.
+// Returns two slopes at a vertex along one axis, in steps per cell. The first one is a central difference
+// over vertices `apart` cells away, also across the chunk's border if the neighbour is drawn at the same
+// level. Elsewhere on the border it is one-sided and of second order, so that both sides agree as far as
+// their heights determine it. The second one is the larger of the absolute differences to either side; it is
+// 0 if only one is known. So on a face's edge both faces see only the steps along the edge, which are the
+// same.
 vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slotBefore, uint slotAfter,
            int apart) {
     int at = vertex.x * axis.x + vertex.y * axis.y;
@@ -117,22 +119,22 @@ void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     airArriving.rgb = scattered(mass, amount, airLit, dot(ray, frame.sun));
 }
 
-// Both slopes at a vertex: along u, along v.
+// Returns both slopes at a vertex: along u and along v.
 mat2 slopes(ivec3 corner, ivec2 vertex, int last, int here, int apart) {
     return mat2(slope(corner, vertex, ivec2(1, 0), last, here, beside.x, beside.y, apart),
                 slope(corner, vertex, ivec2(0, 1), last, here, beside.z, beside.w, apart));
 }
 
-// How a vertex of the grid is drawn while its chunk turns into a coarser one, as planet/select/drawn_surface.h has it.
+// The slide of a vertex while its chunk turns into a coarser one, as in planet/select/drawn_surface.h.
 struct Slide {
-    ivec2 vertex;    // itself; or, along a coarser chunk, that one's vertex that it is drawn with
-    ivec2 aside;     // from it to either end of the edge or diagonal that will replace it; 0 where it stays
-    float amount;    // [0, 1] of the way to the middle between those ends
-    ivec2 onto;      // from it to the vertex that it is gathered to at last
-    float gathered;  // [0, 1] of the way there
+    ivec2 vertex;    // itself, or the coarser neighbour's vertex that it coincides with
+    ivec2 aside;     // offset to either end of the edge or diagonal that replaces it; 0: it stays
+    float amount;    // share of the way to the middle between those ends, [0, 1]
+    ivec2 onto;      // offset to the vertex that it is gathered to in the end
+    float gathered;  // share of the way there, [0, 1]
 };
 
-// Of an odd vertex: the next one that is a multiple of four.
+// Returns the multiple of four next to an odd vertex.
 int gatherPoint(int vertex) {
     return (vertex & 3) == 1 ? vertex - 1 : vertex + 1;
 }
@@ -146,7 +148,7 @@ Slide slideOf(ivec2 vertex, int last) {
     int edge = west ? 0 : east ? 1 : south ? 2 : 3;
     ivec2 along = edge < 2 ? ivec2(0, 1) : ivec2(1, 0);
     int levels = int(coarserBy[edge]);
-    // Along the whole face, where both sides of an edge count alike.
+    // Counts along the whole face, so that both sides of an edge count alike.
     int here = vertex.x * along.x + vertex.y * along.y;
     int start = int(edge < 2 ? chunkPlace.y : chunkPlace.x) << frame.chunkCellsLog2;
     int at = start + here;
@@ -172,7 +174,8 @@ ivec2 gridPointOf(ivec2 vertex) {
     return ((ivec2(chunkPlace) << frame.chunkCellsLog2) + vertex) << cellLog2();
 }
 
-// And the direction from the planet's centre, of about unit length.
+// Returns the position relative to the eye, and in `up` the direction from the planet's centre, of about unit
+// length.
 vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
     int face = int(chunkFace);
     ivec2 gridPoint = gridPointOf(vertex);
@@ -187,10 +190,10 @@ vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
     return positionOnSphere(frame.faces[face], place, rise - drop);
 }
 
-// What is drawn of a vertex, or of several in shares.
+// The drawn state of a vertex, or of several mixed.
 struct Drawn {
     vec3 position;
-    vec2 place;    // on the face's grid, in its finest cells
+    vec2 place;    // on the face's grid, in cells of the finest level
     float height;  // steps
 };
 
@@ -210,7 +213,7 @@ void slideTo(inout Drawn drawn, Drawn to, float amount) {
     drawn.height += amount * (to.height - drawn.height);
 }
 
-// The same, but exactly there at 1, so that nothing parts.
+// Slides like slideTo, but reaches its end exactly at 1, so that no gap opens.
 void gatherTo(inout Drawn drawn, Drawn to, float amount) {
     float kept = 1.0 - amount;
     drawn.position = kept * drawn.position + amount * to.position;
@@ -218,7 +221,7 @@ void gatherTo(inout Drawn drawn, Drawn to, float amount) {
     drawn.height = kept * drawn.height + amount * to.height;
 }
 
-// Where the coarser chunk would draw one of its vertices: on a stitched edge not where it lies.
+// Returns the drawn state of a coarser chunk's vertex, which stitching may have moved along its edge.
 Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
     bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
     if (inside || !switchGather) return ownDrawn(corner, vertex, drop);
@@ -270,7 +273,8 @@ void main() {
     steep = 0.0;
     if (switchLighting || switchLayers || switchLayerPreview) {
         mat2 steps = slopes(corner, vertex, last, heightStep, 1);
-        // The light turns into the coarser mesh's too, between the same two vertices of it.
+        // Lighting also changes to that of the coarser mesh, interpolated between the same two of its
+        // vertices.
         if (switchMorph && slide.amount > 0.0) {
             mat2 coarser = 0.5 * (slopes(corner, before, last, stepAt(corner, before), 2) +
                                   slopes(corner, after, last, stepAt(corner, after), 2));

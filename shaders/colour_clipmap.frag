@@ -1,9 +1,9 @@
-// Fills texels of a clipmap from the tiles that are resident: from those of their own level where there are any, else
-// from what lies above. The page table and the tiles are those of colour_tiles.glsl.
+// Fills texels of a clipmap from the resident tiles: from tiles of their own level, or else from coarser
+// ones. The page table and the tiles are those of colour_tiles.glsl.
 
 uniform sampler2DArray colourTiles;
 uniform usampler2DArray colourPages;
-uniform ivec2 firstTexel;  // of the level's, that the texture's first would be
+uniform ivec2 firstTexel;  // of the level, at the texture's first texel
 uniform int face;
 uniform int level;
 uniform int leafLevel;

@@ -1,8 +1,8 @@
-// Streamed colours from a clipmap instead of from the tiles themselves. planet/surface/colour_clipmap.h says
-// where its windows are, planet/gl/store/colour_clipmap.h what the textures hold.
+// Streamed colours from a clipmap instead of the tiles. planet/surface/colour_clipmap.h describes the places
+// of its windows, planet/gl/store/colour_clipmap.h the contents of the textures.
 
-uniform sampler2DArray clipmapStack;  // a window a layer, wrapped around; sRGB decoded by the sampler
-uniform sampler2DArray clipmapBase;   // a face a layer: the levels that are kept whole, side by side
+uniform sampler2DArray clipmapStack;  // one window per layer, wrapped around; the sampler decodes sRGB
+uniform sampler2DArray clipmapBase;   // one face per layer: the levels that are kept whole, side by side
 
 // planet/gl/store/colour_clipmap.h has structs with the same members.
 struct ClipmapWindow {
@@ -11,17 +11,17 @@ struct ClipmapWindow {
 };
 
 layout(std140) uniform Clipmap {
-    ClipmapWindow windows[faceCount * (maxColourLevel + 1)];  // of each face, then each level
+    ClipmapWindow windows[faceCount * (maxColourLevel + 1)];  // by face, then by level
     vec3 centre;     // the viewer's place on the cube
     float sizePx;    // side of a window, texels
-    vec3 up;         // normal of the viewer's face, without sign
+    vec3 up;         // absolute normal of the viewer's face
     float reach;     // of level 0
     float perFade;   // 1 / the share of its reach over which a window fades
     int finestLevel;
-    int wholeLevel;  // the finest that is kept whole
+    int wholeLevel;  // the finest level that is kept whole
 } clipmap;
 
-// clipmapDistance of planet/surface/colour_clipmap.h.
+// Mirrors clipmapDistance in planet/surface/colour_clipmap.h.
 float clipmapDistance(vec2 place, int face) {
     vec3 outward = abs(frame.faces[face].normal);
     vec3 point = frame.faces[face].normal + (2.0 * place.x - 1.0) * frame.faces[face].u +
@@ -38,7 +38,7 @@ float clipmapDistance(vec2 place, int face) {
     return max(max(down + dot(apart, outward), dot(apart, side)), down + corner);
 }
 
-// clipmapFinest of planet/surface/colour_clipmap.h.
+// Mirrors clipmapFinest in planet/surface/colour_clipmap.h.
 float finestOfClipmap(float away) {
     float level = log2(clipmap.reach / max(away, 1e-9));
     float holding = floor(level);
@@ -47,7 +47,7 @@ float finestOfClipmap(float away) {
     return clamp(finest, float(clipmap.wholeLevel), float(clipmap.finestLevel));
 }
 
-// The finest whole level lies in the corner, the others in a row above it.
+// Samples the base. The finest whole level lies in the corner, the others in a row above it.
 vec3 coloursOfBase(int level, vec2 place, float face, vec2 dx, vec2 dy) {
     int whole = clipmap.wholeLevel;
     float aside = float(tileTexels - tileCells);
@@ -68,13 +68,13 @@ vec3 coloursOfClipmap(int level, vec2 place, float face, vec2 dx, vec2 dy) {
     if (window.layer < 0) return coloursOfBase(clipmap.wholeLevel, place, face, dx, dy);
     float cells = float(tileCells << level);
     float size = clipmap.sizePx;
-    // Where the window begins on the torus comes last: places are large beside a texel.
+    // The window's origin on the torus is added last, because places are large compared with a texel.
     vec2 at = place * cells - window.first + (window.first - size * floor(window.first / size)) + 0.5;
     float scale = cells / size;
     return textureGrad(clipmapStack, vec3(at / size, float(window.layer)), dx * scale, dy * scale).rgb;
 }
 
-// As streamedColours, but no finer than the windows that hold the place.
+// Returns the streamed colours, no finer than the windows that contain the place.
 vec3 clipmapColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);

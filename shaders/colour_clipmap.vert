@@ -1,4 +1,4 @@
-// One triangle over all of what is to be filled.
+// Draws one triangle that covers all texels to fill.
 
 void main() {
     vec2 corner = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID >> 1) * 4 - 1);

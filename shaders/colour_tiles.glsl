@@ -1,17 +1,18 @@
-// Streamed colours: which tile of the colour quadtree lies over a place, and what it shows there
-// (tile_lookup.glsl).
+// Streamed colours from the tiles of the colour quadtree (tile_lookup.glsl).
 
-uniform sampler2DArray colourTiles;   // sRGB decoded by the sampler; a slot a layer
-uniform usampler2DArray colourPages;  // a face a layer, a level a mipmap, the finest first: slot, level
-uniform sampler2DArray colourRoots;   // a face a layer, with mipmaps
+uniform sampler2DArray colourTiles;   // one slot per layer; the sampler decodes sRGB
+uniform usampler2DArray colourPages;  // slot, level; a face per layer, a level per mipmap, finest first
+uniform sampler2DArray colourRoots;   // one face per layer, with mipmaps
 
-// What is resident for a level. place: [0, 1] across the face; dx, dy: its change from pixel to pixel.
+// Returns the best resident colour for a level. place: [0, 1] across the face. dx, dy: its screen-space
+// derivatives.
 vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
     uvec2 page = tilePage(colourPages, frame.colours.leafLevel, level, place, face);
     return tileTexel(colourTiles, page, place, dx, dy).rgb;
 }
 
-// Linear light. Two levels are mixed, as mipmaps are, so that no step shows where the level changes.
+// Returns linear light. Two levels are mixed, as mipmaps are, so that no step is visible where the level
+// changes.
 vec3 streamedColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);

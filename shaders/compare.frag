@@ -1,9 +1,9 @@
-// Two pictures of one size in one: beside each other, or their difference.
+// Combines two pictures of one size: side by side, or as their difference.
 
 uniform sampler2D pictureA;
 uniform sampler2D pictureB;
 uniform int border;  // the first column that shows B
-uniform int shiftA;  // A's pixels are taken from as many columns further right
+uniform int shiftA;  // columns by which A's pixels are read further right
 uniform int shiftB;
 uniform bool difference;
 uniform float gain;

@@ -1,4 +1,4 @@
-// One triangle over the whole picture.
+// Draws one triangle that covers the picture.
 
 void main() {
     vec2 corner = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID >> 1) * 4 - 1);

@@ -1,5 +1,5 @@
-// Of a block of two pictures: how many pixels differ by more than one 8-bit step in some channel, and the largest
-// difference in steps.
+// Counts, for a block of two pictures, the pixels that differ by more than one 8-bit step in a channel, and
+// finds the largest difference in steps.
 
 uniform sampler2D pictureA;
 uniform sampler2D pictureB;

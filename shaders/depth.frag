@@ -1,3 +1,3 @@
-// Only the depth is wanted.
+// Writes depth only.
 
 void main() {}

@@ -1,9 +1,9 @@
-// A face's share of an equirectangular image, on the face's own grid: drawn once when an image is set, so that the
-// surface finds its colour without angles, seams or poles.
+// Resamples a face's part of an equirectangular image to the face's grid, once per image, so that the surface
+// finds its colour without angles, seams or poles.
 
 in vec2 faceAt;
 
-uniform sampler2D sphereImage;  // sRGB decoded by the sampler
+uniform sampler2D sphereImage;  // the sampler decodes sRGB
 uniform vec3 faceNormal;
 uniform vec3 faceU;
 uniform vec3 faceV;
@@ -12,15 +12,16 @@ out vec4 fragment;
 
 const float pi = 3.14159265;
 
-// Nowell's map.
+// Nowell's mapping.
 vec3 sphereFromCube(vec3 cube) {
     vec3 s = cube * cube;
     return cube * sqrt(1.0 - 0.5 * (s.yzx + s.zxy) + s.yzx * s.zxy / 3.0);
 }
 
-// Texture coordinates from the direction itself, and their derivatives from the direction's: continuous across
-// the seam at longitude 180. The one along longitude is shortened with the circle of latitude, since near a
-// pole the image holds no more detail on the ground than elsewhere.
+// Samples the image. Texture coordinates are computed from the direction, and their derivatives from the
+// direction's derivatives, so that they are continuous across the seam at longitude 180. The derivative along
+// longitude is shortened with the circle of latitude, because near a pole the image holds no more detail on
+// the ground than elsewhere.
 vec3 imageColour(vec3 up) {
     vec3 dx = dFdx(up);
     vec3 dy = dFdy(up);

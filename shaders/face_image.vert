@@ -1,6 +1,6 @@
-// One triangle over a face of the cube.
+// Draws one triangle that covers a face of the cube.
 
-out vec2 faceAt;  // u and v; somewhat beyond [-1, 1], so that the outermost texels have their middles on the edges
+out vec2 faceAt;  // (u, v), somewhat beyond [-1, 1]: the outermost texels' centres lie on the edges
 
 uniform float overhang;
 

@@ -1,13 +1,13 @@
-// Inputs of a frame: planet/gl/draw/frame_uniforms.h has structs with the same members. Lengths are in
-// metres, axes are the world's, and positions are relative to the eye.
+// The inputs of a frame; planet/gl/draw/frame_uniforms.h has structs with the same members. Lengths are in
+// metres, in world axes, and positions are relative to the eye.
 
 struct FaceUniforms {
     ivec2 grid;        // reference point on the fine grid
-    vec2 coordinates;  // the same as cube coordinates u0, v0
-    vec3 roots;        // square roots of Nowell's map there: along normal, u and v
+    vec2 coordinates;  // of the reference point: u0, v0
+    vec3 roots;        // square roots of Nowell's mapping at it: along normal, u and v
     vec3 direction;    // d0
     vec3 originM;      // reference point - eye
-    vec3 cubeOriginM;  // the same on the unprojected cube
+    vec3 cubeOriginM;  // the same for the unprojected cube
     vec3 normal;       // the face's axes
     vec3 u;
     vec3 v;
@@ -16,17 +16,17 @@ struct FaceUniforms {
 struct DetailOctave {
     mat3 axes;    // place in the noise = position * axes + eye
     vec3 eye;
-    float sizeM;  // the noise repeats after as much
+    float sizeM;  // period of the noise
 };
 
 struct RampUniforms {
     vec3 root;     // of linear light
-    float startM;  // height of the stop before, above the sea level
-    float perM;    // 1 / metres from there
+    float startM;  // height of the previous stop, above the sea level
+    float perM;    // 1 / metres from there to this stop
 };
 
 struct TileSampling {
-    int leafLevel;      // finest level
+    int leafLevel;      // the finest level
     float anisotropy;   // of the sampler
     float extraLevels;  // levels finer than one texel per pixel
 };
@@ -36,10 +36,10 @@ layout(std140) uniform Frame {
     mat4 clipFromWorld;  // without the translation
     vec3 eyeM;           // from the planet's centre
     vec3 sun;            // unit
-    vec3 rayForward;     // a pixel's ray: forward + x right + y up, with x and y in [-1, 1]
+    vec3 rayForward;     // ray of a pixel: forward + x right + y up, with x and y in [-1, 1]
     vec3 rayRight;
     vec3 rayUp;
-    float pixelRad;  // angle of a pixel
+    float pixelRad;  // angle of one pixel
     float skyDepth;  // in clip space
 
     float radiusM;
@@ -49,22 +49,22 @@ layout(std140) uniform Frame {
     int referenceStep;
     float baseHeightM;  // of step 0
     float seaLevelM;
-    float seaRiseM;  // sea level over the reference step
+    float seaRiseM;  // sea level above the reference step
     int chunkCellsLog2;
-    float reliefBoost;  // slopes are lit as many times steeper
+    float reliefBoost;  // factor by which lighting steepens slopes
     float fill;         // strength of the fill light
 
-    vec3 eyeUp;             // unit
-    float eyeScaleHeights;  // height of the eye, 0 or more
+    vec3 eyeUp;             // unit vector
+    float eyeScaleHeights;  // height of the eye, >= 0
     float radiusScaleHeights;
     float scaleHeightsPerM;
     int drawsAtmosphere;
     float nearGround;  // 1 near the ground, 0 in space
 
     DetailOctave detail[3];
-    float heightStepPxM;  // pixels x metres that a step of heights covers
-    float imageStepPxM;   // the same of the image
-    float imageStep;      // a step of the image, [0, 1] across a face
+    float heightStepPxM;  // pixels x metres: the size of a step of the heights at a distance of one metre
+    float imageStepPxM;   // the same for a step of the image
+    float imageStep;      // one step of the image, [0, 1] across a face
     float imageOpacity;   // over the ramp
 
     RampUniforms ramp[maxRampStops];
@@ -74,5 +74,5 @@ layout(std140) uniform Frame {
 
     TileSampling colours;
     TileSampling normals;
-    float normalRiseM;  // that a slope of 1 rises along 1 of u or v
+    float normalRiseM;  // rise of a slope of 1 along 1 of u or v
 } frame;

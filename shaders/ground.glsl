@@ -1,10 +1,10 @@
-// What vertices and pixels both work out about light on the ground.
+// The lighting of the ground that vertex and fragment shaders share.
 
 float steepness(vec3 normal, vec3 up) {
     return smoothstep(0.08, 0.45, 1.0 - dot(normal, up));
 }
 
-// The sun mirrored in open sea, over its light: a core and a faint halo.
+// Returns the sun's reflection in open sea, relative to its light: a core and a faint halo.
 float seaGlint(vec3 normal, vec3 toEye) {
     vec3 middle = normalize(toEye + frame.sun);
     float halo = exp(-62.0 * (1.0 - dot(normal, middle)));
@@ -15,16 +15,16 @@ float seaGlint(vec3 normal, vec3 toEye) {
     return fresnel * (7.0 * core + 0.7 * halo);
 }
 
-// Returns the debug light that falls where the sun is down. It comes from the upper left of the view, so that slopes
-// show as on a shaded map.
+// Returns the debug light for ground where the sun is down. It comes from the upper left of the view, so that
+// slopes look as on a shaded map.
 float fillLight(vec3 normal, vec3 toEye, vec3 up) {
     float night = 1.0 - smoothstep(-0.10, 0.15, dot(up, frame.sun));
     vec3 from = normalize(toEye + 0.7 * (normalize(frame.rayUp) - normalize(frame.rayRight)));
     return 2.0 * frame.fill * night * (0.2 + 0.8 * max(dot(normal, from), 0.0));
 }
 
-// The cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the axes are the
-// chunk's own face's, whichever face reckons the position.
+// Returns the cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the
+// axes are those of the chunk's face, whichever face computes the position.
 vec3 normalOnSphere(FaceUniforms face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
     float u = coordinates.x;
     float v = coordinates.y;

@@ -1,5 +1,5 @@
-// Texture layers: how much of each lies at a pixel, and what they look like there. The weights are those of
-// planet/surface/layer_set.h, whose doubles are the reference.
+// Texture layers: the weight of each at a pixel, and its appearance. The weights mirror those of
+// planet/surface/layer_set.h, the reference in doubles.
 
 // planet/gl/draw/layer_uniforms.h has structs with the same members.
 struct LineUniforms {
@@ -15,47 +15,48 @@ struct LayerUniforms {
     LineUniforms latitudeLines;
     vec3 tint;  // linear light
     float opacity;
-    vec3 mean;  // linear albedo on average, tinted
+    vec3 mean;  // mean linear albedo, tinted
     float repeatM;
     float noiseAmount;
     int noiseField;
     int noiseComponent;
-    int slice;  // of the textures
+    int slice;  // index in the textures
 };
 
 struct NoiseOctave {
-    ivec3 cell;  // the eye's
+    ivec3 cell;  // the eye's cell
     float cellsPerM;
-    vec3 inside;  // the eye's place in its cell
+    vec3 inside;  // the eye's position in its cell
 };
 
 struct RepeatUniforms {
-    vec3 eye;  // the eye's place in the repeat
+    vec3 eye;  // the eye's position in the repeat
     float perM;
 };
 
 layout(std140) uniform Layers {
-    int count;  // layers that are drawn
+    int count;  // number of drawn layers
     int noiseFieldCount;
     int previewed;      // -1: none
     int previewsMask;   // 1: the preview is a mask
-    float fadeBeginM;   // distance where the layers begin to fade
+    float fadeBeginM;   // distance at which the layers begin to fade
     float perFadeM;     // 1 / metres from there to their end
     float opacity;
-    float sharpness;    // of the blend by height; 0: by weight
-    float trueHeight;   // true over drawn height
-    float trueSlope;    // true over lit slope
-    float colourBelow;  // how much of the colour below shows
-    float repeatRad;    // a repeat appears at least as large, as long as larger repeats are left
+    float sharpness;    // of the blend by height; 0: blend by weight
+    float trueHeight;   // true height / drawn height
+    float trueSlope;    // true slope / lit slope
+    float colourBelow;  // share of the ground's own colour
+    float repeatRad;    // smallest angle of a repeat, as long as there are larger repeats
     LayerUniforms layers[maxLayers];
     NoiseOctave noise[3 * maxLayers];  // three octaves of each field
     RepeatUniforms repeats[maxLayers * layerRepeatLevels];
 } layerSet;
 
-uniform sampler2DArray layerAlbedo;   // sRGB; relief
+uniform sampler2DArray layerAlbedo;   // sRGB and relief
 uniform sampler2DArray layerSurface;  // normal's x and y; roughness; unused
 
-// planet/surface/layer_noise.h, with the eye's cell in whole numbers: on an Earth floats would tell cells apart no more.
+// Mirrors planet/surface/layer_noise.h, with the eye's cell as integers: at the Earth's radius, floats cannot
+// distinguish cells.
 vec4 latticeValue(ivec3 cell) {
     uint h = uint(cell.x) * 0x8DA6B343u + uint(cell.y) * 0xD8163841u + uint(cell.z) * 0xCB1AB31Fu;
     h = (h ^ (h >> 16u)) * 0x7FEB352Du;
@@ -91,8 +92,8 @@ float alongRange(LineUniforms lines, float value, float shift) {
            clamp((lines.highest - value) * lines.fall + shift, 0.0, 1.0);
 }
 
-// Of each layer that is drawn; what they leave to 1 is the ground below them. height: above the sea, as drawn.
-// normal: unit, as it is lit.
+// Computes the weight of each drawn layer; the ground below has the rest to 1. height: above the sea, as
+// drawn. normal: as lit, unit vector.
 void layerWeightsAt(vec3 position, vec3 up, vec3 normal, float height, out float weights[maxLayers]) {
     vec4 noises[maxLayers];
     for (int field = 0; field < layerSet.noiseFieldCount; ++field) noises[field] = fieldNoise(field, position);
@@ -118,10 +119,10 @@ struct Layered {
     vec3 albedo;
     vec3 tilt;        // slope of the relief, world axes
     float roughness;
-    float amount;     // [0, 1] over the ground below
+    float amount;     // opacity over the ground below, [0, 1]
 };
 
-// What has been laid down so far, times shares.
+// The sum of the layers so far, weighted by shares.
 struct LayerSum {
     vec3 albedo;
     vec3 mean;
@@ -138,8 +139,9 @@ vec3 offPlane(vec2 v, int plane) {
     return plane == 0 ? vec3(0.0, v) : plane == 1 ? vec3(v.y, 0.0, v.x) : vec3(v, 0.0);
 }
 
-// A layer's textures laid along one of the planet's three planes, at the two repeats that suit the distance: a repeat
-// covers as many pixels from near and far, and what is seen of one is broken up by the other.
+// Adds a layer's textures, projected along one of the planet's three axes, at the two repeats for the
+// distance. A repeat covers about the same number of pixels at any distance, and mixing two repeats hides the
+// pattern of either.
 void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 steps, inout LayerSum sum) {
     float slice = float(layerSet.layers[i].slice);
     float wanted = max(layerSet.repeatRad * length(position) / layerSet.layers[i].repeatM, 1.0);
@@ -159,9 +161,9 @@ void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 
     vec4 colour = mix(albedo[0], albedo[1], coarse);
     vec4 normal = mix(detail[0], detail[1], coarse);
     vec2 bent = (normal.xy * 255.0 - 128.0) / 127.0;
-    // Green points up the picture, against its rows.
+    // Green points up in the picture, against the order of rows.
     vec2 slope = vec2(-bent.x, bent.y) * inversesqrt(max(1.0 - dot(bent, bent), 0.05));
-    // What stands for wider ground is flatter, as ground is.
+    // Larger repeats stand for wider ground, which is flatter.
     slope *= exp2(-0.35 * level);
     float part = share * exp(layerSet.sharpness * (colour.a + weight - 1.0));
     sum.albedo += part * colour.rgb * layerSet.layers[i].tint;
@@ -171,7 +173,7 @@ void layDown(int i, int plane, float weight, float share, vec3 position, mat2x3 
     sum.shares += part;
 }
 
-// Shares of the three planes: sharp, so that flat ground mostly needs one.
+// Returns the shares of the three planes. They are sharp, so that flat ground mostly needs one plane.
 vec3 planeShares(vec3 normal) {
     vec3 steep = normal * normal;
     steep *= steep;
@@ -180,7 +182,7 @@ vec3 planeShares(vec3 normal) {
     return shares / (shares.x + shares.y + shares.z);
 }
 
-// below: the colour that the layers are painted on.
+// Returns the layers' material. below: the colour of the ground that they are painted on.
 Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 below) {
     mat2x3 steps = mat2x3(dFdx(position), dFdy(position));
     float away = length(position);
@@ -189,7 +191,8 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
     vec3 planes = planeShares(normal);
     float total = 0.0;
     LayerSum sum = LayerSum(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
-    // One after the other what is there at all, so that a pixel with one layer on one plane takes one round.
+    // Collects the visible layers and planes first, so that a pixel with one layer on one plane takes one
+    // iteration.
     int wanted[3 * maxLayers];
     int count = 0;
     for (int i = 0; i < layerSet.count; ++i) {
@@ -207,7 +210,7 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
     // Shares may be as small as e^-80.
     float each = sum.shares > 0.0 ? 1.0 / sum.shares : 0.0;
     vec3 albedo = sum.albedo * each;
-    // The layers' light and dark on the colour below: its hue stays.
+    // Applies the layers' luminance to the colour below, which keeps its hue.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     vec3 coloured = below * dot(albedo, luminance) / max(dot(sum.mean * each, luminance), 0.01);
     albedo = mix(albedo, min(coloured, vec3(1.0)), layerSet.colourBelow);
@@ -215,8 +218,8 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
                    sum.shares > 0.0 ? total * fade * layerSet.opacity : 0.0);
 }
 
-// The sun mirrored in what is not quite rough, over its light: Blinn and Phong's lobe, as wide as the roughness, and
-// Schlick's Fresnel from 0.04.
+// Returns the sun's reflection in a surface that is not fully rough, relative to its light: Blinn and Phong's
+// lobe, with the width of the roughness, and Schlick's Fresnel term from 0.04.
 float layerGlint(vec3 normal, vec3 toEye, float roughness) {
     vec3 middle = toEye + frame.sun;
     middle *= inversesqrt(max(dot(middle, middle), 1e-6));
@@ -229,7 +232,7 @@ float layerGlint(vec3 normal, vec3 toEye, float roughness) {
     return facing * fresnel * (power + 2.0) / 8.0 * pow(max(dot(normal, middle), 0.0), max(power, 0.01));
 }
 
-// From dark violet over green to yellow.
+// Returns a colour from dark violet through green to yellow.
 vec3 heatOf(float weight) {
     vec3 low = vec3(0.15, 0.03, 0.30);
     vec3 middle = vec3(0.10, 0.56, 0.50);
@@ -237,7 +240,7 @@ vec3 heatOf(float weight) {
     return weight < 0.5 ? mix(low, middle, 2.0 * weight) : mix(middle, high, 2.0 * weight - 1.0);
 }
 
-// The previewed layer's weight over the picture, or alone as a mask.
+// Returns the previewed layer's weight as colours over the picture, or alone as a mask.
 vec3 layerPreview(vec3 colour, vec3 position, vec3 up, vec3 normal, float height) {
     float weights[maxLayers];
     layerWeightsAt(position, up, normal, height, weights);

@@ -1,9 +1,9 @@
-// A line's colour, fading over the pixel at either side.
+// Draws a line's colour, antialiased over one pixel on either side.
 
 in vec4 colour;
 noperspective in float aside;
 
-uniform float halfWidthPx;  // of the line
+uniform float halfWidthPx;  // half the line's width
 uniform float opacity;
 
 out vec4 fragment;

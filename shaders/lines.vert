@@ -1,4 +1,4 @@
-// A line as a quad on the screen: four vertices an instance, two at either end.
+// Expands a line to a quad on the screen: four vertices per instance, two at either end.
 
 in vec3 start;  // metres from the eye, world axes
 in vec4 startColour;
@@ -7,11 +7,11 @@ in vec4 endColour;
 
 uniform mat4 clipFromWorld;  // without the translation
 uniform vec2 halfViewportPx;
-uniform float halfWidthPx;  // of the line
-uniform float nearestM;     // lines that come closer are cut off
+uniform float halfWidthPx;  // half the line's width
+uniform float nearestM;     // lines are clipped at this distance
 
 out vec4 colour;                 // sRGB and opacity
-noperspective out float aside;   // pixels from the line's middle, either way
+noperspective out float aside;   // distance from the line's middle, pixels
 
 const vec4 nowhere = vec4(2.0, 2.0, 2.0, 1.0);
 
@@ -24,17 +24,17 @@ void main() {
     aside = 0.0;
     gl_Position = nowhere;
     if (max(from.w, to.w) <= nearestM) return;
-    // What lies nearer is cut off here: a point behind the eye has no place on the screen.
+    // Clips the nearer part: a point behind the eye has no place on the screen.
     float fromShare = from.w < nearestM ? (nearestM - from.w) / (to.w - from.w) : 0.0;
     float toShare = to.w < nearestM ? (nearestM - from.w) / (to.w - from.w) : 1.0;
     vec4 nearFrom = mix(from, to, fromShare);
     vec4 nearTo = mix(from, to, toShare);
-    // The difference of the two places on the screen, but for a factor: without dividing, so that a point close to
-    // the eye loses nothing.
+    // Computes the difference of the two screen positions up to a factor. It does not divide, so a point
+    // close to the eye loses no precision.
     vec2 along = (nearTo.xy * nearFrom.w - nearFrom.xy * nearTo.w) * halfViewportPx;
     float size = length(along);
     vec2 across = size > 0.0 ? vec2(-along.y, along.x) / size : vec2(1.0, 0.0);
-    float reach = halfWidthPx + 1.0;  // a pixel more, for the smooth side
+    float reach = halfWidthPx + 1.0;  // one pixel more, for antialiasing
     vec4 position = atEnd ? nearTo : nearFrom;
     position.xy += side * reach * across / halfViewportPx * position.w;
     colour = mix(startColour, endColour, atEnd ? toShare : fromShare);

@@ -1,15 +1,15 @@
-// Normals finer than the mesh: slopes from tiles that are as fine as the heights, as far as the screen shows
-// them (planet/paging/normal_tile.h).
+// Normals finer than the mesh: slopes from tiles at the heights' own resolution, as far as the screen
+// resolves them (planet/paging/normal_tile.h).
 //
-// A tile is taken where it is as fine as the chunk's own mesh or finer; elsewhere the mesh's normal stands. Of
-// one level the two are the same central differences, so going from pixels as wide as the mesh's cells to
-// finer ones the one is mixed into the other as levels are, and nothing shows where they meet.
+// A tile is used if it is at least as fine as the chunk's mesh; elsewhere the mesh's normal is used. At one
+// level both are the same central differences. From pixels as wide as the mesh's cells to finer ones, the two
+// are mixed as levels are, so that no transition is visible.
 
-uniform sampler2DArray normalTiles;   // dh/du and dh/dv over the radius; a slot a layer
-uniform usampler2DArray normalPages;  // a face a layer, a level a mipmap, the finest first: slot, level
-uniform sampler2DArray normalRoots;   // a face a layer, with mipmaps
+uniform sampler2DArray normalTiles;   // dh/du and dh/dv over the radius; one slot per layer
+uniform usampler2DArray normalPages;  // slot, level; a face per layer, a level per mipmap, finest first
+uniform sampler2DArray normalRoots;   // one face per layer, with mipmaps
 
-// xy: slopes times z; z: the share that a tile has in them, 0 where none is fine enough.
+// Returns in xy the slopes times z, and in z the share of the tile; 0 if no tile is fine enough.
 vec3 slopeOfLevel(int level, float meshLevel, vec2 place, float face, vec2 dx, vec2 dy) {
     uvec2 page = tilePage(normalPages, frame.normals.leafLevel, level, place, face);
     if (page.r == noTile || float(page.g) < meshLevel) return vec3(0.0);
@@ -32,15 +32,15 @@ vec3 slopeAt(float meshLevel, vec2 place, float face) {
     return slope;
 }
 
-// Nowell's map.
+// Returns the direction by Nowell's mapping.
 vec3 directionOf(FaceUniforms face, vec2 c) {
     vec3 roots = sqrt(vec3(1.0 - 0.5 * dot(c, c) + c.x * c.x * c.y * c.y * (1.0 / 3.0),
                            0.5 - c.y * c.y * (1.0 / 6.0), 0.5 - c.x * c.x * (1.0 / 6.0)));
     return roots.x * face.normal + c.x * roots.y * face.u + c.y * roots.z * face.v;
 }
 
-// meshNormal: unit; what there is without tiles. meshLevel: of tiles whose texels are the mesh's vertices.
-// place: [0, 1] along u and v; height, metres; the face.
+// Returns the normal. meshNormal: unit vector, used where no tile applies. meshLevel: level of the tiles
+// whose texels are the mesh's vertices. place: (u, v) in [0, 1], height in metres, face.
 vec3 normalFromTiles(vec3 meshNormal, float meshLevel, vec4 place) {
     vec3 slope = slopeAt(meshLevel, place.xy, place.w);
     if (slope.z <= 0.0) return meshNormal;

@@ -1,15 +1,16 @@
-// The sea's surface as seen from any distance: light mirrored on waves and light from within the water.
+// The sea's surface at any distance: light reflected by waves, and light from within the water.
 //
-// Waves that a pixel can show tilt the surface; the slopes of all others are a normal distribution whose
-// variance grows with the wind (Cox and Munk, "Measurement of the roughness of the sea surface from photographs
-// of the sun's glitter", 1954), and by which the sun's glint and the mirrored sky are spread (Bruneton, Neyret and
-// Holzschuch, "Real-time realistic ocean lighting using seamless transitions from geometry to BRDF", 2010).
+// Waves that a pixel can resolve tilt the surface. The slopes of all others follow a normal distribution,
+// whose variance grows with the wind (Cox and Munk, "Measurement of the roughness of the sea surface from
+// photographs of the sun's glitter", 1954). It spreads the sun's glint and the reflected sky (Bruneton,
+// Neyret and Holzschuch, "Real-time realistic ocean lighting using seamless transitions from geometry to
+// BRDF", 2010).
 
 // planet/gl/draw/sea_uniforms.h has structs with the same members.
 struct WaveUniforms {
     vec3 vector;      // radians per metre, world axes
     float phase;      // at the eye
-    vec3 bendVector;  // of a long wave that bends this one, so that no pattern runs through
+    vec3 bendVector;  // of a long wave that bends this one, so that no pattern continues
     float bendPhase;
 };
 
@@ -21,12 +22,12 @@ layout(std140) uniform Sea {
     float waveSlope;       // largest slope of one wave
 } seaState;
 
-// Albedo of a bed that no image shows.
+// The albedo of a bed without an image.
 const vec3 sandyBed = vec3(0.30, 0.27, 0.19);
 
 struct Waves {
-    vec3 tilt;       // slope of those that are seen, world axes, along the surface
-    float variance;  // of the slopes of the others, along both axes together
+    vec3 tilt;       // slope of the resolved waves, world axes, along the surface
+    float variance;  // of the slopes of the other waves, summed over both axes
 };
 
 Waves wavesAt(vec3 position, vec3 up) {
@@ -49,41 +50,42 @@ Waves wavesAt(vec3 position, vec3 up) {
     return seen;
 }
 
-// Mean over slopes of such a variance: their equation 16.
+// Returns the mean Fresnel reflectance over slopes with a variance: equation 16 of Bruneton et al.
 float seaFresnel(float cosine, float variance) {
     float deviation = sqrt(variance);
     return 0.02 + 0.98 * pow(1.0 - cosine, 5.0 * exp(-2.69 * deviation)) / (1.0 + 22.7 * pow(deviation, 1.5));
 }
 
-// The sun's light mirrored by slopes so distributed. Irradiance in units of pi, as sunLit.
+// Returns the sun's light reflected by slopes with a variance. Irradiance is in units of pi, as in sunLit.
 vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
     vec3 middle = normalize(toEye + frame.sun);
     float across = max(dot(middle, normal), 1e-3);
     float across2 = across * across;
     float slope2 = (1.0 - across2) / across2;
-    float density = exp(-slope2 / variance) / variance;  // the distribution's 1 / pi falls to the light's pi
+    float density = exp(-slope2 / variance) / variance;  // the 1 / pi cancels with the light's pi
     float aside = 1.0 - max(dot(middle, toEye), 0.0);
     float fresnel = 0.02 + 0.98 * aside * aside * aside * aside * aside;
-    // Low over the water waves hide one another: no more is seen than their tilt turns to the eye.
+    // At grazing angles waves hide one another, so the eye sees no more than their tilt turns towards it.
     float seenCosine = max(dot(normal, toEye), 0.35 * sqrt(variance));
     float lit = smoothstep(0.0, 0.06, dot(normal, frame.sun));
     return sunlight * (lit * fresnel * density / (4.0 * seenCosine * across2 * across2));
 }
 
-// Light that comes back out of water so deep, metres: from the bed as far as it is not taken away on both ways,
-// and scattered by the water itself.
+// Returns the light that leaves water of a depth, metres: the bed's, attenuated on the way down and up, and
+// the light scattered by the water itself.
 vec3 fromWater(float depth, vec3 bed, vec3 downwelling) {
     const vec3 deep = vec3(0.0022, 0.014, 0.040);  // reflectance of a sea without a bed
     vec3 kept = exp(-2.0 * seaState.extinction * depth);
     return downwelling * mix(deep, bed, kept);
 }
 
-// height: of the ground below, metres above the sea level, as drawn. bed: its albedo.
+// Returns the sea's light. height: of the ground below, metres above the sea level, as drawn. bed: its
+// albedo.
 vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 bed, vec3 sunlight, vec3 skylight) {
     Waves waves = wavesAt(position, up);
     vec3 normal = normalize(up - waves.tilt);
     vec3 toEye = -ray;
-    // A wave that turns away from the eye hides behind one that does not.
+    // Bends the normal of a wave that faces away from the eye, because another wave hides it.
     float cosine = dot(normal, toEye);
     if (cosine < 0.02) normal = normalize(normal + toEye * (0.02 - cosine));
     cosine = clamp(dot(normal, toEye), 0.02, 1.0);

@@ -1,10 +1,10 @@
-// How much of the sun the ground sees past other ground. planet/select/shadow_cascades.h.
+// Computes how much of the sun's light other ground lets through (planet/select/shadow_cascades.h).
 
 // planet/gl/draw/shadow_uniforms.h has structs with the same members.
 struct CascadeUniforms {
-    mat4 place;  // from positions relative to the eye to [0, 1]: place in the map, depth
+    mat4 place;  // transforms positions relative to the eye to [0, 1]: place in the map, depth
     float texelM;
-    float endM;  // along the view
+    float endM;  // along the view direction
 };
 
 layout(std140) uniform Shadows {
@@ -21,7 +21,7 @@ float shadowAt(int cascade, vec3 position) {
     if (shadow.softness == 0.0) return seen;
     float aside = shadow.softness * shadow.texelSize;
     for (int i = 0; i < 8; ++i) {
-        // The places around a square's middle.
+        // Skips the middle of the 3 x 3 places.
         int at = i < 4 ? i : i + 1;
         vec2 to = vec2(at % 3 - 1, at / 3 - 1) * aside;
         seen += texture(shadowMaps, vec4(place.xy + to, float(cascade), place.z));
@@ -29,8 +29,8 @@ float shadowAt(int cascade, vec3 position) {
     return seen / 9.0;
 }
 
-// [0, 1]. normal: of the mesh, unit. The place asked for lies above the ground by what the filter reaches over on
-// a slope that the sun grazes.
+// Returns the lit share, [0, 1]. normal: of the mesh, unit vector. The sampled place is raised above the
+// ground by the reach of the filter on a slope at a grazing sun.
 float sunSeen(vec3 position, vec3 normal) {
     float along = dot(position, frame.rayForward);
     float last = shadow.cascades[shadowCascadeCount - 1].endM;
@@ -39,7 +39,8 @@ float sunSeen(vec3 position, vec3 normal) {
     float facing = dot(normal, frame.sun);
     vec3 off = normal * ((1.0 + shadow.softness) * sqrt(max(1.0 - facing * facing, 0.0)));
     float seen = shadowAt(cascade, position + off * shadow.cascades[cascade].texelM);
-    // Into the next one over a tenth of its length, and out at the end.
+    // Blends into the next cascade over a tenth of the cascade's length, and fades out at the end of the
+    // last.
     float end = shadow.cascades[cascade].endM;
     float begin = cascade == 0 ? 0.0 : shadow.cascades[cascade - 1].endM;
     float onward = smoothstep(mix(begin, end, 0.9), end, along);

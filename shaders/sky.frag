@@ -1,4 +1,4 @@
-// What lies behind the planet: stars, and the air that rays cross beside it.
+// Draws the background behind the planet: stars, and the atmosphere along rays that pass the planet.
 
 in vec3 skyRay;
 
@@ -10,8 +10,8 @@ float hash(vec3 p) {
     return fract((p.x + p.y) * p.z);
 }
 
-// At most one star a cell of a grid on the faces of a cube; a star is about a pixel, so that it neither
-// flickers nor swells.
+// Returns the light of stars: at most one per cell of a grid on the faces of a cube. A star is about a pixel
+// in size, so that it neither flickers nor grows.
 float starLight(vec3 ray) {
     vec3 size = abs(ray);
     float most = max(size.x, max(size.y, size.z));
@@ -56,14 +56,14 @@ void main() {
         float eyeHeight = max(eyeRadius - frame.radiusScaleHeights, 0.0);
         float mass = airAlong(eyeHeight, rise, max(lowest, frame.radiusScaleHeights));
         mass = clamp(mass, 0.0, 200.0);
-        // Where most of the light comes from: the ray's lowest point, or nearer where the air is thick.
+        // Most of the light comes from the ray's lowest point, or from nearer if the air is thick.
         float toLowest = max(-rise * eyeRadius, 0.0);
         float nearer = min(20.0 * clamp(0.05 * mass, 0.0, 1.0), toLowest);
         vec3 dense = eyeScaled + ray * (rise > 0.0 ? 1.5 : toLowest - nearer);
         light = scattered(mass, scattering, sunOnAir(dense), dot(ray, frame.sun));
         clear = exp(-0.6 * mass) * (1.0 - min(dot(light, vec3(3.0)), 1.0));
     }
-    // A planet that is not drawn there still hides the stars behind it.
+    // The planet hides the stars behind it, even where it is not drawn.
     if (rise < 0.0 && lowest < frame.radiusScaleHeights) clear = 0.0;
     if (clear > 0.01) light += vec3(0.95, 0.97, 1.0) * (clear * starLight(ray));
     fragment = vec4(developed(max(light, 0.0)) + ditherStep() * step(0.002, light.b), 1.0);

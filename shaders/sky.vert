@@ -1,4 +1,4 @@
-// One triangle over the whole view, as far away as depth goes.
+// Draws one triangle that covers the view at the far depth.
 
 out vec3 skyRay;
 

@@ -1,18 +1,18 @@
-// From linear light to what a screen shows.
+// Converts linear light to display colours.
 
 vec3 encodeSrgb(vec3 colour) {
     return mix(1.055 * pow(max(colour, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, colour * 12.92,
                lessThanEqual(colour, vec3(0.0031308)));
 }
 
-// Rolls off softly, x (1 + 0.09 x) / (1 + x), and encodes as sRGB: both at once as a rational function of the
-// root, which errs by less than a step of the 8 bits.
+// Applies a soft roll-off, x (1 + 0.09 x) / (1 + x), and encodes as sRGB: both at once, as a rational
+// function of the square root, with an error below one 8-bit step.
 vec3 developed(vec3 light) {
     vec3 s = sqrt(light);
     return clamp(s * (49.7629 * s - 0.66141) / (1.0 + s * (31.3969 + 32.0001 * s)), 0.0, 1.0);
 }
 
-// Half a step of the 8 bits, in a pattern too fine to see, against bands in slow gradients.
+// Returns half an 8-bit step in a fine pattern, to prevent banding in slow gradients.
 float ditherStep() {
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     return (noise - 0.5) / 255.0;

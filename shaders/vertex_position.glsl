@@ -1,12 +1,13 @@
-// planet/sphere/vertex_position.cpp, line by line; that header says why.
+// Mirrors planet/sphere/vertex_position.cpp line by line; planet/sphere/vertex_position.h explains the
+// method.
 
 const float fineCell = 2.0 / float(1 << fineGridLog2);
 
-// A vertex's place on its face.
+// The position of a vertex on its face.
 struct GridPlace {
     vec2 delta;        // u - u0, v - v0, exact
     vec2 coordinates;  // u, v, exact
-    vec3 roots;        // of Nowell's map at (u, v)
+    vec3 roots;        // of Nowell's mapping at (u, v)
     vec3 turn;         // d - d0, world axes
 };
 
@@ -29,8 +30,8 @@ GridPlace gridPlace(FaceUniforms face, ivec2 grid) {
     return place;
 }
 
-// On an edge or a corner of the cube, the same point on the face of the lowest index that has it, so that all faces
-// make the same of it.
+// Replaces a point on an edge or a corner of the cube by the same point on the face with the lowest index
+// that contains it, so that all faces compute the same position.
 void moveToOwningFace(inout int face, inout ivec2 grid) {
     const int side = 1 << fineGridLog2;
     ivec2 fromMiddle = 2 * grid - side;
@@ -42,12 +43,12 @@ void moveToOwningFace(inout int face, inout ivec2 grid) {
     grid = (ivec2(dot(cube, frame.faces[face].u), dot(cube, frame.faces[face].v)) + side) / 2;
 }
 
-// Rise: height over the reference step, metres.
+// Returns a position on the sphere. rise: height above the reference step, metres.
 vec3 positionOnSphere(FaceUniforms face, GridPlace place, float rise) {
     return face.originM + (frame.referenceRadiusM + rise) * place.turn + rise * face.direction;
 }
 
-// The cube before it is blown up, of the size that fits into the sphere; heights point away from its middle.
+// Returns a position on the unprojected cube, which fits into the sphere. Heights point away from its centre.
 vec3 positionOnCube(FaceUniforms face, GridPlace place, float height) {
     vec3 cube = face.normal + place.coordinates.x * face.u + place.coordinates.y * face.v;
     vec3 fromReference = frame.cubeHalfM * (place.delta.x * face.u + place.delta.y * face.v);
