@@ -71,7 +71,7 @@ private:
     double epsPx(const ChunkNode& node) const {
         return epsPxOf(node, facts_.lodView.eyeM, scalePx_, facts_.lod.metric);
     }
-    // Computes it as selection does, so that both agree to the last bit.
+    // The computation is that of selection, so that both agree bit for bit.
     double switchDistanceM(const ChunkNode& node) const {
         return deltaOf(node, facts_.lod.metric) * (scalePx_ / facts_.lod.tauPx);
     }
@@ -84,8 +84,8 @@ private:
         return static_cast<std::size_t>(found - facts_.pageIns.begin()) + 1;
     }
 
-    // Returns the first chunk from the root down that was not split, so is drawn or culled. Returns null if
-    // all are split, or nothing was selected yet.
+    // Returns the first chunk from the root down that was not split, and so is drawn or culled; null if all
+    // are split, or if nothing has been selected yet.
     const PathNode* decider() const {
         const auto found = std::find_if(path_.begin(), path_.end(),
                                         [](const PathNode& node) { return node.fate != NodeFate::Split; });
@@ -146,8 +146,8 @@ private:
         return WhyNotSplit::WaitingForBudget;
     }
 
-    // Explains a chunk by the selection: it is drawn or split, or a chunk above it is drawn or culled. A
-    // chunk that is not resident or was not visited keeps the given state.
+    // Explains a chunk by the selection: it is drawn or split, or an ancestor is drawn or culled. A chunk
+    // that is not resident or was not visited keeps the given state.
     void explainByFate(ChunkState under) {
         out_.state = under;
         const PathNode* by = decider();

@@ -40,15 +40,16 @@ void applyTo(Pager& pager, const PagingSettings& settings) {
     pager.setThreads(settings.loaderThreads);
 }
 
-// Slots for chunks and for tiles.
+// The slots for chunks and tiles.
 struct Room {
     std::uint32_t slots = 0;
-    std::uint32_t colours = 0;  // 0 without any
-    std::uint32_t normals = 0;  // 0 without any
+    std::uint32_t colours = 0;  // 0: no colours
+    std::uint32_t normals = 0;  // 0: no normals
     std::size_t normalHeightBytes = 0;
-    std::string problem;  // why there are no normals
+    std::string problem;  // the reason if there are no normals
 };
-// Divides the budget. Too little for chunks or colours is an Error; too little for normals turns them off.
+// Divides the budget. Too little memory for chunks or colours is an Error; too little for normals turns them
+// off.
 Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid>& colour,
                      const PagingSettings& settings) {
     const bool hasNormals = settings.normals && normalLeafLevel(shape) >= 0;
@@ -121,7 +122,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
         return of->childrenOf(parent);
     };
     state->pager = std::make_unique<Pager>(std::move(loaders), settings.loaderThreads);
-    state->pager->setTime(settings.time);  // there is nothing to give up
+    state->pager->setTime(settings.time);  // no reads to abandon yet
     applyTo(*state->pager, settings);
     state->count();
     return std::unique_ptr<Planet>(new Planet(std::move(state)));
@@ -209,8 +210,8 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
 }
 
 bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS) {
-    // Blocks may still yield while no read is in progress, and reads may take no time; time advances in both
-    // cases.
+    // Time must advance even if no read is in progress, because blocks may still yield, and even if reads
+    // take no time.
     constexpr double idleStepS = 1.0 / 60, leastStepS = 1e-3;
     double leftS = timeoutS;
     double stepS = 0;
@@ -225,7 +226,7 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
         if (paused || leftS <= 0) return false;
         const double untilNextS = std::min(untilEndS.value_or(untilRetryS.value_or(idleStepS)),
                                            untilRetryS.value_or(untilEndS.value_or(idleStepS)));
-        // The last step goes to the end of the time, so that another settle() continues from there.
+        // The last step ends exactly at the timeout, so that another settle() continues from there.
         stepS = std::min(std::max(untilNextS, leastStepS), leftS);
         leftS -= stepS;
     }
@@ -253,7 +254,7 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     state.settings = settings;
     state.run.retry = settings.retry;
     state.changed = true;
-    // Applies the settings first, so that they hold for the first reads of a changed time.
+    // Applies the settings first, so that they hold for the first reads in the new time.
     applyTo(*state.pager, settings);
     if (otherTime) state.requeue(state.pager->setTime(settings.time));
     const bool resized = room.slots != state.heights.capacity();

@@ -7,8 +7,8 @@
 //         renderer.draw(view, planet->selection().draw, renderSettings);
 //     }
 //
-// Make all calls from one thread; the loader threads are the planet's own. planet_tools.h has what an editor,
-// a test or a recording needs beyond this.
+// Make all calls from one thread; the planet has its own loader threads. planet_tools.h adds what editors,
+// tests and recordings need.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ class PlanetTools;      // planet_tools.h
 
 class Planet {
 public:
-    // The Error names the file and what is wrong with it, or a setting and its range; for a budget that is
-    // too small it says the least that is enough.
+    // The Error names the file and its problem, or a setting and its range. For a budget that is too small,
+    // it gives the smallest one.
     static Result<std::unique_ptr<Planet>> open(const std::filesystem::path& path,
                                                 const PagingSettings& settings,
                                                 const FileCalls& calls = systemFileCalls());
@@ -48,52 +48,53 @@ public:
     Planet& operator=(const Planet&) = delete;
 
     // Advances by one frame: uploads loaded blocks, selects, drops blocks beyond the budget, and requests
-    // missing ones. The first step uploads the root chunks too. views: 1 to maxViews; each has its own
-    // selection and requests blocks with its own priorities. A block that several views want is loaded once,
-    // with the highest priority. elapsedS: seconds since the last step, >= 0, for fades and simulated time;
-    // by default the time that has passed.
+    // missing ones. The first step also uploads the root chunks. views: 1 to maxViews; each has its own
+    // selection and requests blocks with its own priorities. A block that several views request is loaded
+    // once, with the highest priority. elapsedS: seconds since the last step, >= 0, for fades and simulated
+    // time; by default the real time.
     void step(std::span<const ViewInput> views, const UploadChunk& upload,
               std::optional<double> elapsedS = {});
     void step(const View& lodView, const LodSettings& settings, const UploadChunk& upload);
 
-    // Steps until no more blocks are wanted or available, and every fade has ended. Returns false if that
-    // takes longer than timeoutS seconds, or if a pause holds up a block that is wanted. In simulated time it
-    // steps from the end of one read to the end of the next, and the seconds are simulated; in recorded time
-    // it takes one step.
+    // Steps until no more blocks are needed or available, and every fade has ended. Returns false if that
+    // takes longer than timeoutS seconds, or if a needed block cannot load because paging is paused. In
+    // simulated time, it steps from the end of one read to the end of the next, and seconds are simulated. In
+    // recorded time, it takes one step.
     bool settle(std::span<const ViewInput> views, const UploadChunk& upload, double timeoutS);
     bool settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload, double timeoutS);
-    // Returns whether the last selection waits for no block that can still arrive, including retries.
+    // Returns whether the last selection waits for no block that can still arrive, retries included.
     bool settled() const;
 
     // Applies new settings at once, without waiting for reads: starts or stops loaders, and drops blocks down
-    // to a smaller budget, those out of use first. Where the paging's time changes, reads in progress are
-    // requeued. Where normals are turned on in simulated or recorded time, or while moves are kept, the
-    // normals of whole faces are derived at once, which reads. Returns true if the capacity of heights has
-    // changed: then every slot has moved, the selections are made again, and the renderer needs a pool of
-    // that size and uploadAll. The Error says what is wrong, as open's does; then nothing has changed.
+    // to a smaller budget, unused ones first. If the paging's time changes, reads in progress are requeued.
+    // If normals are turned on in simulated or recorded time, or while moves are kept, the normals of whole
+    // faces are derived at once, which reads the file.
+    //
+    // Returns true if the capacity of heights has changed. Then every slot has moved, the selections are made
+    // again, and the renderer needs a pool of that size and uploadAll. The Error describes the problem as
+    // open's does; then nothing has changed.
     Result<bool> setPaging(const PagingSettings& settings);
     const PagingSettings& pagingSettings() const;
 
-    // Draws heights this many times as high, (0, 100], but no more than largestExaggeration(tree()), which
-    // keeps the lowest ground away from the planet's centre; tree().exaggeration is the factor used. Bounds
-    // and delta_c follow at once, the selection at the next step. Give the renderer tree().shape. No slot
-    // changes.
+    // Multiplies all heights by a factor, (0, 100], limited to largestExaggeration(tree()), which keeps the
+    // lowest ground away from the planet's centre. tree().exaggeration is the factor used. Bounds and δc
+    // change at once, the selection at the next step. Pass tree().shape to the renderer. Slots do not change.
     void setExaggeration(double factor);
 
-    // Uploads every resident chunk again, for a new renderer.
+    // Uploads every resident chunk, for a new renderer.
     void uploadAll(const UploadChunk& upload) const;
 
     // Returns the changes to the tiles of colours or normals since the last call. Call it after each step in
     // which they are drawn.
     std::vector<TileChange> takeTileChanges(BlockKind kind);
-    // Drops all tiles of colours or normals but the roots, and loads them again, for a new renderer.
+    // Drops all tiles of colours or normals except the roots, and loads them again, for a new renderer.
     void beginTilesAnew(BlockKind kind);
 
-    // Returns the problems since the last call, for a log: blocks that have failed for good, colours or
-    // normals that there is no room for, roots that could not be read. The first 1000.
+    // Returns the first 1000 problems since the last call, for a log: blocks that have failed for good,
+    // colours or normals without room, roots that could not be read.
     std::vector<std::string> takeProblems();
 
-    const ChunkFile& file() const;  // only of a planet that was opened from one
+    const ChunkFile& file() const;  // requires a planet that was opened from a file
     const ChunkTree& tree() const;
     const std::optional<ColourPyramid>& colour() const;  // the file's colours, if it has any
     // Returns the tree of colours or normals; it has no nodes if they are off.

@@ -1,4 +1,4 @@
-// Opening a planet from a chunk file: all that the run time needs of the file itself.
+// Opens a planet from a chunk file: everything that the runtime needs of the file itself.
 #include "planet/base/try.h"
 #include "planet/paging/normal_roots.h"
 #include "planet/planet.h"
@@ -15,7 +15,7 @@ Result<std::array<ChunkData, faceCount>> readRoots(const ChunkFile& file) {
     return roots;
 }
 
-// A root that cannot be read is a checker pattern, with nothing under it.
+// Reads the roots of colours. An unreadable root becomes a checker pattern without descendants.
 void readColourRoots(const ChunkFile& file, PlanetSource& source) {
     for (const Face face : allFaces) {
         TileData& root = source.colourRoots[static_cast<std::size_t>(face)];

@@ -1,4 +1,4 @@
-// The paging stage of a Planet's step, and the changes between steps.
+// Implements the paging stage of a Planet's step, and the changes between steps.
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -11,7 +11,7 @@ namespace planet {
 
 namespace {
 
-constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any
+constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any frame
 
 const std::vector<ChildrenRequest>& requestsIn(const PlanetView& view, BlockKind kind) {
     return kind == BlockKind::Heights ? view.selection.requests : view.tiles(kind).requests;
@@ -29,7 +29,7 @@ std::vector<MergedRequest> mergeSplits(const std::vector<PlanetView>& views, Blo
 }  // namespace
 
 BudgetShares sharesOf(const PagingSettings& settings, bool hasColours, bool hasNormals) {
-    // A few hundred blocks are enough for one tile and its neighbours.
+    // Enough for the heights under one tile and its neighbours, a few hundred blocks.
     constexpr std::size_t mostHeights = std::size_t{8} << 20;
     const auto without = [](std::size_t bytes, double share) {
         return static_cast<std::size_t>((1 - share) * static_cast<double>(bytes));
@@ -52,7 +52,7 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, c
         assert(factor > 0);
         for (const ChildrenRequest& one : requestsOf(views[v])) {
             MergedRequest merged{one.parent, one.parentId};
-            // 0 would mean that the view does not want the block.
+            // 0 would mean that the view does not request the block.
             merged.priority =
                 std::max(static_cast<float>(one.priority * factor), std::numeric_limits<float>::min());
             merged.viewPriority[v] = merged.priority;
@@ -117,13 +117,13 @@ MergedRequests PlanetState::mergeFor(BlockKind kind) const {
     MergedRequests merged;
     merged.wanted = mergeRequests(
         views, [&](const PlanetView& view) -> auto& { return requestsIn(view, kind); });
-    // Splits of heights are merged only if the budget is full, since there are many.
+    // Splits of heights are merged only if the budget is exhausted, because there are many.
     if (kind != BlockKind::Heights) merged.splits = mergeSplits(views, kind);
     return merged;
 }
 
-// Queues page-outs for the blocks that no view uses, and page-ins for the blocks that views lack, the most
-// wanted first, while there is room.
+// Queues page-outs for the blocks that no view uses, and page-ins for the blocks that views lack, most urgent
+// first, while there is room.
 void PlanetState::page() {
     std::vector<const Selection*> selections;
     for (const PlanetView& view : views) {
@@ -203,7 +203,7 @@ void PlanetState::beginNormals(std::uint32_t capacity, std::size_t heightBytes, 
     if (pager) resizeTiles(normals, 0);
     normalRoots.set(capacity, heightBytes, problem, run.log);
     if (!normalRoots.deriver()) return;
-    // Derived at once if each step must be the same on any machine.
+    // They are derived at once if every step must be the same on any machine.
     if (pager && settings.time == PagingTime::Clock && !run.log.keepsMoves) {
         if (normalRoots.follow(normals, run)) selectAgain();
     } else {
@@ -245,7 +245,7 @@ void PlanetState::startAnew() {
     run.log.moves = {};
 }
 
-// Requeues reads that were given up. No other request for their blocks can exist.
+// Requeues reads that were abandoned. No other request for their blocks can exist.
 void PlanetState::requeue(std::vector<PagingRequest> givenUp) {
     if (run.log.keepsMoves) run.log.moves = {.gaveUp = true};
     pager->withQueue([&](PagingQueue& queue) {
@@ -259,7 +259,8 @@ void PlanetState::requeue(std::vector<PagingRequest> givenUp) {
     });
 }
 
-// The selections, which hold nodes and slots, must not outlive what was dropped or moved between steps.
+// Makes the selections again after changes between steps, because their nodes and slots may no longer be
+// valid.
 void PlanetState::selectAgain() {
     heights.cancelYielding();
     if (run.frame > 0) select(0);

@@ -32,16 +32,16 @@ struct PlanetState {
     std::vector<PlanetView> views{1};
     PagingRun run;
     ChunkPaging heights;
-    TilePaging colours{BlockKind::Colours};  // on only where there is a pyramid
+    TilePaging colours{BlockKind::Colours};  // on only with a pyramid
     TilePaging normals{BlockKind::Normals};
     NormalRoots normalRoots;
     PagingCounters paging;
     LastStep lastStep;
-    bool changed = false;                         // by something other than a step, since the last step
-    Clock::time_point lastStepAt = Clock::now();  // or when it was opened
-    std::unique_ptr<Pager> pager;                 // last: its threads use the deriver
+    bool changed = false;                         // since the last step, other than by a step
+    Clock::time_point lastStepAt = Clock::now();  // initially the time of opening
+    std::unique_ptr<Pager> pager;                 // last, because its threads use the deriver
 
-    // Returns the kinds in the order in which they request.
+    // Returns the kinds in the order of their requests.
     std::array<BlockPaging*, blockKindCount> kinds() { return {&heights, &colours, &normals}; }
     std::array<const BlockPaging*, blockKindCount> kinds() const { return {&heights, &colours, &normals}; }
     BlockPaging& of(BlockKind kind) { return *kinds()[static_cast<std::size_t>(kind)]; }
@@ -49,25 +49,25 @@ struct PlanetState {
     bool isSettled() const;
 
     double clockS();
-    // Takes a step; fadeElapsedS is for selectChunks.
+    // Performs a step; fadeElapsedS is for selectChunks.
     void step(std::span<const ViewInput> inputs, const UploadChunk& upload, double elapsedS,
               double fadeElapsedS);
-    // Its stages.
+    // The stages of a step.
     void dropYielding();
     void uploadFinished(const UploadChunk& upload);
     void select(double fadeElapsedS);
     void page();
     void count();
 
-    // Returns the seconds until the first wanted block may be retried; nothing if none waits for a retry.
+    // Returns the seconds until the first needed block may be retried; nothing if none waits for a retry.
     std::optional<double> untilRetryS() const;
     bool normalsArePending() const { return normalRoots.arePending(normals); }
 
     // Changes between steps.
     void resizeHeights(std::uint32_t capacity);
     void resizeTiles(TilePaging& tiles, std::uint32_t capacity);
-    // Sets the number of tiles of normals, 0 for none, and the bytes of heights that are cached to derive
-    // them. Drops the resident tiles. problem: why there are no normals; it is reported once.
+    // Sets the number of tiles of normals, 0 for none, and the bytes of cached heights to derive them from.
+    // Drops the resident tiles. problem: the reason why there are no normals; it is reported once.
     void beginNormals(std::uint32_t capacity, std::size_t heightBytes, const std::string& problem);
     void finishNormalRoots();
     void dropAll();
@@ -80,7 +80,7 @@ private:
     void selectAgain();
 };
 
-// Merges the requests or the splits of all views by parent, the largest priority first.
+// Merge the requests or splits of all views by parent, sorted by priority, highest first.
 using RequestsOf = std::function<const std::vector<ChildrenRequest>&(const PlanetView&)>;
 std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, const RequestsOf& requestsOf);
 
@@ -89,7 +89,7 @@ struct BudgetShares {
     std::size_t chunks = 0;
     std::size_t colours = 0;
     std::size_t normals = 0;        // for tiles
-    std::size_t normalHeights = 0;  // for heights that are kept to derive them
+    std::size_t normalHeights = 0;  // for cached heights to derive them from
 };
 BudgetShares sharesOf(const PagingSettings& settings, bool hasColours, bool hasNormals);
 

@@ -1,6 +1,6 @@
-// Tools for editors, tests and recordings of a Planet: they inspect the paging, repeat it, and record and
-// replay it. Both classes are handles, valid as long as the planet; use them
-// from the thread that steps it.
+// Tools for editors, tests and recordings of a Planet: they inspect its paging, change it, and record and
+// replay it. Both classes are handles that are valid as long as the planet. Use them on the thread that steps
+// it.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@ class PlanetInspector {
 public:
     explicit PlanetInspector(const PlanetState& state) : state_(state) {}
 
-    // The pending requests of a type, most urgent first: a copy, for display. Page-outs are the blocks out of
-    // use, least recently used first; they stay resident until their room is needed.
+    // Returns a copy of the pending requests of a type, most urgent first, for display. Page-outs are the
+    // unused blocks, least recently used first; they stay resident until others need room.
     std::vector<PagingRequest> pendingRequests(PagingType type) const;
-    // The pending requests of one view, by its own priorities. No view requests a page-out.
+    // Returns the pending requests of one view, by its own priorities. Views do not request page-outs.
     std::vector<PagingRequest> pendingRequests(PagingType type, std::size_t view) const;
     std::vector<LoadInProgress> loadingNow() const;
-    // Returns the ends of the last 1000 requests, oldest first.
+    // Returns the outcomes of the last 1000 requests, oldest first.
     const std::deque<PagingEvent>& pagingHistory() const;
-    // The blocks that could not be read and have not been since, of heights, then of colours, then of
-    // normals, each in their order; of the latest 4096 of each kind.
+    // Returns the blocks whose last read failed, at most the latest 4096 of each kind: heights, then colours,
+    // then normals, each in the order of failure.
     std::vector<FailedBlock> failedBlocks() const;
-    // Returns whether normals will begin as soon as a thread has derived the tiles of the whole faces.
+    // Returns whether normals will begin once a thread has derived the tiles of the whole faces.
     bool normalsArePending() const;
 
 private:
@@ -42,31 +42,32 @@ class PlanetTools {
 public:
     explicit PlanetTools(PlanetState& state) : state_(state) {}
 
-    // While paused: lets the most urgent request through.
+    // Lets the most urgent request through while paused.
     void loadOne();
-    // Lets blocks that failed be requested again at once, as if they never had: all, or one.
+    // Allow failed blocks to be requested again at once, with their failures forgotten: all, or one.
     void retryFailed();
     void retryFailed(const BlockId& block);
-    // Drops all blocks and every request; the roots stay, and may be refined again if that failed. Results of
-    // reads in progress are discarded. The selections are made again. The injected faults of a bad disk come
-    // again as they came.
+    // Drops all blocks except the roots, and every request. Roots whose refinement failed may be refined
+    // again. Discards the results of reads in progress, makes the selections again, and repeats the injected
+    // faults from their beginning.
     void dropAll();
-    // Chooses and loads from here on as if just opened with the present settings and exaggeration: all blocks
-    // but the roots, all requests and reads, the selections and what they remember are gone, and simulated
-    // time begins again. Totals, history and lastStep().nowS go on. Nothing is selected until the next step.
+    // Restarts selection and loading as after opening, with the current settings and exaggeration: removes
+    // all blocks except the roots, all requests and reads, the selections and their memory, and resets
+    // simulated time to 0. Totals, history and lastStep().nowS continue. Nothing is selected until the next
+    // step.
     void startAnew();
-    // Forgets the selections, which hysteresis and fades refer to: the next step selects as the first one
-    // does. Resident blocks and requests stay. Nothing is selected until the next step.
+    // Forgets the selections, on which hysteresis and fades depend, so that the next step selects as the
+    // first one does. Resident blocks and requests stay. Nothing is selected until the next step.
     void forgetSelections();
 
     // Sets whether moves are kept for takeMoves(); off by default.
     void keepMoves(bool kept);
-    // Returns those since the last call. Call it after each step and each other call while moves are kept: a
-    // call that gives reads up begins them again.
+    // Returns the moves since the last call. Call it after each step and each other call while moves are
+    // kept; a call that abandons reads clears them first.
     PagingMoves takeMoves();
-    // In recorded time: repeats what takeMoves() returned for a call, before that call, or for a step, before
-    // that step. Returns false where something in it has no request, because what went before was not the
-    // same; that is left out.
+    // In recorded time: repeats the result of takeMoves(), before the call or step that it was recorded
+    // after. Returns false if a move has no request, because the earlier calls differed; such moves are
+    // skipped.
     bool follow(const PagingMoves& moves);
 
 private:

@@ -18,26 +18,26 @@
 
 namespace planet {
 
-// A planet's content: a chunk file, or for tests and generated planets anything that acts like one.
+// The content of a planet: a chunk file, or an equivalent for tests and generated planets.
 struct PlanetSource {
     PlanetShape shape;
     std::int16_t minStep = 0;  // over the whole planet
     std::int16_t maxStep = 0;
     std::array<ChunkData, faceCount> roots;  // in face order
     LoadChildren loadChildren;
-    // The colours; none without a pyramid.
+    // The colours; unset without a pyramid.
     std::optional<ColourPyramid> colour{};
     std::array<TileData, faceCount> colourRoots{};
     LoadColours loadColours{};
     std::vector<std::string> problems{};    // non-fatal problems found while opening, for takeProblems()
-    std::shared_ptr<const ChunkFile> file;  // the file that the above comes from; null if there is none
+    std::shared_ptr<const ChunkFile> file;  // the file that it was read from; may be null
 };
 
 // One of the views that share a planet.
 struct ViewInput {
     View lodView;
     LodSettings lod;
-    double priorityFactor = 1;  // of its requests against the other views'; > 0
+    double priorityFactor = 1;  // factor on the priorities of its requests relative to other views; > 0
     TileSettings colours{};
     TileSettings normals{};
 };
@@ -49,7 +49,7 @@ struct PlanetView {
     TileSelection colours;
     TileSelection normals;
 
-    // kind: not Heights.
+    // Returns the selection of tiles; kind must not be Heights.
     const TileSelection& tiles(BlockKind kind) const {
         return kind == BlockKind::Colours ? colours : normals;
     }
@@ -59,13 +59,13 @@ struct PlanetView {
 struct StageTimes {
     double uploadMs = 0;
     double selectMs = 0;
-    double pagingMs = 0;  // page-out and requests
+    double pagingMs = 0;  // page-outs and requests
 };
 
 struct LastStep {
     StageTimes times;
-    double nowS = 0;      // since the planet was opened, as of the last step
-    double elapsedS = 0;  // between the step before and the last step
+    double nowS = 0;      // since the planet was opened, at the last step
+    double elapsedS = 0;  // between the last two steps
 };
 
 }  // namespace planet
