@@ -23,7 +23,8 @@ tl::unexpected<Error> systemError(const std::filesystem::path& path, const char*
     return ioError(fmt::format("{}: {}: {}", path.string(), what, lastSystemError()));
 }
 
-// The rename would replace anything of this name, even a device.
+// Checks that the path may be replaced, because the rename would replace anything of this name, even a
+// device.
 Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& calls) {
     struct stat there {};
     if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) {
@@ -34,7 +35,7 @@ Result<void> checkPlace(const std::filesystem::path& path, const FileCalls& call
     return ioError(path.string() + ": is a folder or a device; expected a file");
 }
 
-// Returns false if the last writer has renamed or removed the file that is now locked.
+// Returns false if the previous writer has renamed or removed the file that is now locked.
 Result<bool> stillHasName(const OpenFile& file, const std::filesystem::path& temporary,
                           const std::filesystem::path& path) {
     struct stat opened {};
@@ -53,7 +54,7 @@ std::filesystem::path folderOf(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Returns nothing if there is no file.
+// Returns the mode of a file; nothing if there is no file.
 std::optional<mode_t> modeOf(const std::filesystem::path& path, const FileCalls& calls) {
     struct stat there {};
     if (uninterrupted([&] { return calls.stat(path.c_str(), &there); }) != 0) return std::nullopt;
@@ -84,7 +85,7 @@ Result<void> copyInto(AtomicFile& file, const std::filesystem::path& from) {
 }  // namespace
 
 Result<std::filesystem::path> linkTarget(const std::filesystem::path& path) {
-    constexpr int mostLinks = 40;  // as the kernel follows
+    constexpr int mostLinks = 40;  // the kernel's limit
     std::filesystem::path target = path;
     for (int i = 0; i <= mostLinks; ++i) {
         std::error_code status;
@@ -142,7 +143,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& path, const F
         }
         if (uninterrupted([&] { return calls.ftruncate(descriptor, 0); }) != 0)
             return systemError(path, "cannot be written");
-        // The system's mask cuts the mode that a file is opened with, and a killed writer's file has its own.
+        // The umask restricts the mode of a new file, and a killed writer's file has its own mode.
         if (mode && uninterrupted([&] { return ::fchmod(descriptor, *mode); }) != 0)
             return systemError(path, "cannot be written");
         return file;

@@ -1,5 +1,4 @@
-// Writes a file that appears whole or not at all: under a temporary name in the same folder, synced, then
-// renamed.
+// Writes a file atomically: under a temporary name in the same folder, synced, then renamed.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +13,8 @@
 
 namespace planet {
 
-// Keeps a symbolic link and writes the file that it leads to; the temporary file lies beside that file. A
-// replaced file keeps its mode. Owns the temporary file: the destructor removes it unless it was committed,
+// Keeps a symbolic link and writes the file that it leads to; the temporary file is in that file's folder. A
+// replaced file keeps its mode. Owns the temporary file: unless it was committed, the destructor removes it
 // and the old file stays. A path has one writer at a time; a second one gets an Error. The temporary file of
 // a killed writer is overwritten. One thread.
 class AtomicFile {
@@ -27,14 +26,14 @@ public:
     ~AtomicFile();
 
     const std::filesystem::path& path() const { return path_; }      // as given to create
-    const std::filesystem::path& target() const { return target_; }  // path() with its links followed
+    const std::filesystem::path& target() const { return target_; }  // path() with its links resolved
     std::uint64_t size() const { return size_; }
     Result<void> append(std::span<const std::byte> bytes);
     // Replaces bytes that were appended before.
     Result<void> overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
     // Fills out with bytes that were appended before. Any thread, while no thread appends or overwrites.
     Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
-    // Makes the file durable and gives it its name.
+    // Syncs the file and renames it to its final name.
     Result<void> commit();
 
 private:
@@ -44,19 +43,20 @@ private:
     std::filesystem::path path_;
     std::filesystem::path target_;
     std::filesystem::path temporary_;
-    OpenFile file_;  // closed once it is committed
+    OpenFile file_;  // closed by commit()
     std::uint64_t size_ = 0;
 };
 
-// Returns the file that a chain of symbolic links leads to, whether it exists or not; path itself if it is
-// not a link.
+// Returns the file that a chain of symbolic links leads to, whether it exists or not; path itself if it is no
+// link.
 Result<std::filesystem::path> linkTarget(const std::filesystem::path& path);
 
-// Returns an Error if AtomicFile could not create a file of this name.
+// Returns an Error if AtomicFile could not create this file.
 Result<void> checkWritable(const std::filesystem::path& path);
 
-// Calls write with a name beside the target that has the same extension, and replaces the target by the file
-// written there. It serves libraries that write files by name. A target has one writer at a time.
+// Calls write with a temporary name in the target's folder that has the same extension, then replaces the
+// target by the file written there. It is for libraries that write files by name. A target has one writer at
+// a time.
 Result<void> writeAtomically(
     const std::filesystem::path& target,
     const std::function<Result<void>(const std::filesystem::path& temporary)>& write);

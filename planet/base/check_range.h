@@ -10,8 +10,8 @@
 
 namespace planet {
 
-// Accepts [least, most]. The Error reads "retry delay: 61 s is out of range; expected [0, 60] s". NaN is out
-// of range.
+// Accepts [least, most]; NaN is out of range. The Error reads "retry delay: 61 s is out of range; expected
+// [0, 60] s".
 template <class Number>
 Result<void> checkRange(std::string_view setting, Number value, Number least, Number most,
                         std::string_view unit = {}) {

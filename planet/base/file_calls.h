@@ -1,6 +1,6 @@
-// The system calls that read chunk files and raw heights and write files. A test replaces them to simulate a
-// failing disk. Each acts as the call of its name: it returns less than 0 and sets errno on failure. Called
-// from any thread, several at once.
+// The system calls that read chunk files and raw heights and write files. Tests replace them to simulate a
+// failing disk. Each behaves as the call of its name: on failure it returns less than 0 and sets errno.
+// Called from several threads at once.
 #pragma once
 
 #include <sys/stat.h>
@@ -13,7 +13,7 @@ namespace planet {
 
 struct FileCalls {
     std::function<int(const char* path, int flags, mode_t mode)> open;
-    std::function<int(int descriptor)> close;  // closes even where it fails: never to be called again
+    std::function<int(int descriptor)> close;  // closes even if it fails; never retry it
     std::function<int(const char* path, struct stat* status)> stat;
     std::function<int(int descriptor, struct stat* status)> fstat;
     std::function<ssize_t(int descriptor, void* out, std::size_t bytes, off_t offset)> pread;
@@ -25,7 +25,7 @@ struct FileCalls {
     std::function<int(const char* path)> unlink;
 };
 
-// Returns the calls of the system.
+// Returns the system's calls.
 FileCalls systemFileCalls();
 
 }  // namespace planet

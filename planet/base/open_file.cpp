@@ -57,7 +57,7 @@ Result<void> OpenFile::write(std::uint64_t offset, std::span<const std::byte> by
             return calls_.pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         });
         if (count < 0) return ioError(fmt::format("{}: writing failed: {}", name_, lastSystemError()));
-        // A repeated call could return 0 forever.
+        // Another call could return 0 again, without end.
         if (count == 0) return ioError(fmt::format("{}: writing failed: nothing was written", name_));
         bytes = bytes.subspan(static_cast<std::size_t>(count));
         offset += static_cast<std::uint64_t>(count);

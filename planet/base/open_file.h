@@ -1,5 +1,4 @@
-// Reads and writes whole pieces of an open file: repeats calls that a signal interrupts, and continues
-// partial ones.
+// Reads and writes whole ranges of an open file: retries interrupted calls and continues partial ones.
 #pragma once
 
 #include <cerrno>
@@ -14,7 +13,7 @@
 
 namespace planet {
 
-// Repeats a call while a signal interrupts it. Do not use it for close.
+// Retries a call while a signal interrupts it. Do not use it for close.
 template <class Call>
 auto uninterrupted(const Call& call) {
     auto outcome = call();
@@ -25,10 +24,10 @@ auto uninterrupted(const Call& call) {
 // Returns the message of errno.
 std::string lastSystemError();
 
-// Owns the descriptor. Any thread may read, and write other parts of the file at the same time.
+// Owns the descriptor. Several threads may read, and write other parts of the file, at the same time.
 class OpenFile {
 public:
-    // flags: open's; O_CLOEXEC is added. The Error names the path.
+    // flags: as for open(); O_CLOEXEC is added. The Error names the path.
     static Result<OpenFile> open(const std::filesystem::path& path, int flags, const FileCalls& calls);
     // name: for messages.
     OpenFile(int descriptor, std::string name, FileCalls calls);
@@ -37,7 +36,7 @@ public:
     ~OpenFile() { close(); }
 
     const std::string& name() const { return name_; }
-    int descriptor() const { return descriptor_; }  // -1 once closed
+    int descriptor() const { return descriptor_; }  // -1 after close
     const FileCalls& calls() const { return calls_; }
     void close();
 

@@ -1,4 +1,4 @@
-// Shares work among oneTBB's threads. Internal to the library.
+// Runs work on oneTBB's threads. Internal to the library.
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
@@ -10,8 +10,8 @@
 
 namespace planet {
 
-// After take(), a thread sees everything that another thread did before give(). oneTBB orders its tasks
-// already, but inside its binary, where the thread sanitizer does not see it.
+// After take(), a thread sees everything that another thread did before give(). oneTBB already orders its
+// tasks, but in its own binary, where the thread sanitizer cannot see it.
 class Handover {
 public:
     void give() { turn_.fetch_add(1, std::memory_order_release); }
@@ -21,7 +21,7 @@ private:
     std::atomic<unsigned> turn_ = 0;
 };
 
-// Runs work as a stage of a pipeline, between take() and give(). The thread sanitizer does not see that oneTBB
+// Runs work as a stage of a pipeline, between take() and give(). The thread sanitizer cannot see that oneTBB
 // reuses the memory of a stage, so it must not check the reads of the stage; it checks the work.
 template <class Work>
 class Stage {
@@ -52,9 +52,9 @@ private:
     const Work* work_;
 };
 
-// Calls body(index) for each index below count, several at once, and returns when all calls are done. A call
-// should take longer than a microsecond. It is a pipeline because tbb::parallel_for is compiled into its
-// caller, where the thread sanitizer sees the accesses but not their order.
+// Calls body(index) for each index below count, in parallel, and returns when all calls are done. A call
+// should take longer than 1 µs. This is a pipeline because tbb::parallel_for is compiled into its caller,
+// where the thread sanitizer sees the accesses but not their order.
 template <class Body>
 void parallelFor(std::size_t count, const Body& body) {
     std::size_t next = 0;
@@ -76,7 +76,7 @@ void parallelFor(std::size_t count, const Body& body) {
     handover.take();
 }
 
-// Does the same on at most `threads` threads, the caller's among them.
+// Does the same on at most `threads` threads, including the caller's.
 template <class Body>
 void parallelFor(int threads, std::size_t count, const Body& body) {
     tbb::task_arena(threads).execute([&] { parallelFor(count, body); });

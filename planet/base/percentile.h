@@ -1,4 +1,4 @@
-// Percentiles by nearest rank: always one of the values, never interpolated. Pure functions, any thread.
+// Computes percentiles by nearest rank: the result is always one of the values. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace planet {
 
-// Returns the smallest value that a share of all values, [0, 1], does not exceed: 0.5 gives the lower median,
-// 0 the smallest value. Returns 0 if there are no values. Values: std::vector or std::span of numbers;
-// reorders them. Linear time.
+// Returns the smallest value that at least a share of all values, [0, 1], does not exceed: 0.5 gives the
+// lower median, 0 the smallest value. Returns 0 if there are no values. values: std::vector or std::span of
+// numbers, which this reorders. Linear time.
 template <class Values>
 auto percentileOf(Values&& values, double share) {
     using Value = std::remove_cv_t<typename std::remove_reference_t<Values>::value_type>;

@@ -9,14 +9,14 @@
 namespace planet {
 
 enum class ErrorKind {
-    BadInput,   // a file or option is not what it must be
+    BadInput,   // a file or option is invalid
     Io,         // reading or writing failed
     Cancelled,  // the caller's progress callback asked to stop
 };
 
 struct Error {
     ErrorKind kind = ErrorKind::BadInput;
-    std::string message;  // names the file or option, what is wrong and what would be right
+    std::string message;  // names the file or option, the problem and the expected value
 };
 
 template <class T>

@@ -1,4 +1,4 @@
-// Returns early from a function that gives a Result, if a call in it has failed. Internal to the library: no
+// Returns early from a function that returns a Result if a call in it has failed. Internal to the library: no
 // installed header includes this one.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 #include "planet/base/result.h"
 
-// TRY(call): returns the Error of a call that gives a Result<void>.
+// TRY(call): returns the Error of a call that returns a Result<void>.
 #define TRY(...) \
     if (auto tried = (__VA_ARGS__); !tried) return tl::unexpected(std::move(tried).error())
 

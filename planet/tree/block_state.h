@@ -1,20 +1,20 @@
 // The states of a block: the four children of a chunk, or of a tile of colours or normals. The parent's node
-// keeps the state, from when it becomes resident until it is dropped.
+// stores the state while it is resident.
 //
 //                .-------- withdrawn --------.
 //                v                           |
-//     begin -> Absent --- asked for ---> Requested --- read, and as it should be ---> Resident
+//     begin -> Absent --- requested ---> Requested --- read and valid ---------------> Resident
 //       |       ^ ^ ^                     |    |                                          |
-//       |       | | |      reading failed |    | failed for good                          |
+//       |       | | |      read failed    |    | failed for good                          |
 //       |       | | |                     v    |                                          |
 //       |       | | '- time has come - AwaitingRetry                                      |
 //       |       | |                            v                                          |
-//       |       | '------ told to ---------- Failed                                       |
+//       |       | '------ by command ------- Failed                                       |
 //       |       '------------------------ dropped, to make room --------------------------'
-//       '----> None, where the file has nothing finer
+//       '----> None, if the file has nothing finer
 //
-// A block that had failed before its node was dropped goes from Absent back to AwaitingRetry or Failed as
-// soon as the node is there again. A Requested block is queued, being read, or read and waiting for its
+// If a block failed before its parent's node was dropped, it changes from Absent back to AwaitingRetry or
+// Failed as soon as the node is resident again. A Requested block is queued, being read, or waiting for its
 // upload; the queue and the pager know which. A block of colours that has failed for good is Resident as a
 // checker pattern (tile_tree.h).
 #pragma once
@@ -26,14 +26,14 @@ namespace planet {
 
 enum class ChildrenState : std::uint8_t {
     None,           // a leaf
-    Absent,         // in the file, not asked for
+    Absent,         // in the file, not requested
     Requested,      // queued or being read
     Resident,       // all four are nodes
-    AwaitingRetry,  // could not be read; may be asked for again after a while
-    Failed,         // could not be read; not asked for again until told to
+    AwaitingRetry,  // could not be read; requested again after a delay
+    Failed,         // could not be read; not requested again until a command
 };
 
-// Returns whether the diagram has such a step.
+// Returns whether the diagram has this transition.
 constexpr bool isStep(ChildrenState from, ChildrenState to) {
     using enum ChildrenState;
     switch (from) {
@@ -51,7 +51,7 @@ constexpr bool isStep(ChildrenState from, ChildrenState to) {
     return false;
 }
 
-// Changes the state of a node; nothing else does.
+// Changes the state of a node. All changes go through this function.
 inline void changeState(ChildrenState& state, ChildrenState to) {
     assert(isStep(state, to));
     state = to;

@@ -1,5 +1,5 @@
-// A hash table by chunk id, for lists that are rebuilt each frame. It uses open addressing and is at most
-// half full, so that filling it is cheap. One thread at a time.
+// A hash table of chunk ids, for lists that are rebuilt each frame. It uses open addressing and is at most
+// half full, so that filling it is fast. One thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace planet {
 
 class ChunkTable {
 public:
-    // mostChunks: the largest number of different chunks.
+    // mostChunks: the largest number of distinct chunks.
     explicit ChunkTable(std::size_t mostChunks)
         : entries_(std::bit_ceil(std::max<std::size_t>(mostChunks, 1) * 2)),
           shift_(64 - std::countr_zero(entries_.size())) {}
@@ -23,13 +23,13 @@ public:
         entries_[placeOf(key)] = {key, value};
     }
 
-    // Returns the value that was added with the chunk, or null.
+    // Returns the value that was added with the chunk; null if there is none.
     const std::uint32_t* find(const ChunkId& id) const {
         const Entry& entry = entries_[placeOf(keyOf(id))];
         return entry.key == noKey ? nullptr : &entry.value;
     }
-    // Returns the value of the finest chunk that was added among this one and its ancestors. No chunk that
-    // was added is coarser than coarsestLevel.
+    // Returns the value of the finest added chunk that is this one or an ancestor. No added chunk may be
+    // coarser than coarsestLevel.
     const std::uint32_t* findHolder(ChunkId id, int coarsestLevel) const {
         const std::uint32_t* found = find(id);
         while (!found && id.level > coarsestLevel) {
@@ -47,7 +47,7 @@ private:
         std::uint32_t value = 0;
     };
 
-    // Returns the place of the key, or the empty place where it would go.
+    // Returns the slot of the key, or the empty slot where it would go.
     std::size_t placeOf(std::uint64_t key) const {
         auto place = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> shift_);
         while (entries_[place].key != noKey && entries_[place].key != key) {

@@ -64,7 +64,7 @@ double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
     return sum;
 }
 
-// Sets the values that follow from the node's directions, its stored steps and metrics, and the tree's
+// Computes the values that depend on the node's directions, its stored steps and metrics, and the tree's
 // exaggeration.
 void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     const PlanetShape& shape = tree.shape;
@@ -110,7 +110,7 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     return node;
 }
 
-// The point where a ray from the planet's centre meets the plane of a triangle. inside: the least of its
+// The point where a ray from the planet's centre meets the plane of a triangle. inside: the smallest of its
 // three barycentric coordinates, negative outside the triangle.
 struct TriangleHit {
     double radiusM = 0;
@@ -119,7 +119,7 @@ struct TriangleHit {
 
 TriangleHit hitTriangle(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
                         const glm::dvec3& c) {
-    // Relative to one corner, since the edges are far shorter than the planet's radius.
+    // Positions are relative to one corner, because the edges are far shorter than the planet's radius.
     const glm::dvec3 ab = b - a;
     const glm::dvec3 ac = c - a;
     const glm::dvec3 normal = glm::cross(ab, ac);
@@ -132,7 +132,7 @@ TriangleHit hitTriangle(const glm::dvec3& direction, const glm::dvec3& a, const 
 }
 
 // Returns the hit that lies further inside its triangle, of the two triangles of a cell. The diagonal runs
-// from (west, south) to (east, north).
+// from the south-west to the north-east corner.
 TriangleHit hitCell(const PlanetShape& shape, const ChunkNode& node, int column, int row,
                     const glm::dvec3& direction) {
     const FaceSquare square = faceSquareOf(node.id);
@@ -204,14 +204,15 @@ double largestExaggeration(const ChunkTree& tree) {
     return std::clamp(deepest * tree.storedShape.radiusM / -lowestM, 1.0, most);
 }
 
-// Along a line of the cube a vertex at parameter 0 between neighbours at -1 and 1 lies off their middle by at
-// most half of the largest second derivative between them. An edge's neighbours lie o = half a cell away
-// along u or v, which makes that o^2 |d_uu| <= 1.5 o^2 (bounds.cpp). A diagonal's lie o along both: o^2 |d_uu
-// + 2 d_uv + d_vv|, which is 1 o^2 in a face's middle and largest at the corners u = -v = 1: there the first
-// component is -10/3 / (2 sqrt(1/3)) = -2.887 and the others +-0.144, so 2.894 o^2.
+// Along a line of the cube, a vertex at parameter 0 between neighbours at -1 and 1 is off their middle by at
+// most half of the largest second derivative between them. An edge's neighbours are o = half a cell away
+// along u or v, so that derivative is o^2 |d_uu| <= 1.5 o^2 (bounds.cpp). A diagonal's neighbours are o away
+// along both: the derivative is o^2 |d_uu + 2 d_uv + d_vv|. It is 1 o^2 in the middle of a face and largest
+// at the corners u = -v = 1. There the first component is -10/3 / (2 sqrt(1/3)) = -2.887 and the others are
+// +-0.144, so it is 2.894 o^2.
 double curvatureErrorM(const PlanetShape& shape, int level) {
     constexpr double mostBent = 2.9;
-    const double offset = std::ldexp(1.0, -level) / chunkCells(shape);  // half of a cell of a face 2 wide
+    const double offset = std::ldexp(1.0, -level) / chunkCells(shape);  // half of a cell; a face is 2 wide
     return shape.radiusM * offset * offset * mostBent / 2;
 }
 
@@ -275,8 +276,8 @@ double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
     const int row = cellOf(point.v, square.v);
     TriangleHit best = hitCell(tree.shape, node, column, row, unit);
     if (best.inside >= 0) return best.radiusM - tree.shape.radiusM;
-    // The edges of triangles are straight in space but not in (u, v), so a ray close to a cell's edge may
-    // meet the cell beside it.
+    // The edges of triangles are straight in space but not in (u, v), so a ray close to a cell's edge may hit
+    // the neighbouring cell.
     for (int j = std::max(0, row - 1); j <= std::min(cells - 1, row + 1); ++j) {
         for (int i = std::max(0, column - 1); i <= std::min(cells - 1, column + 1); ++i) {
             const TriangleHit hit = hitCell(tree.shape, node, i, j, unit);
@@ -305,7 +306,7 @@ double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
 }
 
 std::size_t chunkBytesCpu(const PlanetShape& shape) {
-    // The vector of heights and its reference counts lie in another allocation.
+    // The vector of heights and its reference counts are in separate allocations.
     constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
     return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
            sharing;

@@ -2,16 +2,16 @@
 // One thread at a time.
 //
 // Exaggeration by a factor e draws each height h as e h, on the same sphere. A vertex that a chunk of level l
-// lacks lies off the middle of the edge that replaces it by A + B. A is the offset on the bare sphere, R
-// times the bend of Nowell's map there; B is linear in the heights. With exaggeration the offset is
+// lacks is off the middle of the edge that replaces it by A + B. A is the offset on the bare sphere, R times
+// the bend of Nowell's mapping there; B is linear in the heights. With exaggeration the offset is
 //
 //   |A + e B| = |e (A + B) + (1 - e) A| <= e |A + B| + |e - 1| |A|,     |A| <= A_l  (curvatureErrorM)
 //
-// Added up from a chunk's level L to its leaves' parents, the first term gives e times the stored delta_c. So
-// delta_c = e stored + |e - 1| (A_L + A_L+1 + ... ) is a true bound again, 0 at a leaf, never grows from
-// parent to child, and is the stored one where e = 1. The same holds of the tight metric, a chunk's distance
-// from the finest samples: on the bare sphere that is at most A_L + A_L+1 + ... too. So it is e stored + |e -
-// 1| (A_L + A_L+1 + ...), or delta_c where that is less, being a bound as well.
+// Summed from a chunk's level L to its leaves' parents, the first term is e times the stored δc. So δc = e
+// stored + |e - 1| (A_L + A_L+1 + ...) is again a true bound. It is 0 at a leaf, never increases from parent
+// to child, and equals the stored one at e = 1. The same holds for the tight metric, a chunk's distance from
+// the finest samples: on the bare sphere it is also at most A_L + A_L+1 + ... So the tight metric is e stored
+// + |e - 1| (A_L + A_L+1 + ...), or δc if that is less, because δc is a bound too.
 #pragma once
 
 #include <array>
@@ -27,72 +27,73 @@
 
 namespace planet {
 
-// Loader threads share the heights: they refine a parent's heights while the tree may already have dropped
-// it.
+// Loader threads share the heights: they refine a parent's heights even after the tree has dropped it.
 using SharedHeights = std::shared_ptr<const std::vector<std::int16_t>>;
 
 // A chunk that is loaded and drawable.
 struct ChunkNode {
     ChunkId id;
-    float deltaCM = 0;            // metres, exaggeration counted in
-    float storedDeltaCM = 0;      // as the file has it
-    float deltaTightM = 0;        // the tight metric, exaggeration counted in; at most deltaCM
-    float storedDeltaTightM = 0;  // as the file has it
+    float deltaCM = 0;            // metres, exaggerated
+    float storedDeltaCM = 0;      // as in the file
+    float deltaTightM = 0;        // the tight metric, metres, exaggerated; at most deltaCM
+    float storedDeltaTightM = 0;  // as in the file
     float minHeightM = 0;         // over all finest samples below
     float maxHeightM = 0;
-    std::int16_t minStep = 0;  // the same, as stored
+    std::int16_t minStep = 0;  // the same, in stored steps
     std::int16_t maxStep = 0;
     ChunkBounds bounds;
-    glm::dvec3 directionLow{0, 0, 0};  // along the axes of its box, so that bounds follow heights cheaply
+    glm::dvec3 directionLow{
+        0, 0, 0};  // along the axes of its box, so that bounds are updated cheaply with the heights
     glm::dvec3 directionHigh{0, 0, 0};
     NodeIndex parent = noNode;
-    NodeIndex firstChild = noNode;  // four in a row, in quadrant order
+    NodeIndex firstChild = noNode;  // four in sequence, in quadrant order
     ChildrenState childrenState = ChildrenState::None;
     BlockLocation children;           // in the file
     std::uint32_t slot = 0;           // in the pool of heights
     SharedHeights heights;            // never null
     std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
-    double loadedAtS = 0;             // when it became resident, seconds since the planet was opened
+    double loadedAtS = 0;             // time when it became resident, seconds since the planet was opened
     std::uint32_t loadOrder = 0;      // 0 for the roots, then 1 for the first block, 2, ...
 };
 
 struct ChunkTree {
-    PlanetShape shape;         // exaggeration counted in
-    PlanetShape storedShape;   // as the file has it
-    double exaggeration = 1;   // heights are drawn this many times as high
+    PlanetShape shape;         // exaggerated
+    PlanetShape storedShape;   // as in the file
+    double exaggeration = 1;   // factor on all heights
     std::int16_t minStep = 0;  // over the whole planet
     std::int16_t maxStep = 0;
-    double occluderRadiusM = 0;         // of a sphere that lies inside every surface the tree can draw
-    std::vector<ChunkNode> nodes;       // the first six are the roots, in face order; then free or in fours
-    std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
+    double occluderRadiusM = 0;  // of a sphere inside every surface the tree can draw
+    std::vector<ChunkNode>
+        nodes;  // the first six are the roots, in face order; the rest are free or in groups of four
+    std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentChunks = 0;
 };
 
-// Makes the tree of six roots, given in face order; they stay resident and take slots 0 to 5. The Error names
+// Makes the tree of six roots, given in face order. They stay resident and take slots 0 to 5. The Error names
 // an invalid root, or a lowest height below the planet's centre.
 Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
                                 std::array<ChunkData, faceCount>&& roots);
 
-// Draws heights this many times as high, (0, largestExaggeration]: updates the shape, and the heights, bounds
-// and metrics of all nodes, and applies to nodes added later.
+// Exaggerates heights by a factor, (0, largestExaggeration]: updates the shape, and the heights, bounds and
+// metrics of all nodes. Applies to nodes added later too.
 void setExaggeration(ChunkTree& tree, double factor);
 
-// Returns 100, or less if that would bring the lowest ground nearer to the planet's centre than a hundredth
-// of its radius; at least 1.
+// Returns 100, or less if that would bring the lowest ground closer to the planet's centre than 1 % of its
+// radius; at least 1.
 double largestExaggeration(const ChunkTree& tree);
 
-// Returns an upper bound of A_l: the largest distance on the bare sphere, metres, between a vertex that a
+// Returns an upper bound of A_l, metres: the largest distance on the bare sphere between a vertex that a
 // level lacks and the middle of the edge or diagonal that replaces it.
 double curvatureErrorM(const PlanetShape& shape, int level);
 
-// Checks what bounds and selection rely on before four chunks become the children of a node: the ids and the
-// number of heights, heights within the chunk's range and that within the parent's, delta_c and the tight
-// metric no larger than the parent's, and the tight metric no larger than delta_c.
+// Checks, before four chunks become the children of a node, what bounds and selection rely on: the ids and
+// the number of heights; heights within the chunk's range, and that range within the parent's; δc and the
+// tight metric no larger than the parent's, and the tight metric no larger than δc.
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
                            const std::array<ChunkData, quadrantCount>& children);
 
-// Adds the four children of a node whose children are Requested, or Absent where no queue is used, in the
-// given slots; returns the first. They must pass checkChildren.
+// Adds the four children of a node, in the given slots, and returns the first one. The children must be
+// Requested, or Absent if no queue is used, and must pass checkChildren.
 NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
                       const std::array<std::uint32_t, quadrantCount>& slots);
 
@@ -106,16 +107,15 @@ NodeIndex findNode(const ChunkTree& tree, const ChunkId& id);
 void forEachNode(const ChunkTree& tree, const std::function<void(NodeIndex, const ChunkNode&)>& visit);
 
 // Returns the height of the finest resident surface in a direction of any length but 0, metres above the
-// planet's radius: at the point where a ray from the planet's centre meets the drawn triangles.
+// planet's radius: where a ray from the planet's centre meets the drawn triangles.
 double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction);
 
 // Returns the height of the finest resident samples in a direction of any length but 0, metres above the
-// planet's radius: bilinear between the four corners of the cell, along the sphere. The drawn triangles sag
-// below it, on a root chunk by kilometres.
+// planet's radius, interpolated bilinearly between the four corners of the cell, along the sphere. The drawn
+// triangles lie below it, on a root chunk by kilometres.
 double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction);
 
-// Return the bytes of one resident chunk: of its node and heights in memory, and of its heights in the GPU's
-// pool.
+// Return the bytes of one resident chunk: its node and heights in memory, and its heights in the GPU's pool.
 std::size_t chunkBytesCpu(const PlanetShape& shape);
 std::size_t chunkBytesGpu(const PlanetShape& shape);
 

@@ -1,6 +1,6 @@
 // Adds, removes and finds nodes in the list of nodes of a quadtree. Internal to the library.
 //
-// Tree: has nodes and freeGroups, like ChunkTree and TileTree.
+// Tree: a type with nodes and freeGroups, such as ChunkTree and TileTree.
 #pragma once
 
 #include <cassert>
@@ -11,7 +11,7 @@
 
 namespace planet {
 
-// Returns the first of four nodes in a row that are free, or new.
+// Returns the first of four consecutive nodes that are free, or new.
 template <class Tree>
 NodeIndex takeGroup(Tree& tree) {
     if (!tree.freeGroups.empty()) {

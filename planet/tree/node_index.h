@@ -1,4 +1,4 @@
-// Names a node by its place in a quadtree's list of nodes.
+// The index of a node in a quadtree's list of nodes.
 #pragma once
 
 #include <cstdint>

@@ -19,28 +19,29 @@ struct TileNode {
     ChunkId id;
     ChunkDirections directions;
     NodeIndex parent = noNode;
-    NodeIndex firstChild = noNode;  // four in a row, in quadrant order
+    NodeIndex firstChild = noNode;  // four in sequence, in quadrant order
     ChildrenState childrenState = ChildrenState::None;
-    BlockLocation children;  // in the file
-    bool hasFailed = false;  // its children could not be read: they are resident as a checker pattern
-    std::uint32_t slot = 0;  // in the pool of tiles
+    BlockLocation children;           // in the file
+    bool hasFailed = false;           // its children could not be read and are resident as a checker pattern
+    std::uint32_t slot = 0;           // in the pool of tiles
     std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
 };
 
 struct TileTree {
-    int leafLevel = -1;                 // -1: there are no tiles
-    bool isDerived = false;             // tiles are made of heights: children need no place in the file
-    std::vector<TileNode> nodes;        // the first six are the roots, in face order; then free or in fours
-    std::vector<NodeIndex> freeGroups;  // first nodes of groups of four that are free
+    int leafLevel = -1;      // -1: no tiles
+    bool isDerived = false;  // tiles are derived from heights, so children have no location in the file
+    std::vector<TileNode>
+        nodes;  // the first six are the roots, in face order; the rest are free or in groups of four
+    std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentTiles = 0;
 };
 
-// Makes the tree of six roots, given in face order; they stay resident and take slots 0 to 5. leafLevel: [0,
+// Makes the tree of six roots, given in face order. They stay resident and take slots 0 to 5. leafLevel: [0,
 // maxTileLevel].
 TileTree makeTileTree(int leafLevel, bool isDerived, const std::array<TileData, faceCount>& roots);
 
-// Adds the four children of a node whose children are Requested, in slots from the first on; returns the
-// first.
+// Adds the four children of a node, which must be Requested, in consecutive slots from firstSlot. Returns the
+// first node.
 NodeIndex addTiles(TileTree& tree, NodeIndex parent, const std::array<TileData, quadrantCount>& children,
                    std::uint32_t firstSlot);
 
