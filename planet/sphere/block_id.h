@@ -1,5 +1,4 @@
-// Names a block of the chunk file, which is paged in and out as a whole: the four children of a node of a
-// quadtree.
+// The id of a block of the chunk file, which is paged as a whole: the four children of a node of a quadtree.
 #pragma once
 
 #include <compare>
@@ -11,7 +10,7 @@
 
 namespace planet {
 
-// The quadtrees of a planet. Normals are derived from heights, and have no block in the file.
+// The quadtrees of a planet. Normals are derived from heights and have no blocks in the file.
 enum class BlockKind : std::uint8_t { Heights, Colours, Normals };
 inline constexpr int blockKindCount = 3;
 

@@ -10,17 +10,17 @@ namespace planet {
 
 namespace {
 
-// The margin between samples: the square is sampled on a grid of g = side / sampleCells. Within a cell, a
+// The margin between samples. The square is sampled on a grid of g = side / sampleCells. Within a cell, a
 // smooth f differs from the bilinear interpolation of its corners by at most g^2/8 (max |f_uu| + max |f_vv|):
-// interpolating along u costs the first term, interpolating that along v the second. Bilinear interpolation
-// stays within the convex hull of the corners. So a volume that holds all samples holds the whole square once
-// it is grown by that much.
+// interpolation along u adds the first term, and interpolation of that along v the second. Bilinear
+// interpolation stays within the convex hull of the corners. So a volume that contains all samples contains
+// the whole square once it is enlarged by that margin.
 //
-// On a face Nowell's map is d = (w, u sqrt(1/2 - v^2/6), v sqrt(1/2 - u^2/6)) with
-// w = sqrt(1 - u^2/2 - v^2/2 + u^2 v^2/3). Differentiating twice by u:
-//   w_uu = -(1 - 2v^2/3)(2 - v^2) / (4 w^3), largest where w is least, at u = 1: w^2 = 1/2 - v^2/6, and there
-//          at v = 0: |w_uu| <= sqrt(2);
-//   the second component has none; the third has |v| / (12 (1/2 - u^2/6)^(3/2)) <= sqrt(3)/4.
+// On a face, Nowell's mapping is d = (w, u sqrt(1/2 - v^2/6), v sqrt(1/2 - u^2/6)) with w = sqrt(1 - u^2/2 -
+// v^2/2 + u^2 v^2/3). The second derivatives by u are
+//   w_uu = -(1 - 2v^2/3)(2 - v^2) / (4 w^3), largest where w is smallest, at u = 1: w^2 = 1/2 - v^2/6, and
+//          there at v = 0: |w_uu| <= sqrt(2);
+//   zero for the second component; |v| / (12 (1/2 - u^2/6)^(3/2)) <= sqrt(3)/4 for the third.
 // So |d_uu| <= sqrt(2 + 3/16) < 1.5, and by symmetry |d_vv| < 1.5.
 constexpr int sampleCells = 8;
 constexpr int samplesPerSide = sampleCells + 1;
@@ -59,7 +59,7 @@ Samples sampleDirections(Face face, const FaceSquare& square) {
     return samples;
 }
 
-// Returns east along the middle row of the square, north, and up in its middle.
+// Returns east along the middle row of the square, and north and up at its middle.
 std::array<glm::dvec3, 3> localAxes(const Samples& samples) {
     const std::size_t middle = samples.size() / 2;
     const glm::dvec3 up = glm::normalize(samples[middle]);
@@ -87,12 +87,12 @@ DirectionCone coneOf(const Samples& samples, double margin) {
     cone.axis = glm::normalize(samples[samples.size() / 2]);
     double chord = 0;
     for (const glm::dvec3& direction : samples) chord = std::max(chord, glm::length(direction - cone.axis));
-    // Uses the chord, because the cosine of a small angle has no digits left.
+    // Uses the chord, because the cosine of a small angle loses all digits.
     cone.halfAngleRad = 2 * std::asin(std::min(1.0, (chord + margin) / 2));
     return cone;
 }
 
-// Returns acos(adjacent / hypotenuse), exact for small angles too.
+// Returns acos(adjacent / hypotenuse), accurate for small angles too.
 double angleOf(double adjacent, double hypotenuse) {
     const double opposite = std::sqrt((hypotenuse - adjacent) * (hypotenuse + adjacent));
     return std::atan2(opposite, adjacent);
@@ -112,7 +112,7 @@ ChunkDirections chunkDirections(const ChunkId& id) {
             range.add(glm::dot(directions.axes[static_cast<std::size_t>(a)], direction));
         }
         directions.low[a] = range.low - margin;
-        // No unit vector reaches beyond 1 along an axis, so the top of the box needs no margin.
+        // No unit vector extends beyond 1 along an axis, so the top of the box needs no margin.
         directions.high[a] = std::min(range.high + margin, 1 + boxRounding);
     }
     directions.cone = coneOf(samples, margin);
@@ -165,8 +165,8 @@ Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM) {
     return horizon;
 }
 
-// A line of sight touches the occluder at angleRad from the eye's direction, and from there reaches a point
-// of radius r at most acos(occluder / r) further round.
+// A line of sight touches the occluder at angleRad from the eye's direction. Beyond that point it reaches a
+// point of radius r at most acos(occluder / r) further round.
 Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
     if (horizon.seesAll) return Containment::Inside;
     const DirectionCone& cone = bounds.cone;
@@ -178,9 +178,9 @@ Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
     return toAxis - cone.halfAngleRad > reach ? Containment::Outside : Containment::Crossing;
 }
 
-// A triangle whose corners lie within an angle a of a direction m, none nearer than r, has
-// dot(point, m) >= r cos a at each corner and so throughout. All faces are alike, and cells of finer levels
-// are smaller, so the widest cell of one root chunk bounds them all.
+// A triangle whose corners are within an angle a of a direction m, none nearer than r, has dot(point, m) >= r
+// cos a at each corner, and so at every point. All faces are alike, and cells of finer levels are smaller, so
+// the widest cell of one root chunk bounds all cells.
 double radiusInsideTriangles(double lowestRadiusM, int rootCells) {
     assert(lowestRadiusM > 0 && rootCells > 0);
     const double cell = 2.0 / rootCells;

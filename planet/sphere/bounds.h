@@ -1,5 +1,5 @@
-// Bounding volumes of everything that a chunk and the chunks under it can draw: the vertices of its square of
-// the sphere between its lowest and highest finest height, and every triangle between those vertices. Pure
+// Bounding volumes of everything that a chunk and its descendants can draw: the vertices of its square of the
+// sphere between its lowest and highest finest heights, and every triangle between those vertices. Pure
 // functions, any thread.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace planet {
 
-// A box along the local frame of the chunk's middle, roughly east, north and up. It is convex and holds every
-// vertex, so it holds every triangle, chord sag included.
+// A box in the local frame of the chunk's middle, roughly east, north and up. It is convex and contains every
+// vertex, so it contains every triangle, even where triangles sag below the sphere.
 struct OrientedBox {
     glm::dvec3 centreM{0, 0, 0};
     std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
@@ -27,12 +27,12 @@ struct DirectionCone {
 
 struct ChunkBounds {
     OrientedBox box;
-    DirectionCone cone;     // holds the direction of every vertex
-    double maxRadiusM = 0;  // no vertex lies farther from the planet's centre
+    DirectionCone cone;     // contains the direction of every vertex
+    double maxRadiusM = 0;  // largest distance of a vertex from the planet's centre
 };
 
-// The part of the bounds that does not depend on heights and takes most of the time to compute: the range of
-// the chunk's directions along the axes of the box, at most [-1, 1].
+// The part of the bounds that does not depend on heights and is expensive to compute: the range of the
+// chunk's directions along the axes of the box, at most [-1, 1].
 struct ChunkDirections {
     std::array<glm::dvec3, 3> axes{};  // unit, orthogonal
     glm::dvec3 low{0, 0, 0};           // along each axis
@@ -41,7 +41,7 @@ struct ChunkDirections {
 };
 ChunkDirections chunkDirections(const ChunkId& id);
 
-// radiusM + minHeightM must be over 0, and minHeightM <= maxHeightM.
+// Computes the bounds. radiusM + minHeightM > 0, and minHeightM <= maxHeightM.
 ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, double minHeightM,
                         double maxHeightM);
 ChunkBounds chunkBounds(const ChunkId& id, double radiusM, double minHeightM, double maxHeightM);
@@ -52,7 +52,7 @@ double distanceM(const OrientedBox& box, const glm::dvec3& pointM);
 enum class Containment { Outside, Crossing, Inside };
 Containment classify(const OrientedBox& box, const Plane& plane);
 
-// The part of the planet that an eye sees, computed once per frame.
+// The part of the planet that is visible from an eye, computed once per frame.
 struct Horizon {
     glm::dvec3 eyeDirection{0, 0, 1};  // unit
     double occluderRadiusM = 0;
@@ -62,13 +62,13 @@ struct Horizon {
 };
 Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM);
 
-// Outside: the occluder hides every point within the cone up to maxRadiusM. Inside: it hides no point of the
-// cone that is outside it, and so nothing under this chunk. Crossing: neither is certain.
+// Outside: the occluder hides every point in the cone up to maxRadiusM. Inside: it hides no point of the cone
+// that is outside it, so it hides nothing of this chunk and its descendants. Crossing: neither is certain.
 Containment classify(const ChunkBounds& bounds, const Horizon& horizon);
 
-// Returns the radius of a sphere about the planet's centre that lies inside every triangle between vertices
-// of any level. No vertex lies nearer to the centre than lowestRadiusM. rootCells: cells along the side of a
-// face's root chunk, whose triangles sag most.
+// Returns the radius of a sphere around the planet's centre that is inside every triangle between vertices of
+// any level. lowestRadiusM: lower bound of the vertices' distances from the centre. rootCells: cells along
+// the side of a face's root chunk, whose triangles sag most.
 double radiusInsideTriangles(double lowestRadiusM, int rootCells);
 
 }  // namespace planet

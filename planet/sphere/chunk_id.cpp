@@ -42,8 +42,8 @@ ChunkId neighbourOf(const ChunkId& id, Edge edge) {
     if (edge == Edge::East && id.x < last) return {id.face, id.level, id.x + 1, id.y};
     if (edge == Edge::South && id.y > 0) return {id.face, id.level, id.x, id.y - 1};
     if (edge == Edge::North && id.y < last) return {id.face, id.level, id.x, id.y + 1};
-    // The neighbour lies on the next face: fold half a chunk's side down along this face's normal, from the
-    // middle of the edge.
+    // The neighbour lies on the next face. The point is half a chunk's side below the middle of the edge,
+    // along this face's normal.
     const FaceSquare square = faceSquareOf(id);
     const double half = square.side / 2;
     const bool across = edge == Edge::West || edge == Edge::East;

@@ -1,4 +1,5 @@
-// Names a node of one of the six quadtrees, and walks between them. Pure functions, any thread.
+// The id of a node of one of the six quadtrees, with its relatives and neighbours. Pure functions, any
+// thread.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@
 
 namespace planet {
 
-inline constexpr int maxLevel = 20;  // a root chunk of 17 a side refined 20 times is 0.6 m a cell on Earth
+inline constexpr int maxLevel =
+    20;  // a root chunk of 17 vertices per side refined 20 times has cells of 0.6 m on Earth
 
 struct ChunkId {
     Face face = Face::PosX;
@@ -30,19 +32,20 @@ std::uint64_t keyOf(const ChunkId& id);
 // A quadrant is (x & 1) + 2 (y & 1).
 inline constexpr int quadrantCount = 4;
 ChunkId childOf(const ChunkId& parent, int quadrant);
-ChunkId parentOf(const ChunkId& child);  // the child's level must be over 0
+ChunkId parentOf(const ChunkId& child);  // child.level > 0
 int quadrantOf(const ChunkId& child);
-// Returns the chunk of a level that holds this one; the chunk itself if it is of that level or coarser.
+// Returns the chunk of a level that contains this one; the chunk itself if it has that level or a coarser
+// one.
 ChunkId ancestorOf(ChunkId id, int level);
 
 enum class Edge : std::uint8_t { West, East, South, North };  // u = min, u = max, v = min, v = max
 inline constexpr int edgeCount = 4;
 inline constexpr std::array allEdges = {Edge::West, Edge::East, Edge::South, Edge::North};
 
-// Returns the chunk of the same level beyond an edge; on the next face if the edge lies on an edge of the
-// face.
+// Returns the chunk of the same level beyond an edge; it is on the next face if the edge lies on an edge of
+// the face.
 ChunkId neighbourOf(const ChunkId& id, Edge edge);
-// Returns the edge beyond which another chunk of the same level lies; nothing if it is not a neighbour.
+// Returns the edge beyond which another chunk of the same level lies; nothing if the two are no neighbours.
 std::optional<Edge> edgeTowards(const ChunkId& id, const ChunkId& other);
 
 // The square of a chunk on its face.
@@ -53,11 +56,11 @@ struct FaceSquare {
 };
 FaceSquare faceSquareOf(const ChunkId& id);
 
-// Returns the chunk of a level that holds a point of its face; one of the last row or column if u or v is 1.
+// Returns the chunk of a level that contains a point of its face; the last row or column if u or v is 1.
 ChunkId chunkAt(const FacePoint& point, int level);
 
-// Quadtree order lists the chunks of a level face by face, each quarter whole before the next. The children
-// of chunk i of a level are chunks 4 i to 4 i + 3 of the next level.
+// Quadtree order lists the chunks of a level face by face, each quarter completely before the next. The
+// children of chunk i of a level are chunks 4 i to 4 i + 3 of the next level.
 ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level);
 std::uint64_t indexInQuadtreeOrder(const ChunkId& id);
 

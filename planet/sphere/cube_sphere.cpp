@@ -21,7 +21,7 @@ const std::array<FaceAxes, faceCount> axesOfFaces = {{
     {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}},
 }};
 
-// Returns the face whose normal is nearest to the vector; the first in enum order of equals.
+// Returns the face whose normal is nearest to the vector; among equals, the first in enum order.
 Face dominantFace(const glm::dvec3& p) {
     Face best = Face::PosX;
     double most = -1;
@@ -39,7 +39,7 @@ struct SquarePoint {
     double u, v;
 };
 
-// Takes one Newton step towards u sqrt(1/2 - v^2/6) = s, v sqrt(1/2 - u^2/6) = t, Nowell's map on a face.
+// Takes one Newton step towards u sqrt(1/2 - v^2/6) = s, v sqrt(1/2 - u^2/6) = t, Nowell's mapping on a face.
 SquarePoint refineInverse(SquarePoint p, double s, double t) {
     const double rootV = std::sqrt(0.5 - p.v * p.v / 6);
     const double rootU = std::sqrt(0.5 - p.u * p.u / 6);
@@ -70,7 +70,7 @@ const FaceAxes& faceAxes(Face face) {
 
 glm::dvec3 cubePoint(Face face, double u, double v) {
     const FaceAxes& axes = faceAxes(face);
-    // Adding 0 * u turns no component inexact, but could leave -0; + 0.0 makes it +0 on every face.
+    // Adding 0 * u is exact for every component, but may leave -0; adding 0.0 makes it +0 on every face.
     return axes.normal + u * axes.u + v * axes.v + glm::dvec3(0.0);
 }
 
@@ -89,14 +89,14 @@ glm::dvec3 cubeFromSphere(const glm::dvec3& direction) {
     const FaceAxes& axes = faceAxes(face);
     const double s = glm::dot(unit, axes.u);
     const double t = glm::dot(unit, axes.v);
-    // Squaring both equations of the map leaves a quadratic in u^2: its root first ...
+    // Squaring both equations of the mapping gives a quadratic equation in u^2, which is solved first.
     const double a = 2 * s * s;
     const double b = 2 * t * t;
     const double inner = b - a - 3;
     const double root = std::sqrt(std::max(0.0, inner * inner - 12 * a));
     SquarePoint p{std::copysign(std::sqrt(std::clamp((3 + a - b - root) / 2, 0.0, 1.0)), s),
                   std::copysign(std::sqrt(std::clamp((3 - a + b - root) / 2, 0.0, 1.0)), t)};
-    // ... then Newton's steps win back the digits that its subtraction loses.
+    // Newton steps recover the digits lost by the subtraction.
     p = refineInverse(p, s, t);
     p = refineInverse(p, s, t);
     p = refineInverse(p, s, t);

@@ -16,7 +16,7 @@ struct Culling {
     Horizon horizon;
 };
 
-// The tests that a node still needs: a plane that has its parent wholly inside has the node inside too.
+// The tests that a node still needs: if a plane has the parent completely inside, it has the node inside too.
 struct OpenTests {
     std::array<bool, std::tuple_size_v<Frustum>> planes{};
     bool horizon = false;
@@ -25,7 +25,7 @@ OpenTests openTests(bool frustumCulling, bool horizonCulling);
 
 enum class Culled : std::uint8_t { No, ByFrustum, ByHorizon };
 
-// Closes the tests that nothing under the bounds needs.
+// Culls a node, and closes the tests that nothing within the bounds needs.
 Culled cull(const Culling& culling, const ChunkBounds& bounds, OpenTests& open);
 
 }  // namespace planet

@@ -1,4 +1,4 @@
-// Continues the grid of a cube face over its edges, on the next faces. Internal to the library. Pure
+// Continues the grid of a cube face across its edges, onto the next faces. Internal to the library. Pure
 // functions, any thread.
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace planet {
 
-// A point of a face's grid of (cells + 1)^2, column along u, row along v, both [0, cells] on the face itself.
+// A point of a face's grid of (cells + 1)^2: column along u, row along v, both in [0, cells] on the face
+// itself.
 struct FaceGridPoint {
     Face face = Face::PosX;
     int column = 0;
@@ -18,11 +19,11 @@ struct FaceGridPoint {
 // Returns the face of an outward normal, a unit vector along a world axis.
 Face faceAlong(const glm::dvec3& normal);
 
-// Returns a point that lies over one edge of its face, by up to its width, folded down onto the next face. A
-// point on the face, edges included, is returned as it is.
+// Returns a point that lies beyond one edge of its face, by up to the face's width, folded onto the next
+// face. Returns a point on the face, edges included, unchanged.
 FaceGridPoint foldedOver(const FaceGridPoint& point, int cells);
 
-// Returns the place of a point on an edge on another face that has the edge.
+// Returns the coordinates of a point on an edge on another face that shares the edge.
 FaceGridPoint placeOnFace(Face face, const FaceGridPoint& point, int cells);
 
 }  // namespace planet

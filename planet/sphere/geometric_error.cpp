@@ -10,7 +10,7 @@ namespace planet {
 namespace {
 
 // Returns the largest squared distance along a row between vertices first, first + 2, ... and the middles of
-// their two neighbours, which lie `offset` elements before and after them.
+// their two neighbours, which are `offset` elements before and after them.
 double largestSquaredGap(const GeometricErrorScratch& scratch, std::size_t row, std::size_t side,
                          std::size_t first, std::size_t offset) {
     const auto gapAlong = [offset](const double* at) { return *at - (*(at - offset) + *(at + offset)) / 2; };

@@ -1,4 +1,5 @@
-// The shape of a planet, which turns a chunk's stored steps into points in space. Pure functions, any thread.
+// The shape of a planet, which converts a chunk's stored steps to points in space. Pure functions, any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +14,11 @@ inline constexpr int maxFaceCellsLog2 = 22;  // grid coordinates stay exact in a
 inline constexpr double earthRadiusM = 6'371'000;  // mean
 
 struct PlanetShape {
-    double radiusM = earthRadiusM;  // height 0 lies here; (0, 1e9]
-    double quantumM = 1;            // metres a stored step; > 0
+    double radiusM = earthRadiusM;  // of height 0; (0, 1e9]
+    double quantumM = 1;            // metres per stored step; > 0
     double baseHeightM = 0;         // height of stored step 0
-    int faceCellsLog2 = 11;         // a face has 2^this cells a side; [chunkCellsLog2, maxFaceCellsLog2]
-    int chunkCellsLog2 = 5;         // a chunk has 2^this cells a side; [4, 7]
+    int faceCellsLog2 = 11;         // log2 of a face's cells per side; [chunkCellsLog2, maxFaceCellsLog2]
+    int chunkCellsLog2 = 5;         // log2 of a chunk's cells per side; [4, 7]
 };
 
 constexpr int faceCells(const PlanetShape& shape) {
@@ -26,18 +27,18 @@ constexpr int faceCells(const PlanetShape& shape) {
 constexpr int chunkCells(const PlanetShape& shape) {
     return 1 << shape.chunkCellsLog2;
 }
-// The numbers of vertices along a chunk's side, and in the whole chunk.
+// Return the numbers of vertices along a chunk's side, and in the whole chunk.
 constexpr int chunkSize(const PlanetShape& shape) {
     return chunkCells(shape) + 1;
 }
 constexpr int chunkVertexCount(const PlanetShape& shape) {
     return chunkSize(shape) * chunkSize(shape);
 }
-// The level whose chunks hold the finest samples.
+// Returns the level whose chunks hold the finest samples.
 constexpr int leafLevel(const PlanetShape& shape) {
     return shape.faceCellsLog2 - shape.chunkCellsLog2;
 }
-// The numbers of distinct finest samples, and of chunks of all levels, of the whole planet.
+// Return the numbers of distinct finest samples, and of chunks of all levels, of the whole planet.
 constexpr std::uint64_t sampleCountOf(const PlanetShape& shape) {
     const auto cells = static_cast<std::uint64_t>(faceCells(shape));
     return faceCount * cells * cells + 2;

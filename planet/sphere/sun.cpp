@@ -11,7 +11,7 @@ namespace planet {
 
 namespace {
 
-// Returns the days since the epoch of the formulae, 2000-01-01, 12 h.
+// Returns the days since the epoch of the formulae, 2000-01-01 12:00.
 double daysSinceEpoch(const SunDate& date) {
     using namespace std::chrono;
     const year_month_day midnight{

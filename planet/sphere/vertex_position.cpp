@@ -26,7 +26,7 @@ std::int32_t nearestStep(const PlanetShape& shape, double heightAboveRadiusM) {
 FaceReference faceReference(Face face, const glm::dvec3& eyeOnCube, double radiusM, const glm::dvec3& eyeM) {
     const FaceAxes& axes = faceAxes(face);
     FaceReference reference;
-    // The eye's cube point, moved straight onto the face, is the face's nearest point to the eye.
+    // The eye's cube point, projected straight onto the face, is the point of the face nearest to the eye.
     reference.gridU = nearestGridLine(glm::dot(eyeOnCube, axes.u));
     reference.gridV = nearestGridLine(glm::dot(eyeOnCube, axes.v));
     const double u = reference.gridU * (2 / fineCells) - 1;
@@ -56,7 +56,7 @@ VertexFrame vertexFrame(const PlanetShape& shape, const glm::dvec3& eyeM) {
     return frame;
 }
 
-// Twice the grid coordinates from a face's middle are exact coordinates on a cube of twice the grid's side.
+// Doubled grid coordinates from a face's middle are exact coordinates on a cube of twice the grid's side.
 FineGridPoint onOwningFace(const FineGridPoint& point) {
     constexpr std::int32_t side = 1 << fineGridLog2;
     const std::int32_t alongU = 2 * point.gridU - side;

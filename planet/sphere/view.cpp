@@ -17,7 +17,7 @@ struct LocalFrame {
 
 LocalFrame localFrame(const Geographic& place) {
     const glm::dvec3 up = directionFromGeographic(place);
-    // East follows from the longitude instead of a cross product, so that the poles have a frame too.
+    // East is computed from the longitude instead of a cross product, so that the poles have a frame too.
     const glm::dvec3 east(-std::sin(place.longitudeRad), std::cos(place.longitudeRad), 0);
     return {east, glm::cross(up, east), up};
 }
@@ -48,9 +48,9 @@ CameraPose poseFromView(const View& view, double radiusM) {
     pose.latitudeDeg = glm::degrees(place.latitudeRad);
     pose.longitudeDeg = glm::degrees(place.longitudeRad);
     pose.altitudeM = glm::length(view.eyeM) - radiusM;
-    // The right vector is level whatever the pitch, so heading is defined looking straight down too.
+    // The right vector is level at any pitch, so heading is defined even when looking straight down.
     const double heading = std::atan2(-glm::dot(view.right, frame.north), glm::dot(view.right, frame.east));
-    // Rounding can leave a heading just west of north, which is north.
+    // Rounding can give a heading slightly west of north for north.
     pose.headingDeg = glm::degrees(heading < -1e-12 ? heading + glm::radians(360.0) : std::max(heading, 0.0));
     pose.pitchDeg = glm::degrees(std::asin(std::clamp(-glm::dot(view.back, frame.up), -1.0, 1.0)));
     return pose;

@@ -9,11 +9,11 @@
 
 namespace planet {
 
-// The place and direction of a camera, for people.
+// The place and direction of a camera, in a form for users.
 struct CameraPose {
     double latitudeDeg = 20;   // [-90, 90]
     double longitudeDeg = 10;  // any; east positive
-    double altitudeM = 2.0e7;  // above the planet's radius
+    double altitudeM = 2.0e7;  // above the planet's radius, metres
     double headingDeg = 0;     // 0 north, 90 east
     double pitchDeg = -90;     // [-90, 90]; -90 straight down, 0 level
 };
@@ -33,18 +33,18 @@ struct View {
 View viewFromPose(const CameraPose& pose, double radiusM, double horizontalFovRad, int widthPx, int heightPx);
 CameraPose poseFromView(const View& view, double radiusM);
 
-// Returns K' = W / (2 tan(Hfov / 2)): the pixels that 1 m of error covers at a distance of 1 m.
+// Returns K' = W / (2 tan(Hfov / 2)): the pixels that 1 m covers at a distance of 1 m.
 double screenScalePx(const View& view);
 
 // Returns the rotation from world to camera, without the translation.
 glm::dmat3 cameraFromWorldRotation(const View& view);
 
-// Points p with dot(normal, p) + offsetM >= 0 are inside.
+// A plane; points p with dot(normal, p) + offsetM >= 0 are inside.
 struct Plane {
     glm::dvec3 normal{0, 0, 1};  // unit
     double offsetM = 0;
 };
-// Left, right, bottom, top; all pass through the eye, so there is no near or far plane to tune.
+// The planes left, right, bottom and top. All pass through the eye, so there are no near and far planes.
 using Frustum = std::array<Plane, 4>;
 Frustum frustumOf(const View& view);
 

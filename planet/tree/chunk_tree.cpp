@@ -306,7 +306,7 @@ double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
 }
 
 std::size_t chunkBytesCpu(const PlanetShape& shape) {
-    // The vector of heights and its reference counts are in separate allocations.
+    // The vector of heights and its reference counts are in another allocation.
     constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
     return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
            sharing;

@@ -62,9 +62,8 @@ struct ChunkTree {
     double exaggeration = 1;   // factor on all heights
     std::int16_t minStep = 0;  // over the whole planet
     std::int16_t maxStep = 0;
-    double occluderRadiusM = 0;  // of a sphere inside every surface the tree can draw
-    std::vector<ChunkNode>
-        nodes;  // the first six are the roots, in face order; the rest are free or in groups of four
+    double occluderRadiusM = 0;         // of a sphere inside every surface the tree can draw
+    std::vector<ChunkNode> nodes;       // first the six roots, in face order; the rest free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentChunks = 0;
 };

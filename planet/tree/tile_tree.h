@@ -28,10 +28,9 @@ struct TileNode {
 };
 
 struct TileTree {
-    int leafLevel = -1;      // -1: no tiles
-    bool isDerived = false;  // tiles are derived from heights, so children have no location in the file
-    std::vector<TileNode>
-        nodes;  // the first six are the roots, in face order; the rest are free or in groups of four
+    int leafLevel = -1;                 // -1: no tiles
+    bool isDerived = false;             // from heights: children have no location in the file
+    std::vector<TileNode> nodes;        // first the six roots, in face order; the rest free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentTiles = 0;
 };
