@@ -14,8 +14,7 @@
 
 namespace planet {
 
-inline constexpr int maxLevel =
-    20;  // a root chunk of 17 vertices per side refined 20 times has cells of 0.6 m on Earth
+inline constexpr int maxLevel = 20;  // on Earth, root chunks of 17 vertices per side then have cells of 0.6 m
 
 struct ChunkId {
     Face face = Face::PosX;

@@ -42,8 +42,7 @@ struct ChunkNode {
     std::int16_t minStep = 0;  // the same, in stored steps
     std::int16_t maxStep = 0;
     ChunkBounds bounds;
-    glm::dvec3 directionLow{
-        0, 0, 0};  // along the axes of its box, so that bounds are updated cheaply with the heights
+    glm::dvec3 directionLow{0, 0, 0};  // along its box's axes; makes updating bounds cheap
     glm::dvec3 directionHigh{0, 0, 0};
     NodeIndex parent = noNode;
     NodeIndex firstChild = noNode;  // four in sequence, in quadrant order
