@@ -18,7 +18,7 @@ namespace planet {
 
 namespace {
 
-// Returns a size that no valid block exceeds: the codec never needs 4 bytes per sample.
+// Returns an upper bound of the size of valid blocks: the codec never needs 4 bytes per sample.
 std::uint64_t largestBlockBytes(const PlanetShape& shape) {
     const auto side = static_cast<std::uint64_t>(2 * chunkCells(shape) + 1);
     return side * side * 4 + 1024;
@@ -227,7 +227,7 @@ Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, B
         const bool mayHaveChildren = tiles[i].level < pyramid.leafLevel;
         if (entry.children.exists() != mayHaveChildren || entry.packedBytes > packed.size())
             return invalid(tile, "its children or size are out of range");
-        // Blocks of children precede those of their parents.
+        // Blocks of children precede those of their parents in the file.
         if (mayHaveChildren && entry.children.size > location.offset - entry.children.offset)
             return invalid(tile, "its children's block overlaps its own");
         auto texels = unpackColourTexels(pyramid.format, packed.first(entry.packedBytes));

@@ -1,19 +1,19 @@
-// The streamed chunk file: reading.
+// Reads the streamed chunk file.
 //
-//   header     512 bytes: magic, version, shape, where the six root blocks are, checksum
-//   blocks     children's before their parents', root blocks last
-//   colours    where there are any: the colour quadtree's blocks (colour_tile.h), the finest level's first
+//   header     512 bytes: magic, version, shape, locations of the six root blocks, checksum
+//   blocks     blocks of children before those of their parents, root blocks last
+//   colours    if any: the blocks of the colour quadtree (colour_tile.h), the finest level first
 //
 // A sibling block holds the four children of a chunk as a refinement of its grid (height_codec.h); a root
-// block holds a face's root chunk whole. Each block also stores the errors and extremes of its chunks and the
-// places of their children, so the index is paged with the data. Each block ends in a checksum seeded with
-// the chunk's key, so a block that is read for the wrong chunk fails too. README.md has the layout byte by
+// block holds a face's complete root chunk. Each block also stores the errors and extremes of its chunks and
+// the locations of their children, so the index is paged with the data. Each block ends in a checksum seeded
+// with the chunk's key, so reading a block for the wrong chunk also fails. README.md has the layout byte by
 // byte.
 //
 // A colour block holds the four children of a tile, or a root tile.
 //
-// The file is hostile until checked: every offset, size and count is checked before use, and the Error names
-// the file and the chunk.
+// The file is untrusted: every offset, size and count is checked before use, and the Error names the file and
+// the chunk.
 #pragma once
 
 #include <array>
@@ -35,15 +35,15 @@
 
 namespace planet {
 
-// Reads exactly out.size() bytes at an offset; called from any thread, several at once.
+// Reads exactly out.size() bytes at an offset. Called from several threads at once.
 using ReadAt = std::function<Result<void>(std::uint64_t offset, std::span<std::byte> out)>;
 
-// An open file. Reading is const and may be done by several threads at once.
+// An open file. Const functions may be called by several threads at once.
 class ChunkFile {
 public:
     static Result<ChunkFile> open(const std::filesystem::path& path,
                                   const FileCalls& calls = systemFileCalls());
-    // Opens any bytes as a chunk file. The name is for messages.
+    // Opens any bytes as a chunk file. name: for messages.
     static Result<ChunkFile> open(std::string name, std::uint64_t sizeBytes, ReadAt readAt);
 
     const ChunkFileInfo& info() const { return info_; }
@@ -52,35 +52,35 @@ public:
 
     Result<ChunkData> readRoot(Face face) const;
 
-    // Reads the four children of a chunk, in quadrant order. location: the place of their block.
+    // Reads the four children of a chunk, in quadrant order. location: of their block.
     Result<std::array<ChunkData, quadrantCount>> readChildren(
         const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const;
 
-    // Reads the entries of a chunk's four children alone, not the heights, without the checksum. The children
+    // Reads only the entries of a chunk's four children, without the heights and the checksum. The children
     // must not be leaves, which have no entries.
     Result<std::array<ChunkEntry, quadrantCount>> readEntries(const ChunkId& parent,
                                                               BlockLocation location) const;
 
-    // Read the tiles of a file with colours as those of chunks: a tile that has been read names the place of
+    // Read the tiles of a file with colours. As with chunks, a tile that has been read gives the location of
     // its children.
     Result<TileData> readColourRoot(Face face) const;
     Result<std::array<TileData, quadrantCount>> readColourChildren(const ChunkId& parent,
                                                                    BlockLocation location) const;
-    // Reads the entries of a tile's four children, which must lie above the finest level, without the
-    // checksum.
+    // Reads only the entries of a tile's four children, without the checksum. The children must lie above the
+    // finest level.
     Result<std::array<ColourEntry, quadrantCount>> readColourEntries(const ChunkId& parent,
                                                                      BlockLocation location) const;
 
 private:
     ChunkFile() = default;
-    // The sizes of a block, checksum included.
+    // The sizes of a block, including the checksum.
     struct BlockBytes {
         std::uint64_t least;
         std::uint64_t most;
     };
     Result<std::vector<std::byte>> readBlock(const BlockId& id, BlockLocation location,
                                              const BlockBytes& bytes) const;
-    // Returns a whole block without its checksum, which is checked. isRoot: the id is a root's own.
+    // Returns the content of a block after verifying its checksum. isRoot: the id is a root's own.
     Result<std::vector<std::byte>> readContent(const BlockId& id, bool isRoot, BlockLocation location,
                                                const BlockBytes& bytes) const;
     Result<std::vector<TileData>> readColourBlock(const ChunkId& block, BlockLocation location,
@@ -93,9 +93,9 @@ private:
     ReadAt readAt_;
 };
 
-// Bounds a walk of the index, which no checksum covers: a hostile index can name a block many times, or form
-// a ring. Subtracts the size of a block from bytesLeft, which begins as sizeBytes(); the Error says that the
-// index names more bytes than the file has.
+// Bounds a walk of the index, which no checksum covers: a malicious index can name a block many times, or
+// form a cycle. Subtracts the size of a block from bytesLeft, which starts at sizeBytes(). The Error says
+// that the index names more bytes than the file has.
 Result<void> spendOn(const ChunkFile& file, BlockLocation block, std::uint64_t& bytesLeft);
 
 }  // namespace planet

@@ -27,7 +27,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
 
-// Cuts at the start of a character, so that UTF-8 stays UTF-8.
+// Cuts the text at a character boundary, so that it remains valid UTF-8.
 std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
     if (text.size() <= maxBytes) return text;
     std::size_t end = maxBytes;
@@ -35,8 +35,8 @@ std::string_view cutUtf8(std::string_view text, std::size_t maxBytes) {
     return text.substr(0, end);
 }
 
-// Returns the distance back to a block from the block whose entry names it; 0 for none. The reader refuses a
-// distance beyond the start of the file, because it wraps to an offset that no file has.
+// Returns the distance back to a block from the block whose entry names it; 0 for none. The reader rejects a
+// distance beyond the start of the file, because it wraps to an offset outside the file.
 std::uint64_t distanceTo(const BlockLocation& location, std::uint64_t blockOffset) {
     return location.exists() ? blockOffset - location.offset : 0;
 }
@@ -70,7 +70,7 @@ void putColour(ByteWriter& out, const std::optional<ColourPyramid>& colour) {
     putText(out, colour->source, maxColourSourceBytes);
 }
 
-// The Error does not name the file.
+// Decodes the description of colours. The Error does not name the file.
 Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
     const auto kind = in.get<std::uint8_t>();
     if (kind == 0) return std::nullopt;
@@ -89,7 +89,7 @@ Result<std::optional<ColourPyramid>> readColour(ByteReader& in) {
     return colour;
 }
 
-// Returns an empty text if the root blocks of colours lie in the file and overlap no other root block.
+// Returns an empty text if the root blocks of colours are inside the file and overlap no other root block.
 std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileBytes) {
     struct Place {
         BlockLocation block;

@@ -1,5 +1,5 @@
-// Encodes and decodes the parts of the chunk file, for its reader and its writer. README.md beside it has the
-// tables. Pure functions, any thread.
+// Encodes and decodes the parts of the chunk file, for its reader and its writer. README.md in this folder
+// has the tables. Pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -19,25 +19,25 @@ inline constexpr std::size_t chunkEntryBytes = 24;
 inline constexpr std::size_t checksumBytes = 8;
 inline constexpr std::size_t colourEntryBytes = 16;
 
-// Blocks point back to earlier blocks by distance, so a run of blocks can be made before its place in the
-// file is known.
+// Entries name earlier blocks by distance, so a run of blocks can be made before its location in the file is
+// known.
 void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset);
 ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset);
 
 void putColourEntry(std::vector<std::byte>& block, const ColourEntry& entry, std::uint64_t blockOffset);
 ColourEntry colourEntryFrom(std::span<const std::byte, colourEntryBytes> bytes, std::uint64_t blockOffset);
 
-// Returns XXH3 of the bytes, seeded with the key of the root or, for a sibling block, of the parent.
+// Return XXH3 of the bytes, seeded with the key of the root or, for a sibling block, of the parent.
 std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face);
 std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
 std::uint64_t colourRootChecksum(std::span<const std::byte> bytes, Face face);
 std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
 
-// bytes: the header without its last checksumBytes.
+// Returns the checksum of the header. bytes: the header without its last checksumBytes.
 std::uint64_t headerChecksum(std::span<const std::byte> bytes);
 std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes);
 
-// The Error names the file.
+// Decodes the header. The Error names the file.
 Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderBytes> header,
                                      const std::string& name, std::uint64_t fileBytes);
 

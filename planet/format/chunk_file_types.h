@@ -1,4 +1,4 @@
-// The plain types of the streamed chunk file (chunk_file.h), shared by its reader, its writer and the trees.
+// The plain types of the streamed chunk file (chunk_file.h), for its reader, its writer and the trees.
 #pragma once
 
 #include <array>
@@ -18,30 +18,30 @@ namespace planet {
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
 inline constexpr std::uint32_t chunkFileVersion = 3;
 
-// The place of a block in the file. Offset 0 is the header, so it means "none".
+// The location of a block in the file. Offset 0 is the header, so it means "none".
 struct BlockLocation {
     std::uint64_t offset = 0;  // bytes from the file's start
-    std::uint32_t size = 0;    // bytes, checksum included
+    std::uint32_t size = 0;    // bytes, including the checksum
 
     bool exists() const { return offset != 0; }
     bool operator==(const BlockLocation&) const = default;
 };
 
-// A chunk as the file holds it.
+// A chunk as stored in the file.
 struct ChunkData {
     ChunkId id;
     float deltaCM = 0;  // metres, finite, >= 0; 0 at a leaf
-    // The tight metric: the largest distance between this chunk's surface, or that of any chunk under it, and
-    // the finest data at the same place; metres, [0, deltaCM]; 0 at a leaf.
+    // The tight metric: the largest distance of the surfaces of this chunk and its descendants from the
+    // finest data at the same place; metres, [0, deltaCM]; 0 at a leaf.
     float deltaTightM = 0;
     std::int16_t minStep = 0;  // lowest and highest finest sample under this chunk
     std::int16_t maxStep = 0;
     BlockLocation children;             // none at a leaf
-    std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows along v upwards
+    std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows upwards along v
 };
 
-// The index entry of a chunk that has children. The file stores no entry for a leaf: its delta_c and tight
-// metric are 0, and its extremes are those of its heights.
+// The index entry of a chunk with children. The file stores no entry for a leaf: its δc and tight metric are
+// 0, and its extremes are those of its heights.
 struct ChunkEntry {
     float deltaCM = 0;      // metres, finite, >= 0
     float deltaTightM = 0;  // metres, [0, deltaCM]
@@ -50,11 +50,11 @@ struct ChunkEntry {
     BlockLocation children;
 };
 
-// A tile of colours as the file holds it, or of normals as derived from heights.
+// A tile of colours as stored in the file, or of normals as derived from heights.
 struct TileData {
     ChunkId id;
-    BlockLocation children;  // none at the finest level, nor where the tile is derived
-    // The GPU's format: colourTileBytes, or normalTileBytes.
+    BlockLocation children;  // none at the finest level, and none for derived tiles
+    // In the GPU's format: colourTileBytes, or normalTileBytes.
     std::vector<std::byte> texels;
 };
 
@@ -69,7 +69,7 @@ struct ColourPyramid {
     ColourFormat format = ColourFormat::Bc1;
     int leafLevel = 0;  // [0, maxColourLevel]
     std::array<BlockLocation, faceCount> roots;
-    std::string source;  // what was baked, for people; at most 60 bytes of UTF-8
+    std::string source;  // description of the baked source, for users; at most 60 bytes of UTF-8
 };
 
 struct ChunkFileInfo {
@@ -78,7 +78,7 @@ struct ChunkFileInfo {
     std::int16_t maxStep = 0;
     std::uint64_t missingSamples = 0;  // source samples without data that were filled
     std::array<BlockLocation, faceCount> roots;
-    std::string source;  // what was baked, for people; at most 200 bytes of UTF-8
+    std::string source;  // description of the baked source, for users; at most 200 bytes of UTF-8
     std::optional<ColourPyramid> colour;
 };
 

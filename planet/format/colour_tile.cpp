@@ -23,9 +23,8 @@ constexpr std::size_t bc1BlockBytes = 8;
 constexpr std::size_t halfBlockBytes = bc1BlockBytes / 2;
 constexpr int zstdLevel = 9;
 
-// Predicts a texel of a plane from those before it, by the median predictor of LOCO-I (Weinberger et al.
-// 2000). Lossless tiles store the residuals of three planes: green, and red and blue as differences from
-// green.
+// Predicts a texel of a plane from the previous ones, by the median predictor of LOCO-I (Weinberger et al.
+// 2000). Lossless tiles store the residuals of three planes: green, and red and blue minus green.
 int foretold(const std::vector<std::uint8_t>& plane, std::size_t i) {
     const bool firstColumn = i % sideTexels == 0;
     const bool firstRow = i < sideTexels;
@@ -78,7 +77,7 @@ std::array<unsigned char, 4 * blockTexels> blockAt(std::span<const std::uint8_t>
     return rgba;
 }
 
-// Moves the colours of all blocks before the indices of all blocks, which compresses better.
+// Reorders blocks, with all colours before all indices, which compresses better.
 std::vector<std::uint8_t> halvesOf(std::span<const std::byte> blocks) {
     std::vector<std::uint8_t> halves(blocks.size());
     const std::size_t middle = blocks.size() / 2;

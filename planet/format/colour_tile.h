@@ -1,10 +1,10 @@
-// A tile of the colour quadtree: how its texels are encoded for the GPU and packed for the file. Pure
+// A tile of the colour quadtree: encoding of its texels for the GPU, and compression for the file. Pure
 // functions, any thread.
 //
-// tile_layout.h describes the square of a tile. Two neighbouring tiles hold the same values in their shared
+// tile_layout.h describes the texels of a tile. Two neighbouring tiles have the same values in their shared
 // texels.
 //
-// The quadtree is the mip chain too: a level's texels are the source filtered to that level's spacing.
+// The quadtree is also the mip chain: the texels of a level are the source filtered to that level's spacing.
 //
 // BC1: 4 x 4 texels in 8 bytes (S3TC, Iourcha et al. 1999). The size of the border makes the blocks of two
 // neighbouring tiles of a face cover the same texels, so that shared texels stay equal after encoding.
@@ -29,22 +29,23 @@ inline constexpr int maxColourLevel = maxTileLevel;
 
 enum class ColourFormat : std::uint8_t { Bc1, Lossless };
 
-// Returns the size of a tile in the GPU's format, row 0 at the south: BC1 blocks, or 3 bytes per texel, sRGB.
+// Returns the size of a tile in the GPU's format, row 0 at the south: BC1 blocks, or sRGB with 3 bytes per
+// texel.
 std::size_t colourTileBytes(ColourFormat format);
 
 // Encodes a tile of 8-bit sRGB, 3 bytes per texel, for the GPU.
 std::vector<std::byte> colourTexels(ColourFormat format, std::span<const std::uint8_t> rgb);
-// Decodes such texels to the colours that the GPU samples.
+// Decodes encoded texels to the colours that the GPU samples.
 std::vector<std::uint8_t> rgbOfColourTexels(ColourFormat format, std::span<const std::byte> texels);
 
-// Returns a loud checker pattern, which stands for tiles that cannot be read.
+// Returns a conspicuous checker pattern, which replaces unreadable tiles.
 std::vector<std::byte> checkerTexels(ColourFormat format);
 
 // Compresses texels without loss, for the file.
 std::vector<std::byte> packColourTexels(ColourFormat format, std::span<const std::byte> texels);
-// Accepts any bytes; the Error says what is wrong with them.
+// Decompresses texels. Accepts any bytes; the Error describes what is wrong with them.
 Result<std::vector<std::byte>> unpackColourTexels(ColourFormat format, std::span<const std::byte> packed);
-// Returns the most bytes that packColourTexels makes of a tile.
+// Returns the largest size of a packed tile, bytes.
 std::size_t largestPackedColourTile(ColourFormat format);
 
 }  // namespace planet

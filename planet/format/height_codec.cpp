@@ -18,13 +18,13 @@ namespace planet {
 
 namespace {
 
-// The first byte of a coded refinement. Plain: the missing samples follow as they are, row by row of each
-// pass. Entropy: one byte per pass (PassChoice) follows, then the output of ResidualEncoder.
+// The first byte of a coded refinement. Plain: the missing samples follow uncoded, row by row of each pass.
+// Entropy: one byte per pass (PassChoice) follows, then the output of ResidualEncoder.
 enum class Storage : std::uint8_t { Plain, Entropy };
 
 constexpr std::size_t passCount = allRefinementPasses.size();
 
-// A pass's byte has the predictor in the low 3 bits; above them, the shift of every width plus
+// The low 3 bits of a pass's byte are the predictor; the bits above are the shift of all widths plus
 // widthShiftBias.
 constexpr int predictorBits = 3;
 constexpr int widthShiftBias = 23;
@@ -54,7 +54,7 @@ std::size_t missingSamples(int coarseCells) {
     return gridSamples(2 * coarseCells) - gridSamples(coarseCells);
 }
 
-// The place of a pass's first sample in the fine grid.
+// The position of a pass's first sample in the fine grid.
 struct PassLayout {
     int firstRow;
     int firstColumn;
@@ -62,14 +62,15 @@ struct PassLayout {
 
 constexpr std::array<PassLayout, passCount> passLayouts = {{{1, 1}, {1, 0}, {0, 1}}};
 
-// Returns the first sample of a row of a pass in the fine grid; the row's samples are every other from there.
+// Returns the index in the fine grid of the first sample of a pass's row; the row's samples are every other
+// one.
 std::size_t rowStart(RefinementPass pass, int row, int coarseCells) {
     const PassLayout layout = passLayouts[static_cast<std::size_t>(pass)];
     return static_cast<std::size_t>((layout.firstRow + 2 * row) * (2 * coarseCells + 1) + layout.firstColumn);
 }
 
-// Widths are the exponent and two bits of the mantissa of the expected error: its logarithm in quarter
-// octaves. Width 0 means that no error is expected.
+// Computes widths from the exponent and two bits of the mantissa of the expected errors: their logarithms in
+// quarter octaves. Width 0 means that no error is expected.
 void toWidths(std::span<const float> expected256, int widthShift, std::span<std::uint8_t> widths) {
     constexpr int mantissaBits = 23;
     constexpr int widthOf256 = (127 + 8) << 2;
@@ -133,7 +134,7 @@ CodedPass predictPass(RefinementPredictor& predictor, RefinementPass pass, int c
     return coded;
 }
 
-// Returns the cost of a pass with a width shift, in 1/256 bit, from every step-th sample.
+// Returns the cost of a pass with a width shift, in 1/256 bit, estimated from every step-th sample.
 std::int64_t costOf(const CodedPass& coded, int widthShift, std::size_t step) {
     std::int64_t cost = 0;
     for (std::size_t i = 0; i < coded.residuals.size(); i += step) {
@@ -146,8 +147,8 @@ std::int64_t costOf(const CodedPass& coded, int widthShift, std::size_t step) {
 
 // The effort of a compression level above 0.
 struct Effort {
-    int predictors;    // how many of a pass's predictors are tried
-    std::size_t step;  // costs are counted on every step-th sample
+    int predictors;    // number of predictors to try
+    std::size_t step;  // costs use every step-th sample
 };
 
 Effort effortOf(int compressionLevel) {
@@ -155,7 +156,7 @@ Effort effortOf(int compressionLevel) {
     return efforts[static_cast<std::size_t>(compressionLevel - 1)];
 }
 
-// Descends from a shift to the least cost, which has one minimum.
+// Descends from a shift to the minimum of the cost, which is unique.
 std::int64_t bestShift(const CodedPass& coded, std::size_t step, int& widthShift) {
     std::int64_t best = costOf(coded, widthShift, step);
     for (const int direction : {-1, 1}) {
@@ -189,7 +190,7 @@ ChosenPass choosePass(RefinementPredictor& predictor, RefinementPass pass, std::
             chosen = {{candidate, shift}, std::move(coded)};
         }
     }
-    // The next pass uses the errors of this one, so they must be those of the choice.
+    // The next pass uses the errors of this one, so recompute them for the chosen predictor.
     const auto columns = static_cast<std::size_t>(passColumns(pass, coarseCells));
     for (int row = 0; row < passRows(pass, coarseCells); ++row) {
         const std::size_t start = static_cast<std::size_t>(row) * columns;
@@ -230,7 +231,7 @@ void encodeEntropy(std::span<const std::int16_t> fine, int coarseCells, int comp
     encoder.finish(out);
 }
 
-// Visits the index into fine of every missing sample, in the order of Storage::Plain.
+// Visits the fine grid's index of every missing sample, in the order of Storage::Plain.
 template <class Visit>
 void forEachMissing(int coarseCells, const Visit& visit) {
     for (const RefinementPass pass : allRefinementPasses)
@@ -340,8 +341,8 @@ Result<void> decodeRefinement(std::span<const std::byte> coded, std::span<const 
 
 namespace {
 
-// A coded grid has its four corners, then the refinements from a grid of one cell upwards, each after its
-// length (u32).
+// A coded grid has its four corners, followed by the refinements from a grid of one cell upwards, each after
+// its length (u32).
 constexpr std::size_t cornerBytes = 4 * sizeof(std::int16_t);
 
 [[maybe_unused]] bool isGridSize(int size) {

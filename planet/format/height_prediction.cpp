@@ -9,23 +9,22 @@ namespace planet {
 
 namespace {
 
-// The border of a plane beyond the block's edge: the inner sample again, the sample on the edge, or the
-// straight line through both.
+// The border of a plane beyond the block's edge. Mirror: the inner sample again. Hold: the sample on the
+// edge. Continue: linear extrapolation through both.
 enum class BeyondEdge { Mirror, Hold, Continue };
 
-// Weights are in 1/1024, and their sum over all samples is 1024. Found by least squares over ETOPO5's own
-// grid and over grids that oversample it, then rounded.
+// Weights are in 1/1024; their sum over all samples is 1024. They are rounded least-squares fits over
+// ETOPO5's own grid and over grids that oversample it.
 constexpr int weightBits = 10;
 
 struct MiddleWeights {
-    int near;    // the 4 coarse samples around
-    int ring;    // the 8 coarse samples one further along one axis
-    int corner;  // the 4 one further along both
+    int near;    // the 4 nearest coarse samples
+    int ring;    // the 8 coarse samples one further away along one axis
+    int corner;  // the 4 coarse samples one further away along both axes
     BeyondEdge beyond;
 };
 
-// Weights of a sample between two coarse samples; "along" is along their line, and the two middles lie across
-// it.
+// The weights of a sample between two coarse samples. "Along" is their line; the two middles lie across it.
 struct OddWeights {
     int near;         // the 2 coarse samples
     int middle;       // the 2 middles
@@ -97,7 +96,7 @@ std::int32_t beyondEdge(std::int32_t edge, std::int32_t inner, BeyondEdge beyond
     return 2 * edge - inner;
 }
 
-// Returns the value halfway between b and c of four in a row, by the cubic through all of them.
+// Returns the value halfway between b and c of four consecutive values, on the cubic through all of them.
 std::int32_t halfway(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     return (9 * (b + c) - a - d + 8) >> 4;
 }
@@ -149,7 +148,7 @@ void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, BeyondEdge
     }
 }
 
-// Extends odd rows above and below, which is all that OddColumn uses. The edge is a row of coarse samples.
+// Extends odd rows above and below, as OddColumn needs. The edge is a row of coarse samples.
 void extendOddRow(BorderedPlane& oddRow, const BorderedPlane& coarse, BeyondEdge beyond) {
     const int cells = oddRow.rows;
     for (int x = 0; x <= cells; ++x) {
@@ -210,7 +209,7 @@ void RefinementPredictor::setCoarse(std::span<const std::int16_t> coarse) {
         }
     }
     if (side < 3) return;
-    // The line continues straight over the edge, so the edge takes the bend next to it.
+    // The line continues straight over the edge, so the edge gets the bend next to it.
     for (int i = 0; i < side; ++i) {
         bendX_.row(i)[0] = bendX_.row(i)[1];
         bendX_.row(i)[side - 1] = bendX_.row(i)[side - 2];
@@ -233,7 +232,7 @@ void RefinementPredictor::beginPass(RefinementPass pass, int predictor) {
     }
 }
 
-// Each pass also estimates a row of errors above its first, from the curvature or from the pass before.
+// Each pass also estimates a row of errors above its first row, from the curvature or from the previous pass.
 
 void RefinementPredictor::beginMiddle() {
     extendCoarse(coarse_, middlePredictors[predictor_].beyond);
@@ -288,8 +287,8 @@ void RefinementPredictor::expectErrors(int row, std::span<float> expected256) co
     }
 }
 
-// In the loops below k0 k1 k2 k3 are coarse rows from above to below, m middles, r odd rows, b bends, e
-// errors. They write another type than they read, which lets a compiler vectorise them.
+// In the loops below, k0 to k3 are coarse rows from above to below, m middles, r odd rows, b bends, e errors.
+// The loops write a different type than they read, which lets the compiler vectorise them.
 
 void RefinementPredictor::predictMiddle(int row, std::span<std::int16_t> predicted) const {
     const MiddleWeights w = middlePredictors[predictor_];
@@ -350,7 +349,7 @@ void RefinementPredictor::predictOddColumn(int row, std::span<std::int16_t> pred
     }
 }
 
-// The weights of expected errors are in 1/256, from a least-squares fit of |error| over ETOPO5.
+// The weights of expected errors are in 1/256, least-squares fits of |error| over ETOPO5.
 
 void RefinementPredictor::expectMiddle(int row, std::span<float> expected256) const {
     const std::int32_t* const e = middleError_.row(row - 1);
@@ -410,7 +409,7 @@ void RefinementPredictor::setErrors(int row, std::span<const std::int16_t> error
 
 void RefinementPredictor::setSamples(int row, std::span<const std::int16_t> samples) {
     assert(samples.size() == static_cast<std::size_t>(passColumns(pass_, cells_)));
-    if (pass_ == RefinementPass::OddColumn) return;  // nothing looks at the last pass's
+    if (pass_ == RefinementPass::OddColumn) return;  // no pass uses the errors of the last one
     BorderedPlane& plane = pass_ == RefinementPass::Middle ? middle_ : oddRow_;
     std::ranges::copy(samples, plane.row(row));
 }

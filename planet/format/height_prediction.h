@@ -1,7 +1,6 @@
-// Predicts the samples that a refinement adds from the samples known by then, for the height codec.
+// Predicts the samples that a refinement adds, for the height codec.
 //
-// The missing samples of a fine grid of (2c + 1)^2 come in three passes, each of which uses all passes before
-// it:
+// The missing samples of a fine grid of (2c + 1)^2 come in three passes. Each one uses all passes before it:
 //
 //   K s K s K     K  known, the coarse grid: (c + 1)^2
 //   r m r m r     m  Middle: odd row, odd column, c^2, from the coarse samples around
@@ -10,8 +9,8 @@
 //   K s K s K
 //
 // A pass does not use samples of the same row, so a whole row is predicted at once. The prediction is a
-// weighted sum. The expected size of its error is another, of the errors around and of the curvature of the
-// surface. Only integers are used, so the results are bit-identical on every machine.
+// weighted sum of samples. The expected size of its error is a weighted sum of the errors nearby and of the
+// surface's curvature. Only integers are used, so the results are bit-identical on every machine.
 #pragma once
 
 #include <array>
@@ -26,14 +25,14 @@ enum class RefinementPass : std::uint8_t { Middle, OddRow, OddColumn };
 inline constexpr std::array allRefinementPasses = {RefinementPass::Middle, RefinementPass::OddRow,
                                                    RefinementPass::OddColumn};
 
-// Return the numbers of rows and columns of a pass over a coarse grid of that many cells a side.
+// Return the numbers of rows and columns of a pass. coarseCells: cells per side of the coarse grid.
 int passRows(RefinementPass pass, int coarseCells);
 int passColumns(RefinementPass pass, int coarseCells);
 
 // The number of predictors of a pass.
 inline constexpr int refinementPredictorCount = 8;
 
-// A plane of integers with a border of one cell on every side: rows and columns from -1.
+// A plane of integers with a border of one cell on every side: rows and columns start at -1.
 struct BorderedPlane {
     int rows = 0;  // without the border
     int columns = 0;
@@ -44,7 +43,7 @@ struct BorderedPlane {
     const std::int32_t* row(int y) const { return cells.data() + (y + 1) * (columns + 2) + 1; }
 };
 
-// Holds the samples and errors of one block so far, for the encoder and the decoder.
+// Holds the known samples and errors of one block, for the encoder and the decoder.
 class RefinementPredictor {
 public:
     explicit RefinementPredictor(int coarseCells);  // c in [1, 128]
@@ -52,12 +51,12 @@ public:
     // coarse: (c + 1)^2, row-major.
     void setCoarse(std::span<const std::int16_t> coarse);
 
-    // Starts or restarts a pass with a predictor in [0, refinementPredictorCount). The passes before must be
-    // complete.
+    // Starts or restarts a pass with a predictor in [0, refinementPredictorCount). The previous passes must
+    // be complete.
     void beginPass(RefinementPass pass, int predictor);
 
-    // Predict one row and the |error| expected, in 1/256 steps, >= 0. Rows go in order: set the errors of a
-    // row before predicting the next, and its samples before the next pass.
+    // Predict one row, and its expected |error| in 1/256 steps, >= 0. Process rows in order: set the errors
+    // of a row before predicting the next one, and set all samples before the next pass.
     void predictRow(int row, std::span<std::int16_t> predicted) const;
     void expectErrors(int row, std::span<float> expected256) const;
     void setErrors(int row, std::span<const std::int16_t> errors);
@@ -79,9 +78,9 @@ private:
     std::size_t predictor_ = 0;
     BorderedPlane coarse_;
     BorderedPlane bendX_;  // |second difference| of the coarse grid along a row
-    BorderedPlane bendY_;  // and along a column
+    BorderedPlane bendY_;  // the same along a column
     BorderedPlane middle_;
-    BorderedPlane middleError_;  // |error|, as in the other passes
+    BorderedPlane middleError_;  // |error|, as for the other passes
     BorderedPlane oddRow_;
     BorderedPlane oddRowError_;
     BorderedPlane oddColumnError_;

@@ -15,27 +15,28 @@ namespace {
 constexpr int frequencyBits = 12;
 constexpr std::uint32_t frequencyTotal = 1u << frequencyBits;
 
-// Symbols are residuals in [-127, 127] shifted by their width's raw bits; after the last symbol the whole
-// residual follows as 16 raw bits.
+// Symbols are residuals in [-127, 127] shifted right by their width's raw bits. After the last symbol, an
+// escape, the whole residual follows as 16 raw bits.
 constexpr int symbolCount = 256;
 constexpr int symbolOfZero = 127;
 constexpr int escapeSymbol = 255;
 constexpr int escapeRawBits = 16;
 
-// Up to this width a residual is one symbol. Each octave above codes one more low bit as it is, so that the
-// four distributions of the last octave serve all wider ones.
+// Up to this width a residual is one symbol. Each octave above codes one more low bit raw, so that the four
+// distributions of the last octave serve all wider ones.
 constexpr int unshiftedWidths = residualWidthOfOne + 12;
 constexpr int shiftedWidths = 4;
 constexpr int distributionCount = unshiftedWidths + shiftedWidths;
 
-// A state is in [stateMin, stateMin << 32), refilled by one 32-bit word. One residual takes at most 12 + 16
-// bits out, so one word is always enough.
+// A state is in [stateMin, stateMin << 32) and is refilled by one 32-bit word. One residual consumes at most
+// 12 + 16 bits, so one word is always enough.
 constexpr std::uint64_t stateMin = std::uint64_t{1} << 28;
 constexpr int wordBits = 32;
 constexpr int stateBytes = 8;
 constexpr int wordBytes = 4;
 
-// Half of the distributions' degrees of freedom plus one half: 2 means 3 degrees, which fits ETOPO5 best.
+// Half of the degrees of freedom of the distributions plus one half: 2 means 3 degrees, which fits ETOPO5
+// best.
 constexpr int studentPower = 2;
 
 constexpr std::size_t at(int index) {
@@ -47,7 +48,7 @@ constexpr std::size_t at(int index) {
 struct ResidualDistribution {
     struct Interval {
         std::uint16_t start = 0;
-        std::uint16_t frequency = 0;  // 0: the symbol does not occur
+        std::uint16_t frequency = 0;  // 0: the symbol is impossible
     };
     std::array<std::uint8_t, frequencyTotal> symbolOfSlot;
     std::array<Interval, symbolCount> intervals;
@@ -84,8 +85,8 @@ double expectedMagnitude(int widthIndex) {
     return octave >= 0 ? mantissa * (1 << octave) : mantissa / (1 << -octave);
 }
 
-// Returns integer frequencies for the masses: rounded, at least one for the escape, with the remainder given
-// to symbolOfZero.
+// Returns integer frequencies for the masses: rounded, at least 1 for the escape, with the remainder added to
+// symbolOfZero.
 std::array<std::uint32_t, symbolCount> toFrequencies(const std::array<double, symbolCount>& masses,
                                                      double total) {
     std::array<std::uint32_t, symbolCount> frequencies{};
@@ -103,14 +104,14 @@ std::array<std::uint32_t, symbolCount> toFrequencies(const std::array<double, sy
     return frequencies;
 }
 
-// The mass of a distribution in each symbol but the escape, their sum, and the mean |residual|.
+// The mass of each symbol except the escape, their sum, and the mean |residual|.
 struct Masses {
     std::array<double, symbolCount> mass{};
     double total = 0;
     double meanMagnitude = 0;
 };
 
-// Symbol s covers [s + lower, s + lower + 1) around zero.
+// Returns the masses; symbol s covers [s + lower, s + lower + 1) around zero.
 Masses massesOf(double width, double lower) {
     Masses masses;
     for (int s = 0; s < escapeSymbol; ++s) {
@@ -124,7 +125,7 @@ Masses massesOf(double width, double lower) {
     return masses;
 }
 
-// Finds the masses of the width with the given mean magnitude, by a factor that shrinks whenever it
+// Returns the masses of the width with a given mean magnitude, found with a factor that shrinks whenever it
 // overshoots.
 Masses massesOfMean(double meanMagnitude, double lower) {
     double width = meanMagnitude;
@@ -142,7 +143,8 @@ Masses massesOfMean(double meanMagnitude, double lower) {
 
 Distribution makeDistribution(int index) {
     const bool shifted = index >= unshiftedWidths;
-    // Shifted by b bits, symbol s is the residuals [s 2^b, (s + 1) 2^b); unshifted, it is residual s alone.
+    // Shifted by b bits, symbol s stands for the residuals [s 2^b, (s + 1) 2^b); unshifted, for residual s
+    // alone.
     const Masses masses = shifted ? massesOfMean(expectedMagnitude(index - shiftedWidths), 0)
                                   : massesOfMean(expectedMagnitude(index), -0.5);
     const auto frequencies = toFrequencies(masses.mass, masses.total);
@@ -197,7 +199,7 @@ SymbolCode codeOf(int widthIndex, int residual) {
     return {intervals[at(escapeSymbol)], escapeRawBits, static_cast<std::uint16_t>(residual)};
 }
 
-// Returns log2(value) in 1/256, rounded down, for value > 0; computes the fraction bit by bit, by squaring.
+// Returns log2(value) in 1/256, rounded down; value > 0. Computes the fraction bit by bit by squaring.
 int log2Times256(std::uint32_t value) {
     const int whole = static_cast<int>(std::bit_width(value)) - 1;
     std::uint64_t mantissa = (std::uint64_t{value} << 31) >> whole;  // in [2^31, 2^32)
@@ -237,7 +239,7 @@ void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<
     }
 }
 
-// The coder is last in, first out: the states run backwards over the tokens, and their words are written
+// The coder is last in, first out: the states process the tokens backwards, and their words are written
 // backwards.
 void ResidualEncoder::finish(std::vector<std::byte>& out) const {
     std::array<std::uint64_t, 2> states = {stateMin, stateMin};
@@ -246,7 +248,7 @@ void ResidualEncoder::finish(std::vector<std::byte>& out) const {
     for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
         std::uint64_t& state = states[token->state];
         const std::uint64_t frequency = token->frequency;
-        // The state would leave its range from this limit on.
+        // From this limit on, the state would leave its range.
         const std::uint64_t limit = (stateMin >> frequencyBits << wordBits >> token->rawBitCount) * frequency;
         if (state >= limit) {
             words.push_back(static_cast<std::uint32_t>(state));
@@ -277,7 +279,7 @@ ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)
     }
 }
 
-// Takes one residual off the state. Words are read without looking for the end unless MayEnd.
+// Decodes one residual from the state. Words are read without checking for the end unless MayEnd.
 template <bool MayEnd>
 inline std::int16_t ResidualDecoder::readOne(std::uint64_t& state, int widthIndex) {
     const WidthCode code = codeOfWidth(widthIndex);
@@ -298,7 +300,7 @@ inline std::int16_t ResidualDecoder::readOne(std::uint64_t& state, int widthInde
     if constexpr (MayEnd) {
         if (state < stateMin) refillNearEnd(state);
     } else {
-        // Selects instead of branching, because a branch here is unpredictable.
+        // Selects instead of branching, because the branch would be unpredictable.
         const bool refill = state < stateMin;
         const std::uint64_t refilled = state << wordBits | readLittleEndian<std::uint32_t>(next_);
         state = refill ? refilled : state;
@@ -334,7 +336,7 @@ void ResidualDecoder::readRowAs(std::span<const std::uint8_t> widths, std::span<
 
 void ResidualDecoder::readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals) {
     assert(residuals.size() == widths.size());
-    // Each residual takes at most one word, and one word is read ahead.
+    // Each residual consumes at most one word, and one word is read ahead.
     const std::size_t mostBytes = (residuals.size() + 1) * wordBytes;
     if (static_cast<std::size_t>(end_ - next_) >= mostBytes)
         readRowAs<false>(widths, residuals);

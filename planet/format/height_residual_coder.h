@@ -1,11 +1,11 @@
 // Entropy coding of the height codec's residuals: a range variant of asymmetric numeral systems (Duda,
-// "Asymmetric numeral systems", arXiv:1311.2540) over a fixed family of distributions, two states
-// interleaved.
+// "Asymmetric numeral systems", arXiv:1311.2540) over a fixed family of distributions, with two interleaved
+// states.
 //
-// Only the residuals are coded: the distribution of each follows from a width that both sides compute from
-// what they know already. A width step is a quarter octave of the expected |residual|. The distributions are
-// Student's t, whose tails fit terrain, as integer frequencies. They are made once with IEEE additions,
-// multiplications and divisions only, so they are the same on every machine.
+// Only the residuals are coded. The distribution of each one follows from a width that both sides compute
+// from known data. A width step is a quarter octave of the expected |residual|. The distributions are
+// Student's t, whose tails fit terrain, as integer frequencies. They are computed once, with only IEEE
+// additions, multiplications and divisions, so they are the same on every machine.
 //
 // Residuals are taken modulo 2^16.
 #pragma once
@@ -17,29 +17,28 @@
 
 namespace planet {
 
-// A width index in [0, residualWidthCount): residualWidthOfOne expects |residual| near 1, each step a quarter
-// octave.
+// The number of widths. residualWidthOfOne expects |residual| near 1; each step is a quarter octave.
 inline constexpr int residualWidthCount = 84;
 inline constexpr int residualWidthOfOne = 24;
 
 // Returns the cost of a residual under a width, in 1/256 bit, for choosing between codings.
 int residualCost(int widthIndex, int residual);
 
-// Collects residuals in the order the decoder will ask for them.
+// Collects residuals in the order of the decoder.
 class ResidualEncoder {
 public:
     explicit ResidualEncoder(std::size_t expectedResiduals) { tokens_.reserve(expectedResiduals); }
 
-    // Adds one row, which the decoder must read as one row. Widths are in [0, residualWidthCount).
+    // Adds one row, which the decoder must read as one row. widths: [0, residualWidthCount).
     void addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths);
     // Codes all rows and appends the bytes.
     void finish(std::vector<std::byte>& out) const;
 
 private:
     struct Token {
-        std::uint16_t start;      // of the symbol's interval, of 4096
+        std::uint16_t start;      // of the symbol's interval, in 1/4096
         std::uint16_t frequency;  // the interval's length, > 0
-        std::uint16_t rawBits;    // low bits that follow the symbol as they are
+        std::uint16_t rawBits;    // uncoded low bits after the symbol
         std::uint8_t rawBitCount;
         std::uint8_t state;  // 0 or 1
     };
@@ -48,18 +47,18 @@ private:
 
 struct ResidualDistribution;
 
-// Reads the bytes of ResidualEncoder. Hostile bytes make it fail or give other residuals, never a read out of
-// bounds.
+// Decodes the bytes of ResidualEncoder. Malicious bytes cause a failure or wrong residuals, never a read out
+// of bounds.
 class ResidualDecoder {
 public:
     explicit ResidualDecoder(std::span<const std::byte> coded);
 
     void readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals);
 
-    // Returns whether the bytes ended before the residuals, or had an invalid start. The residuals are then
-    // meaningless.
+    // Returns whether the bytes ended too early or began with an invalid state. The residuals are meaningless
+    // then.
     bool failed() const { return failed_; }
-    // Returns whether all bytes are used and both states are where the encoder's began.
+    // Returns whether all bytes are used and both states equal the encoder's initial ones.
     bool ended() const;
 
 private:
