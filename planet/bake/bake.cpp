@@ -26,7 +26,7 @@ namespace planet {
 namespace {
 
 // Takes baked tiles in quadtree order, appends their blocks to the file, and merges four siblings as soon as
-// they are complete, so it holds at most three chunks per level. It keeps coarse chunks, whose cells are
+// they are complete, so it keeps at most three chunks per level. It also keeps coarse chunks, whose cells are
 // wider than a tile, because their tight metric is not known yet.
 class Assembler {
 public:
@@ -49,8 +49,8 @@ public:
         return addChunk(std::move(tile.root));
     }
 
-    // Bakes the coarse levels once all tiles are added. Calls goOn before each block is read, from one thread
-    // at a time.
+    // Bakes the coarse levels after all tiles are added. Calls goOn before each block is read, from one
+    // thread at a time.
     Result<void> finish(int threads, const std::function<bool()>& goOn) {
         for (int level = coarsestLevel_ - 1; level >= 0; --level) {
             if (level < coarsestLevel_ - 1) {
@@ -104,7 +104,7 @@ private:
             return childrenOf(written, parent);
         };
         std::vector<BakedChunk>& chunks = coarse_[static_cast<std::size_t>(level)];
-        std::mutex mutex;  // guards outcome, and is held while goOn is called
+        std::mutex mutex;  // guards outcome; held during calls of goOn
         Result<void> outcome;
         const auto mayGoOn = [&] {
             const std::lock_guard lock(mutex);
@@ -154,10 +154,10 @@ private:
 
     const BakeContext& bake_;
     AtomicFile& file_;
-    int coarsestLevel_;                             // of those whose tight metric tiles tell
+    int coarsestLevel_;  // coarsest level whose tight metric is computed from tiles
     std::vector<std::vector<BakedChunk>> waiting_;  // by level
     std::vector<double> offM_;                      // by level, of the chunk whose tiles are being added
-    // The levels above coarsestLevel_, or the roots alone where there are none; each in quadtree order.
+    // The levels above coarsestLevel_, or only the roots if there are none; each in quadtree order.
     std::vector<std::vector<BakedChunk>> coarse_;
     BakeScratch scratch_;
 };
@@ -192,7 +192,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
                        ProgressMeter& meter) {
     const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
     const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> tileLevel);
-    // The tiles in progress, used as a ring: they end in the order in which they began.
+    // The tiles in progress, in a ring buffer: they end in the order in which they began.
     struct Work {
         ChunkId id;
         Result<BakedTile> tile;
@@ -202,7 +202,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
     Result<void> outcome;
     std::atomic<bool> stop = false;
     std::uint64_t next = 0;
-    // Input and output run in order, one at a time; outcome belongs to the output.
+    // Input and output run in order, one at a time; only the output uses outcome.
     const auto begin = [&](tbb::flow_control& control) -> std::size_t {
         if (stop || next == tileCount) {
             control.stop();
@@ -243,7 +243,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
     return outcome;
 }
 
-// The share of a colour tile in the progress.
+// The weight of a colour tile in the progress.
 constexpr std::uint64_t samplesPerColourTile = std::uint64_t{colourTileCells} * colourTileCells;
 
 // Appends the root blocks and fills in the header.

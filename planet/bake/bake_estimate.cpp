@@ -17,8 +17,8 @@ namespace planet {
 
 namespace {
 
-// About a second's work for one core. Half of it goes to single blocks, at many places. The other half goes
-// to blocks with their parent's block, which show how blocks grow from level to level.
+// Takes one core about a second. Half of it is spent on single blocks at many places. The other half is spent
+// on blocks with their parent's block, which show how blocks grow from level to level.
 constexpr std::uint64_t samplesToBake = 4'000'000;
 constexpr std::uint64_t fewestPlaces = 8;
 constexpr std::uint64_t mostPlaces = 2048;
@@ -26,12 +26,12 @@ constexpr std::uint64_t mostPlaces = 2048;
 struct Sample {
     std::uint64_t leafBlocks = 0;
     std::uint64_t leafBlockBytes = 0;
-    std::uint64_t upperBlocks = 0;  // those one level above,
+    std::uint64_t upperBlocks = 0;  // blocks one level above
     std::uint64_t upperBlockBytes = 0;
-    std::uint64_t belowUpperBytes = 0;  // and what of leafBlockBytes lies under them
+    std::uint64_t belowUpperBytes = 0;  // part of leafBlockBytes under them
     std::uint64_t finestSamples = 0;
-    double bakeS = 0;  // of one thread, with the source's blocks at hand
-    double readS = 0;  // getting them
+    double bakeS = 0;  // on one thread, with the source's blocks cached
+    double readS = 0;  // loading these blocks
 
     void add(const Sample& other) {
         leafBlocks += other.leafBlocks;
@@ -86,7 +86,7 @@ Result<Sample> bakePlace(const BakeContext& bake, const ChunkId& root, BakeScrat
 
 Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& roots, int threads,
                           const std::function<bool()>& goOn) {
-    std::mutex mutex;  // guards outcome, and is held while goOn is called
+    std::mutex mutex;  // guards outcome; held during calls of goOn
     Result<Sample> outcome;
     const auto hasFailed = [&] {
         const std::lock_guard lock(mutex);
@@ -108,14 +108,14 @@ Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& r
     return outcome;
 }
 
-// Returns the bytes of all sibling blocks, level by level from the finest, each with a quarter as many blocks
-// as the one before. A coarser level's blocks are larger, because its samples lie farther apart; the estimate
-// adds the measured growth for each level, up to the size of plain samples.
+// Returns the bytes of all sibling blocks, level by level from the finest, each level with a quarter as many
+// blocks as the one before. A coarser level's blocks are larger, because its samples are farther apart. So
+// the estimate adds the measured growth for each level, up to the size of uncoded samples.
 double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
     const double cells = chunkCells(shape);
     const double bareBytes = 2 * ((2 * cells + 1) * (2 * cells + 1) - (cells + 1) * (cells + 1)) + 128;
     double bytes = static_cast<double>(sample.leafBlockBytes) / static_cast<double>(sample.leafBlocks);
-    // Both numbers are from the same places, because places differ more than levels.
+    // Both numbers are from the same places, because places differ more than levels do.
     const double growth = sample.upperBlocks == 0
                               ? 0
                               : bytes * (static_cast<double>(quadrantCount * sample.upperBlockBytes) /
@@ -133,7 +133,7 @@ double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
 Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
     const double samples = chunkVertexCount(bake.shape);
     if (leafLevel(bake.shape) > 0) {
-        // Neighbours lie far apart on a root, so it hardly compresses.
+        // On a root, neighbouring samples are far apart, so it hardly compresses.
         return faceCount * (1.8 * samples + 100);
     }
     double bytes = 0;

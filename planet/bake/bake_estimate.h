@@ -1,5 +1,5 @@
-// Estimates the cost of a bake by baking a few of its blocks in memory, in about a second. Any thread. It
-// ignores the search for the tight metric of levels whose cells are wider than a tile, which reads few
+// Estimates the cost of a bake by baking a few of its blocks in memory, in about a second. Any thread. The
+// estimate omits the search for the tight metric of levels whose cells are wider than a tile, which reads few
 // blocks.
 #pragma once
 
@@ -16,12 +16,12 @@ struct BakeEstimate {
     PlanetShape shape;
     std::uint64_t samples = 0;  // distinct finest-level samples
     std::uint64_t chunks = 0;
-    double fileBytes = 0;                    // colours included
-    double seconds = 0;                      // on this machine with the settings' threads; colours included
-    std::optional<ColourEstimate> colour{};  // of a bake with colours
+    double fileBytes = 0;                    // including colours
+    double seconds = 0;                      // on this machine with the settings' threads, including colours
+    std::optional<ColourEstimate> colour{};  // for a bake with colours
 };
 
-// Chooses blocks by a fixed seed, evenly over the sphere. Calls goOn between blocks; false cancels.
+// Chooses blocks by a fixed seed, evenly over the sphere. Calls goOn between blocks; returning false cancels.
 Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings& settings,
                                   const std::function<bool()>& goOn = {},
                                   const ColourSource* colour = nullptr);

@@ -12,31 +12,31 @@
 
 namespace planet {
 
-// The numbers of vertices along a chunk's side that a bake accepts.
+// The accepted numbers of vertices along a chunk's side.
 inline constexpr std::array<int, 4> chunkSizes = {17, 33, 65, 129};
 
 struct ColourBakeSettings {
-    std::optional<int> faceSize{};  // texels a side, 256 * 2^n + 1; none: the source's natural size
+    std::optional<int> faceSize{};  // texels per side, 256 * 2^n + 1; unset: the source's natural size
     ColourFormat format = ColourFormat::Bc1;
     bool operator==(const ColourBakeSettings&) const = default;
 };
 
 struct BakeSettings {
-    std::optional<int> faceSize{};  // samples a side, 2^n + 1; none: the source's natural size
-    int chunkSize = 33;             // vertices a side: 17, 33, 65 or 129
+    std::optional<int> faceSize{};  // samples per side, 2^n + 1; unset: the source's natural size
+    int chunkSize = 33;             // vertices per side: 17, 33, 65 or 129
     double radiusM = earthRadiusM;  // (0, 1e9]
     std::optional<double>
-        quantumM{};   // none: the source's step, or for floats the finest that holds its range
+        quantumM{};   // unset: the source's step, or for floats the finest that holds its range
     int threads = 0;  // 0: one per core
     int compressionLevel = defaultCompressionLevel;
-    // The bake also writes each level of each face to this folder, as a 16-bit PNG; empty: it does not.
+    // Folder to write each level of each face to, as 16-bit PNGs; empty: none.
     std::filesystem::path debugLevelsFolder{};
-    // The number of levels above the finest that one task bakes, [0, 10]. None: enough for squares of 128
-    // cells, at least one. Neighbouring squares then sample little twice, and a square fits a core's cache.
+    // The number of levels above the finest that one task bakes, [0, 10]. Unset: as needed for squares of 128
+    // cells, at least one. Then neighbouring squares sample little twice, and a square fits a core's cache.
     // The chunks do not depend on it; the order of their blocks may.
     std::optional<int> tileLevels{};
     ColourBakeSettings colour{};              // used with a colour source
-    FileCalls fileCalls = systemFileCalls();  // they write the output
+    FileCalls fileCalls = systemFileCalls();  // for writing the output
 };
 
 }  // namespace planet

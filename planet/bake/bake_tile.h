@@ -20,7 +20,7 @@
 
 namespace planet {
 
-// Blocks are made before their place in the file is known, as if they began here.
+// Blocks are made before their location in the file is known, as if the first one were here.
 inline constexpr std::uint64_t provisionalOrigin = chunkFileHeaderBytes;
 
 struct BakedChunk {
@@ -31,13 +31,13 @@ struct BakedChunk {
 
 struct BakedTile {
     BakedChunk root;
-    std::vector<std::byte> blocks;  // of everything under the root, the root's children last
+    std::vector<std::byte> blocks;  // of all descendants of the root, the root's children last
     // The largest distances of the tile's finest samples from the chunks above it, metres: by level from
-    // coarsestLevelOfTiles to the one above the root, at most to two above the finest.
+    // coarsestLevelOfTiles to the one above the root, but at most to two above the finest.
     std::vector<double> offAboveM;
 };
 
-// Memory that is reused between calls.
+// Memory reused between calls.
 struct BakeScratch {
     std::vector<float> sampledM;
     std::vector<std::int16_t> steps;
@@ -55,19 +55,19 @@ struct BakeContext {
 // Checks the settings that do not depend on a source. The Error names the setting and its range.
 Result<void> checkBakeSettings(const BakeSettings& settings);
 
-// Returns the shape for a source and settings. The Error names the setting and its range.
+// Chooses the shape for a source and settings. The Error names the setting and its range.
 Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& settings);
 
 // Returns the number of threads; one per core if the setting is 0.
 int bakeThreads(const BakeSettings& settings);
 
 // Samples the square of a tile, the subtree of one task, and bakes it bottom-up. The Error names the source's
-// file, or a height that 16 bits cannot hold.
+// file, or a height that does not fit into 16 bits.
 Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch);
 
-// Appends the block of four children and returns their parent, with every other row and column. Places in the
-// file count from origin, the place of the first block. finestDistanceM is the parent's; a leaf's parent
-// computes its own.
+// Appends the block of four children and returns their parent, made of every other row and column. Locations
+// in the file count from origin, the location of the first block. finestDistanceM is the parent's; a leaf's
+// parent computes its own.
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
                          std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
                          std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks);

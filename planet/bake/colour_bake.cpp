@@ -21,7 +21,7 @@ namespace planet {
 namespace {
 
 struct PackedTile {
-    ColourEntry entry;  // all but where its children lie
+    ColourEntry entry;  // without the location of its children
     std::vector<std::byte> bytes;
 };
 
@@ -34,15 +34,15 @@ Result<PackedTile> packedTile(const ColourSource& source, ColourFormat format, c
     return tile;
 }
 
-// Makes the tiles of a level in quadtree order, some at a time, and writes them in blocks.
+// Makes the tiles of a level in quadtree order, some at a time, and writes their blocks.
 class LevelWriter {
 public:
     LevelWriter(const ColourSource& source, ColourFormat format, int threads, AtomicFile& file,
                 const ColourProgress& progress)
         : source_(source), format_(format), threads_(threads), file_(file), progress_(progress) {}
 
-    // Writes a level. below: the places of each tile's children, empty at the finest level. Returns the place
-    // of each block.
+    // Writes a level. below: the locations of each tile's children, empty at the finest level. Returns the
+    // location of each block.
     Result<std::vector<BlockLocation>> write(int level, const std::vector<BlockLocation>& below) {
         const std::size_t perBlock = level == 0 ? 1 : quadrantCount;
         const std::uint64_t count = std::uint64_t{faceCount} << (2 * level);

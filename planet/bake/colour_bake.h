@@ -1,6 +1,6 @@
 // Bakes a colour source into the colour quadtree of a chunk file, level by level from the finest, so that
-// blocks of children precede those of their parents. It holds a few tiles per thread, and 12 bytes for each
-// block of one level.
+// blocks of children precede those of their parents. Uses memory for a few tiles per thread, and 12 bytes for
+// each block of one level.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ namespace planet {
 // Returns the finest level of a source's tiles. The Error names the setting and its range.
 Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings& settings);
 
-// Called by the calling thread after every few tiles, with the number of new tiles; false cancels.
+// Called by the calling thread after every few tiles, with the number of new tiles. Returning false cancels.
 using ColourProgress = std::function<bool(std::uint64_t moreTiles)>;
 
-// Appends the blocks. The same source and settings give the same bytes with any number of threads.
+// Bakes and appends the blocks. The same source and settings give the same bytes with any number of threads.
 Result<ColourPyramid> bakeColour(const ColourSource& source, const ColourBakeSettings& settings, int threads,
                                  AtomicFile& file, const ColourProgress& progress);
 

@@ -22,8 +22,8 @@ constexpr std::uint64_t upperTilesPacked = 6;
 constexpr std::uint64_t bytesPerTexelAtWork = sizeof(glm::vec3) + sizeof(float) + 3 * 3;
 
 struct PackedTiles {
-    double readS = 0;        // getting what the source has to read first
-    double tileS = 0;        // of one tile, with that at hand
+    double readS = 0;        // loading the source's blocks
+    double tileS = 0;        // of one tile, with these blocks loaded
     double packedBytes = 0;  // of one tile
 };
 
@@ -56,9 +56,9 @@ Result<PackedTiles> packTiles(const ColourSource& source, ColourFormat format, i
     return PackedTiles{sum.readS, sum.tileS / count, sum.packedBytes / count};
 }
 
-// The cost of all levels on one thread. A tile costs its packing and its share of the source. Each level
-// reads the whole source, so that share grows by four per level. The bytes of a tile grow from level to level
-// by the measured growth, up to the largest size of a tile.
+// The cost of all levels on one thread. A tile costs its packing and its share of reading the source. Each
+// level reads the whole source, so that share is four times larger per coarser level. The bytes of a tile
+// grow from level to level by the measured growth, up to the largest size of a tile.
 struct AllTiles {
     double seconds = 0;
     double bytes = 0;

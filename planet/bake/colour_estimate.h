@@ -10,18 +10,18 @@
 
 namespace planet {
 
-// The cost of the tiles of colour alone.
+// The cost of only the colour tiles.
 struct ColourEstimate {
-    int faceSize = 0;                 // texels a side
+    int faceSize = 0;                 // texels per side
     int levels = 0;                   // of tiles
     std::uint64_t tiles = 0;          // of all levels
-    double fileBytes = 0;             // that they add to the file
-    double seconds = 0;               // that they add to the bake, on this machine with so many threads
-    std::uint64_t bakeBytes = 0;      // memory, while they are baked: what the source may keep, and tiles
-    std::uint64_t residentBytes = 0;  // memory, were all of them resident on the GPU
+    double fileBytes = 0;             // added to the file
+    double seconds = 0;               // added to the bake, on this machine with the given threads
+    std::uint64_t bakeBytes = 0;      // memory during the bake: the source's cache, and tiles
+    std::uint64_t residentBytes = 0;  // memory on the GPU if all tiles were resident
 };
 
-// cacheBytes: that of openColourSource. Calls goOn between tiles; false cancels.
+// cacheBytes: as for openColourSource. Calls goOn between tiles; returning false cancels.
 Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
                                        int threads, std::size_t cacheBytes = defaultColourCacheBytes,
                                        const std::function<bool()>& goOn = {});

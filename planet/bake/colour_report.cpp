@@ -42,7 +42,7 @@ struct SeenTileEdge {
     std::uint64_t hash;
 };
 
-// Returns the hash of the texels on an edge as they are drawn.
+// Returns the hash of the decoded texels on an edge.
 std::uint64_t hashOfEdge(std::span<const std::uint8_t> rgb, Edge edge) {
     const bool upright = edge == Edge::West || edge == Edge::East;
     const int across = edge == Edge::East || edge == Edge::North ? colourTileCells : 0;

@@ -19,22 +19,22 @@ namespace {
 constexpr auto sideTexels = static_cast<std::size_t>(colourTileTexels);
 constexpr std::size_t texelCount = sideTexels * sideTexels;
 
-// The sRGB transfer function (IEC 61966-2-1), to the nearest of 256.
+// Returns the sRGB encoding (IEC 61966-2-1) of a linear value, rounded to 8 bits.
 std::uint8_t srgbByFormula(float linear) {
     const double value = std::clamp(static_cast<double>(linear), 0.0, 1.0);
     const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
-// Gives the same result by a table, in a tenth of the time: the least value for a float's exponent and first
-// seven bits, and the float at which each value begins.
+// Computes the same from a table, ten times as fast. The table has the smallest value for a float's exponent
+// and first seven bits, and the float at which each value begins.
 class SrgbTable {
 public:
     SrgbTable() {
         for (std::size_t i = 0; i < atLeast_.size(); ++i)
             atLeast_[i] = srgbByFormula(std::bit_cast<float>(static_cast<std::uint32_t>(i) << dropped));
         for (std::size_t value = 1; value < from_.size(); ++value) {
-            std::uint32_t below = 0;  // positive floats are in the order of their bits
+            std::uint32_t below = 0;  // positive floats have the same order as their bits
             std::uint32_t from = std::bit_cast<std::uint32_t>(1.0f);
             while (from - below > 1) {
                 const std::uint32_t middle = below + (from - below) / 2;
@@ -55,7 +55,7 @@ public:
 private:
     static constexpr int dropped = 16;                                  // bits
     std::array<std::uint8_t, (0x3F800000u >> dropped) + 1> atLeast_{};  // up to 1
-    std::array<float, 256> from_{};  // the smallest that is each value, or more
+    std::array<float, 256> from_{};  // the smallest float for each value or a larger one
 };
 
 std::uint8_t srgbFromLinear(float linear) {
@@ -77,7 +77,7 @@ struct TexelSquare {
     }
 };
 
-// The part of a tile's columns or rows that lies before, on and beyond its face: [begin, end) each.
+// The parts of a tile's columns or rows before, on and beyond its face: [begin, end) each.
 struct TexelRun {
     int begin;
     int end;
@@ -101,7 +101,7 @@ Result<void> fillOnFace(const ColourSource& source, TexelRun columns, TexelRun r
     return {};
 }
 
-// Fills columns or rows that lie over one edge of the face.
+// Fills columns or rows beyond one edge of the face.
 Result<void> fillBeyondEdge(const ColourSource& source, TexelRun columns, TexelRun rows,
                             TexelSquare& square) {
     if (columns.begin == columns.end || rows.begin == rows.end) return {};
@@ -121,7 +121,7 @@ Result<void> fillBeyondEdge(const ColourSource& source, TexelRun columns, TexelR
     return {};
 }
 
-// Fills with the colour of the corner beyond a corner of the cube, where there is no fourth face.
+// Fills the texels beyond a corner of the cube, where there is no fourth face, with the corner's colour.
 void fillBeyondCorner(TexelRun columns, TexelRun rows, TexelSquare& square) {
     for (int row = rows.begin; row < rows.end; ++row) {
         for (int column = columns.begin; column < columns.end; ++column)

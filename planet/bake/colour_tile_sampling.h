@@ -10,9 +10,9 @@
 
 namespace planet {
 
-// Fills colourTileTexels x colourTileTexels texels (format/colour_tile.h), border included, with 8-bit sRGB,
-// 3 bytes per texel, row 0 at the south, filtered to the tile's spacing. Any thread. The Error names the
-// source's file.
+// Fills colourTileTexels x colourTileTexels texels (format/colour_tile.h), including the border, with 8-bit
+// sRGB, 3 bytes per texel, row 0 at the south, filtered to the tile's spacing. Any thread. The Error names
+// the source's file.
 Result<void> sampleColourTile(const ColourSource& source, const ChunkId& tile, std::span<std::uint8_t> rgb);
 
 }  // namespace planet

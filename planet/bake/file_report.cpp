@@ -47,7 +47,7 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     level.chunks += quadrantCount;
     level.bytes += block.size;
     TRY(spendOn(file, block, bytesLeft));
-    if (parent.level + 1 == leafLevel(file.info().shape)) return {};  // leaves: delta_c is 0, no index
+    if (parent.level + 1 == leafLevel(file.info().shape)) return {};  // leaves: δc is 0, no index
     TRY_ASSIGN(const auto entries, file.readEntries(parent, block));
     for (const ChunkEntry& entry : entries) level.add(entry.deltaCM, entry.deltaTightM);
     for (std::size_t q = 0; q < entries.size(); ++q) {
@@ -118,7 +118,7 @@ public:
         if (chunk.id.level == leafLevel(shape_)) placeLeaf(chunk);
     }
 
-    // Notes that a block under the chunk that was entered last cannot be read.
+    // Records that a block under the last entered chunk cannot be read.
     void missed() { ++missed_; }
 
     struct Below {
@@ -174,7 +174,7 @@ private:
         }
     }
 
-    // The walk reports blocks that cannot be read.
+    // Searches for the chunk's distance. Unreadable blocks are already reported by the walk.
     void search(const ChunkData& chunk, const Met& met, const ReportProblem& report) {
         const Result<double> offM = searchFinestDistance(shape_, chunk, [this](const ChunkData& parent) {
             return file_.readChildren(parent.id, parent.children, parent.heights);
@@ -198,10 +198,10 @@ private:
     PlanetShape shape_;
     int tileLevel_;
     int coarsestLevel_;
-    std::vector<std::int16_t> finest_;          // of the tile at hand
-    std::vector<Met> inTile_;                   // its chunks, but for those of the two finest levels
-    std::vector<double> offM_;                  // by level above the tile, of the chunk at hand
-    std::uint64_t missed_ = 0;                  // chunks whose children cannot be read
+    std::vector<std::int16_t> finest_;          // of the current tile
+    std::vector<Met> inTile_;                   // chunks of the tile, except those of the two finest levels
+    std::vector<double> offM_;                  // by level above the tile, of the current chunk
+    std::uint64_t missed_ = 0;                  // chunks with unreadable children
     std::vector<std::uint64_t> missedAtEntry_;  // by level
     GeometricErrorScratch scratch_;
     TileDistances distances_;
@@ -288,15 +288,15 @@ private:
             if (height < chunk.minStep || height > chunk.maxStep) {
                 return chunkProblem(chunk.id, "a height lies outside its recorded extremes");
             }
-            // A millimetre covers the rounding of a position at a planet's radius.
+            // 1 mm covers the rounding of a position at a planet's radius.
             if (distanceM(bounds.box, positionM(shape_, direction, heightM(shape_, height))) > 1e-3) {
                 return chunkProblem(chunk.id, "a vertex lies outside its bounding box");
             }
         }
     }
 
-    // Checks the samples of the four edges, each in the direction in which the cube point grows, so that both
-    // sides agree.
+    // Checks the samples of the four edges, each in the direction of increasing cube coordinates, so that
+    // both sides agree.
     void checkEdges(const ChunkData& chunk) {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const FaceSquare square = faceSquareOf(chunk.id);
@@ -334,7 +334,7 @@ private:
         openEdges_.erase(seen);
     }
 
-    // Returns the chunk's delta_g.
+    // Verifies the chunk's errors and returns its δg.
     double checkError(const ChunkData& chunk, const std::array<ChunkData, quadrantCount>& children) {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const std::size_t refinedSide = 2 * side - 1;
@@ -384,7 +384,7 @@ private:
     VerifyReport report_;
     TightVerifier tight_;
     GeometricErrorScratch scratch_;
-    std::unordered_map<EdgeKey, SeenEdge, EdgeHash> openEdges_;  // edges of which one side has been seen
+    std::unordered_map<EdgeKey, SeenEdge, EdgeHash> openEdges_;  // edges that have been seen from one side
 };
 
 }  // namespace

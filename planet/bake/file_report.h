@@ -1,5 +1,5 @@
-// Reports, verifies and probes a chunk file. All functions read the file once, depth first, and hold one path
-// of chunks.
+// Reports, verifies and probes a chunk file. All functions read the file once, depth first, and keep one path
+// of chunks in memory.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LevelReport {
     int level = 0;
     std::uint64_t chunks = 0;
     std::uint64_t bytes = 0;  // of the blocks that hold this level's chunks
-    float minDeltaM = 0;      // delta_c over the level's chunks
+    float minDeltaM = 0;      // of the δc of the level's chunks
     float medianDeltaM = 0;
     float p99DeltaM = 0;
     float maxDeltaM = 0;
@@ -29,12 +29,12 @@ struct LevelReport {
 
 struct FileReport {
     std::uint64_t fileBytes = 0;
-    std::uint64_t finestSamples = 0;  // distinct ones
-    double bitsPerFinestSample = 0;   // all levels of heights together
+    std::uint64_t finestSamples = 0;  // distinct samples
+    double bitsPerFinestSample = 0;   // over all levels of heights
     std::vector<LevelReport> levels;
 };
 
-// Reads the index alone, not the heights.
+// Reports a file. Reads only the index, not the heights.
 Result<FileReport> reportFile(const ChunkFile& file);
 
 struct VerifyReport {
@@ -42,18 +42,18 @@ struct VerifyReport {
     std::uint64_t edges = 0;        // shared edges compared
     std::uint64_t leafSamples = 0;  // compared with the source; 0 without one
     std::uint64_t problemCount = 0;
-    std::uint64_t sourceProblems = 0;   // of those: chunks whose heights differ from the source
+    std::uint64_t sourceProblems = 0;   // compared chunks whose heights differ from the source
     std::vector<std::string> problems;  // the first 100, each naming its chunk
 };
 
-// Called every few hundred chunks; false cancels.
+// Called every few hundred chunks. Returning false cancels.
 using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std::uint64_t chunksTotal)>;
 
-// Checks every checksum; that delta_c and the tight metric match the heights and never grow downwards; that
-// extremes hold all finest heights and bounds hold every vertex; and that two chunks of a level have the same
-// edge where they meet. With its source, opened with the same settings, it compares the finest heights too.
-// Damage is a problem in the report; the Error is for a source that cannot be read or belongs to another
-// planet.
+// Verifies every checksum; that δc and the tight metric match the heights and never increase downwards; that
+// extremes contain all finest heights and bounds contain every vertex; and that two chunks of a level have
+// the same edge where they meet. With its source, opened with the same settings, it also compares the finest
+// heights. Damage is a problem in the report; the Error is for a source that is unreadable or belongs to
+// another planet.
 Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
                                 const VerifyProgressCallback& progress = {});
 
@@ -61,9 +61,9 @@ struct ProbeChunk {
     ChunkId id;
     float deltaCM = 0;
     float deltaTightM = 0;
-    double minHeightM = 0;  // over the finest samples under it
+    double minHeightM = 0;  // over its finest samples
     double maxHeightM = 0;
-    double heightM = 0;  // of this chunk's own surface at the place
+    double heightM = 0;  // of this chunk's surface at the place
     ChunkBounds bounds;
 };
 

@@ -24,7 +24,7 @@ struct MeasuredTile {
     }
 
     // Returns the largest squared distance of samples `first` to `last` of a row from a line that passes
-    // `from` at column 0 and moves by `step` per column; columns count from the cell's west.
+    // through `from` at column 0 and moves by `step` per column. Columns count from the cell's west edge.
     double largestSquared(std::size_t start, std::size_t first, std::size_t last, const glm::dvec3& from,
                           const glm::dvec3& step) const {
         const double* const x = grid.x.data() + start;
@@ -41,8 +41,8 @@ struct MeasuredTile {
         return largest;
     }
 
-    // Returns the largest squared distance of all samples on a cell of a coarser level, edges included, from
-    // its two triangles.
+    // Returns the largest squared distance of all samples on a cell of a coarser level, including its edges,
+    // from the cell's two triangles.
     double largestSquaredOnCell(std::size_t column, std::size_t row, std::size_t cells) const {
         const glm::dvec3 southWest = at(column, row);
         const glm::dvec3 southEast = at(column + cells, row);
@@ -65,7 +65,7 @@ struct MeasuredTile {
     }
 };
 
-// Returns the number of chunks of a level along one side of a tile; 1 above it.
+// Returns the number of chunks of a level along one side of a tile; 1 for levels above the tile.
 std::size_t chunksAlong(int level, int tileLevel) {
     return std::size_t{1} << std::max(0, level - tileLevel);
 }
@@ -78,7 +78,7 @@ public:
            const std::function<bool()>& goOn)
         : shape_(shape), id_(chunk.id), readChildren_(readChildren), goOn_(goOn), own_(gridOf(chunk)) {}
 
-    // Searches everything under a chunk, whose own vertices have been compared.
+    // Searches everything under a chunk whose own vertices have been compared.
     Result<void> descend(const ChunkData& chunk) {
         if (goOn_ && !goOn_()) return cancelled();
         TRY_ASSIGN(const auto children, readChildren_(chunk));

@@ -1,15 +1,15 @@
-// The tight metric: the largest 3-D distance, metres, between a chunk's own surface and the finest samples
-// under it, each sample compared with the point of the chunk's triangles at the same place of the face.
+// The tight metric: the largest 3-D distance, metres, between a chunk's own surface and its finest samples,
+// each compared with the point of the chunk's triangles at the same place of the face.
 //
-// Like delta_g it compares at the same place, so it bounds the whole finest surface and not its samples
-// alone: the finest triangles subdivide the chunk's, and the difference of two surfaces that are linear on a
-// triangle is largest at a corner. delta_c adds up the errors that each level may have; the tight metric is
-// the actual error, so it is never larger.
+// Like δg it compares at the same place, so it bounds the whole finest surface and not only its samples: the
+// finest triangles subdivide the chunk's, and the difference of two surfaces that are linear on a triangle is
+// largest at a corner. δc sums the largest possible errors of the levels; the tight metric is the actual
+// error, so it is never larger.
 //
-// It is computed in two ways. While a bake holds a tile's finest heights, it measures every level whose cells
-// lie within the tile, sample by sample. Chunks with larger cells are searched afterwards: the distance of a
-// child's vertices plus the child's tight metric bounds everything under it, so most of the pyramid is never
-// read.
+// It is computed in two ways. While a bake has a tile's finest heights in memory, it measures every level
+// whose cells are no wider than the tile, sample by sample. Chunks with larger cells are searched afterwards:
+// the distance of a child's vertices plus the child's tight metric bounds everything under the child, so most
+// of the pyramid is never read.
 //
 // Pure functions apart from readChildren; any thread, each with its own scratch.
 #pragma once
@@ -25,8 +25,8 @@
 
 namespace planet {
 
-// Returns the level that lies `levels` above the finest, at least that of the roots; by default the level of
-// chunks that are 128 finest cells wide, or twice as wide as a leaf if that is more.
+// Returns the level that lies `levels` above the finest, at least that of the roots. By default it is the
+// level of chunks that are 128 finest cells wide, or twice as wide as a leaf if that is more.
 int tileLevelOf(const PlanetShape& shape, std::optional<int> levels);
 
 // Returns the coarsest level whose cells are no wider than a tile of tileLevel.
@@ -36,14 +36,14 @@ int coarsestLevelOfTiles(const PlanetShape& shape, int tileLevel);
 struct TileDistances {
     ChunkId tile;
     int coarsestLevel = 0;
-    // The largest distances, metres, by level from the coarsest down to two above the finest: for the tile's
-    // level and those above it, of the one chunk that holds the tile; for levels below, of its chunks in rows
-    // along v. A chunk above the tile is measured over the tile alone; its own distance is the largest over
-    // all its tiles.
+    // The largest distances, metres, by level from the coarsest down to two above the finest. For the tile's
+    // level and those above, of the one chunk that contains the tile; for levels below, of the tile's chunks
+    // in rows along v. A chunk above the tile is measured over the tile only; its own distance is the largest
+    // over all its tiles.
     std::vector<std::vector<double>> largestM;
 
-    // Returns the distance of a chunk of those levels that lies within the tile or holds it. The distance of
-    // a leaf's parent is delta_g (geometric_error.h).
+    // Returns the distance of a chunk of those levels that lies within the tile or contains it. The distance
+    // of a leaf's parent is δg (geometric_error.h).
     double of(const ChunkId& chunk) const;
     // Returns the distance of the one chunk of a level above the tile.
     double above(int level) const;
@@ -54,16 +54,16 @@ struct TileDistances {
 void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int16_t> finest,
                  GeometricErrorScratch& scratch, TileDistances& out);
 
-// Reads the four children of a chunk above the finest level, whose tight metrics are known.
+// Reads the four children of a chunk above the finest level. Their tight metrics are known.
 using ReadChildren = std::function<Result<std::array<ChunkData, quadrantCount>>(const ChunkData& parent)>;
 
-// Returns the distance of a chunk above the finest level. Holds one path of chunks. Calls goOn before each
-// block is read; false cancels.
+// Returns the distance of a chunk above the finest level. Keeps one path of chunks in memory. Calls goOn
+// before each block is read; returning false cancels.
 Result<double> searchFinestDistance(const PlanetShape& shape, const ChunkData& chunk,
                                     const ReadChildren& readChildren, const std::function<bool()>& goOn = {});
 
-// Returns the metric as it is stored: at least the chunk's own distance and its children's metrics, and at
-// most delta_c, whose sum may have lost the last bit.
+// Returns the metric to store: at least the chunk's own distance and its children's metrics, and at most δc,
+// whose sum may have lost the last bit.
 float tightMetric(double ownDistanceM, float largestOfChildrenM, float deltaCM);
 
 }  // namespace planet

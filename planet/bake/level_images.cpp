@@ -19,7 +19,7 @@ namespace {
 
 using VisitChunk = std::function<void(const ChunkData&)>;
 
-// Visits the chunks of a level that lie in one row of it, west to east, from a chunk above them.
+// Visits the chunks of a level in one of its rows, west to east, from a chunk above them.
 Result<void> visitRow(const ChunkFile& file, const ChunkData& above, int level, std::uint32_t row,
                       const VisitChunk& visit) {
     if (above.id.level == level) {
@@ -95,7 +95,7 @@ private:
     int level_;
     int cells_;
     int width_;
-    std::vector<std::uint16_t> band_;  // one row of chunks, north first
+    std::vector<std::uint16_t> band_;  // one row of chunks, the northernmost samples first
 };
 
 }  // namespace

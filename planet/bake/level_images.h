@@ -1,4 +1,4 @@
-// Writes pictures of a baked file, level by level, for image viewers.
+// Writes pictures of a baked file, level by level.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,9 @@
 
 namespace planet {
 
-// Writes FOLDER/FACE_levelN.png for every face and level: 16-bit grey, black the planet's lowest height,
-// white its highest, north (v = 1) in the first row. Makes the folder; holds one row of chunks at a time.
+// Writes FOLDER/FACE_levelN.png for every face and level: 16-bit grey, from black at the planet's lowest
+// height to white at its highest, north (v = 1) in the first row. Creates the folder. Keeps one row of chunks
+// in memory.
 Result<void> writeLevelImages(const std::filesystem::path& chunkFile, const std::filesystem::path& folder);
 
 }  // namespace planet

@@ -41,7 +41,7 @@ Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wan
     const bool ownStepFits = source.stepM > 0 && rangeM / source.stepM <= highestStep - lowestStep;
     shape.quantumM = wantedM.value_or(ownStepFits ? source.stepM : finestQuantum(rangeM));
     const double quantum = shape.quantumM;
-    // Steps count from a height that the source can have, so that an integer source stays exact.
+    // Steps count from a possible height of the source, so that an integer source stays exact.
     const double phase = source.minM - quantum * std::floor(source.minM / quantum);
     const double lowest = source.minM - lowestStep * quantum;
     const double middle = source.minM + quantum * std::round(rangeM / 2 / quantum);
@@ -50,8 +50,8 @@ Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wan
         shape.baseHeightM = baseM;
         return {};
     }
-    // The range of an integer type can exceed that of its image: use the steps around 0, and let quantise
-    // find heights outside.
+    // The range of an integer type can be larger than that of its image. Then the steps around 0 are used,
+    // and quantise() detects heights outside.
     if (ownStepFits) {
         shape.baseHeightM = phase;
         return {};
@@ -73,8 +73,8 @@ Result<void> quantise(const PlanetShape& shape, const HeightSource& source, std:
         lowestM = std::min(lowestM, height);
         highestM = std::max(highestM, height);
         const double step = std::clamp((height - shape.baseHeightM) * perMetre, lowestStep, highestStep);
-        // The value is made positive first, so that truncation rounds to nearest; unlike a call, this
-        // vectorises.
+        // The value is made positive first, so that truncation rounds to nearest. Unlike a function call,
+        // this vectorises.
         steps[i] = static_cast<std::int16_t>(static_cast<int>(step - lowestStep + 0.5) +
                                              static_cast<int>(lowestStep));
     }

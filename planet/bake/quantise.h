@@ -11,12 +11,12 @@
 namespace planet {
 
 // Sets the shape's quantum and base height so that 16 bits hold every height of the source. The quantum is
-// the wanted one; else an integer source's own step, which keeps its values exactly; else the finest 1-2-5
-// step that holds its range. The Error names a quantum that fits.
+// wantedM if set. Otherwise it is an integer source's own step, which keeps its values exactly, or else the
+// finest 1-2-5 step that holds the range. The Error names a quantum that fits.
 Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wantedM, PlanetShape& shape);
 
-// Rounds to the nearest step. Clamps heights to the source's range, which a sharp filter exceeds beside a
-// cliff. A height that 16 bits of the quantum cannot hold is an Error.
+// Rounds to the nearest step. Clamps heights to the source's range, which a sharp filter exceeds next to a
+// cliff. A height that does not fit into 16 bits is an Error.
 Result<void> quantise(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
                       std::span<std::int16_t> steps);
 

@@ -1,4 +1,4 @@
-// Spreads places evenly over the sphere, for estimates from a few of many. Internal to the library.
+// Spreads places evenly over the sphere, for estimates from samples. Internal to the library.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace planet {
 
-// Returns squares of a level, one in each of equally long stretches of the quadtree order: neighbours in that
-// order are neighbours on the sphere, so the places are spread evenly. Returns all squares if the level has no
-// more than are wanted.
+// Returns squares of a level, one in each of equally long stretches of the quadtree order. Neighbours in that
+// order are neighbours on the sphere, so the places are spread evenly. Returns all squares if the level has
+// no more than are wanted.
 inline std::vector<ChunkId> spreadPlaces(int level, std::uint64_t wanted) {
     const std::uint64_t total = std::uint64_t{faceCount} << (2 * level);
     const std::uint64_t count = std::min(wanted, total);

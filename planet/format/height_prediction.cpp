@@ -409,7 +409,7 @@ void RefinementPredictor::setErrors(int row, std::span<const std::int16_t> error
 
 void RefinementPredictor::setSamples(int row, std::span<const std::int16_t> samples) {
     assert(samples.size() == static_cast<std::size_t>(passColumns(pass_, cells_)));
-    if (pass_ == RefinementPass::OddColumn) return;  // no pass uses the errors of the last one
+    if (pass_ == RefinementPass::OddColumn) return;  // no pass uses the samples of the last one
     BorderedPlane& plane = pass_ == RefinementPass::Middle ? middle_ : oddRow_;
     std::ranges::copy(samples, plane.row(row));
 }

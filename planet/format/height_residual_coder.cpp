@@ -15,7 +15,7 @@ namespace {
 constexpr int frequencyBits = 12;
 constexpr std::uint32_t frequencyTotal = 1u << frequencyBits;
 
-// Symbols are residuals in [-127, 127] shifted right by their width's raw bits. After the last symbol, an
+// Symbols are residuals in [-127, 127] shifted right by their width's raw bits. After the last symbol, the
 // escape, the whole residual follows as 16 raw bits.
 constexpr int symbolCount = 256;
 constexpr int symbolOfZero = 127;
