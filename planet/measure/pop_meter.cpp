@@ -1,7 +1,6 @@
 #include "planet/measure/pop_meter.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "planet/base/parallel.h"

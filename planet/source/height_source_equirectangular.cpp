@@ -334,7 +334,7 @@ Result<void> sampleTile(const Equirectangular& source, const SampleTile& tile, s
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
                                                const HeightSourceSettings& settings) {
     TRY_ASSIGN(const auto file, ImageFile::open(path, settings.colourChannel));
-    const ImageLayout& layout = (file)->layout();
+    const ImageLayout& layout = file->layout();
     TRY_ASSIGN(const auto placement, placementOf(path.string(), layout.width, layout.height, layout.geoTags));
     TRY_ASSIGN(const auto conversion, conversionFor(path.string(), settings, layout.type, layout.geoTags));
     const RasterMemory memory{std::make_shared<HeightBlockCache>(settings.cacheBytes), 0,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
 
 #include "planet/base/try.h"
 #include "planet/sphere/planet_shape.h"

@@ -114,7 +114,7 @@ Result<TerrainSource> terrainFromText(const std::filesystem::path& path) {
     const bool isDetail = text.starts_with(detailPrefix);
     const std::string_view name = cutAt(isDetail ? ':' : ',', rest);
     TRY_ASSIGN(const auto kind, kindNamed(name));
-    TerrainSource source{(kind)->defaults, {}};
+    TerrainSource source{kind->defaults, {}};
     TRY(setFields(*kind, rest, source));
     TRY(checkTerrain(source.settings));
     if (isDetail && source.of.empty())
